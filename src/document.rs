@@ -1,0 +1,162 @@
+//! A document as the two faces hold it: its source, its drawing, what is known of it.
+//!
+//! DXF text, drawings sent by a CAD program and 3B text differ here and nowhere above.
+
+use crate::analysis::Analysis;
+use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline};
+use crate::finding::{Finding, Fix, Place};
+use crate::program::three_b;
+use crate::settings::Effective;
+use crate::text::SourceText;
+use crate::{dxf, finding::Severity};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Where a document's drawing comes from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    Dxf(dxf::Document),
+    /// Sent by a CAD program; there is no text behind it.
+    Cad(Arc<Drawing>),
+    ThreeB(three_b::Document),
+}
+
+/// An open document.
+#[derive(Clone, Debug)]
+pub struct Document {
+    source: Source,
+    analysis: Analysis,
+}
+
+/// What long work looks at while the document goes on changing.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    pub drawing: Arc<Drawing>,
+    pub outlines: Arc<Vec<Outline>>,
+    pub settings: Arc<Effective>,
+}
+
+impl Document {
+    pub fn new(source: Source, settings: Arc<Effective>) -> Document {
+        let analysis = match &source {
+            Source::Dxf(text) => Analysis::new(text.drawing(), settings),
+            Source::Cad(drawing) => Analysis::new(drawing, settings),
+            Source::ThreeB(_) => Analysis::new(&Drawing::default(), settings),
+        };
+        Document { source, analysis }
+    }
+
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    pub fn settings(&self) -> &Arc<Effective> {
+        self.analysis.settings()
+    }
+
+    /// Looks at everything again under other settings.
+    pub fn set_settings(&mut self, settings: Arc<Effective>) {
+        if *self.analysis.settings() != settings {
+            let source = std::mem::replace(&mut self.source, Source::Cad(Arc::default()));
+            *self = Document::new(source, settings);
+        }
+    }
+
+    /// The text, where there is one.
+    pub fn text(&self) -> Option<&SourceText> {
+        match &self.source {
+            Source::Dxf(document) => Some(document.text()),
+            Source::ThreeB(document) => Some(document.text()),
+            Source::Cad(_) => None,
+        }
+    }
+
+    /// The drawing, where there is one: a program has none.
+    pub fn drawing(&self) -> Option<&Arc<Drawing>> {
+        match &self.source {
+            Source::Dxf(document) => Some(document.drawing()),
+            Source::Cad(drawing) => Some(drawing),
+            Source::ThreeB(_) => None,
+        }
+    }
+
+    /// What long work may look at; `None` for a program.
+    pub fn snapshot(&self) -> Option<Snapshot> {
+        Some(Snapshot { drawing: self.drawing()?.clone(), outlines: self.analysis.outlines().clone(), settings: self.settings().clone() })
+    }
+
+    /// Replaces a range of bytes of the text. Nothing happens to a drawing that has none.
+    pub fn edit_text(&mut self, range: Range<usize>, replacement: &str) {
+        match &mut self.source {
+            Source::Dxf(document) => {
+                let delta = document.edit(range, replacement);
+                self.analysis.update(document.drawing(), &delta);
+            }
+            Source::ThreeB(document) => document.edit(range, replacement),
+            Source::Cad(_) => {}
+        }
+    }
+
+    /// Lets `change` edit a drawing that a CAD program sent and looks again at what it touched.
+    ///
+    /// When `change` fails, the drawing is as before. `None` for a document with text.
+    pub fn edit_drawing<E>(&mut self, change: impl FnOnce(&mut Drawing) -> Result<Delta, E>) -> Option<Result<(), E>> {
+        let Source::Cad(drawing) = &mut self.source else { return None };
+        Some(change(Arc::make_mut(drawing)).map(|delta| self.analysis.update(drawing, &delta)))
+    }
+
+    /// At most `limit` findings of reader and rules, errors first; and how many there are in all.
+    pub fn findings(&mut self, limit: usize) -> (Vec<Finding>, usize) {
+        let (of_source, of_rules) = match &self.source {
+            Source::Dxf(document) => (document.findings(), self.analysis.findings(document.drawing(), limit)),
+            Source::Cad(drawing) => (&[][..], self.analysis.findings(drawing, limit)),
+            Source::ThreeB(document) => (document.findings(), (Vec::new(), 0)),
+        };
+        let settings = self.analysis.settings();
+        let (mut findings, mut count) = of_rules;
+        for finding in of_source {
+            // The reader knows no settings: severities are laid over its findings here.
+            if let Some(severity) = settings.severity(finding.rule) {
+                findings.push(Finding { severity, ..finding.clone() });
+                count += 1;
+            }
+        }
+        findings.sort_by_key(|finding| finding.severity);
+        findings.truncate(limit);
+        (findings, count)
+    }
+
+    /// True when an error stands in the document: programs are refused then.
+    pub fn has_errors(&mut self) -> bool {
+        let (findings, _) = self.findings(1);
+        findings.first().is_some_and(|finding| finding.severity == Severity::Error)
+    }
+
+    /// The fixes of one finding, the preferred one first.
+    pub fn fixes(&self, finding: &Finding) -> Vec<Fix> {
+        self.drawing().map_or_else(Vec::new, |drawing| self.analysis.fixes(drawing, finding))
+    }
+
+    /// One edit that makes every safe fix.
+    pub fn fix_all(&self) -> Option<DrawingEdit> {
+        self.analysis.fix_all(self.drawing()?)
+    }
+
+    /// Bytes that a place stands for; `None` where there is no text.
+    pub fn range_of(&self, place: &Place) -> Option<Range<usize>> {
+        match (&self.source, place) {
+            (_, Place::Text { range }) => Some(range.clone()),
+            (Source::Dxf(document), place) => Some(document.range_of(place)),
+            (Source::ThreeB(_), _) => Some(0..0),
+            (Source::Cad(_), _) => None,
+        }
+    }
+
+    /// Segments whose text overlaps a range of bytes; empty where there is no text.
+    pub fn segments_at(&self, range: Range<usize>) -> Vec<(EntityId, usize)> {
+        match &self.source {
+            Source::Dxf(document) => document.segments_at(range),
+            _ => Vec::new(),
+        }
+    }
+}

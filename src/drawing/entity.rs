@@ -1,0 +1,163 @@
+//! One entity of a drawing.
+
+use crate::geometry::{Arc, Bounds, Point, Segment};
+use std::f64::consts::TAU;
+use std::sync::Arc as Shared;
+
+/// A vertex of a polyline with the bulge of the segment that starts in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    pub point: Point,
+    /// `tan(sweep / 4)` of the segment to the next vertex; 0 is a line.
+    pub bulge: f64,
+}
+
+impl Vertex {
+    pub fn new(x: f64, y: f64, bulge: f64) -> Vertex {
+        Vertex { point: Point::new(x, y), bulge }
+    }
+
+    pub fn is_finite(&self) -> bool {
+        self.point.x.is_finite() && self.point.y.is_finite() && self.bulge.is_finite()
+    }
+}
+
+/// What an outline is of: decides on which side of it the wire runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// A die opening: the wire runs inside.
+    Opening,
+    /// A punch, or the outer outline of a part: the wire runs outside.
+    Punch,
+    /// Cut once as the punch and once as the plate: every arc must survive both sides.
+    Both,
+    /// Not cut.
+    Ignore,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// Segment i runs from vertex i to vertex i + 1; the last vertex of a closed polyline starts the closing segment.
+    Polyline {
+        closed: bool,
+        vertices: Vec<Vertex>,
+    },
+    Line {
+        start: Point,
+        end: Point,
+    },
+    /// Counter-clockwise from `start_angle` to `end_angle`, radians.
+    Arc {
+        center: Point,
+        radius: f64,
+        start_angle: f64,
+        end_angle: f64,
+    },
+    Circle {
+        center: Point,
+        radius: f64,
+    },
+    /// "O" marks a starting point.
+    Text {
+        at: Point,
+        text: String,
+    },
+}
+
+impl Geometry {
+    /// Number of segments: 0 for text and for a polyline of less than two vertices.
+    pub fn segment_count(&self) -> usize {
+        match self {
+            Geometry::Polyline { closed, vertices } => match vertices.len() {
+                0 | 1 => 0,
+                count if *closed => count,
+                count => count - 1,
+            },
+            Geometry::Line { .. } | Geometry::Arc { .. } | Geometry::Circle { .. } => 1,
+            Geometry::Text { .. } => 0,
+        }
+    }
+
+    /// Segment `index` in the entity's own direction. An ARC whose angles coincide is a full turn, as a CIRCLE is,
+    /// which starts at its +X-most point.
+    pub fn segment(&self, index: usize) -> Option<Segment> {
+        match self {
+            Geometry::Polyline { vertices, .. } => {
+                if index >= self.segment_count() {
+                    return None;
+                }
+                let (from, to) = (vertices[index], vertices[(index + 1) % vertices.len()]);
+                Some(Segment::from_bulge(from.point, to.point, from.bulge))
+            }
+            _ if index > 0 => None,
+            Geometry::Line { start, end } => Some(Segment::line(*start, *end)),
+            Geometry::Arc { center, radius, start_angle, end_angle } => {
+                let forward = crate::geometry::positive_angle(end_angle - start_angle);
+                let sweep = if forward == 0.0 { TAU } else { forward };
+                Some(Segment::Arc(Arc::from_center(*center, *radius, *start_angle, sweep)))
+            }
+            Geometry::Circle { center, radius } => Some(Segment::Arc(Arc::from_center(*center, *radius, 0.0, TAU))),
+            Geometry::Text { .. } => None,
+        }
+    }
+
+    /// All segments in the entity's own direction.
+    pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
+        (0..self.segment_count()).filter_map(|index| self.segment(index))
+    }
+
+    /// True where the geometry is a contour of its own and has no free ends.
+    pub fn is_closed(&self) -> bool {
+        match self {
+            Geometry::Polyline { closed, .. } => *closed,
+            Geometry::Circle { .. } => true,
+            Geometry::Arc { .. } => self.segment(0).is_some_and(|s| s.as_arc().is_some_and(Arc::is_full_turn)),
+            Geometry::Line { .. } | Geometry::Text { .. } => false,
+        }
+    }
+
+    /// The two free ends, start first; `None` for closed geometry and for what has no segment.
+    pub fn ends(&self) -> Option<(Point, Point)> {
+        if self.is_closed() {
+            return None;
+        }
+        let last = self.segment_count().checked_sub(1)?;
+        Some((self.segment(0)?.start(), self.segment(last)?.end()))
+    }
+
+    pub fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        self.segments().for_each(|segment| bounds.merge(&segment.bounds()));
+        if let Geometry::Text { at, .. } = self {
+            bounds.include(*at);
+        }
+        bounds
+    }
+
+    /// True when every number is finite and every radius is positive.
+    pub fn is_sound(&self) -> bool {
+        let finite = |point: &Point| point.x.is_finite() && point.y.is_finite();
+        match self {
+            Geometry::Polyline { vertices, .. } => vertices.iter().all(Vertex::is_finite),
+            Geometry::Line { start, end } => finite(start) && finite(end),
+            Geometry::Arc { center, radius, start_angle, end_angle } => {
+                finite(center) && radius.is_finite() && *radius > 0.0 && start_angle.is_finite() && end_angle.is_finite()
+            }
+            Geometry::Circle { center, radius } => finite(center) && radius.is_finite() && *radius > 0.0,
+            Geometry::Text { at, .. } => finite(at),
+        }
+    }
+}
+
+/// One entity: what it is called, where it belongs, what it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entity {
+    pub handle: Shared<str>,
+    pub layer: Shared<str>,
+    /// The role that the entity itself states; layers and settings come after it.
+    pub role: Option<Role>,
+    /// What the source calls it: LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE, TEXT, …
+    pub kind: &'static str,
+    pub geometry: Geometry,
+}

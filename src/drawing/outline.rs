@@ -1,0 +1,32 @@
+//! A contour with what it is an outline of, and so the side on which the wire runs.
+
+use super::{Contour, Role};
+use crate::finding::Side;
+
+/// A contour, its role, and what follows from the two.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    pub contour: Contour,
+    /// Never [`Role::Ignore`]: such entities are in no contour.
+    pub role: Role,
+    /// Twice the signed area in square drawing units, positive counter-clockwise; 0 for an open contour.
+    pub twice_area: f64,
+}
+
+impl Outline {
+    /// Side of the direction of travel on which the wire runs: inside an opening, outside a punch.
+    /// `None` where every arc must survive both sides, and for an open or empty outline.
+    pub fn wire_side(&self) -> Option<Side> {
+        if !self.contour.closed || self.twice_area == 0.0 {
+            return None;
+        }
+        let counter_clockwise = self.twice_area > 0.0;
+        match self.role {
+            Role::Opening if counter_clockwise => Some(Side::Left),
+            Role::Opening => Some(Side::Right),
+            Role::Punch if counter_clockwise => Some(Side::Right),
+            Role::Punch => Some(Side::Left),
+            Role::Both | Role::Ignore => None,
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! A circular arc, made from a bulge or from a centre, and what can be asked of it.
+
+use super::{Bounds, Point, Vector, direction, left_normal, positive_angle};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// A circular arc that is travelled from `start` to `end`.
+///
+/// `sweep` is positive counter-clockwise and at most a full turn; `start` and `end` are kept beside the
+/// angles because they are what the neighbours share, exact to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    pub center: Point,
+    pub radius: f64,
+    /// Angle of `start` seen from the centre, radians.
+    pub start_angle: f64,
+    /// Radians, positive counter-clockwise, |sweep| ≤ 2π.
+    pub sweep: f64,
+    pub start: Point,
+    pub end: Point,
+}
+
+impl Arc {
+    /// The arc of a polyline segment with `bulge = tan(sweep / 4)`.
+    ///
+    /// Radius `L (1 + b²) / (4 |b|)`, centre `midpoint + (1 − b²) / (4 b) · left normal of the chord`, which
+    /// also holds past a half turn (|b| > 1), where the centre changes sides.
+    /// `None` where there is no arc: a bulge of zero, a chord of length zero, or numbers that overflow.
+    pub fn from_bulge(start: Point, end: Point, bulge: f64) -> Option<Arc> {
+        let chord = end - start;
+        let length = chord.norm();
+        if bulge == 0.0 || length == 0.0 {
+            return None;
+        }
+        let radius = length * (1.0 + bulge * bulge) / (4.0 * bulge.abs());
+        let center = start + chord * 0.5 + left_normal(chord) * ((1.0 - bulge * bulge) / (4.0 * bulge));
+        let start_angle = (start.y - center.y).atan2(start.x - center.x);
+        let sweep = 4.0 * bulge.atan();
+        let sound = radius.is_finite() && center.x.is_finite() && center.y.is_finite();
+        sound.then_some(Arc { center, radius, start_angle, sweep, start, end })
+    }
+
+    /// The arc about `center` from `start_angle` through `sweep` (radians, positive counter-clockwise).
+    pub fn from_center(center: Point, radius: f64, start_angle: f64, sweep: f64) -> Arc {
+        let start = center + direction(start_angle) * radius;
+        let full = sweep.abs() >= TAU;
+        let end = if full { start } else { center + direction(start_angle + sweep) * radius };
+        Arc { center, radius, start_angle, sweep: sweep.clamp(-TAU, TAU), start, end }
+    }
+
+    /// The arc about `center` from `start` to `end`, counter-clockwise or clockwise. Coinciding ends are a full turn.
+    pub fn about(center: Point, start: Point, end: Point, counter_clockwise: bool) -> Arc {
+        let start_angle = (start.y - center.y).atan2(start.x - center.x);
+        let end_angle = (end.y - center.y).atan2(end.x - center.x);
+        let forward = positive_angle(end_angle - start_angle);
+        let sweep = match (counter_clockwise, start == end) {
+            (true, true) => TAU,
+            (false, true) => -TAU,
+            (true, false) => forward,
+            (false, false) => forward - TAU,
+        };
+        Arc { center, radius: (start - center).norm(), start_angle, sweep, start, end }
+    }
+
+    pub fn is_full_turn(&self) -> bool {
+        self.sweep.abs() >= TAU
+    }
+
+    /// `tan(sweep / 4)`; a full turn has no finite bulge and gives ±infinity or a huge number.
+    pub fn bulge(&self) -> f64 {
+        (self.sweep / 4.0).tan()
+    }
+
+    /// Length along the arc.
+    pub fn length(&self) -> f64 {
+        self.radius * self.sweep.abs()
+    }
+
+    /// The same arc travelled the other way.
+    pub fn reversed(&self) -> Arc {
+        Arc { start_angle: self.start_angle + self.sweep, sweep: -self.sweep, start: self.end, end: self.start, ..*self }
+    }
+
+    /// The point at `share` (0 … 1) of the sweep.
+    pub fn point_at(&self, share: f64) -> Point {
+        match share {
+            s if s <= 0.0 => self.start,
+            s if s >= 1.0 => self.end,
+            s => self.center + direction(self.start_angle + self.sweep * s) * self.radius,
+        }
+    }
+
+    /// Unit tangent in the direction of travel at `share` (0 … 1) of the sweep.
+    pub fn tangent_at(&self, share: f64) -> Vector {
+        let radial = direction(self.start_angle + self.sweep * share);
+        left_normal(radial) * self.sweep.signum()
+    }
+
+    /// Share of the sweep (0 … 1) at which `point`'s direction from the centre lies, unclamped:
+    /// below 0 or above 1 when it lies outside the arc, whichever end is nearer.
+    pub fn share_of(&self, point: Point) -> f64 {
+        let angle = (point.y - self.center.y).atan2(point.x - self.center.x);
+        let extent = self.sweep.abs();
+        if extent == 0.0 {
+            return 0.0;
+        }
+        let travelled = positive_angle((angle - self.start_angle) * self.sweep.signum());
+        // What lies past the end is counted from the nearer end.
+        let past_middle = extent + (TAU - extent) / 2.0;
+        if travelled > past_middle { (travelled - TAU) / extent } else { travelled / extent }
+    }
+
+    /// Smallest distance from `point` to the arc.
+    pub fn distance_to(&self, point: Point) -> f64 {
+        let share = self.share_of(point);
+        let to_center = (point - self.center).norm();
+        if (0.0..=1.0).contains(&share) || to_center == 0.0 {
+            return (to_center - self.radius).abs();
+        }
+        (point - self.start).norm().min((point - self.end).norm())
+    }
+
+    pub fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds::of_points(&[self.start, self.end]);
+        // The quarter points that the sweep passes widen the box of the two ends.
+        let (low, high) = if self.sweep >= 0.0 {
+            (self.start_angle, self.start_angle + self.sweep)
+        } else {
+            (self.start_angle + self.sweep, self.start_angle)
+        };
+        let first = (low / FRAC_PI_2).ceil() as i64;
+        let last = (high / FRAC_PI_2).floor() as i64;
+        for quarter in first..=last.min(first + 4) {
+            let (x, y) = match quarter.rem_euclid(4) {
+                0 => (1.0, 0.0),
+                1 => (0.0, 1.0),
+                2 => (-1.0, 0.0),
+                _ => (0.0, -1.0),
+            };
+            bounds.include(self.center + Vector::new(x, y) * self.radius);
+        }
+        bounds
+    }
+
+    /// Twice the signed area between the chord and the arc, `r² (sweep − sin sweep)`: what the arc adds to the shoelace sum.
+    pub fn twice_cap_area(&self) -> f64 {
+        let sweep = self.sweep;
+        // sin is better conditioned from its series where the sweep is small.
+        let difference = if sweep.abs() < 1e-3 { sweep.powi(3) / 6.0 * (1.0 - sweep * sweep / 20.0) } else { sweep - sweep.sin() };
+        self.radius * self.radius * difference
+    }
+
+    /// True when the arc turns by at most a half turn.
+    pub fn is_minor(&self) -> bool {
+        self.sweep.abs() <= PI
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn past_a_half_turn_the_centre_lies_on_the_other_side_of_the_chord() {
+        let arc = Arc::from_bulge(Point::new(0.0, 0.0), Point::new(2.0, 0.0), 3.0_f64.sqrt()).unwrap();
+        assert!((arc.sweep - 4.0 * PI / 3.0).abs() < 1e-12);
+        assert!((arc.center - arc.start).norm() - arc.radius < 1e-12);
+        assert!(arc.center.y < 0.0, "{:?}", arc.center);
+    }
+
+    #[test]
+    fn bulge_and_centre_agree_at_every_sweep() {
+        for step in 1..40 {
+            for sign in [1.0, -1.0] {
+                let bulge = sign * step as f64 * 0.1;
+                let (start, end) = (Point::new(3.0, -1.0), Point::new(4.5, 2.0));
+                let arc = Arc::from_bulge(start, end, bulge).unwrap();
+                assert!(((start - arc.center).norm() - arc.radius).abs() < 1e-12);
+                assert!(((end - arc.center).norm() - arc.radius).abs() < 1e-12);
+                assert!((arc.center + direction(arc.start_angle + arc.sweep) * arc.radius - end).norm() < 1e-12);
+                assert!((arc.bulge() - bulge).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn distance_and_bounds_of_a_quarter() {
+        let arc = Arc::from_center(Point::origin(), 2.0, 0.0, FRAC_PI_2);
+        assert!((arc.distance_to(Point::new(3.0, 3.0)) - (18.0_f64.sqrt() - 2.0)).abs() < 1e-12);
+        assert!((arc.distance_to(Point::new(2.0, -1.0)) - 1.0).abs() < 1e-12);
+        let bounds = arc.bounds();
+        assert!((bounds.max - Point::new(2.0, 2.0)).norm() < 1e-12 && bounds.min.coords.norm() < 1e-12);
+    }
+}

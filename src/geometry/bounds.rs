@@ -1,0 +1,59 @@
+//! Axis-parallel boxes.
+
+use super::Point;
+
+/// A closed axis-parallel box. The empty box has `min` above `max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    pub min: Point,
+    pub max: Point,
+}
+
+impl Bounds {
+    pub const EMPTY: Bounds =
+        Bounds { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
+
+    /// The smallest box that holds all `points`; empty for none.
+    pub fn of_points(points: &[Point]) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        points.iter().for_each(|&point| bounds.include(point));
+        bounds
+    }
+
+    /// The box of a disc.
+    pub fn of_disc(center: Point, radius: f64) -> Bounds {
+        Bounds { min: center.map(|c| c - radius), max: center.map(|c| c + radius) }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.min.x > self.max.x
+    }
+
+    pub fn include(&mut self, point: Point) {
+        self.min = self.min.inf(&point);
+        self.max = self.max.sup(&point);
+    }
+
+    pub fn merge(&mut self, other: &Bounds) {
+        self.min = self.min.inf(&other.min);
+        self.max = self.max.sup(&other.max);
+    }
+
+    /// True when the two boxes share a point.
+    pub fn touches(&self, other: &Bounds) -> bool {
+        self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
+    }
+
+    /// The box grown by `margin` on every side.
+    pub fn grown(&self, margin: f64) -> Bounds {
+        Bounds { min: self.min.map(|c| c - margin), max: self.max.map(|c| c + margin) }
+    }
+
+    pub fn width(&self) -> f64 {
+        (self.max.x - self.min.x).max(0.0)
+    }
+
+    pub fn height(&self) -> f64 {
+        (self.max.y - self.min.y).max(0.0)
+    }
+}

@@ -1,0 +1,49 @@
+//! Plane geometry of a wire's contour: points, arcs by bulge, segments, distances, intersections.
+//!
+//! Pure and total: nothing here reads a document, allocates by a number from outside, or panics.
+//! Lengths are in the unit of the drawing that is looked at, angles in radians, counter-clockwise positive.
+
+mod arc;
+mod bounds;
+mod intersection;
+mod segment;
+mod tolerances;
+
+pub use arc::Arc;
+pub use bounds::Bounds;
+pub use intersection::{circle_circle, line_circle, line_line};
+pub use segment::{Line, Segment};
+pub use tolerances::Tolerances;
+
+/// A point of the plane, in drawing units.
+pub type Point = nalgebra::Point2<f64>;
+/// A displacement or direction in the plane.
+pub type Vector = nalgebra::Vector2<f64>;
+
+/// `a × b`, the z component of the cross product: positive when `b` lies to the left of `a`.
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// `v` turned by a quarter turn to the left.
+pub fn left_normal(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}
+
+/// The unit vector at `angle` radians from the +X axis.
+pub fn direction(angle: f64) -> Vector {
+    let (sin, cos) = angle.sin_cos();
+    Vector::new(cos, sin)
+}
+
+/// Signed angle from `a` to `b` in (−π, π], positive counter-clockwise; 0 when either is zero.
+pub fn turn(a: Vector, b: Vector) -> f64 {
+    cross(a, b).atan2(a.dot(&b))
+}
+
+/// `angle` brought into [0, 2π).
+pub fn positive_angle(angle: f64) -> f64 {
+    let wrapped = angle.rem_euclid(std::f64::consts::TAU);
+    // rem_euclid of a tiny negative number rounds up to 2π itself.
+    if wrapped >= std::f64::consts::TAU { 0.0 } else { wrapped }
+}

@@ -1,0 +1,35 @@
+//! The absolute tolerances, named once and passed down.
+
+/// Absolute tolerances in millimetres; [`Tolerances::in_units`] turns them into drawing units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// Two end points closer than this belong together when entities are chained.
+    pub join: f64,
+    /// A radius this little below the correction is rounding, not a fault.
+    pub report: f64,
+    /// How far a fitted arc may lie from the curve it stands for.
+    pub arc_fit: f64,
+    /// A segment shorter than this has no direction.
+    pub zero_length: f64,
+    /// How deep a new arc's disc may dip into a neighbour before the arc counts as cutting it.
+    pub clearance: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Tolerances { join: 0.01, report: 1e-6, arc_fit: 1e-3, zero_length: 1e-9, clearance: 1e-7 }
+    }
+}
+
+impl Tolerances {
+    /// The same tolerances in a drawing whose unit is `unit_mm` millimetres.
+    pub fn in_units(self, unit_mm: f64) -> Tolerances {
+        Tolerances {
+            join: self.join / unit_mm,
+            report: self.report / unit_mm,
+            arc_fit: self.arc_fit / unit_mm,
+            zero_length: self.zero_length / unit_mm,
+            clearance: self.clearance / unit_mm,
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! wedm: a language server for wire EDM.
+//!
+//! The floors, each of which imports only floors below it: [`cli`] and [`server`] (two faces of the same library),
+//! [`analysis`], [`rules`], [`toolpath`], [`program`], [`dxf`], [`drawing`], [`geometry`].
+//! `docs/architecture.md` is the map.
+
+pub mod analysis;
+pub mod cli;
+pub mod document;
+pub mod drawing;
+pub mod dxf;
+pub mod finding;
+pub mod geometry;
+pub mod message;
+pub mod picture;
+pub mod program;
+pub mod protocol;
+pub mod rules;
+pub mod server;
+pub mod settings;
+pub mod text;
+pub mod toolpath;

@@ -1,0 +1,3 @@
+//! The sentences that people read, made from findings; one module per language.
+
+pub mod en;

@@ -1,0 +1,1 @@
+//! A picture of contours, faults and wire path as SVG.

@@ -1,0 +1,1 @@
+//! The types of the `wedm/` methods, shared by server and command line.

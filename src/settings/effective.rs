@@ -1,0 +1,101 @@
+//! Settings with every default filled in.
+
+use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, RuleSeverity, Settings, SideSetting, UnitSetting};
+use crate::drawing::{Role, Unit};
+use crate::finding::{Rule, Severity};
+use crate::geometry::Tolerances;
+use std::collections::BTreeMap;
+
+/// All levels laid over each other and the defaults below them. Lengths in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effective {
+    /// The largest correction of all passes: what a radius is held against.
+    pub correction: f64,
+    /// 1-based number of the pass with the largest correction, where several are set.
+    pub pass: Option<usize>,
+    /// Correction of each pass; one where none are set.
+    pub corrections: Vec<f64>,
+    pub side: SideSetting,
+    pub unit: Unit,
+    pub margin: f64,
+    pub layers: BTreeMap<String, Role>,
+    pub severities: BTreeMap<Rule, Option<Severity>>,
+    pub layout: Layout,
+    pub direction: Direction,
+    pub corner: Corner,
+    pub thread: Option<PointSetting>,
+    pub entry: Option<PointSetting>,
+    pub lead_in: f64,
+    pub jumps: Jumps,
+    pub compensation: Compensation,
+    pub end: String,
+    pub pause: String,
+    pub tolerances: Tolerances,
+}
+
+impl Effective {
+    /// Default correction in mm: a 0.18 mm wire with a spark gap of 0.01 mm.
+    pub const CORRECTION: f64 = 0.10;
+    /// Default wire diameter in mm, where only a gap is set.
+    pub const WIRE_DIAMETER: f64 = 0.18;
+    /// Default spark gap in mm, where only a wire diameter is set.
+    pub const GAP: f64 = 0.01;
+
+    /// Fills the defaults in. Values that do not fit have been reported and left out before.
+    pub fn of(settings: &Settings) -> Effective {
+        let single = match (settings.correction, settings.wire_diameter, settings.gap) {
+            (Some(correction), ..) => correction,
+            (None, None, None) => Self::CORRECTION,
+            (None, diameter, gap) => diameter.unwrap_or(Self::WIRE_DIAMETER) / 2.0 + gap.unwrap_or(Self::GAP),
+        };
+        let passes = settings.passes.as_ref().and_then(|passes| passes.corrections.clone()).filter(|list| !list.is_empty());
+        let corrections = passes.clone().unwrap_or_else(|| vec![single]);
+        let largest = corrections.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        let (index, correction) = largest.unwrap_or((0, single));
+        let program = settings.program.clone().unwrap_or_default();
+        let severities = Rule::ALL.map(|rule| {
+            let set: Option<&RuleSeverity> = settings.rules.as_ref().and_then(|rules| rules.get(rule.name()));
+            (rule, set.map_or(Some(rule.default_severity()), |severity| severity.severity()))
+        });
+        Effective {
+            correction,
+            pass: (corrections.len() > 1).then_some(index + 1),
+            corrections,
+            side: settings.side.unwrap_or_default(),
+            unit: match settings.units.unwrap_or_default() {
+                UnitSetting::Mm => Unit::MILLIMETRE,
+                UnitSetting::Inch => Unit::INCH,
+            },
+            margin: settings.margin.unwrap_or(0.001),
+            layers: settings.layers.clone().unwrap_or_default(),
+            severities: severities.into_iter().collect(),
+            layout: program.layout.unwrap_or_default(),
+            direction: program.direction.unwrap_or_default(),
+            corner: program.corner.unwrap_or_default(),
+            thread: program.thread,
+            entry: program.entry,
+            lead_in: program.lead_in.unwrap_or(3.0),
+            jumps: program.jumps.unwrap_or_default(),
+            compensation: program.compensation.unwrap_or_default(),
+            end: program.end.unwrap_or_else(|| "DD".into()),
+            pause: program.pause.unwrap_or_else(|| "D".into()),
+            tolerances: Tolerances::default(),
+        }
+    }
+
+    /// Severity of a rule, `None` when it is switched off.
+    pub fn severity(&self, rule: Rule) -> Option<Severity> {
+        self.severities.get(&rule).copied().unwrap_or(Some(rule.default_severity()))
+    }
+
+    /// The unit of a drawing: its own, else that of the settings.
+    pub fn unit_of(&self, drawing: &crate::drawing::Drawing) -> Unit {
+        drawing.unit.unwrap_or(self.unit)
+    }
+}
+
+impl Default for Effective {
+    fn default() -> Self {
+        Effective::of(&Settings::default())
+    }
+}

@@ -1,0 +1,260 @@
+//! Settings: one type for every level, and what they mean once all levels are laid over each other.
+//!
+//! Each level holds only what somebody set. Keys are camelCase in JSON and kebab-case in `wedm.toml`.
+
+mod effective;
+
+pub use effective::Effective;
+
+use crate::drawing::Role;
+use crate::finding::Severity;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Side of the contour on which the wire runs, where neither the entity nor its layer says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SideSetting {
+    /// Every arc must survive both sides.
+    #[default]
+    Both,
+    /// Nested contours alternate: outermost punch, holes openings.
+    Auto,
+    Opening,
+    Punch,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum UnitSetting {
+    #[default]
+    Mm,
+    Inch,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Layout {
+    /// `B9900B0B9900GXL1`
+    #[default]
+    Compact,
+    /// Fixed columns with spaces.
+    Aligned,
+    /// Aligned, with block number and the absolute end point in mm behind the block.
+    Checking,
+}
+
+/// Direction in which a closed contour is cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    #[default]
+    Ccw,
+    Cw,
+    AsDrawn,
+}
+
+/// How the wire path rounds a convex corner of the part.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Corner {
+    /// Rolls about the vertex.
+    #[default]
+    Arc,
+    /// Extends the two offsets until they meet.
+    Intersection,
+}
+
+/// What happens between the contours of one program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Jumps {
+    /// The way to the next thread hole is written as line blocks.
+    #[default]
+    Blocks,
+    None,
+}
+
+/// Where the correction is applied.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Compensation {
+    /// The offset is in the coordinates.
+    #[default]
+    Path,
+    /// The controller offsets: G41/G42 or 4B.
+    Controller,
+    /// The contour is the wire's path.
+    None,
+}
+
+/// Severity of a rule, or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum RuleSeverity {
+    Error,
+    Warning,
+    Information,
+    Hint,
+    Off,
+}
+
+impl RuleSeverity {
+    pub fn severity(self) -> Option<Severity> {
+        match self {
+            RuleSeverity::Error => Some(Severity::Error),
+            RuleSeverity::Warning => Some(Severity::Warning),
+            RuleSeverity::Information => Some(Severity::Information),
+            RuleSeverity::Hint => Some(Severity::Hint),
+            RuleSeverity::Off => None,
+        }
+    }
+}
+
+/// One point, or one for each contour by the handle of an entity in it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PointSetting {
+    One([f64; 2]),
+    ByHandle(BTreeMap<String, [f64; 2]>),
+}
+
+/// Corrections of a multi-pass cut.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase", deny_unknown_fields, default)]
+pub struct Passes {
+    /// Correction of each pass in mm, falling.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corrections: Option<Vec<f64>>,
+}
+
+/// How a program is written.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase", deny_unknown_fields, default)]
+pub struct ProgramSettings {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layout: Option<Layout>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner: Option<Corner>,
+    /// Thread hole in drawing units; a table by handle for several contours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thread: Option<PointSetting>,
+    /// Point on the contour in drawing units where the cut begins; a table by handle for several contours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub entry: Option<PointSetting>,
+    /// Length of the lead-in in mm when no thread hole is given.
+    #[serde(skip_serializing_if = "Option::is_none", alias = "lead-in")]
+    pub lead_in: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jumps: Option<Jumps>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compensation: Option<Compensation>,
+    /// Word that ends the program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end: Option<String>,
+    /// Word that pauses it, to thread the wire.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pause: Option<String>,
+}
+
+/// One level of settings: built-in, `initializationOptions`, `workspace/configuration`, `wedm.toml`, a request's `options`, the command line.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase", deny_unknown_fields, default)]
+pub struct Settings {
+    /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub correction: Option<f64>,
+    /// mm; with `gap` in place of `correction`.
+    #[serde(skip_serializing_if = "Option::is_none", alias = "wire-diameter")]
+    pub wire_diameter: Option<f64>,
+    /// Spark gap in mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub side: Option<SideSetting>,
+    /// Unit of drawings that do not state one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitSetting>,
+    /// mm added to the correction when a fix chooses its radius.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passes: Option<Passes>,
+    /// Role by layer name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<BTreeMap<String, Role>>,
+    /// Severity by rule name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rules: Option<BTreeMap<String, RuleSeverity>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<ProgramSettings>,
+}
+
+impl Settings {
+    /// Lays `later` over `self`: what `later` sets wins; tables are merged key by key.
+    ///
+    /// A correction and a wire diameter with gap are two ways to say one thing: the later level's way wins as a whole.
+    pub fn overlaid(&self, later: &Settings) -> Settings {
+        let mut earlier = self.clone();
+        if later.correction.is_some() {
+            (earlier.wire_diameter, earlier.gap) = (None, None);
+        } else if later.wire_diameter.is_some() || later.gap.is_some() {
+            earlier.correction = None;
+        }
+        Settings {
+            correction: later.correction.or(earlier.correction),
+            wire_diameter: later.wire_diameter.or(earlier.wire_diameter),
+            gap: later.gap.or(earlier.gap),
+            side: later.side.or(earlier.side),
+            units: later.units.or(earlier.units),
+            margin: later.margin.or(earlier.margin),
+            passes: later.passes.clone().or(earlier.passes),
+            layers: merged(earlier.layers, later.layers.clone()),
+            rules: merged(earlier.rules, later.rules.clone()),
+            program: match (earlier.program, &later.program) {
+                (Some(earlier), Some(later)) => Some(earlier.overlaid(later)),
+                (earlier, later) => later.clone().or(earlier),
+            },
+        }
+    }
+}
+
+impl ProgramSettings {
+    fn overlaid(&self, later: &ProgramSettings) -> ProgramSettings {
+        ProgramSettings {
+            layout: later.layout.or(self.layout),
+            direction: later.direction.or(self.direction),
+            corner: later.corner.or(self.corner),
+            thread: later.thread.clone().or(self.thread.clone()),
+            entry: later.entry.clone().or(self.entry.clone()),
+            lead_in: later.lead_in.or(self.lead_in),
+            jumps: later.jumps.or(self.jumps),
+            compensation: later.compensation.or(self.compensation),
+            end: later.end.clone().or(self.end.clone()),
+            pause: later.pause.clone().or(self.pause.clone()),
+        }
+    }
+}
+
+fn merged<V>(earlier: Option<BTreeMap<String, V>>, later: Option<BTreeMap<String, V>>) -> Option<BTreeMap<String, V>> {
+    match (earlier, later) {
+        (Some(mut earlier), Some(later)) => {
+            earlier.extend(later);
+            Some(earlier)
+        }
+        (earlier, later) => later.or(earlier),
+    }
+}
+
+/// A setting that does not fit: which one, and what was expected. Lower-case, no final dot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SettingsError {
+    /// Dotted key, as written.
+    pub key: String,
+    pub message: String,
+    /// Bytes in the source text, where there is one.
+    pub range: Option<std::ops::Range<usize>>,
+}
