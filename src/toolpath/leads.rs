@@ -18,12 +18,7 @@ pub(super) struct Wanted {
 }
 
 /// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
-pub(super) fn wanted(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    chosen: &[usize],
-    settings: &Effective,
-) -> Result<Vec<Wanted>, Refusal> {
+pub(super) fn wanted(drawing: &Drawing, outlines: &[Outline], chosen: &[usize], settings: &Effective) -> Result<Vec<Wanted>, Refusal> {
     let threads = points(drawing, outlines, chosen, settings.thread.as_ref(), "thread hole")?;
     let entries = points(drawing, outlines, chosen, settings.entry.as_ref(), "entry")?;
     let marks = marks(drawing, outlines);
@@ -80,9 +75,8 @@ fn marks(drawing: &Drawing, outlines: &[Outline]) -> Vec<Mark> {
     });
     texts
         .filter_map(|at| {
-            let distance = |outline: &Outline| {
-                outline.contour.segments(drawing).map(|s| s.geometry.distance_to(at)).fold(f64::INFINITY, f64::min)
-            };
+            let distance =
+                |outline: &Outline| outline.contour.segments(drawing).map(|s| s.geometry.distance_to(at)).fold(f64::INFINITY, f64::min);
             let nearest = outlines.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
             nearest.map(|(outline, distance)| Mark { at, outline, distance })
         })
@@ -241,5 +235,8 @@ pub(super) fn thread_hole(
 /// The refusal of an entry that does not lie on the contour.
 pub(super) fn off_contour(drawing: &Drawing, outline: &Outline, entry: Point, distance_mm: f64) -> Refusal {
     let handle = name(drawing, outline);
-    Refusal::Sentence(format!("the entry ({}, {}) lies {distance_mm:.3} mm from contour {handle}, expected a point on it", entry.x, entry.y))
+    Refusal::Sentence(format!(
+        "the entry ({}, {}) lies {distance_mm:.3} mm from contour {handle}, expected a point on it",
+        entry.x, entry.y
+    ))
 }

@@ -165,8 +165,13 @@ impl Job<'_> {
         let (contour, turned) = directed(outline, settings.direction);
         let side = if turned { own_side.reversed() } else { own_side }.sign();
         let walls = walls(contour.segments(self.drawing), true, self.units(settings.tolerances.zero_length));
-        let joining =
-            Joining { correction, side, corner: settings.corner, touch: self.units(1e-7), tolerance: self.units(settings.tolerances.report) };
+        let joining = Joining {
+            correction,
+            side,
+            corner: settings.corner,
+            touch: self.units(1e-7),
+            tolerance: self.units(settings.tolerances.report),
+        };
         let collapsed = |at: Point| {
             Refusal::Sentence(format!(
                 "the wire with a correction of {:.3} mm does not fit along contour {handle} near ({:.3}, {:.3}): its path would cut into the part",

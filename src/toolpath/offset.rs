@@ -16,10 +16,7 @@ pub(super) fn walls(segments: impl IntoIterator<Item = ContourSegment>, closed: 
     let mut walls: Vec<Wall> = segments
         .into_iter()
         .filter(|segment| segment.geometry.length() > zero_length)
-        .map(|segment| Wall {
-            geometry: segment.geometry,
-            source: Source::Segment { entity: segment.entity, segment: segment.segment },
-        })
+        .map(|segment| Wall { geometry: segment.geometry, source: Source::Segment { entity: segment.entity, segment: segment.segment } })
         .collect();
     let count = walls.len();
     if count < 2 {

@@ -59,13 +59,7 @@ fn encode_line(line: &Line, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> 
 }
 
 /// Cuts `whole` into `count` pieces of equal length with snapped nodes between them; pieces without length are left out.
-fn in_pieces(
-    whole: &Segment,
-    from: Node,
-    to: Node,
-    count: i64,
-    mut each: impl FnMut(Segment, Node, Node) -> Option<()>,
-) -> Option<()> {
+fn in_pieces(whole: &Segment, from: Node, to: Node, count: i64, mut each: impl FnMut(Segment, Node, Node) -> Option<()>) -> Option<()> {
     if count <= 1 {
         return each(*whole, from, to);
     }

@@ -78,7 +78,7 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
 }
 
 /// The bytes of each line without its end.
-pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
+fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
     let mut next = Some(0);
     std::iter::from_fn(move || {
         let start = next?;

@@ -173,7 +173,9 @@ impl<'a> Writer<'a> {
             && matches!(read[..], [Item::Word { .. }])
             && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
         if !sound {
-            return Err(ProofError::Mismatch(format!("the word {word:?} between blocks cannot be read again, expected letters and digits")));
+            return Err(ProofError::Mismatch(format!(
+                "the word {word:?} between blocks cannot be read again, expected letters and digits"
+            )));
         }
         self.out.extend_from_slice(word.as_bytes());
         self.out.push(b'\n');
