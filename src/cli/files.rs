@@ -4,8 +4,13 @@ use super::options::Common;
 use super::report::Row;
 use super::{Failure, output};
 use crate::document::{Document, Source};
+use crate::drawing::Unit;
+use crate::finding::{Detail, Finding, Place, Rule};
+use crate::message::en;
 use crate::program::three_b;
-use crate::settings::{Effective, Settings};
+use crate::protocol::FindingData;
+use crate::settings::{Effective, Settings, SettingsError};
+use crate::text::SourceText;
 use crate::{dxf, settings};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -77,6 +82,41 @@ fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
 /// DXF bytes under given settings, such as a fix has made them.
 pub fn drawing_of(bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
     document(&Kind::Dxf, bytes, settings)
+}
+
+/// The settings for an input, and the faults found in settings files.
+fn settings_for(path: &Path, common: &Common, last: &Settings) -> Result<(Effective, Vec<Row>), Failure> {
+    let mut settings = Settings::default();
+    let mut rows = Vec::new();
+    for file in project_file(path).iter().chain(&common.config) {
+        let bytes = std::fs::read(file).map_err(|error| Failure(format!("{}: {}", file.display(), plain(&error))))?;
+        let text = String::from_utf8(bytes).map_err(|_| Failure(format!("{}: it is not UTF-8 text", file.display())))?;
+        let (level, errors) = settings::from_toml(&text);
+        settings = settings.overlaid(&level);
+        let source = SourceText::new(text.into_bytes());
+        rows.extend(errors.into_iter().map(|error| settings_row(file, &source, error)));
+    }
+    Ok((Effective::of(&settings.overlaid(last)), rows))
+}
+
+fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
+    let range = error.range.unwrap_or(0..0);
+    let place = Place::Text { range: range.clone() };
+    let severity = Rule::Settings.default_severity();
+    let finding = Finding { rule: Rule::Settings, severity, place, detail: Detail::Settings(error.message) };
+    let message = en::sentence(&finding, Unit::MILLIMETRE.mm);
+    Row::new(file, Some(source), range, (Rule::Settings, severity), message, FindingData::default())
+}
+
+/// The nearest `wedm.toml` in the input's folder or one that holds it.
+fn project_file(path: &Path) -> Option<PathBuf> {
+    let folder = path.canonicalize().ok()?.parent()?.to_path_buf();
+    let file = folder.ancestors().map(|folder| folder.join(settings::FILE_NAME)).find(|file| file.is_file())?;
+    // A file that lies beside the input is named as the input is.
+    match path.parent() {
+        Some(parent) if file.parent() == Some(&folder) => Some(parent.join(settings::FILE_NAME)),
+        _ => Some(file),
+    }
 }
 
 /// What a search for files came to.

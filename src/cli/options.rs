@@ -101,10 +101,6 @@ pub fn point(text: &str) -> Result<[f64; 2], String> {
     both.ok_or_else(|| "expected two numbers with a comma between, such as -115,-10".into())
 }
 
-/// An error for an option that says nothing.
-pub fn required<T>(value: Option<T>, sentence: &str) -> Result<T, Failure> {
-    value.ok_or_else(|| Failure(sentence.into()))
-}
 
 #[cfg(test)]
 mod tests {
