@@ -10,9 +10,9 @@ mod style;
 
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};
 use crate::finding::{Detail, Finding, Place, SmallRadius};
-use crate::geometry::{Bounds, Point, Segment};
+use crate::geometry::{Bounds, Segment};
 use crate::toolpath::{Source, WirePath};
-use figure::{Frame, escaped, number, path_data};
+use figure::{Frame, escaped, path_data};
 
 use rustc_hash::FxHashSet;
 use std::fmt::Write;

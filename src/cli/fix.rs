@@ -8,8 +8,8 @@ use crate::document::{Document, Source};
 use crate::finding::{Rule, Severity};
 use crate::text::TextEdit;
 use clap::Args;
-use similar::{ChangeTag, TextDiff};
-use std::fmt::Write;
+use similar::udiff::UnifiedHunkHeader;
+use similar::{Algorithm, ChangeTag, capture_diff_slices, group_diff_ops};
 use std::path::{Path, PathBuf};
 
 /// Repair what can be repaired safely
@@ -137,33 +137,42 @@ fn deliver(arguments: &Arguments, repair: &Repair) -> Result<(), Failure> {
     }
 }
 
-/// A unified diff with three lines of context.
-fn diff(path: &Path, before: &[u8], after: &[u8]) -> String {
+/// A unified diff with three lines of context, in the file's own bytes.
+fn diff(path: &Path, before: &[u8], after: &[u8]) -> Vec<u8> {
+    let mut text = Vec::new();
     if before == after {
-        return String::new();
+        return text;
     }
-    let diff = TextDiff::from_lines(before, after);
-    let mut text = String::new();
-    let _ = writeln!(text, "{}\n{}", styled(output::STRONG, format!("--- {}", path.display())), styled(output::STRONG, format!("+++ {}", path.display())));
-    for hunk in diff.unified_diff().context_radius(3).iter_hunks() {
-        let _ = writeln!(text, "{}", styled(output::NOTE, hunk.header()));
-        for change in hunk.iter_changes() {
+    let lines = |bytes| <[u8]>::split_inclusive(bytes, |&byte| byte == b'\n').collect::<Vec<_>>();
+    let (old, new) = (lines(before), lines(after));
+    for sign in ["---", "+++"] {
+        push_line(&mut text, output::STRONG, format!("{sign} {}", path.display()).as_bytes());
+    }
+    for ops in group_diff_ops(capture_diff_slices(Algorithm::Myers, &old, &new), 3) {
+        push_line(&mut text, output::NOTE, UnifiedHunkHeader::new(&ops).to_string().as_bytes());
+        for change in ops.iter().flat_map(|op| op.iter_changes(&old, &new)) {
             let (sign, style) = match change.tag() {
-                ChangeTag::Delete => ("-", output::ERROR),
-                ChangeTag::Insert => ("+", output::GOOD),
-                ChangeTag::Equal => (" ", anstyle::Style::new()),
+                ChangeTag::Delete => (b'-', output::ERROR),
+                ChangeTag::Insert => (b'+', output::GOOD),
+                ChangeTag::Equal => (b' ', anstyle::Style::new()),
             };
-            let line = change.to_string_lossy();
-            // A line end inside the colours would colour the next line's margin; it is written as it is.
-            let shown = line.trim_end_matches(['\n', '\r']);
-            let end = &line[shown.len()..];
-            let _ = write!(text, "{}{}", styled(style, format!("{sign}{shown}")), if end.is_empty() { "\n" } else { end });
-            if change.missing_newline() {
-                text.push_str("\\ No newline at end of file\n");
+            push_line(&mut text, style, &[&[sign], change.value()].concat());
+            if !change.value().ends_with(b"\n") {
+                text.extend_from_slice(b"\\ No newline at end of file\n");
             }
         }
     }
     text
+}
+
+/// A line in a style; its line end stands behind the colours, which would reach into the next line's margin.
+fn push_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
+    let end = line.iter().rposition(|byte| !matches!(byte, b'\r' | b'\n')).map_or(0, |last| last + 1);
+    let (shown, line_end) = line.split_at(end);
+    text.extend_from_slice(style.render().to_string().as_bytes());
+    text.extend_from_slice(shown);
+    text.extend_from_slice(style.render_reset().to_string().as_bytes());
+    text.extend_from_slice(if line_end.is_empty() { b"\n" } else { line_end });
 }
 
 /// What was repaired, and what is left and why, to stderr: stdout may be the drawing.

@@ -1,6 +1,5 @@
 //! Options that several commands share, and the settings that come of them.
 
-use super::Failure;
 use crate::settings::{Compensation, Corner, Direction, Layout, PointSetting, ProgramSettings, Settings, SideSetting};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};

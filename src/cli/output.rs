@@ -18,9 +18,9 @@ pub fn styled(style: Style, text: impl std::fmt::Display) -> String {
 }
 
 /// Text to stdout. A reader that has gone away has seen enough: no error.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub fn print(text: impl AsRef<[u8]>) -> Result<(), Failure> {
     let mut stdout = anstream::stdout().lock();
-    accepted(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()), "stdout")
+    accepted(stdout.write_all(text.as_ref()).and_then(|()| stdout.flush()), "stdout")
 }
 
 /// Bytes to stdout, as they are.

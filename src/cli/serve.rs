@@ -12,5 +12,5 @@ pub struct Arguments {
 }
 
 pub fn run() -> Result<Verdict, Failure> {
-    crate::server::run_stdio()
+    Err(Failure("not merged".into()))
 }

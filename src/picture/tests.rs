@@ -1,7 +1,8 @@
+use super::figure::number;
 use super::*;
 use crate::drawing::{Contour, Geometry, Vertex};
 use crate::finding::{Rule, Severity, Side};
-use crate::geometry::Segment;
+use crate::geometry::{Point, Segment};
 use crate::toolpath::PathSegment;
 
 fn entity(handle: &str, layer: &str, kind: &'static str, geometry: Geometry) -> Entity {

@@ -10,7 +10,7 @@ use super::{Failure, Verdict, output};
 use crate::finding::Severity;
 use crate::settings::Settings;
 use clap::{Args, ValueEnum};
-use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -96,8 +96,13 @@ fn survey(arguments: &Arguments) -> Survey {
     let found = files::search(&arguments.paths);
     let settings = arguments.common.settings();
     let progress = progress(found.files.len());
-    let checked: Vec<Checked> =
-        found.files.par_iter().progress_with(progress).map(|path| check(path, &arguments.common, &settings)).collect();
+    let check_and_count = |path: &PathBuf| {
+        let checked = check(path, &arguments.common, &settings);
+        progress.inc(1);
+        checked
+    };
+    let checked: Vec<Checked> = found.files.par_iter().map(check_and_count).collect();
+    progress.finish_and_clear();
     let mut survey = Survey { files: 0, rows: Vec::new(), fixable: Vec::new(), failures: found.failures };
     for (path, file) in found.files.into_iter().zip(checked) {
         survey.files += usize::from(file.failure.is_none());
