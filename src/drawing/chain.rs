@@ -1,21 +1,316 @@
 //! Chaining entities to contours by their end points.
+//!
+//! Closed entities are contours of their own. The others are joined end to end within the join tolerance, across kinds
+//! and layers. A *group* is what hangs together through shared end points: groups are chained independently of each other,
+//! so an edit chains again only the groups that it touches, and the result is that of a fresh start.
 
-use super::{Contour, Drawing};
+use super::{Contour, Drawing, EntityId, Role};
+use crate::geometry::Point;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// One free end of an open entity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct End {
+    point: Point,
+    entity: EntityId,
+    /// The entity's own start, not its end.
+    is_start: bool,
+}
+
+/// Names a contour (or a group) of one [`Chains`]; not used again once it is gone.
+pub type Key = u32;
 
 /// The contours of a drawing, kept up to date edit by edit.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Chains {
-    contours: Vec<Contour>,
+    join: f64,
+    /// All free ends, sorted by x, then y, then entity.
+    ends: Vec<End>,
+    /// The free ends of each open entity as they stand in `ends`, by entity id.
+    ends_of: Vec<Option<(Point, Point)>>,
+    group_of: Vec<Option<Key>>,
+    groups: FxHashMap<Key, Vec<EntityId>>,
+    contours: FxHashMap<Key, Contour>,
+    contours_of_group: FxHashMap<Key, Vec<Key>>,
+    contour_of: Vec<Option<Key>>,
+    next_key: Key,
+}
+
+/// Contours that went away and came when a drawing was edited.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rechained {
+    pub gone: Vec<Key>,
+    pub new: Vec<Key>,
 }
 
 impl Chains {
-    /// Chains everything in `drawing`; `join` is the join tolerance in drawing units.
-    pub fn new(_drawing: &Drawing, _join: f64) -> Chains {
-        Chains::default()
+    /// Chains every entity of `drawing` for which `is_cut` holds; `join` is the join tolerance in drawing units.
+    pub fn new(drawing: &Drawing, join: f64, is_cut: &dyn Fn(EntityId) -> bool) -> Chains {
+        let mut chains = Chains {
+            join,
+            ends: Vec::new(),
+            ends_of: Vec::new(),
+            group_of: Vec::new(),
+            groups: FxHashMap::default(),
+            contours: FxHashMap::default(),
+            contours_of_group: FxHashMap::default(),
+            contour_of: Vec::new(),
+            next_key: 0,
+        };
+        chains.grow(drawing);
+        let entities: Vec<EntityId> = drawing.order().iter().copied().filter(|&id| is_cut(id)).collect();
+        for &id in &entities {
+            if let Some(pair) = free_ends(drawing, id) {
+                chains.ends_of[id.0 as usize] = Some(pair);
+                chains.ends.extend(ends_of(id, pair));
+            }
+        }
+        chains.ends.sort_unstable_by(compare);
+        chains.chain(drawing, &entities);
+        chains
     }
 
-    /// In machining order: that of the first entity of each.
-    pub fn contours(&self) -> &[Contour] {
-        &self.contours
+    /// Contour by key.
+    pub fn get(&self, key: Key) -> Option<&Contour> {
+        self.contours.get(&key)
     }
+
+    /// The contour that holds an entity.
+    pub fn contour_of(&self, entity: EntityId) -> Option<Key> {
+        self.contour_of.get(entity.0 as usize).copied().flatten()
+    }
+
+    /// Keys of all contours, in no order.
+    pub fn keys(&self) -> impl Iterator<Item = Key> + '_ {
+        self.contours.keys().copied()
+    }
+
+    /// True when none of the entities' free ends have moved, so that the contours stand as they are.
+    pub fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
+        let known = self.ends_of.get(entity.0 as usize).copied().flatten();
+        let now = if is_cut { free_ends(drawing, entity) } else { None };
+        let chained = self.contour_of(entity).is_some();
+        known == now && chained == (is_cut && drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() > 0))
+    }
+
+    /// The number of segments of an entity has changed: its contour counts them anew.
+    pub fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
+        let Some(contour) = self.contour_of(entity).and_then(|key| self.contours.get_mut(&key)) else { return };
+        *contour = Contour::new(drawing, contour.pieces.iter().map(|piece| (piece.entity, piece.reversed)), contour.closed);
+    }
+
+    /// Chains again what the entities of `touched` (new, changed or removed) belonged to or belong to now.
+    pub fn update(&mut self, drawing: &Drawing, touched: &[EntityId], is_cut: &dyn Fn(EntityId) -> bool) -> Rechained {
+        self.grow(drawing);
+        let mut affected = FxHashSet::default();
+        let mut entities = FxHashSet::default();
+        for &id in touched {
+            affected.extend(self.group_of[id.0 as usize]);
+            let old = self.ends_of[id.0 as usize];
+            let new = if is_cut(id) { free_ends(drawing, id) } else { None };
+            for end in old.iter().flat_map(|&pair| ends_of(id, pair)) {
+                if let Ok(at) = self.ends.binary_search_by(|other| compare(other, &end)) {
+                    self.ends.remove(at);
+                }
+            }
+            for end in new.iter().flat_map(|&pair| ends_of(id, pair)) {
+                let at = self.ends.partition_point(|other| compare(other, &end).is_lt());
+                affected.extend(self.near(end.point).filter_map(|other| self.group_of[other.entity.0 as usize]));
+                self.ends.insert(at, end);
+            }
+            self.ends_of[id.0 as usize] = new;
+            self.group_of[id.0 as usize] = None;
+            self.contour_of[id.0 as usize] = None;
+            if drawing.get(id).is_some() && is_cut(id) {
+                entities.insert(id);
+            }
+        }
+        let mut rechained = Rechained::default();
+        for group in affected {
+            for contour in self.contours_of_group.remove(&group).unwrap_or_default() {
+                self.contours.remove(&contour);
+                rechained.gone.push(contour);
+            }
+            for id in self.groups.remove(&group).unwrap_or_default() {
+                if drawing.get(id).is_some() && is_cut(id) {
+                    entities.insert(id);
+                }
+                self.group_of[id.0 as usize] = None;
+                self.contour_of[id.0 as usize] = None;
+            }
+        }
+        let ordered = in_machining_order(drawing, entities);
+        rechained.new = self.chain(drawing, &ordered);
+        rechained
+    }
+
+    fn grow(&mut self, drawing: &Drawing) {
+        let bound = drawing.id_bound();
+        self.ends_of.resize(bound, None);
+        self.group_of.resize(bound, None);
+        self.contour_of.resize(bound, None);
+    }
+
+    fn fresh_key(&mut self) -> Key {
+        self.next_key += 1;
+        self.next_key
+    }
+
+    /// Free ends within the join tolerance of `point`.
+    fn near(&self, point: Point) -> impl Iterator<Item = &End> + '_ {
+        let first = self.ends.partition_point(|end| end.point.x < point.x - self.join);
+        self.ends[first..]
+            .iter()
+            .take_while(move |end| end.point.x <= point.x + self.join)
+            .filter(move |end| (end.point - point).norm() <= self.join)
+    }
+
+    /// Groups and chains `entities`, which come in machining order and hold whole groups. Returns the new contours.
+    fn chain(&mut self, drawing: &Drawing, entities: &[EntityId]) -> Vec<Key> {
+        let mut new = Vec::new();
+        let mut rank = FxHashMap::default();
+        for (position, &id) in entities.iter().enumerate() {
+            rank.insert(id, position);
+        }
+        let mut used = FxHashSet::default();
+        for &first in entities {
+            if used.contains(&first) {
+                continue;
+            }
+            let Some(geometry) = drawing.get(first).map(|entity| &entity.geometry) else { continue };
+            if geometry.segment_count() == 0 {
+                continue;
+            }
+            let (pieces, closed) = match self.ends_of[first.0 as usize] {
+                None => (vec![(first, false)], true),
+                Some(_) => self.walk(drawing, first, &rank, &mut used),
+            };
+            used.extend(pieces.iter().map(|&(entity, _)| entity));
+            let contour = Contour::new(drawing, pieces, closed);
+            let key = self.fresh_key();
+            self.enter(key, &contour);
+            self.contours.insert(key, contour);
+            new.push(key);
+        }
+        new
+    }
+
+    /// Enters a new contour into the group that its ends belong to, merging groups that it connects.
+    fn enter(&mut self, key: Key, contour: &Contour) {
+        let mut groups = FxHashSet::default();
+        for piece in &contour.pieces {
+            self.contour_of[piece.entity.0 as usize] = Some(key);
+            if let Some((start, end)) = self.ends_of[piece.entity.0 as usize] {
+                let found: Vec<Key> =
+                    self.near(start).chain(self.near(end)).filter_map(|end| self.group_of[end.entity.0 as usize]).collect();
+                groups.extend(found);
+            }
+        }
+        let mut members: Vec<EntityId> = contour.pieces.iter().map(|piece| piece.entity).collect();
+        let mut contours = vec![key];
+        for group in groups {
+            members.extend(self.groups.remove(&group).unwrap_or_default());
+            contours.extend(self.contours_of_group.remove(&group).unwrap_or_default());
+        }
+        let group = self.fresh_key();
+        for member in &members {
+            self.group_of[member.0 as usize] = Some(group);
+        }
+        self.groups.insert(group, members);
+        self.contours_of_group.insert(group, contours);
+    }
+
+    /// The chain through `first`, in its direction: forward to a free end or back to its start, else backward too.
+    fn walk(
+        &self,
+        drawing: &Drawing,
+        first: EntityId,
+        rank: &FxHashMap<EntityId, usize>,
+        used: &mut FxHashSet<EntityId>,
+    ) -> (Vec<(EntityId, bool)>, bool) {
+        let mut forward = vec![(first, false)];
+        used.insert(first);
+        let Some((start, mut tip)) = self.ends_of[first.0 as usize] else { return (forward, true) };
+        loop {
+            let home = (tip - start).norm();
+            let next = self.next(tip, forward[forward.len() - 1].0, rank, used);
+            let closes = home <= self.join && next.as_ref().is_none_or(|(_, distance)| home <= *distance);
+            if closes && (forward.len() > 1 || comes_back(drawing, first)) {
+                return (forward, true);
+            }
+            let Some((end, _)) = next else { break };
+            forward.push((end.entity, !end.is_start));
+            used.insert(end.entity);
+            tip = self.other_end(&end);
+        }
+        let mut backward = Vec::new();
+        let mut tail = start;
+        let mut last = first;
+        while let Some((end, _)) = self.next(tail, last, rank, used) {
+            // Travelled towards the chain: its own end meets the tail when it is not reversed.
+            backward.push((end.entity, end.is_start));
+            used.insert(end.entity);
+            last = end.entity;
+            tail = self.other_end(&end);
+        }
+        backward.reverse();
+        backward.append(&mut forward);
+        (backward, false)
+    }
+
+    fn other_end(&self, end: &End) -> Point {
+        match self.ends_of[end.entity.0 as usize] {
+            Some((_, other)) if end.is_start => other,
+            Some((other, _)) => other,
+            None => end.point,
+        }
+    }
+
+    /// The unused end that continues the chain at `tip`: the nearest; of equally near ones the entity that follows `last`
+    /// in machining order.
+    fn next(&self, tip: Point, last: EntityId, rank: &FxHashMap<EntityId, usize>, used: &FxHashSet<EntityId>) -> Option<(End, f64)> {
+        let here = rank.get(&last).copied().unwrap_or(0);
+        let after = |end: &End| {
+            let position = rank.get(&end.entity).copied().unwrap_or(usize::MAX);
+            if position > here { position - here } else { usize::MAX / 2 + position }
+        };
+        self.near(tip).filter(|end| !used.contains(&end.entity)).map(|end| (*end, (end.point - tip).norm())).min_by(
+            |(a, near_a), (b, near_b)| {
+                near_a.total_cmp(near_b).then_with(|| after(a).cmp(&after(b))).then_with(|| b.is_start.cmp(&a.is_start))
+            },
+        )
+    }
+}
+
+/// Role that the entities of a contour state, or their layers: that of the first piece which has one.
+pub fn stated_role(drawing: &Drawing, contour: &Contour, of_layer: &dyn Fn(&str) -> Option<Role>) -> Option<Role> {
+    contour.pieces.iter().find_map(|piece| {
+        let entity = drawing.get(piece.entity)?;
+        entity.role.or_else(|| of_layer(&entity.layer))
+    })
+}
+
+fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<EntityId> {
+    let mut wanted = vec![false; drawing.id_bound()];
+    entities.iter().for_each(|id| wanted[id.0 as usize] = true);
+    drawing.order().iter().copied().filter(|id| wanted[id.0 as usize]).collect()
+}
+
+/// True when an open entity whose ends touch really leads round, and is not just shorter than the join tolerance.
+fn comes_back(drawing: &Drawing, id: EntityId) -> bool {
+    let Some(geometry) = drawing.get(id).map(|entity| &entity.geometry) else { return false };
+    geometry.segment_count() > 2 || geometry.segments().any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
+}
+
+fn free_ends(drawing: &Drawing, id: EntityId) -> Option<(Point, Point)> {
+    drawing.get(id)?.geometry.ends()
+}
+
+fn ends_of(entity: EntityId, (start, end): (Point, Point)) -> [End; 2] {
+    [End { point: start, entity, is_start: true }, End { point: end, entity, is_start: false }]
+}
+
+fn compare(a: &End, b: &End) -> std::cmp::Ordering {
+    let key = |end: &End| (end.entity, end.is_start);
+    a.point.x.total_cmp(&b.point.x).then_with(|| a.point.y.total_cmp(&b.point.y)).then_with(|| key(a).cmp(&key(b)))
 }
