@@ -1,5 +1,9 @@
 //! Text with its lines: bytes, where each line begins, and positions as editors count them.
+//!
+//! The bytes may be anything; nothing here knows what the text means. Offsets are bytes, lines count from 0.
 
+use memchr::memchr2;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// How a client counts characters within a line.
@@ -18,8 +22,247 @@ pub struct TextEdit {
 }
 
 /// The bytes of a document and the starts of its lines, which end with LF, CR LF or CR.
-#[derive(Clone, Debug, Default)]
+///
+/// A text has at least one line; a text that ends with a line end has an empty last line. Texts of 4 GiB and more
+/// cannot be held: what lies beyond is cut off.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
     bytes: Vec<u8>,
     line_starts: Vec<u32>,
+}
+
+impl Default for SourceText {
+    fn default() -> Self {
+        SourceText { bytes: Vec::new(), line_starts: vec![0] }
+    }
+}
+
+impl SourceText {
+    pub fn new(mut bytes: Vec<u8>) -> SourceText {
+        bytes.truncate(u32::MAX as usize);
+        let mut line_starts = vec![0];
+        let mut at = 0;
+        while let Some(found) = memchr2(b'\n', b'\r', &bytes[at..]) {
+            let end = at + found;
+            at = end + 1;
+            if bytes[end] == b'\r' && bytes.get(at) == Some(&b'\n') {
+                at += 1;
+            }
+            line_starts.push(at as u32);
+        }
+        SourceText { bytes, line_starts }
+    }
+
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The text with `U+FFFD` in the place of what is not UTF-8.
+    pub fn as_str_lossy(&self) -> Cow<'_, str> {
+        String::from_utf8_lossy(&self.bytes)
+    }
+
+    pub fn len(&self) -> usize {
+        self.bytes.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
+    pub fn line_count(&self) -> usize {
+        self.line_starts.len()
+    }
+
+    /// Where a line begins; the end of the text for a line past the last.
+    pub fn line_start(&self, line: usize) -> usize {
+        self.line_starts.get(line).map_or(self.bytes.len(), |&start| start as usize)
+    }
+
+    /// The starts of all lines, the first of which is 0.
+    pub(crate) fn line_starts(&self) -> &[u32] {
+        &self.line_starts
+    }
+
+    /// The line that holds the byte at `offset`; the last line for an offset past the end.
+    pub fn line_of(&self, offset: usize) -> usize {
+        self.line_starts.partition_point(|&start| start as usize <= offset).saturating_sub(1)
+    }
+
+    /// The bytes of a line without its line end; empty at the end of the text for a line past the last.
+    pub fn line_range(&self, line: usize) -> Range<usize> {
+        let start = self.line_start(line);
+        let mut end = self.line_start(line.saturating_add(1)).max(start);
+        if line + 1 < self.line_starts.len() {
+            if end > start && self.bytes[end - 1] == b'\n' {
+                end -= 1;
+            }
+            if end > start && self.bytes[end - 1] == b'\r' {
+                end -= 1;
+            }
+        }
+        start..end
+    }
+
+    /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail and one addition per line behind it.
+    pub fn replace(&mut self, range: Range<usize>, replacement: &str) {
+        let end = range.end.min(self.bytes.len());
+        let start = range.start.min(end);
+        // The starts that the edit can make or unmake lie between its two ends, both included:
+        // a CR and a LF that meet there are one line end.
+        let first = self.line_starts.partition_point(|&line| (line as usize) < start.max(1));
+        let last = self.line_starts.partition_point(|&line| line as usize <= end).max(first);
+        if end - start == replacement.len() {
+            self.bytes[start..end].copy_from_slice(replacement.as_bytes());
+        } else {
+            self.bytes.splice(start..end, replacement.bytes());
+        }
+        let new_end = start + replacement.len();
+        let fresh: Vec<u32> = (start.max(1)..=new_end).filter(|&at| self.begins_line(at)).map(|at| at as u32).collect();
+        let shift = (new_end as u32).wrapping_sub(end as u32);
+        if fresh.len() == last - first {
+            self.line_starts[first..last].copy_from_slice(&fresh);
+        } else {
+            self.line_starts.splice(first..last, fresh.iter().copied());
+        }
+        if shift != 0 {
+            for line in &mut self.line_starts[first + fresh.len()..] {
+                *line = line.wrapping_add(shift);
+            }
+        }
+    }
+
+    fn begins_line(&self, at: usize) -> bool {
+        match at.checked_sub(1).and_then(|before| self.bytes.get(before)) {
+            Some(b'\n') => true,
+            Some(b'\r') => self.bytes.get(at) != Some(&b'\n'),
+            _ => false,
+        }
+    }
+
+    /// The byte at `character` of `line`, clamped: past the end of a line its end, past the last line the end of the text.
+    /// A position within a character is its first byte.
+    pub fn offset_of(&self, line: usize, character: usize, encoding: Encoding) -> usize {
+        if line >= self.line_count() {
+            return self.bytes.len();
+        }
+        let Range { start: mut at, end } = self.line_range(line);
+        let mut left = character;
+        while at < end && left > 0 {
+            let (bytes, units) = measure(&self.bytes[at..end], encoding);
+            if units > left {
+                break;
+            }
+            at += bytes;
+            left -= units;
+        }
+        at
+    }
+
+    /// Line and character of a byte, clamped to the text; a byte within a character stands for its first, one within a
+    /// line end for the end of its line.
+    pub fn position_of(&self, offset: usize, encoding: Encoding) -> (usize, usize) {
+        let line = self.line_of(offset);
+        let Range { start: mut at, end } = self.line_range(line);
+        let offset = offset.min(end);
+        let mut character = 0;
+        while at < offset {
+            let (bytes, units) = measure(&self.bytes[at..end], encoding);
+            if at + bytes > offset {
+                break;
+            }
+            at += bytes;
+            character += units;
+        }
+        (line, character)
+    }
+}
+
+/// Bytes and units of the first character; a byte that is no UTF-8 is a character of one unit.
+fn measure(bytes: &[u8], encoding: Encoding) -> (usize, usize) {
+    let length = match bytes.first() {
+        None => return (0, 0),
+        Some(0..=0x7f) => return (1, 1),
+        Some(0xc2..=0xdf) => 2,
+        Some(0xe0..=0xef) => 3,
+        Some(0xf0..=0xf4) => 4,
+        Some(_) => 1,
+    };
+    let valid = length > 1 && bytes.get(..length).is_some_and(|character| std::str::from_utf8(character).is_ok());
+    match (valid, encoding) {
+        (false, _) => (1, 1),
+        (true, Encoding::Utf8) => (length, length),
+        (true, Encoding::Utf16) => (length, if length == 4 { 2 } else { 1 }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn all_three_line_ends_end_a_line() {
+        let text = SourceText::new(b"a\nbb\r\nc\rd\r\r\n".to_vec());
+        let lines: Vec<_> = (0..text.line_count()).map(|line| &text.bytes()[text.line_range(line)]).collect();
+        assert_eq!(lines, [&b"a"[..], b"bb", b"c", b"d", b"", b""]);
+        assert_eq!(text.line_of(4), 1);
+        assert_eq!(text.line_of(99), 5);
+        assert_eq!(text.line_range(99), 12..12);
+    }
+
+    #[test]
+    fn positions_are_counted_in_the_clients_units_and_clamped() {
+        let text = SourceText::new("é𝄞x\r\nб".as_bytes().iter().copied().chain([0xff, b'y']).collect());
+        let cases = [
+            (0, 0, 0, 0),
+            (0, 1, 2, 0),
+            (0, 2, 2, 2),
+            (0, 3, 6, 2),
+            (0, 4, 7, 2),
+            (0, 5, 7, 2),
+            (0, 6, 7, 6),
+            (0, 99, 7, 7),
+            (1, 1, 11, 9),
+            (1, 2, 12, 11),
+            (1, 3, 13, 12),
+            (1, 99, 13, 13),
+            (7, 0, 13, 13),
+        ];
+        for (line, character, utf16, utf8) in cases {
+            assert_eq!(text.offset_of(line, character, Encoding::Utf16), utf16, "{line}:{character} in UTF-16");
+            assert_eq!(text.offset_of(line, character, Encoding::Utf8), utf8, "{line}:{character} in UTF-8");
+        }
+        assert_eq!(text.position_of(4, Encoding::Utf16), (0, 1));
+        assert_eq!(text.position_of(8, Encoding::Utf16), (0, 4));
+        assert_eq!(text.position_of(12, Encoding::Utf16), (1, 2));
+        assert_eq!(text.position_of(99, Encoding::Utf8), (1, 4));
+    }
+
+    proptest! {
+        #[test]
+        fn replaced_text_has_the_lines_of_a_fresh_one(
+            start in "[ab\r\n]{0,20}",
+            edits in prop::collection::vec((0usize..24, 0usize..6, "[x\r\n]{0,5}"), 1..8),
+        ) {
+            let mut text = SourceText::new(start.into_bytes());
+            for (at, length, replacement) in edits {
+                text.replace(at..at + length, &replacement);
+                prop_assert_eq!(&text, &SourceText::new(text.bytes().to_vec()));
+            }
+        }
+
+        #[test]
+        fn every_position_comes_back(bytes in prop::collection::vec(prop::sample::select(vec![b'a', b'\r', b'\n', 0xc3, 0xa9, 0xf0, 0x9d, 0x84, 0x9e]), 0..24)) {
+            let text = SourceText::new(bytes);
+            for encoding in [Encoding::Utf8, Encoding::Utf16] {
+                for offset in 0..=text.len() {
+                    let (line, character) = text.position_of(offset, encoding);
+                    let back = text.offset_of(line, character, encoding);
+                    prop_assert!(back <= offset && offset - back < 4);
+                    prop_assert_eq!(text.position_of(back, encoding), (line, character));
+                }
+            }
+        }
+    }
 }

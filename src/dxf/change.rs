@@ -1,0 +1,266 @@
+//! A drawing's edit as replacements of numbers in the text; nothing else of the text moves.
+
+use super::Document;
+use super::entity::{mirror, mirrored_angles};
+use super::lexer::Tag;
+use super::lines::Lines;
+use super::number::{self, Code, Number, written};
+use super::place::{own_tags, vertex_tags};
+use crate::drawing::{Change, DrawingEdit, EntityId, Geometry, Vertex};
+use crate::geometry::{Point, positive_angle};
+use crate::text::TextEdit;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Decimals of lengths and of angles in degrees.
+const DECIMALS: usize = 12;
+/// Decimals of bulges.
+const BULGE_DECIMALS: usize = 15;
+
+/// What an edit asks of one entity.
+#[derive(Default)]
+struct Wanted {
+    /// The vertices to be set, and to be removed where there is none.
+    vertices: BTreeMap<usize, Option<Vertex>>,
+    line: Option<(Point, Point)>,
+    arc: Option<(Point, f64, f64, f64)>,
+    removed: bool,
+}
+
+impl Document {
+    /// The edit as replacements of numbers in the text, sorted and disjoint. An error says why it cannot be made.
+    ///
+    /// Lengths and degrees are written with up to 12 decimals, bulges with 15, a number that stays is not touched. An
+    /// angle is written in [0°, 360°).
+    pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
+        let mut wanted: BTreeMap<EntityId, Wanted> = BTreeMap::new();
+        for change in &edit.changes {
+            let of_entity = wanted.entry(change.entity()).or_default();
+            match *change {
+                Change::SetVertex { index, vertex, .. } => {
+                    let slot = of_entity.vertices.entry(index).or_insert(Some(vertex));
+                    if slot.is_some() {
+                        *slot = Some(vertex);
+                    }
+                }
+                Change::RemoveVertex { index, .. } => {
+                    of_entity.vertices.insert(index, None);
+                }
+                Change::SetLine { start, end, .. } => of_entity.line = Some((start, end)),
+                Change::SetArc { center, radius, start_angle, end_angle, .. } => {
+                    of_entity.arc = Some((center, radius, start_angle, end_angle));
+                }
+                Change::RemoveEntity { .. } => of_entity.removed = true,
+            }
+        }
+        let mut edits = Vec::new();
+        for (entity, wanted) in wanted {
+            self.edit_entity(entity, &wanted, &mut edits)?;
+        }
+        edits.sort_by_key(|edit| (edit.range.start, edit.range.end));
+        Ok(edits)
+    }
+
+    fn edit_entity(&self, id: EntityId, wanted: &Wanted, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+        let lines = Lines::new(&self.text);
+        let (Some(entity), Some(item)) = (self.drawing.get(id), self.table.item_of(id)) else {
+            return Err("the entity is not in the text any more".into());
+        };
+        let of_entity = self.table.lines_of(item, lines.count());
+        if wanted.removed {
+            edits.push(TextEdit { range: self.whole_lines(of_entity), text: String::new() });
+            return Ok(());
+        }
+        let name = format!("{} {}", entity.kind, entity.handle);
+        let tags: Vec<Tag> = match entity.geometry {
+            Geometry::Polyline { .. } => Vec::new(),
+            _ => own_tags(lines, of_entity.clone()).collect(),
+        };
+        if let Some((start, end)) = wanted.line {
+            if !matches!(entity.geometry, Geometry::Line { .. }) {
+                return Err(format!("{name} is not a LINE"));
+            }
+            for (code, value) in [(10, start.x), (20, start.y), (11, end.x), (21, end.y)] {
+                self.set_length(lines, &tags, code, value, &name, edits)?;
+            }
+        }
+        if let Some((mut center, radius, mut start_angle, mut end_angle)) = wanted.arc {
+            if !matches!(entity.geometry, Geometry::Arc { .. }) {
+                return Err(format!("{name} is not an ARC"));
+            }
+            if is_mirrored(lines, &tags) {
+                center.x = 0.0 - center.x;
+                (start_angle, end_angle) = mirrored_angles(start_angle, end_angle);
+            }
+            if radius <= 0.0 || radius.is_nan() {
+                return Err(format!("{name} cannot have the radius {radius}"));
+            }
+            for (code, value) in [(10, center.x), (20, center.y), (40, radius)] {
+                self.set_length(lines, &tags, code, value, &name, edits)?;
+            }
+            for (code, value) in [(50, start_angle), (51, end_angle)] {
+                self.set_angle(lines, &tags, code, value, &name, edits)?;
+            }
+        }
+        if !wanted.vertices.is_empty() {
+            self.edit_vertices(id, of_entity, &wanted.vertices, &name, edits)?;
+        }
+        Ok(())
+    }
+
+    fn edit_vertices(
+        &self,
+        id: EntityId,
+        of_entity: Range<usize>,
+        wanted: &BTreeMap<usize, Option<Vertex>>,
+        name: &str,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
+        let lines = Lines::new(&self.text);
+        let Some(table) = self.table.vertices.get(&id) else { return Err(format!("{name} is not a polyline")) };
+        let count = table.lines.len();
+        let removed = wanted.values().filter(|vertex| vertex.is_none()).count();
+        if let Some((&index, _)) = wanted.range(count..).next() {
+            return Err(format!("vertex {index} of {name} is out of range, the polyline has {count}"));
+        }
+        if removed > 0 && count - removed < 2 {
+            return Err(format!("{name} would be left with less than two vertices"));
+        }
+        for (&index, vertex) in wanted {
+            let Some(range) = self.vertex_lines(id, index) else { continue };
+            let Some(mut vertex) = *vertex else {
+                self.remove_vertex(lines, range, edits);
+                continue;
+            };
+            if table.mirrored {
+                mirror(&mut vertex);
+            }
+            self.set_vertex(lines, range, vertex, name, edits)?;
+        }
+        // A POLYLINE states no count.
+        let is_light = lines.trimmed(of_entity.start + 1) == b"LWPOLYLINE";
+        if removed > 0 && is_light {
+            let head = of_entity.start..of_entity.start + table.lines.first().map_or(0, |&line| line as usize);
+            if let Some(tag) = own_tags(lines, head).filter(|tag| tag.code == 90).last() {
+                let text = (count - removed).to_string();
+                let range = lines.trimmed_range(tag.value_line());
+                if self.text.bytes()[range.clone()] != *text.as_bytes() {
+                    edits.push(TextEdit { range, text });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn set_vertex(&self, lines: Lines, range: Range<usize>, vertex: Vertex, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+        let tags: Vec<Tag> = vertex_tags(lines, range).collect();
+        self.set_length(lines, &tags, 10, vertex.point.x, name, edits)?;
+        self.set_length(lines, &tags, 20, vertex.point.y, name, edits)?;
+        if last(&tags, 42).is_some() {
+            return self.set(lines, &tags, 42, vertex.bulge, BULGE_DECIMALS, name, edits);
+        }
+        if vertex.bulge == 0.0 {
+            return Ok(());
+        }
+        let place = tags.iter().rposition(|tag| matches!(tag.code, 10 | 20 | 30 | 40 | 41)).and_then(|index| tags.get(index));
+        let Some(&before) = place.filter(|_| vertex.bulge.is_finite()) else { return Err(format!("{name} cannot take the bulge")) };
+        let code_line = lines.range(before.line);
+        let line_end = &self.text.bytes()[code_line.end..self.text.line_start(before.line + 1)];
+        let code = lines.trimmed_range(before.line);
+        let text = [
+            &self.text.bytes()[code_line.start..code.start],
+            b"42",
+            &self.text.bytes()[code.end..code_line.end],
+            line_end,
+            written(vertex.bulge, BULGE_DECIMALS).as_bytes(),
+            line_end,
+        ]
+        .concat();
+        let at = self.text.line_start(before.line + 2);
+        edits.push(TextEdit { range: at..at, text: String::from_utf8_lossy(&text).into_owned() });
+        Ok(())
+    }
+
+    fn remove_vertex(&self, lines: Lines, range: Range<usize>, edits: &mut Vec<TextEdit>) {
+        if number::code(lines.content(range.start)) == Code::Known(0) {
+            // A VERTEX record, up to the next one.
+            let end = (range.start + 2..range.end)
+                .step_by(2)
+                .find(|&line| number::code(lines.content(line)) == Code::Known(0))
+                .unwrap_or(range.end);
+            edits.push(TextEdit { range: self.whole_lines(range.start..end), text: String::new() });
+            return;
+        }
+        // Behind the last vertex there may be tags of the whole entity.
+        let mut spans: Vec<Range<usize>> = Vec::new();
+        for tag in vertex_tags(lines, range).filter(|tag| matches!(tag.code, 10 | 20 | 40 | 41 | 42 | 91)) {
+            match spans.last_mut() {
+                Some(span) if span.end == tag.line => span.end = tag.line + 2,
+                _ => spans.push(tag.line..tag.line + 2),
+            }
+        }
+        edits.extend(spans.into_iter().map(|span| TextEdit { range: self.whole_lines(span), text: String::new() }));
+    }
+
+    fn whole_lines(&self, lines: Range<usize>) -> Range<usize> {
+        let start = if lines.start == 0 { Lines::new(&self.text).range(0).start } else { self.text.line_start(lines.start) };
+        start..self.text.line_start(lines.end)
+    }
+
+    fn set_length(&self, lines: Lines, tags: &[Tag], code: i16, value: f64, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+        self.set(lines, tags, code, value, DECIMALS, name, edits)
+    }
+
+    /// `angle` in radians.
+    fn set_angle(&self, lines: Lines, tags: &[Tag], code: i16, angle: f64, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+        let degrees = positive_angle(angle).to_degrees();
+        if let Some(tag) = last(tags, code)
+            && let Number::Exact(present) = number::number(lines.content(tag.value_line()))
+        {
+            let apart = (present - degrees).rem_euclid(360.0);
+            if apart.min(360.0 - apart) < 1e-12 {
+                return Ok(());
+            }
+        }
+        // 359.9999999999999 would be written as 360.
+        let degrees = if written(degrees, DECIMALS) == "360.0" { 0.0 } else { degrees };
+        self.set(lines, tags, code, degrees, DECIMALS, name, edits)
+    }
+
+    /// Replaces the number behind `code`, unless it is the same as written.
+    #[expect(clippy::too_many_arguments, reason = "one number, its place and its precision")]
+    fn set(
+        &self,
+        lines: Lines,
+        tags: &[Tag],
+        code: i16,
+        value: f64,
+        decimals: usize,
+        name: &str,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
+        if !value.is_finite() {
+            return Err(format!("group code {code} of {name} cannot be {value}"));
+        }
+        let Some(tag) = last(tags, code) else { return Err(format!("{name} has no group code {code}")) };
+        let line = tag.value_line();
+        if let Number::Exact(present) = number::number(lines.content(line))
+            && (present - value).abs() <= 0.5 * 0.1f64.powi(decimals as i32)
+        {
+            return Ok(());
+        }
+        edits.push(TextEdit { range: lines.trimmed_range(line), text: written(value, decimals) });
+        Ok(())
+    }
+}
+
+/// The tag that counts: the last one of its code.
+fn last(tags: &[Tag], code: i16) -> Option<Tag> {
+    tags.iter().rfind(|tag| tag.code == code).copied()
+}
+
+/// True where the extrusion is (0, 0, -1): the only one but (0, 0, 1) that an entity with geometry can have.
+fn is_mirrored(lines: Lines, tags: &[Tag]) -> bool {
+    let z = last(tags, 230).map(|tag| number::number(lines.content(tag.value_line())));
+    matches!(z, Some(Number::Exact(z) | Number::Blemished(z, _)) if z < 0.0)
+}

@@ -1,0 +1,600 @@
+//! The tags of one record to one entity: what is drawn, on which layer, under which handle.
+//!
+//! Knows nothing of the records around it. A coordinate that is missing or is no number is never replaced:
+//! the entity has no geometry then.
+
+use super::fault::{damage, meaning, oddity, quoted};
+use super::layers::Layers;
+use super::lexer::{Lexer, Tag};
+use super::number::{self, Code, Number};
+use crate::drawing::{Geometry, Vertex};
+use crate::finding::Finding;
+use crate::geometry::Point;
+use std::sync::Arc;
+
+/// What was read of one entity of the modelspace.
+#[derive(Debug)]
+pub(super) struct Read {
+    /// The handle, and the line it stands on.
+    pub(super) handle: Option<(Arc<str>, usize)>,
+    pub(super) layer: Arc<str>,
+    pub(super) kind: &'static str,
+    pub(super) geometry: Geometry,
+    pub(super) vertices: Option<VertexLines>,
+}
+
+/// Where the vertices of a polyline stand.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct VertexLines {
+    /// The line of each vertex's first tag (its x, or its VERTEX record), counted from the first line of the entity.
+    pub(super) lines: Vec<u32>,
+    /// True where the entity's plane has the extrusion (0, 0, -1).
+    pub(super) mirrored: bool,
+}
+
+#[derive(Debug)]
+pub(super) enum Outcome {
+    Entity(Read),
+    /// In the text, but not cut: what it is called, and why.
+    Unsupported(String, &'static str),
+    /// A finding says what is wrong with it.
+    Damaged,
+}
+
+pub(super) const NOT_CUT: &str = "this kind of entity is not cut";
+pub(super) const PAPER_SPACE: &str = "it lies in paper space";
+pub(super) const TILTED: &str = "its plane is tilted against the drawing's plane";
+pub(super) const NOT_PLANE: &str = "its points differ in z";
+pub(super) const MESH: &str = "it is a mesh";
+pub(super) const BLOCK: &str = "block references are not resolved";
+pub(super) const OUTSIDE: &str = "it stands outside of the section ENTITIES";
+
+/// Extrusion: the normal of the plane in which an entity's own coordinates lie.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Plane {
+    Normal,
+    /// Seen from below: x runs the other way.
+    Mirrored,
+    Tilted,
+}
+
+/// What all kinds of entities state alike.
+#[derive(Default)]
+struct Common {
+    handle: Option<Tag>,
+    layer: Option<Tag>,
+    paper_space: bool,
+    extrusion: [Option<f64>; 3],
+    /// A value was no number, a number was missing or the lines were out of step: there is a finding.
+    bad: bool,
+    /// Tags of other programs follow, up to the end of the record.
+    foreign: bool,
+    /// Within a group `{` … `}` of another program.
+    group: bool,
+}
+
+impl Common {
+    /// Takes the tags that all entities share, and those that belong to none of its fields. True when taken.
+    #[inline]
+    fn take(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> bool {
+        if self.foreign {
+            return true;
+        }
+        if self.group || tag.code >= 1000 || matches!(tag.code, 100..=102) {
+            self.take_foreign(lexer, tag);
+            return true;
+        }
+        match tag.code {
+            5 => self.handle = Some(tag),
+            8 => self.layer = Some(tag),
+            67 => self.paper_space = lexer.lines.trimmed(tag.value_line()) == b"1",
+            210 | 220 | 230 => {
+                let value = self.coordinate(lexer, tag, findings);
+                self.extrusion[usize::from(tag.code.unsigned_abs() / 10 - 21)] = value;
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    fn take_foreign(&mut self, lexer: &Lexer, tag: Tag) {
+        match tag.code {
+            // An embedded object uses the same codes with other meanings.
+            101 | 1000.. => self.foreign = true,
+            102 => self.group = lexer.lines.trimmed(tag.value_line()).starts_with(b"{"),
+            _ => {}
+        }
+    }
+
+    /// The number behind a tag; `None` with a finding where it is none.
+    #[inline]
+    fn coordinate(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> Option<f64> {
+        match number::number(lexer.lines.content(tag.value_line())) {
+            Number::Exact(value) => Some(value),
+            other => self.blemished(lexer, tag, other, findings),
+        }
+    }
+
+    #[cold]
+    fn blemished(&mut self, lexer: &mut Lexer, tag: Tag, number: Number, findings: &mut Vec<Finding>) -> Option<f64> {
+        let (code, line) = (tag.code, tag.value_line());
+        let found = quoted(lexer.lines.trimmed(line));
+        if let Number::Blemished(value, blemish) = number {
+            let sentence = format!("group code {code}{} is {found}, which {blemish}; {value} is read", meaning(code));
+            oddity(findings, lexer.lines.trimmed_range(line), sentence);
+            return Some(value);
+        }
+        self.bad = true;
+        if !lexer.back_in_step(tag, findings) {
+            let hint = if found.contains(',') { " with a decimal point" } else { "" };
+            let sentence = format!("group code {code}{} is {found}, expected a number{hint}", meaning(code));
+            damage(findings, lexer.lines.trimmed_range(line), sentence);
+        }
+        None
+    }
+
+    /// A whole number; `None` where it is none.
+    fn whole(lexer: &Lexer, tag: Tag) -> Option<i64> {
+        std::str::from_utf8(lexer.lines.trimmed(tag.value_line())).ok()?.parse().ok()
+    }
+
+    /// Flags; a value that is no whole number is a fault.
+    fn flags(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> i64 {
+        let Some(flags) = Self::whole(lexer, tag) else {
+            self.bad = true;
+            if !lexer.back_in_step(tag, findings) {
+                let found = quoted(lexer.lines.trimmed(tag.value_line()));
+                let sentence = format!("group code {} is {found}, expected a whole number", tag.code);
+                damage(findings, lexer.lines.trimmed_range(tag.value_line()), sentence);
+            }
+            return 0;
+        };
+        flags
+    }
+
+    fn plane(&self) -> Plane {
+        let [x, y, z] = [self.extrusion[0].unwrap_or(0.0), self.extrusion[1].unwrap_or(0.0), self.extrusion[2].unwrap_or(1.0)];
+        let tilt = 1e-9 * z.abs();
+        match () {
+            () if z == 0.0 || x.abs() > tilt || y.abs() > tilt => Plane::Tilted,
+            () if z < 0.0 => Plane::Mirrored,
+            () => Plane::Normal,
+        }
+    }
+
+    fn handle(&self, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<(Arc<str>, usize)> {
+        let line = self.handle?.value_line();
+        let value = lexer.lines.trimmed(line);
+        let hexadecimal = !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
+        if !hexadecimal || value.iter().all(|&digit| digit == b'0') {
+            let sentence =
+                format!("group code 5 (handle) is {}, expected a hexadecimal number above 0 of at most 16 digits", quoted(value));
+            oddity(findings, lexer.lines.range(line), sentence);
+        }
+        if value.is_empty() || value.iter().all(|&digit| digit == b'0') {
+            return None;
+        }
+        Some((String::from_utf8_lossy(value).into(), line))
+    }
+
+    fn layer(&self, lexer: &Lexer, layers: &mut Layers) -> Arc<str> {
+        layers.name(self.layer.map_or(b"0", |tag| lexer.lines.trimmed(tag.value_line())))
+    }
+
+    /// Reads the handle and the layer, and puts the parts together.
+    fn finish(
+        self,
+        lexer: &Lexer,
+        layers: &mut Layers,
+        kind: &'static str,
+        geometry: Geometry,
+        vertices: Option<VertexLines>,
+        findings: &mut Vec<Finding>,
+    ) -> Outcome {
+        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), kind, geometry, vertices })
+    }
+}
+
+/// The next tag of the record; the tag that begins the next record is left to the lexer.
+#[inline]
+fn tag_of_record(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> Option<Tag> {
+    let tag = lexer.next(findings)?;
+    if tag.code == 0 {
+        lexer.back_to(tag);
+        return None;
+    }
+    Some(tag)
+}
+
+/// Passes over the rest of the record. True when it says that it lies in paper space.
+pub(super) fn pass_over(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> bool {
+    let mut paper_space = false;
+    while let Some(tag) = tag_of_record(lexer, findings) {
+        paper_space |= tag.code == 67 && lexer.lines.trimmed(tag.value_line()) == b"1";
+    }
+    paper_space
+}
+
+/// Reads the entity whose record begins at `start`; the lexer stands behind its name.
+pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    match lexer.lines.trimmed(start.value_line()) {
+        b"LWPOLYLINE" => light_polyline(start, lexer, layers, findings),
+        b"LINE" => line(start, lexer, layers, findings),
+        b"ARC" => arc(start, lexer, layers, findings),
+        b"CIRCLE" => circle(start, lexer, layers, findings),
+        b"TEXT" => text("TEXT", start, lexer, layers, findings),
+        b"MTEXT" => text("MTEXT", start, lexer, layers, findings),
+        b"POLYLINE" => polyline(start, lexer, layers, findings),
+        name => {
+            let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
+            let reference = kind == "INSERT";
+            let paper_space = pass_over(lexer, findings);
+            if reference {
+                pass_over_followers(lexer, findings, &[b"ATTRIB", b"SEQEND"]);
+            }
+            let why = match (paper_space, reference) {
+                (true, _) => PAPER_SPACE,
+                (_, true) => BLOCK,
+                _ => NOT_CUT,
+            };
+            Outcome::Unsupported(kind, why)
+        }
+    }
+}
+
+/// Passes over the records behind a record that are a part of it, up to and with its SEQEND.
+fn pass_over_followers(lexer: &mut Lexer, findings: &mut Vec<Finding>, names: &[&[u8]]) {
+    while let Some(tag) = lexer.peek_record() {
+        let name = lexer.lines.trimmed(tag.value_line());
+        if !names.contains(&name) {
+            return;
+        }
+        lexer.next(findings);
+        pass_over(lexer, findings);
+        if name == b"SEQEND" {
+            return;
+        }
+    }
+}
+
+fn missing(start: Tag, lexer: &Lexer, codes: &[(i16, bool)], findings: &mut Vec<Finding>) {
+    let mut lacking: Vec<String> = codes.iter().filter(|(_, there)| !there).map(|(code, _)| format!("{code}{}", meaning(*code))).collect();
+    let kind = String::from_utf8_lossy(lexer.lines.trimmed(start.value_line())).into_owned();
+    let last = lacking.pop().unwrap_or_default();
+    let sentence = match lacking.is_empty() {
+        true => format!("{kind} lacks group code {last}"),
+        false => format!("{kind} lacks the group codes {} and {last}", lacking.join(", ")),
+    };
+    damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+}
+
+/// The numbers of an entity that has each of them once.
+struct Numbers<const N: usize> {
+    codes: [i16; N],
+    values: [Option<f64>; N],
+}
+
+impl<const N: usize> Numbers<N> {
+    fn new(codes: [i16; N]) -> Self {
+        Numbers { codes, values: [None; N] }
+    }
+
+    /// Takes all tags of the record that it holds a place for.
+    fn gather(&mut self, lexer: &mut Lexer, findings: &mut Vec<Finding>, mut other: impl FnMut(&Lexer, Tag)) -> Common {
+        let mut common = Common::default();
+        while let Some(tag) = tag_of_record(lexer, findings) {
+            if common.take(lexer, tag, findings) {
+                continue;
+            }
+            match self.codes.iter().position(|&code| code == tag.code) {
+                Some(index) => self.values[index] = common.coordinate(lexer, tag, findings),
+                None => other(lexer, tag),
+            }
+        }
+        common.bad |= lexer.out_of_step;
+        common
+    }
+
+    /// The first `M` numbers, which the entity must have; one finding names those that are missing.
+    fn required<const M: usize>(&self, start: Tag, lexer: &Lexer, common: &Common, findings: &mut Vec<Finding>) -> Option<[f64; M]> {
+        if common.bad {
+            return None;
+        }
+        let first = self.values.first_chunk::<M>()?;
+        if first.iter().all(Option::is_some) {
+            return Some(first.map(Option::unwrap_or_default));
+        }
+        let there: Vec<(i16, bool)> = self.codes.iter().zip(first).map(|(&code, value)| (code, value.is_some())).collect();
+        missing(start, lexer, &there, findings);
+        None
+    }
+}
+
+fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 11, 21, 30, 31]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y, end_x, end_y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    // The ends of a LINE are world coordinates: its extrusion only gives the direction of its thickness.
+    if common.paper_space {
+        return Outcome::Unsupported("LINE".into(), PAPER_SPACE);
+    }
+    if numbers.values[4].unwrap_or(0.0) != numbers.values[5].unwrap_or(0.0) {
+        let sentence = "the ends of this LINE differ in z: it is read as it looks from above".to_owned();
+        oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+    }
+    let geometry = Geometry::Line { start: Point::new(x, y), end: Point::new(end_x, end_y) };
+    common.finish(lexer, layers, "LINE", geometry, None, findings)
+}
+
+/// The radius, when it is positive; else a finding.
+fn radius_of(value: f64, kind: &str, radius_line: usize, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<f64> {
+    if value > 0.0 {
+        return Some(value);
+    }
+    let found = quoted(lexer.lines.trimmed(radius_line));
+    let sentence = format!("group code 40 (radius) of {kind} is {found}, expected a number above 0");
+    damage(findings, lexer.lines.trimmed_range(radius_line), sentence);
+    None
+}
+
+fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 40, 50, 51]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let radius_line = value_line_of(start, lexer, 40);
+    let Some(radius) = radius_of(radius, "ARC", radius_line, lexer, findings) else { return Outcome::Damaged };
+    let (from, to) = (from.to_radians(), to.to_radians());
+    let geometry = match common.plane() {
+        _ if common.paper_space => return Outcome::Unsupported("ARC".into(), PAPER_SPACE),
+        Plane::Tilted => return Outcome::Unsupported("ARC".into(), TILTED),
+        Plane::Normal => Geometry::Arc { center: Point::new(x, y), radius, start_angle: from, end_angle: to },
+        Plane::Mirrored => {
+            let (start_angle, end_angle) = mirrored_angles(from, to);
+            Geometry::Arc { center: Point::new(0.0 - x, y), radius, start_angle, end_angle }
+        }
+    };
+    common.finish(lexer, layers, "ARC", geometry, None, findings)
+}
+
+/// Start and end of an arc, counter-clockwise again, once x runs the other way. Its own inverse.
+pub(super) fn mirrored_angles(start: f64, end: f64) -> (f64, f64) {
+    (std::f64::consts::PI - end, std::f64::consts::PI - start)
+}
+
+fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 40]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y, radius]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let radius_line = value_line_of(start, lexer, 40);
+    let Some(radius) = radius_of(radius, "CIRCLE", radius_line, lexer, findings) else { return Outcome::Damaged };
+    let x = match common.plane() {
+        _ if common.paper_space => return Outcome::Unsupported("CIRCLE".into(), PAPER_SPACE),
+        Plane::Tilted => return Outcome::Unsupported("CIRCLE".into(), TILTED),
+        Plane::Normal => x,
+        Plane::Mirrored => 0.0 - x,
+    };
+    common.finish(lexer, layers, "CIRCLE", Geometry::Circle { center: Point::new(x, y), radius }, None, findings)
+}
+
+fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    let mut content = Vec::new();
+    let mut numbers = Numbers::new([10, 20]);
+    let common = numbers.gather(lexer, findings, |lexer, tag| {
+        if matches!(tag.code, 1 | 3) {
+            content.extend_from_slice(lexer.lines.content(tag.value_line()));
+        }
+    });
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let x = match common.plane() {
+        _ if common.paper_space => return Outcome::Unsupported(kind.into(), PAPER_SPACE),
+        Plane::Tilted => return Outcome::Unsupported(kind.into(), TILTED),
+        // The place of an MTEXT is in world coordinates.
+        Plane::Mirrored if kind == "TEXT" => 0.0 - x,
+        _ => x,
+    };
+    let geometry = Geometry::Text { at: Point::new(x, y), text: String::from_utf8_lossy(&content).trim().to_owned() };
+    common.finish(lexer, layers, kind, geometry, None, findings)
+}
+
+/// The line of the last value of `code` among the entity's own tags; the name's line where there is none.
+fn value_line_of(start: Tag, lexer: &Lexer, code: i16) -> usize {
+    let mut found = start.value_line();
+    let mut line = start.line + 2;
+    while line + 1 < lexer.lines.count() {
+        match number::code(lexer.lines.content(line)) {
+            Code::Known(0 | 101 | 1000..) => break,
+            Code::Known(other) if other == code => found = line + 1,
+            _ => {}
+        }
+        line += 2;
+    }
+    found
+}
+
+/// Vertices as they come: x opens one, y closes it.
+#[derive(Default)]
+struct Vertices {
+    vertices: Vec<Vertex>,
+    lines: Vec<u32>,
+    lacks_y: bool,
+}
+
+fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    let mut common = Common::default();
+    let mut read = Vertices::default();
+    let (mut closed, mut count) = (false, None);
+    while let Some(tag) = tag_of_record(lexer, findings) {
+        match tag.code {
+            10 | 20 | 42 if !common.foreign && !common.group => {
+                // A number that is none has its finding; a stand-in keeps the vertices after it in step.
+                let value = common.coordinate(lexer, tag, findings).unwrap_or_default();
+                match (tag.code, read.vertices.last_mut()) {
+                    (10, _) => {
+                        if read.lacks_y {
+                            lacks_y(&mut common, &read, start, lexer, findings);
+                        }
+                        read.vertices.push(Vertex::new(value, 0.0, 0.0));
+                        read.lines.push((tag.line - start.line) as u32);
+                        read.lacks_y = true;
+                    }
+                    (20, Some(vertex)) => {
+                        vertex.point.y = value;
+                        read.lacks_y = false;
+                    }
+                    (_, Some(vertex)) => vertex.bulge = value,
+                    (code, None) => {
+                        if !common.bad && !lexer.out_of_step {
+                            let sentence = format!("group code {code}{} stands before the first group code 10 (x)", meaning(code));
+                            damage(findings, lexer.lines.trimmed_range(tag.line), sentence);
+                        }
+                        common.bad = true;
+                    }
+                }
+            }
+            _ if common.take(lexer, tag, findings) => {}
+            70 => closed = common.flags(lexer, tag, findings) & 1 != 0,
+            90 => count = Some(tag),
+            _ => {}
+        }
+    }
+    if read.lacks_y {
+        lacks_y(&mut common, &read, start, lexer, findings);
+    }
+    if common.bad || lexer.out_of_step {
+        return Outcome::Damaged;
+    }
+    let mirrored = match common.plane() {
+        _ if common.paper_space => return Outcome::Unsupported("LWPOLYLINE".into(), PAPER_SPACE),
+        Plane::Tilted => return Outcome::Unsupported("LWPOLYLINE".into(), TILTED),
+        plane => plane == Plane::Mirrored,
+    };
+    let found = read.vertices.len();
+    if let Some(tag) = count
+        && found > 1
+        && Common::whole(lexer, tag) != i64::try_from(found).ok()
+    {
+        let stated = quoted(lexer.lines.trimmed(tag.value_line()));
+        let sentence = format!("group code 90 (number of vertices) is {stated}, but {found} vertices are there");
+        oddity(findings, lexer.lines.range(tag.value_line()), sentence);
+    }
+    polyline_of("LWPOLYLINE", start, common, closed, read, mirrored, lexer, layers, findings)
+}
+
+fn lacks_y(common: &mut Common, read: &Vertices, start: Tag, lexer: &Lexer, findings: &mut Vec<Finding>) {
+    if !common.bad && !lexer.out_of_step {
+        let line = start.line + read.lines.last().map_or(0, |&line| line as usize);
+        let sentence = format!("vertex {} lacks group code 20 (y)", read.vertices.len());
+        damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
+    }
+    common.bad = true;
+}
+
+#[expect(clippy::too_many_arguments, reason = "what a polyline is made of, in one call from each of its two kinds")]
+fn polyline_of(
+    kind: &'static str,
+    start: Tag,
+    common: Common,
+    closed: bool,
+    mut read: Vertices,
+    mirrored: bool,
+    lexer: &Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    if read.vertices.len() < 2 {
+        let sentence = format!("{kind} has {} vertices, expected at least 2", read.vertices.len());
+        oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+        return Outcome::Damaged;
+    }
+    if mirrored {
+        read.vertices.iter_mut().for_each(mirror);
+    }
+    read.vertices.shrink_to_fit();
+    read.lines.shrink_to_fit();
+    let geometry = Geometry::Polyline { closed, vertices: read.vertices };
+    common.finish(lexer, layers, kind, geometry, Some(VertexLines { lines: read.lines, mirrored }), findings)
+}
+
+/// A vertex once x runs the other way. Its own inverse.
+pub(super) fn mirror(vertex: &mut Vertex) {
+    vertex.point.x = 0.0 - vertex.point.x;
+    vertex.bulge = 0.0 - vertex.bulge;
+}
+
+/// POLYLINE with its VERTEX records, up to and with SEQEND.
+fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    const CLOSED: i64 = 1;
+    const IN_SPACE: i64 = 8;
+    const MESHES: i64 = 16 | 64;
+    const CONTROL_POINT: i64 = 16;
+    let mut flags = 0;
+    let mut common = Common::default();
+    while let Some(tag) = tag_of_record(lexer, findings) {
+        if !common.take(lexer, tag, findings) && tag.code == 70 {
+            flags = common.flags(lexer, tag, findings);
+        }
+    }
+    if flags & MESHES != 0 {
+        pass_over_followers(lexer, findings, &[b"VERTEX", b"SEQEND"]);
+        return Outcome::Unsupported("POLYLINE".into(), if common.paper_space { PAPER_SPACE } else { MESH });
+    }
+    let mut read = Vertices::default();
+    let (mut heights, mut ended) = (Vec::new(), false);
+    while let Some(next) = lexer.peek_record() {
+        let name = lexer.lines.trimmed(next.value_line());
+        if !matches!(name, b"VERTEX" | b"SEQEND") {
+            break;
+        }
+        lexer.next(findings);
+        if name == b"SEQEND" {
+            pass_over(lexer, findings);
+            ended = true;
+            break;
+        }
+        let mut of_vertex = Common::default();
+        let (mut numbers, mut vertex_flags) = ([None; 4], 0);
+        while let Some(tag) = tag_of_record(lexer, findings) {
+            if of_vertex.take(lexer, tag, findings) {
+                continue;
+            }
+            match tag.code {
+                10 => numbers[0] = of_vertex.coordinate(lexer, tag, findings),
+                20 => numbers[1] = of_vertex.coordinate(lexer, tag, findings),
+                30 => numbers[2] = of_vertex.coordinate(lexer, tag, findings),
+                42 => numbers[3] = of_vertex.coordinate(lexer, tag, findings),
+                70 => vertex_flags = of_vertex.flags(lexer, tag, findings),
+                _ => {}
+            }
+        }
+        let bad = of_vertex.bad || lexer.out_of_step;
+        common.bad |= bad;
+        if vertex_flags & CONTROL_POINT != 0 || bad {
+            continue;
+        }
+        let [Some(x), Some(y), z, bulge] = numbers else {
+            missing(next, lexer, &[(10, numbers[0].is_some()), (20, numbers[1].is_some())], findings);
+            common.bad = true;
+            continue;
+        };
+        heights.push(z.unwrap_or(0.0));
+        let bulge = if flags & IN_SPACE != 0 { 0.0 } else { bulge.unwrap_or(0.0) };
+        read.vertices.push(Vertex::new(x, y, bulge));
+        read.lines.push((next.line - start.line) as u32);
+    }
+    if common.bad || lexer.out_of_step {
+        return Outcome::Damaged;
+    }
+    if !ended && !lexer.at_end() {
+        oddity(findings, lexer.lines.trimmed_range(start.value_line()), "POLYLINE does not end with SEQEND".into());
+    }
+    let in_space = flags & IN_SPACE != 0;
+    let mirrored = match common.plane() {
+        _ if common.paper_space => return Outcome::Unsupported("POLYLINE".into(), PAPER_SPACE),
+        // The points of a 3D polyline are world coordinates.
+        _ if in_space && heights.windows(2).any(|pair| pair[0] != pair[1]) => return Outcome::Unsupported("POLYLINE".into(), NOT_PLANE),
+        _ if in_space => false,
+        Plane::Tilted => return Outcome::Unsupported("POLYLINE".into(), TILTED),
+        plane => plane == Plane::Mirrored,
+    };
+    polyline_of("POLYLINE", start, common, flags & CLOSED != 0, read, mirrored, lexer, layers, findings)
+}

@@ -1,0 +1,46 @@
+//! Findings of the reader, and how a value is quoted in their sentences.
+
+use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use std::ops::Range;
+
+/// A fault that makes text unreadable.
+pub(super) fn damage(findings: &mut Vec<Finding>, range: Range<usize>, sentence: String) {
+    push(findings, range, Severity::Error, sentence);
+}
+
+/// Something odd that was read all the same.
+pub(super) fn oddity(findings: &mut Vec<Finding>, range: Range<usize>, sentence: String) {
+    push(findings, range, Severity::Warning, sentence);
+}
+
+pub(super) fn push(findings: &mut Vec<Finding>, range: Range<usize>, severity: Severity, sentence: String) {
+    findings.push(Finding { rule: Rule::Syntax, severity, place: Place::Text { range }, detail: Detail::Syntax(sentence) });
+}
+
+/// A value as it is quoted: at most 32 characters, nothing that a terminal would obey.
+pub(super) fn quoted(value: &[u8]) -> String {
+    let text = String::from_utf8_lossy(&value[..value.len().min(128)]);
+    let mut quoted: String = text.chars().take(32).flat_map(char::escape_debug).collect();
+    if text.chars().nth(32).is_some() {
+        quoted.push('…');
+    }
+    format!("\"{quoted}\"")
+}
+
+/// What a group code holds, for sentences: ` (bulge)`; empty where the number says enough.
+pub(super) fn meaning(code: i16) -> &'static str {
+    match code {
+        10 => " (x)",
+        20 => " (y)",
+        30 => " (z)",
+        11 => " (end x)",
+        21 => " (end y)",
+        31 => " (end z)",
+        42 => " (bulge)",
+        50 => " (start angle)",
+        51 => " (end angle)",
+        90 => " (number of vertices)",
+        210 | 220 | 230 => " (extrusion)",
+        _ => "",
+    }
+}

@@ -1,0 +1,214 @@
+//! Lines to tags: pairs of group code and value, brought back into step where a line is missing or extra.
+//!
+//! Whether the text is out of step is decided by what follows: never by more than [`LOOKAHEAD`] lines of it.
+
+use super::fault::{damage, quoted};
+use super::lines::Lines;
+use super::number::{self, Code, Number};
+use crate::finding::Finding;
+
+/// No decision of the lexer looks further ahead than this many lines.
+pub(super) const LOOKAHEAD: usize = 2 * WINDOW + 4;
+/// Tags that are looked at to tell codes from values.
+const WINDOW: usize = 8;
+
+/// A group code and the line it stands on; the value stands on the next line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Tag {
+    pub(super) code: i16,
+    pub(super) line: usize,
+}
+
+impl Tag {
+    pub(super) fn value_line(self) -> usize {
+        self.line + 1
+    }
+}
+
+pub(super) struct Lexer<'a> {
+    pub(super) lines: Lines<'a>,
+    at: usize,
+    /// First line of what must not be taken for a code line any more.
+    consumed: usize,
+    /// The text was out of step since the last [`Lexer::begin_item`].
+    pub(super) out_of_step: bool,
+    /// A code line at the end of the text that has no value.
+    pub(super) dangling: Option<usize>,
+}
+
+impl<'a> Lexer<'a> {
+    pub(super) fn new(lines: Lines<'a>, at: usize) -> Lexer<'a> {
+        Lexer { lines, at, consumed: at + 1, out_of_step: false, dangling: None }
+    }
+
+    /// The line of the next tag.
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    pub(super) fn at_end(&self) -> bool {
+        self.at >= self.lines.count()
+    }
+
+    /// Goes on from `line` and forgets what was before it.
+    pub(super) fn begin_item(&mut self, line: usize) {
+        self.at = line;
+        self.consumed = line + 1;
+        self.out_of_step = false;
+        self.dangling = None;
+    }
+
+    /// Leaves `tag`, which was just read, to be read again.
+    pub(super) fn back_to(&mut self, tag: Tag) {
+        self.at = tag.line;
+        self.consumed = tag.line + 1;
+    }
+
+    /// The tag that begins the next record, when the lexer stands before one.
+    pub(super) fn peek_record(&self) -> Option<Tag> {
+        let line = self.at;
+        let begins = line + 1 < self.lines.count()
+            && number::code(self.lines.content(line)) == Code::Known(0)
+            && is_name(self.lines.content(line + 1));
+        begins.then_some(Tag { code: 0, line })
+    }
+
+    /// The next tag; `None` at the end of the text. What is no tag is passed over with one finding.
+    pub(super) fn next(&mut self, findings: &mut Vec<Finding>) -> Option<Tag> {
+        loop {
+            let line = self.at;
+            if line + 1 >= self.lines.count() {
+                if line < self.lines.count() && !self.lines.trimmed(line).is_empty() {
+                    self.dangling = Some(line);
+                }
+                self.at = self.lines.count();
+                return None;
+            }
+            match number::code(self.lines.content(line)) {
+                Code::Known(0) if !is_name(self.lines.content(line + 1)) => self.recover(line, findings),
+                Code::Known(code) => {
+                    self.at = line + 2;
+                    return Some(Tag { code, line });
+                }
+                Code::OutOfRange if self.score(line + 2) == FULL => {
+                    let code = quoted(self.lines.trimmed(line));
+                    damage(findings, self.lines.trimmed_range(line), format!("group code {code} is out of range, expected -5 to 1071"));
+                    self.at = line + 2;
+                }
+                Code::OutOfRange | Code::NotANumber => self.recover(line, findings),
+            }
+        }
+    }
+
+    /// True when the value of `tag`, which does not fit its code, is the next code: a line is missing or extra.
+    /// The finding is made and the lexer goes on in step.
+    pub(super) fn back_in_step(&mut self, tag: Tag, findings: &mut Vec<Finding>) -> bool {
+        let line = tag.value_line();
+        let kept = self.score(line + 1);
+        if kept == FULL || self.score(line) <= kept {
+            return false;
+        }
+        self.out_of_step = true;
+        self.lost_value(tag.line, findings);
+        self.at = line;
+        self.consumed = line;
+        true
+    }
+
+    /// Finds the next line that starts a tag after `line` failed to.
+    fn recover(&mut self, line: usize, findings: &mut Vec<Finding>) {
+        self.out_of_step = true;
+        let in_step = self.score(line + 2);
+        let extra = self.score(line + 1);
+        // The value before may be the code that this line is the value of: `0` and then a name.
+        let back = line.checked_sub(1).filter(|&before| before > self.consumed).map_or(0, |before| self.score(before));
+        let names_record = back > 0 && number::code(self.lines.content(line - 1)) == Code::Known(0);
+        let best = in_step.max(extra).max(back);
+        let next = if best <= FULL / 2 {
+            self.end_of_garbage(line + 1)
+        } else if in_step == best {
+            line + 2
+        } else if back == best && names_record {
+            line - 1
+        } else if extra == best {
+            line + 1
+        } else {
+            line - 1
+        };
+        self.at = next;
+        self.consumed = self.consumed.max(line.min(next));
+        if next < line {
+            return self.lost_value(line - 2, findings);
+        }
+        let found = quoted(self.lines.trimmed(line));
+        let sentence = if next == line + 2 && number::code(self.lines.content(line)) == Code::Known(0) {
+            format!("group code 0 is followed by {}, expected the name of a record", quoted(self.lines.trimmed(line + 1)))
+        } else if next == line + 2 {
+            format!("{found} stands where a group code is expected, which is a whole number")
+        } else if next > line + 2 {
+            format!("{found} stands where a group code is expected: {} lines are no tags", next - line)
+        } else {
+            format!("{found} stands where a group code is expected: a line is missing or one too many")
+        };
+        let end = self.lines.range(next.max(line + 1) - 1).end;
+        let start = self.lines.range(line).start;
+        let whole = if next > line + 2 { start..end.max(start) } else { self.lines.range(line) };
+        damage(findings, whole, sentence);
+    }
+
+    /// The line behind the code line is not its value but the next code. The place is the code line: what follows may
+    /// be another record.
+    fn lost_value(&self, code_line: usize, findings: &mut Vec<Finding>) {
+        let code = quoted(self.lines.trimmed(code_line));
+        let sentence = format!("group code {code} is not followed by its value: a line is missing or one too many");
+        damage(findings, self.lines.range(code_line), sentence);
+    }
+
+    fn end_of_garbage(&self, from: usize) -> usize {
+        (from..self.lines.count())
+            .find(|&line| matches!(number::code(self.lines.content(line)), Code::Known(_)) && self.score(line) == FULL)
+            .unwrap_or(self.lines.count())
+    }
+
+    /// How well the lines from `line` on pair to tags: 0 to [`FULL`].
+    fn score(&self, line: usize) -> usize {
+        let (mut good, mut seen) = (0, 0);
+        let mut at = line;
+        while seen < WINDOW && at < self.lines.count() {
+            seen += 1;
+            if at + 1 == self.lines.count() {
+                break;
+            }
+            let value = self.lines.content(at + 1);
+            if let Code::Known(code) = number::code(self.lines.content(at)) {
+                good += usize::from(fits(code, value));
+                if code == 0 && value == b"EOF" {
+                    break;
+                }
+            }
+            at += 2;
+        }
+        (good * FULL).checked_div(seen).unwrap_or(FULL)
+    }
+}
+
+const FULL: usize = 1000;
+
+/// True for what can be the name of a record.
+fn is_name(value: &[u8]) -> bool {
+    value.first().is_some_and(u8::is_ascii_uppercase) || value.iter().any(u8::is_ascii_alphabetic)
+}
+
+/// True when `value` is of the kind that `code` asks for.
+fn fits(code: i16, value: &[u8]) -> bool {
+    match code {
+        0 => is_name(value),
+        10..=59 | 140..=149 | 210..=239 | 460..=469 | 1010..=1059 => number::number(value) != Number::Bad,
+        60..=79 | 90..=99 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 420..=429 | 440..=459 | 1060..=1071 => {
+            let text = &value[number::trimmed(value)];
+            let digits = text.strip_prefix(b"-").unwrap_or(text);
+            !digits.is_empty() && digits.iter().all(u8::is_ascii_digit)
+        }
+        _ => true,
+    }
+}

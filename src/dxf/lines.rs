@@ -1,0 +1,72 @@
+//! The lines of DXF text as the lexer sees them. Knows of line ends and the byte-order mark, not of tags.
+
+use super::number::trimmed;
+use crate::text::SourceText;
+use std::ops::Range;
+
+pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Lines by number, without line ends, without a byte-order mark, without the empty line behind the last line end.
+#[derive(Clone, Copy)]
+pub(super) struct Lines<'a> {
+    bytes: &'a [u8],
+    starts: &'a [u32],
+    count: usize,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(text: &'a SourceText) -> Lines<'a> {
+        let (bytes, starts) = (text.bytes(), text.line_starts());
+        let empty_last = starts.last().is_some_and(|&last| last as usize >= bytes.len());
+        Lines { bytes, starts, count: starts.len() - usize::from(empty_last) }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// True when the last line has no line end: it may be cut.
+    pub(super) fn last_is_open(&self) -> bool {
+        self.count == self.starts.len()
+    }
+
+    pub(super) fn has_byte_order_mark(&self) -> bool {
+        self.bytes.starts_with(BYTE_ORDER_MARK)
+    }
+
+    pub(super) fn range(&self, line: usize) -> Range<usize> {
+        let Some(&start) = self.starts.get(line) else { return self.bytes.len()..self.bytes.len() };
+        let mut start = start as usize;
+        let mut end = match self.starts.get(line + 1) {
+            Some(&next) => {
+                let next = next as usize;
+                // A line that has a follower ends with LF, CR or CR LF.
+                let shortened = next.saturating_sub(1);
+                let crlf = self.bytes.get(shortened) == Some(&b'\n') && shortened > start && self.bytes[shortened - 1] == b'\r';
+                shortened - usize::from(crlf)
+            }
+            None => self.bytes.len(),
+        };
+        if line == 0 && self.bytes.starts_with(BYTE_ORDER_MARK) {
+            start = BYTE_ORDER_MARK.len();
+        }
+        end = end.max(start);
+        start..end
+    }
+
+    pub(super) fn content(&self, line: usize) -> &'a [u8] {
+        &self.bytes[self.range(line)]
+    }
+
+    /// Where a line's content stands without padding.
+    pub(super) fn trimmed_range(&self, line: usize) -> Range<usize> {
+        let range = self.range(line);
+        let inner = trimmed(&self.bytes[range.clone()]);
+        range.start + inner.start..range.start + inner.end
+    }
+
+    /// A line's content without padding.
+    pub(super) fn trimmed(&self, line: usize) -> &'a [u8] {
+        &self.bytes[self.trimmed_range(line)]
+    }
+}

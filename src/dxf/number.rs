@@ -1,0 +1,234 @@
+//! Group codes and numbers: read from bytes, written as text. Knows nothing of tags or entities.
+
+use std::ops::Range;
+
+/// What is left of `bytes` without padding (spaces and tabs) on either side, as a range within them.
+pub(super) fn trimmed(bytes: &[u8]) -> Range<usize> {
+    let padding = |byte: &u8| matches!(byte, b' ' | b'\t');
+    let start = bytes.iter().position(|byte| !padding(byte)).unwrap_or(bytes.len());
+    let end = bytes.iter().rposition(|byte| !padding(byte)).map_or(start, |last| last + 1);
+    start..end
+}
+
+/// What a line that should be a group code is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Code {
+    Known(i16),
+    /// A whole number that no group code can be.
+    OutOfRange,
+    NotANumber,
+}
+
+/// Reads a group code; padding is allowed.
+pub(super) fn code(line: &[u8]) -> Code {
+    // Nearly all code lines are one to four digits behind spaces.
+    let mut at = 0;
+    while at < line.len() && matches!(line[at], b' ' | b'\t') {
+        at += 1;
+    }
+    let mut value = 0i32;
+    let first = at;
+    while at < line.len() && line[at].is_ascii_digit() && at - first < 6 {
+        value = value * 10 + i32::from(line[at] - b'0');
+        at += 1;
+    }
+    if at == line.len() && at > first {
+        return in_range(value);
+    }
+    let text = &line[trimmed(line)];
+    let (negative, digits) = match text {
+        [b'-', digits @ ..] => (true, digits),
+        [b'+', digits @ ..] => (false, digits),
+        digits => (false, digits),
+    };
+    if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
+        return Code::NotANumber;
+    }
+    let value = digits.iter().fold(0i32, |sum, digit| (sum * 10 + i32::from(digit - b'0')).min(1_000_000));
+    in_range(if negative { -value } else { value })
+}
+
+fn in_range(value: i32) -> Code {
+    if (-10..=1071).contains(&value) { Code::Known(value as i16) } else { Code::OutOfRange }
+}
+
+/// What a value that should be a number is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Number {
+    Exact(f64),
+    /// A number with a blemish that a person should hear of.
+    Blemished(f64, &'static str),
+    Bad,
+}
+
+const POWERS: [f64; 23] =
+    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22];
+
+/// Reads a decimal number; padding is allowed. Only finite numbers in decimal notation are numbers.
+pub(super) fn number(line: &[u8]) -> Number {
+    let text = &line[trimmed(line)];
+    if let Some(value) = decimal(text) {
+        return Number::Exact(value);
+    }
+    let without_nul = text.iter().rposition(|&byte| byte != 0).map_or(&text[..0], |last| &text[..=last]);
+    if without_nul.len() < text.len() {
+        return match decimal(&without_nul[trimmed(without_nul)]) {
+            Some(value) => Number::Blemished(value, "is followed by NUL bytes"),
+            None => Number::Bad,
+        };
+    }
+    if let Some(exponent) = text.iter().position(|byte| matches!(byte, b'd' | b'D')) {
+        let mut plain = text.to_vec();
+        plain[exponent] = b'e';
+        if let Some(value) = decimal(&plain) {
+            return Number::Blemished(value, "has a FORTRAN exponent, expected E");
+        }
+    }
+    Number::Bad
+}
+
+/// `[+-] digits [. digits] [e [+-] digits]` with at least one digit before the exponent.
+fn decimal(text: &[u8]) -> Option<f64> {
+    let (negative, start) = match text.first()? {
+        b'-' => (true, 1),
+        b'+' => (false, 1),
+        _ => (false, 0),
+    };
+    let mut at = start;
+    let (mut mantissa, mut digits, mut scale) = (0u64, 0u32, 0i32);
+    while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+        digits += 1;
+        at += 1;
+    }
+    if text.get(at) == Some(&b'.') {
+        at += 1;
+        while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+            digits += 1;
+            scale -= 1;
+            at += 1;
+        }
+    }
+    if digits == 0 {
+        return None;
+    }
+    if let Some(b'e' | b'E') = text.get(at) {
+        at += 1;
+        let negative_exponent = match text.get(at) {
+            Some(b'-') => {
+                at += 1;
+                true
+            }
+            Some(b'+') => {
+                at += 1;
+                false
+            }
+            _ => false,
+        };
+        let first = at;
+        let mut exponent = 0i32;
+        while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+            exponent = (exponent * 10 + i32::from(digit)).min(100_000);
+            at += 1;
+        }
+        if at == first {
+            return None;
+        }
+        scale = scale.saturating_add(if negative_exponent { -exponent } else { exponent });
+    }
+    if at != text.len() {
+        return None;
+    }
+    // Both factors are exact, so the one rounding is the right one (Clinger, "How to read floating point numbers accurately").
+    if digits <= 19 && mantissa <= 1 << 53 && scale.unsigned_abs() <= 22 {
+        let power = POWERS[scale.unsigned_abs() as usize];
+        let value = if scale < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
+        // A zero has no sign here.
+        return Some(if negative { 0.0 - value } else { value });
+    }
+    std::str::from_utf8(text).ok()?.parse::<f64>().ok().filter(|value| value.is_finite()).map(|value| value + 0.0)
+}
+
+/// A number as DXF text: no exponent, at most `decimals` decimals and at least one.
+pub(super) fn written(value: f64, decimals: usize) -> String {
+    let mut text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        while text.ends_with('0') && !text.ends_with(".0") {
+            text.pop();
+        }
+    } else {
+        text.push_str(".0");
+    }
+    if text == "-0.0" { "0.0".into() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes() {
+        for (line, expected) in [
+            ("0", Code::Known(0)),
+            (" 10", Code::Known(10)),
+            ("\t-5 ", Code::Known(-5)),
+            ("0010", Code::Known(10)),
+            ("1071", Code::Known(1071)),
+            ("1072", Code::OutOfRange),
+            ("99999999999", Code::OutOfRange),
+            ("", Code::NotANumber),
+            ("1.0", Code::NotANumber),
+            ("LINE", Code::NotANumber),
+            ("1 0", Code::NotANumber),
+        ] {
+            assert_eq!(code(line.as_bytes()), expected, "{line:?}");
+        }
+    }
+
+    #[test]
+    fn numbers() {
+        for (line, expected) in [
+            ("1.e1", Some(10.0)),
+            ("+.5", Some(0.5)),
+            ("-1E-3", Some(-0.001)),
+            (" 00012.5000\t", Some(12.5)),
+            ("0.1", Some(0.1)),
+            ("12.345678901234567", Some(12.345678901234567)),
+            ("123456789012345678901234567890", Some(123456789012345678901234567890.0)),
+            ("1e-300", Some(1e-300)),
+            ("1e999", None),
+            ("1,5", None),
+            ("nan", None),
+            ("inf", None),
+            ("1e", None),
+            (".", None),
+            ("", None),
+            ("0x10", None),
+            ("1.2.3", None),
+        ] {
+            let value = match number(line.as_bytes()) {
+                Number::Exact(value) => Some(value),
+                _ => None,
+            };
+            assert_eq!(value, expected, "{line:?}");
+        }
+        assert!(matches!(number(b"1D2"), Number::Blemished(100.0, _)));
+        assert!(matches!(number(b"10\0"), Number::Blemished(10.0, _)));
+        assert_eq!(number(b"D2"), Number::Bad);
+    }
+
+    #[test]
+    fn written_numbers_are_short_and_without_exponent() {
+        for (value, decimals, expected) in [
+            (1.0, 12, "1.0"),
+            (0.1 + 0.2, 12, "0.3"),
+            (-1e-15, 12, "0.0"),
+            (1e-9, 12, "0.000000001"),
+            (1e20, 12, "100000000000000000000.0"),
+            (-0.25, 15, "-0.25"),
+        ] {
+            assert_eq!(written(value, decimals), expected);
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! One item after another: sections, the entities of the modelspace, everything else passed over.
+
+use super::entity::{self, OUTSIDE, Outcome};
+use super::fault::{self, damage, oddity, quoted};
+use super::layers::Layers;
+use super::lexer::{Lexer, Tag};
+use super::lines::BYTE_ORDER_MARK;
+use super::number::{self, Number};
+use super::table::{Became, Context};
+use crate::finding::{Finding, Severity};
+
+/// What one item of the text says.
+#[derive(Debug)]
+pub(super) enum Said {
+    /// Kept, without a meaning here.
+    Nothing,
+    /// Another section: whether ENTITIES begins, and the unit that a HEADER states (`$INSUNITS`).
+    Structure {
+        entities: bool,
+        unit: Option<i64>,
+    },
+    Entity(Outcome),
+}
+
+impl Said {
+    pub(super) fn structure(&self) -> Option<Became> {
+        match *self {
+            Said::Structure { entities, unit } => Some(Became::Structure { entities, unit }),
+            _ => None,
+        }
+    }
+
+    pub(super) fn entity(&self) -> Option<&entity::Read> {
+        match self {
+            Said::Entity(Outcome::Entity(read)) => Some(read),
+            _ => None,
+        }
+    }
+}
+
+pub(super) struct ReadItem {
+    pub(super) line: usize,
+    pub(super) context: Context,
+    pub(super) said: Said,
+    /// The section after it.
+    pub(super) after: Context,
+}
+
+/// Reads the item at which the lexer stands; `None` at the end of the text.
+pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers, findings: &mut Vec<Finding>) -> Option<ReadItem> {
+    let line = lexer.at();
+    if lexer.at_end() {
+        return None;
+    }
+    lexer.begin_item(line);
+    let already = findings.len();
+    if line == 0 && lexer.lines.has_byte_order_mark() {
+        fault::push(findings, 0..BYTE_ORDER_MARK.len(), Severity::Hint, "the text begins with a byte-order mark".into());
+    }
+    let item = |said, after| ReadItem { line, context, said, after };
+    let Some(start) = lexer.peek_record() else {
+        // Only at the beginning of the text, before its first record.
+        entity::pass_over(lexer, findings);
+        close(None, already, lexer, context, findings);
+        return Some(item(Said::Nothing, context));
+    };
+    lexer.next(findings);
+    let name = lexer.lines.trimmed(start.value_line());
+    let mut read = match (context, name) {
+        (_, b"SECTION") => {
+            if context != Context::Outside {
+                oddity(findings, lexer.lines.trimmed_range(start.value_line()), "SECTION begins before ENDSEC of the one before".into());
+            }
+            let (said, after) = section(start, lexer, findings);
+            item(said, after)
+        }
+        (_, b"ENDSEC") => {
+            entity::pass_over(lexer, findings);
+            item(Said::Structure { entities: false, unit: None }, Context::Outside)
+        }
+        (_, b"EOF") => {
+            if context != Context::Outside {
+                oddity(findings, lexer.lines.trimmed_range(start.value_line()), "EOF stands before ENDSEC of the last section".into());
+            }
+            pass_over_what_follows(lexer, findings);
+            item(Said::Structure { entities: false, unit: None }, Context::Outside)
+        }
+        (Context::Entities, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
+            let sentence = format!("{} does not follow an entity that it is a part of", String::from_utf8_lossy(name));
+            oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+            entity::pass_over(lexer, findings);
+            item(Said::Nothing, context)
+        }
+        (Context::Entities, _) => item(Said::Entity(entity::read(start, lexer, layers, findings)), context),
+        (Context::Other, _) => {
+            entity::pass_over(lexer, findings);
+            item(Said::Nothing, context)
+        }
+        (Context::Outside, _) => {
+            let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
+            entity::pass_over(lexer, findings);
+            item(Said::Entity(Outcome::Unsupported(kind, OUTSIDE)), context)
+        }
+    };
+    let cut = close(Some((start, &read)), already, lexer, read.after, findings);
+    if cut {
+        read.said = Said::Entity(Outcome::Damaged);
+    }
+    Some(read)
+}
+
+/// Behind EOF nothing is read; what is there is named, but for the end mark of old systems (^Z).
+fn pass_over_what_follows(lexer: &mut Lexer, findings: &mut Vec<Finding>) {
+    let blank = |line: &usize| lexer.lines.content(*line).iter().all(|byte| byte.is_ascii_whitespace() || *byte == 0x1a);
+    if let Some(line) = (lexer.at()..lexer.lines.count()).find(|line| !blank(line)) {
+        oddity(findings, lexer.lines.trimmed_range(line), "what stands behind EOF is not read".into());
+    }
+    lexer.begin_item(lexer.lines.count());
+}
+
+/// Where a finding of the text stands: the order of findings.
+pub(super) fn range_key(finding: &Finding) -> (usize, usize) {
+    match &finding.place {
+        crate::finding::Place::Text { range } => (range.start, range.end),
+        _ => (0, 0),
+    }
+}
+
+/// What is said when the text ends with this item. True when the entity in it is cut and must not be trusted.
+fn close(read: Option<(Tag, &ReadItem)>, already: usize, lexer: &Lexer, after: Context, findings: &mut Vec<Finding>) -> bool {
+    if !lexer.at_end() {
+        return false;
+    }
+    let open = lexer.lines.last_is_open() && !lexer.lines.trimmed(lexer.lines.count().saturating_sub(1)).is_empty();
+    if let Some((start, ReadItem { said: Said::Entity(_), context: Context::Entities, .. })) = read
+        && (lexer.dangling.is_some() || open)
+    {
+        // What the entity lacks is beyond the end: one fault, one finding.
+        let name = lexer.lines.trimmed_range(start.value_line());
+        let mut index = 0;
+        findings.retain(|finding| {
+            index += 1;
+            index <= already || range_key(finding) != (name.start, name.end)
+        });
+        let kind = quoted(lexer.lines.trimmed(start.value_line()));
+        damage(findings, name, format!("the text ends inside this {}", kind.trim_matches('"')));
+        return true;
+    }
+    let last = lexer.dangling.unwrap_or(lexer.lines.count().saturating_sub(1));
+    if lexer.dangling.is_some() {
+        let code = quoted(lexer.lines.trimmed(last));
+        damage(findings, lexer.lines.range(last), format!("the text ends after group code {code}, expected its value"));
+    } else if matches!(after, Context::Entities | Context::Other) {
+        oddity(findings, lexer.lines.range(last), "the text ends inside a section, expected ENDSEC".into());
+    }
+    false
+}
+
+/// SECTION, its name and, in HEADER, its variables.
+fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said, Context) {
+    let mut name: Option<&[u8]> = None;
+    let (mut variable, mut unit): (&[u8], _) = (b"", None);
+    while let Some(tag) = lexer.next(findings) {
+        let value = lexer.lines.trimmed(tag.value_line());
+        match tag.code {
+            0 => {
+                lexer.back_to(tag);
+                break;
+            }
+            2 if name.is_none() => name = Some(value),
+            9 => variable = value,
+            70 if variable == b"$INSUNITS" && name == Some(b"HEADER") => match number::number(value) {
+                Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e6 => unit = Some(value as i64),
+                _ => {
+                    let sentence = format!("group code 70 of $INSUNITS is {}, expected a whole number", quoted(value));
+                    damage(findings, lexer.lines.range(tag.value_line()), sentence);
+                }
+            },
+            _ => {}
+        }
+    }
+    match name {
+        Some(b"ENTITIES") => (Said::Structure { entities: true, unit: None }, Context::Entities),
+        Some(_) => (Said::Structure { entities: false, unit }, Context::Other),
+        None => {
+            let sentence = "SECTION lacks group code 2 (its name)".to_owned();
+            if !lexer.out_of_step {
+                damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+            }
+            (Said::Structure { entities: false, unit: None }, Context::Other)
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The records of the text in their order: where each begins, and what it became.
+
+use super::entity::VertexLines;
+use crate::drawing::EntityId;
+use rustc_hash::FxHashMap;
+
+/// The section in which a record stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Context {
+    Outside,
+    Entities,
+    /// Any section but ENTITIES: kept, not drawn.
+    Other,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Became {
+    /// Text that is kept and says nothing about the drawing's modelspace.
+    Nothing,
+    /// SECTION, ENDSEC or EOF: decides what the records after it are. A HEADER says the unit (`$INSUNITS`).
+    Structure {
+        /// The section ENTITIES begins.
+        entities: bool,
+        unit: Option<i64>,
+    },
+    Entity(EntityId),
+    /// An entity that is not cut, by its index in [`Kinds`].
+    Unsupported(u32),
+    /// An entity with a fault.
+    Damaged,
+}
+
+/// Whence an entity has its handle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    ByText,
+    ByOrdinal,
+    /// The text's handle was taken.
+    Anew,
+}
+
+/// One record, or a POLYLINE or INSERT with the records that belong to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Item {
+    /// Where it stands, its own change of section not counted.
+    pub(super) context: Context,
+    pub(super) became: Became,
+    pub(super) named: Named,
+}
+
+impl Item {
+    pub(super) fn entity(&self) -> Option<EntityId> {
+        match self.became {
+            Became::Entity(entity) => Some(entity),
+            _ => None,
+        }
+    }
+
+    /// True for what counts as an entity of the file.
+    pub(super) fn is_entity(&self) -> bool {
+        matches!(self.became, Became::Entity(_) | Became::Unsupported(_) | Became::Damaged)
+    }
+}
+
+pub(super) const NO_ITEM: u32 = u32::MAX;
+
+/// Kinds of entities that are not cut, with the reason; each once.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Kinds {
+    kinds: Vec<(String, &'static str)>,
+    by_name: FxHashMap<(String, &'static str), u32>,
+}
+
+impl Kinds {
+    pub(super) fn index(&mut self, kind: String, why: &'static str) -> u32 {
+        let key = (kind, why);
+        if let Some(&index) = self.by_name.get(&key) {
+            return index;
+        }
+        let index = self.kinds.len() as u32;
+        self.kinds.push(key.clone());
+        self.by_name.insert(key, index);
+        index
+    }
+
+    pub(super) fn get(&self, index: u32) -> Option<&(String, &'static str)> {
+        self.kinds.get(index as usize)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.kinds.len()
+    }
+}
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    /// The first line of each item, ascending, the first of them 0.
+    pub(super) lines: Vec<u32>,
+    pub(super) items: Vec<Item>,
+    /// The item of each entity, by its id.
+    pub(super) item_of: Vec<u32>,
+    pub(super) vertices: FxHashMap<EntityId, VertexLines>,
+    pub(super) kinds: Kinds,
+    /// Entities that are named by their ordinal, and that were named anew.
+    pub(super) by_ordinal: usize,
+    pub(super) named_anew: usize,
+    /// Sections ENTITIES.
+    pub(super) sections: usize,
+}
+
+impl Table {
+    /// The item that holds a line.
+    pub(super) fn item_at(&self, line: usize) -> Option<usize> {
+        self.lines.partition_point(|&start| start as usize <= line).checked_sub(1)
+    }
+
+    /// The item of an entity.
+    pub(super) fn item_of(&self, entity: EntityId) -> Option<usize> {
+        self.item_of.get(entity.0 as usize).filter(|&&item| item != NO_ITEM).map(|&item| item as usize)
+    }
+
+    /// First and one past the last line of an item; `line_count` ends the last one.
+    pub(super) fn lines_of(&self, item: usize, line_count: usize) -> std::ops::Range<usize> {
+        let start = self.lines.get(item).map_or(line_count, |&line| line as usize);
+        start..self.lines.get(item + 1).map_or(line_count, |&line| line as usize)
+    }
+
+    pub(super) fn set_item_of(&mut self, entity: EntityId, item: u32) {
+        let index = entity.0 as usize;
+        if index >= self.item_of.len() {
+            self.item_of.resize(index + 1, NO_ITEM);
+        }
+        self.item_of[index] = item;
+    }
+}

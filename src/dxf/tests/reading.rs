@@ -1,0 +1,119 @@
+//! What is read of a text.
+
+use crate::drawing::{Geometry, Vertex};
+use crate::dxf::Document;
+use crate::finding::{Detail, Place, Severity};
+
+/// Tags, one after another with spaces between, as DXF text.
+pub(super) fn dxf(entities: &str) -> String {
+    let lines: Vec<&str> = entities.split_whitespace().collect();
+    format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}\n0\nENDSEC\n0\nEOF\n", lines.join("\n"))
+}
+
+/// Handle and geometry of each entity, in short.
+fn entities(document: &Document) -> Vec<String> {
+    let drawing = document.drawing();
+    drawing
+        .entities()
+        .map(|(_, entity)| {
+            let geometry = match &entity.geometry {
+                Geometry::Line { start, end } => format!("{} {} to {} {}", start.x, start.y, end.x, end.y),
+                Geometry::Arc { center, radius, start_angle, end_angle } => {
+                    format!("{} {} R{radius} {:.0} {:.0}", center.x, center.y, start_angle.to_degrees(), end_angle.to_degrees())
+                }
+                Geometry::Circle { center, radius } => format!("{} {} R{radius}", center.x, center.y),
+                Geometry::Polyline { closed, vertices } => {
+                    let vertices: Vec<_> =
+                        vertices.iter().map(|Vertex { point, bulge }| format!("{} {} {bulge}", point.x, point.y)).collect();
+                    format!("{}{}", vertices.join(", "), if *closed { " closed" } else { "" })
+                }
+                Geometry::Text { at, text } => format!("{} {} {text}", at.x, at.y),
+            };
+            format!("{} {} on {}: {geometry}", entity.kind, entity.handle, entity.layer)
+        })
+        .collect()
+}
+
+/// Findings in short: what stands at the place, and the sentence.
+fn findings(document: &Document) -> Vec<String> {
+    let lossy = |range: &std::ops::Range<usize>| String::from_utf8_lossy(&document.text().bytes()[range.clone()]).into_owned();
+    document
+        .findings()
+        .iter()
+        .map(|finding| {
+            let place = match &finding.place {
+                Place::Text { range } => lossy(range),
+                _ => "document".into(),
+            };
+            let sentence = match &finding.detail {
+                Detail::Syntax(sentence) | Detail::Units(sentence) => sentence.clone(),
+                Detail::UnsupportedEntity { kind, count, why } => format!("{count} {kind}: {why}"),
+                other => format!("{other:?}"),
+            };
+            let severity = match finding.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Information => "information",
+                Severity::Hint => "hint",
+            };
+            format!("{severity} at {place:?}: {sentence}")
+        })
+        .collect()
+}
+
+fn check(text: &str, expected_entities: &[&str], expected_findings: &[&str]) {
+    let document = Document::read(text.as_bytes().to_vec());
+    assert_eq!(entities(&document), expected_entities, "in {text}");
+    assert_eq!(findings(&document), expected_findings, "in {text}");
+}
+
+const LINE: &str = "0 LINE 5 A1 8 DIE 10 1 20 2 30 0 11 3 21 4 31 0";
+
+#[test]
+fn each_kind_of_entity() {
+    for (tags, expected) in [
+        (LINE, "LINE A1 on DIE: 1 2 to 3 4"),
+        ("0 LINE 10 1 20 2 11 3 21 4", "LINE #1 on 0: 1 2 to 3 4"),
+        ("0 ARC 5 B 10 1 20 2 40 3 50 30 51 90", "ARC B on 0: 1 2 R3 30 90"),
+        ("0 ARC 5 B 10 1 20 2 40 3 50 30 51 90 210 0 220 0 230 -1", "ARC B on 0: -1 2 R3 90 150"),
+        ("0 CIRCLE 5 B 10 1 20 2 40 3 230 -1", "CIRCLE B on 0: -1 2 R3"),
+        ("0 TEXT 5 B 10 1 20 2 40 3 1 O", "TEXT B on 0: 1 2 O"),
+        ("0 LWPOLYLINE 5 B 90 2 70 1 43 0 10 1 20 2 42 0.5 10 3 20 4", "LWPOLYLINE B on 0: 1 2 0.5, 3 4 0 closed"),
+        ("0 LWPOLYLINE 5 B 90 2 10 1 20 2 42 0.5 10 3 20 4 230 -1.0 1001 X 1010 7 1020 8", "LWPOLYLINE B on 0: -1 2 -0.5, -3 4 0"),
+        (
+            "0 POLYLINE 5 B 66 1 10 0 20 0 30 0 70 1 0 VERTEX 5 C 10 1 20 2 42 1 0 VERTEX 10 3 20 4 0 SEQEND 5 D",
+            "POLYLINE B on 0: 1 2 1, 3 4 0 closed",
+        ),
+        ("0 LINE 5 A 102 {X 10 9 102 } 10 1 20 2 11 3 21 4 101 Embedded 10 8", "LINE A on 0: 1 2 to 3 4"),
+    ] {
+        check(&dxf(tags), &[expected], &[]);
+    }
+}
+
+#[test]
+fn one_fault_is_one_finding_and_harms_no_neighbour() {
+    let line = "LINE A1 on DIE: 1 2 to 3 4";
+    for (tags, finding) in [
+        ("0 LINE 10 1 20 2 11 3", r#"error at "LINE": LINE lacks group code 21 (end y)"#),
+        ("0 LINE 10 1", r#"error at "LINE": LINE lacks the group codes 20 (y), 11 (end x) and 21 (end y)"#),
+        ("0 LINE 10 1,5 20 2 11 3 21 4", r#"error at "1,5": group code 10 (x) is "1,5", expected a number with a decimal point"#),
+        ("0 LINE 10 nan 20 2 11 3 21 4", r#"error at "nan": group code 10 (x) is "nan", expected a number"#),
+        ("0 CIRCLE 10 1 20 2 40 0", r#"error at "0": group code 40 (radius) of CIRCLE is "0", expected a number above 0"#),
+        ("0 ARC 10 1 20 2 40 -5 50 0 51 1", r#"error at "-5": group code 40 (radius) of ARC is "-5", expected a number above 0"#),
+        ("0 LWPOLYLINE 90 2 70 1 10 1 10 2 20 3", r#"error at "1": vertex 1 lacks group code 20 (y)"#),
+        ("0 LWPOLYLINE 90 1 70 1 10 1 20 3", r#"warning at "LWPOLYLINE": LWPOLYLINE has 1 vertices, expected at least 2"#),
+        ("0 HATCH 10 x 20 3", r#"information at "HATCH": 1 HATCH: this kind of entity is not cut"#),
+        ("0 LINE 67 1 10 1 20 2 11 3 21 4", r#"information at "LINE": 1 LINE: it lies in paper space"#),
+        (
+            "0 CIRCLE 10 1 20 2 40 1 210 1 220 0 230 0",
+            r#"information at "CIRCLE": 1 CIRCLE: its plane is tilted against the drawing's plane"#,
+        ),
+        (
+            "0 LINE 8 A 10 1 20 2.5 3.5 11 3 21 4.5",
+            r#"error at "3.5": "3.5" stands where a group code is expected: a line is missing or one too many"#,
+        ),
+    ] {
+        check(&dxf(&format!("{tags} {LINE}")), &[line], &[finding]);
+        check(&dxf(&format!("{LINE} {tags}")), &[line], &[finding]);
+    }
+}
