@@ -85,12 +85,14 @@ impl Chains {
         self.contours.keys().copied()
     }
 
-    /// True when none of the entities' free ends have moved, so that the contours stand as they are.
+    /// True when an entity's free ends have not moved, so that the contours stand as they are. Never for an entity whose own
+    /// ends touch: whether it comes back to itself depends on what lies between them.
     pub fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
         let known = self.ends_of.get(entity.0 as usize).copied().flatten();
         let now = if is_cut { free_ends(drawing, entity) } else { None };
         let chained = self.contour_of(entity).is_some();
-        known == now && chained == (is_cut && drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() > 0))
+        let touching = now.is_some_and(|(start, end)| (end - start).norm() <= self.join);
+        known == now && !touching && chained == (is_cut && drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() > 0))
     }
 
     /// The number of segments of an entity has changed: its contour counts them anew.
@@ -313,4 +315,68 @@ fn ends_of(entity: EntityId, (start, end): (Point, Point)) -> [End; 2] {
 fn compare(a: &End, b: &End) -> std::cmp::Ordering {
     let key = |end: &End| (end.entity, end.is_start);
     a.point.x.total_cmp(&b.point.x).then_with(|| a.point.y.total_cmp(&b.point.y)).then_with(|| key(a).cmp(&key(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Entity, Geometry};
+
+    type Coordinates = (f64, f64, f64, f64);
+
+    fn lines(lines: &[Coordinates]) -> Drawing {
+        let mut drawing = Drawing::new(None);
+        for (i, &(x0, y0, x1, y1)) in lines.iter().enumerate() {
+            let geometry = Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) };
+            drawing.push(Entity { handle: format!("{i}").into(), layer: "0".into(), role: None, kind: "LINE", geometry });
+        }
+        drawing
+    }
+
+    /// Contours as text, in machining order: entity numbers in order of travel, `'` where reversed, `o` where closed.
+    fn check(input: &[Coordinates], expected: &[&str]) {
+        let drawing = lines(input);
+        let chains = Chains::new(&drawing, 0.01, &|_| true);
+        let mut keys: Vec<Key> = drawing.order().iter().filter_map(|&id| chains.contour_of(id)).collect();
+        keys.dedup();
+        keys.sort_unstable_by_key(|key| chains.get(*key).map(|contour| contour.pieces.iter().map(|piece| piece.entity).min()));
+        keys.dedup();
+        let text = |key: &Key| {
+            let contour = chains.get(*key).unwrap();
+            let pieces = contour.pieces.iter().map(|p| format!("{}{}", p.entity.0, if p.reversed { "'" } else { "" }));
+            pieces.collect::<Vec<_>>().join(" ") + if contour.closed { " o" } else { "" }
+        };
+        assert_eq!(keys.iter().map(text).collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn a_square_out_of_order_and_half_turned_about_is_one_loop() {
+        check(&[(0.0, 0.0, 1.0, 0.0), (1.0, 1.0, 0.0, 1.0), (1.0, 1.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0)], &["0 2' 1 3' o"]);
+    }
+
+    #[test]
+    fn gaps_up_to_the_tolerance_are_joined_and_wider_ones_are_not() {
+        check(&[(0.0, 0.0, 1.0, 0.0), (1.009, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["0 1 2 o"]);
+        check(&[(0.0, 0.0, 1.0, 0.0), (1.02, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["1 2 0"]);
+    }
+
+    #[test]
+    fn two_loops_that_touch_in_a_point_stay_two() {
+        let (one, other) = (
+            [(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 0.0)],
+            [(0.0, 0.0, -1.0, 0.0), (-1.0, 0.0, 0.0, -1.0), (0.0, -1.0, 0.0, 0.0)],
+        );
+        check(&[one, other].concat(), &["0 1 2 o", "3 4 5 o"]);
+    }
+
+    #[test]
+    fn a_lead_line_into_a_loop_is_followed_in_machining_order() {
+        check(&[(2.0, 0.0, 1.0, 0.0), (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, -1.0, 0.0), (-1.0, 0.0, 1.0, 0.0)], &["0 1 2 3"]);
+    }
+
+    #[test]
+    fn a_line_shorter_than_the_tolerance_is_not_skipped() {
+        check(&[(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.005, 0.0), (1.005, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["0 1 2 3 o"]);
+        check(&[(0.0, 0.0, 0.005, 0.0)], &["0"]);
+    }
 }

@@ -47,6 +47,7 @@ pub fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -
         run: run.clone(),
         region: Bounds::EMPTY,
         would_seal: false,
+        slack: limits.tolerances.clearance,
         old_center: Point::origin(),
         arcs: (last - first + 1) as usize,
     };
@@ -75,6 +76,8 @@ struct Search<'a> {
     run: RangeInclusive<isize>,
     region: Bounds,
     would_seal: bool,
+    /// How far the disc may dip into what is replaced.
+    slack: f64,
     old_center: Point,
     arcs: usize,
 }
@@ -98,6 +101,19 @@ impl Search<'_> {
         if self.look_at(first - 1).is_none() || self.look_at(last + 1).is_none() {
             return Err(NoFix::NoNeighbour);
         }
+        // First exactly. Then with the slack that a drawing rounded to three decimals needs: its fillets kink a little at
+        // their ends, and what is replaced may stick out by as much.
+        let exact = self.search_outward(first, last, count);
+        self.slack = self.limits.tolerances.arc_fit;
+        exact.or_else(|| self.search_outward(first, last, count)).ok_or(if self.would_seal {
+            NoFix::SealsContour
+        } else {
+            NoFix::NarrowSlot
+        })
+    }
+
+    /// Tries the neighbours themselves, then swallows one more segment at either end each time.
+    fn search_outward(&mut self, first: isize, last: isize, count: isize) -> Option<Replacement> {
         let (before, after) = (self.reach(first - 1, -1), self.reach(last + 1, 1));
         for swallowed in 0..=before + after {
             for left in swallowed.saturating_sub(after)..=swallowed.min(before) {
@@ -107,11 +123,11 @@ impl Search<'_> {
                     continue;
                 }
                 if let Some(found) = self.best(one, other, swallowed > 0) {
-                    return Ok(found);
+                    return Some(found);
                 }
             }
         }
-        Err(if self.would_seal { NoFix::SealsContour } else { NoFix::NarrowSlot })
+        None
     }
 
     /// How many segments from `position` on may be swallowed in the direction `step`: their length is bounded by what a
@@ -237,7 +253,7 @@ impl Search<'_> {
             let beyond = (position - before).rem_euclid(count);
             beyond > 0 && beyond < after - before
         };
-        self.travel.keeps_clear(arc.center, arc.radius, tolerances.clearance, tolerances.arc_fit, &is_replaced)
+        self.travel.keeps_clear(arc.center, arc.radius, tolerances.clearance, self.slack, &is_replaced)
     }
 
     /// Largest distance of what is replaced, the cut-off ends of the neighbours included, from the new arc.
