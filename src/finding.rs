@@ -10,6 +10,18 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Rule {
     SmallRadius,
+    SharpCorner,
+    NarrowSlot,
+    LostPocket,
+    OffsetCollapse,
+    OpenContour,
+    Gap,
+    DuplicateEntity,
+    Overlap,
+    ShortSegment,
+    NearTangent,
+    SelfIntersection,
+    ArcAsChords,
     LeadIn,
     UnsupportedEntity,
     Units,
@@ -22,12 +34,43 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 7] =
-        [Rule::SmallRadius, Rule::LeadIn, Rule::UnsupportedEntity, Rule::Units, Rule::Syntax, Rule::Settings, Rule::More];
+    pub const ALL: [Rule; 19] = [
+        Rule::SmallRadius,
+        Rule::SharpCorner,
+        Rule::NarrowSlot,
+        Rule::LostPocket,
+        Rule::OffsetCollapse,
+        Rule::OpenContour,
+        Rule::Gap,
+        Rule::DuplicateEntity,
+        Rule::Overlap,
+        Rule::ShortSegment,
+        Rule::NearTangent,
+        Rule::SelfIntersection,
+        Rule::ArcAsChords,
+        Rule::LeadIn,
+        Rule::UnsupportedEntity,
+        Rule::Units,
+        Rule::Syntax,
+        Rule::Settings,
+        Rule::More,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
             Rule::SmallRadius => "small-radius",
+            Rule::SharpCorner => "sharp-corner",
+            Rule::NarrowSlot => "narrow-slot",
+            Rule::LostPocket => "lost-pocket",
+            Rule::OffsetCollapse => "offset-collapse",
+            Rule::OpenContour => "open-contour",
+            Rule::Gap => "gap",
+            Rule::DuplicateEntity => "duplicate-entity",
+            Rule::Overlap => "overlap",
+            Rule::ShortSegment => "short-segment",
+            Rule::NearTangent => "near-tangent",
+            Rule::SelfIntersection => "self-intersection",
+            Rule::ArcAsChords => "arc-as-chords",
             Rule::LeadIn => "lead-in",
             Rule::UnsupportedEntity => "unsupported-entity",
             Rule::Units => "units",
@@ -39,9 +82,18 @@ impl Rule {
 
     pub fn default_severity(self) -> Severity {
         match self {
-            Rule::SmallRadius | Rule::LeadIn | Rule::Syntax | Rule::Settings => Severity::Error,
-            Rule::Units => Severity::Warning,
+            Rule::SmallRadius
+            | Rule::NarrowSlot
+            | Rule::LostPocket
+            | Rule::OffsetCollapse
+            | Rule::OpenContour
+            | Rule::SelfIntersection
+            | Rule::LeadIn
+            | Rule::Syntax
+            | Rule::Settings => Severity::Error,
+            Rule::SharpCorner | Rule::Gap | Rule::DuplicateEntity | Rule::Overlap | Rule::ShortSegment | Rule::Units => Severity::Warning,
             Rule::UnsupportedEntity | Rule::More => Severity::Information,
+            Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
     }
 }
@@ -139,6 +191,59 @@ pub struct SmallRadius {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Detail {
     SmallRadius(Box<SmallRadius>),
+    /// A corner concave to the wire turns by `turn` (radians): it is left with `radius`, and `uncut` of it stands.
+    /// Where the wire side is not known, one finding stands for the `count` corners of its contour.
+    SharpCorner {
+        turn: f64,
+        radius: f64,
+        uncut: f64,
+        count: usize,
+    },
+    /// Facing walls are `width` apart, the wire needs `required`.
+    NarrowSlot {
+        width: f64,
+        required: f64,
+    },
+    /// The offset loses a part of the outline, near a point.
+    LostPocket {
+        near: Point,
+    },
+    /// Nothing is left of the outline at this correction.
+    OffsetCollapse {
+        required: f64,
+    },
+    /// The ends of a contour are `distance` apart.
+    OpenContour {
+        distance: f64,
+    },
+    /// Two ends that belong together are `distance` apart.
+    Gap {
+        distance: f64,
+    },
+    DuplicateEntity,
+    /// Two segments run on one another over `length`.
+    Overlap {
+        length: f64,
+    },
+    ShortSegment {
+        length: f64,
+    },
+    /// Two segments meet at `turn` radians: nearly tangent, not quite.
+    NearTangent {
+        turn: f64,
+    },
+    /// Segments cross, or only touch, at a point.
+    SelfIntersection {
+        at: Point,
+        touches: bool,
+    },
+    /// `chords` lines in a row lie on one circle, within `deviation`.
+    ArcAsChords {
+        chords: usize,
+        center: Point,
+        radius: f64,
+        deviation: f64,
+    },
     LeadIn(String),
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
@@ -161,6 +266,8 @@ pub struct Finding {
     pub severity: Severity,
     pub place: Place,
     pub detail: Detail,
+    /// The other places that are concerned, where there are two.
+    pub related: Vec<Place>,
 }
 
 /// A repair that a user may choose.
@@ -181,4 +288,18 @@ pub enum FixKind {
     Refillet { radius: f64, arcs: usize, moved: f64 },
     /// The end points stay, only the bulge changes; the contour kinks by `kink` radians at each end.
     KeepEndPoints { radius: f64, kink: f64 },
+    /// A sharp corner gets a fillet of `radius`.
+    Fillet { radius: f64 },
+    /// The ends of an open contour are joined by a line of `length`, or become one where it is 0.
+    Close { length: f64 },
+    /// Two ends are moved onto each other.
+    Snap { distance: f64 },
+    /// One of two entities in the same place goes.
+    DeleteDouble,
+    /// A segment too short to cut goes, its neighbours meet.
+    Merge,
+    /// An arc is changed so that it leaves its neighbour without a kink.
+    MakeTangent { moved: f64 },
+    /// One arc takes the place of `chords` lines.
+    OneArc { chords: usize, radius: f64 },
 }

@@ -103,7 +103,7 @@ fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
     let range = error.range.unwrap_or(0..0);
     let place = Place::Text { range: range.clone() };
     let severity = Rule::Settings.default_severity();
-    let finding = Finding { rule: Rule::Settings, severity, place, detail: Detail::Settings(error.message) };
+    let finding = Finding { rule: Rule::Settings, severity, place, detail: Detail::Settings(error.message), related: Vec::new() };
     let message = en::sentence(&finding, Unit::MILLIMETRE.mm);
     Row::new(file, Some(source), range, (Rule::Settings, severity), message, FindingData::default())
 }

@@ -32,6 +32,21 @@ pub enum Change {
     RemoveEntity {
         entity: EntityId,
     },
+    /// A new vertex before vertex `index` of a polyline (behind the last one where `index` is their number).
+    InsertVertex {
+        entity: EntityId,
+        index: usize,
+        vertex: Vertex,
+    },
+    SetClosed {
+        entity: EntityId,
+        closed: bool,
+    },
+    /// A new entity on the layer of `after`, next to it in machining order.
+    AddEntity {
+        after: EntityId,
+        geometry: Geometry,
+    },
 }
 
 impl Change {
@@ -41,7 +56,10 @@ impl Change {
             | Change::RemoveVertex { entity, .. }
             | Change::SetLine { entity, .. }
             | Change::SetArc { entity, .. }
-            | Change::RemoveEntity { entity } => *entity,
+            | Change::RemoveEntity { entity }
+            | Change::InsertVertex { entity, .. }
+            | Change::SetClosed { entity, .. }
+            | Change::AddEntity { after: entity, .. } => *entity,
         }
     }
 }
@@ -136,13 +154,15 @@ impl Drawing {
     pub fn apply(&mut self, edit: &DrawingEdit) -> Result<Delta, ChangeError> {
         let mut result = self.clone();
         let mut delta = Delta::default();
-        let mut removed_vertices = Vec::new();
+        // Vertices that come and go, with the index before the edit; those that stay are changed first.
+        let mut moving: Vec<(EntityId, usize, Option<Vertex>)> = Vec::new();
         for change in &edit.changes {
             let id = change.entity();
             let old = result.get(id).ok_or(ChangeError::UnknownEntity)?;
             match *change {
                 Change::SetVertex { entity, index, vertex } => delta.touched.push(result.splice(entity, index, 1, &[vertex])?),
-                Change::RemoveVertex { entity, index } => removed_vertices.push((entity, index)),
+                Change::RemoveVertex { entity, index } => moving.push((entity, index, None)),
+                Change::InsertVertex { entity, index, vertex } => moving.push((entity, index, Some(vertex))),
                 Change::SetLine { start, end, .. } => {
                     let entity = Entity { geometry: Geometry::Line { start, end }, ..old.clone() };
                     result.replace_checked(id, entity, &mut delta)?;
@@ -151,19 +171,53 @@ impl Drawing {
                     let entity = Entity { geometry: Geometry::Arc { center, radius, start_angle, end_angle }, ..old.clone() };
                     result.replace_checked(id, entity, &mut delta)?;
                 }
-                Change::RemoveEntity { entity } => {
-                    result.remove(entity);
-                    delta.touched.push(Touched::Removed { entity });
+                Change::SetClosed { closed, .. } => {
+                    let Geometry::Polyline { vertices, .. } = &old.geometry else { return Err(ChangeError::NotAPolyline) };
+                    let entity = Entity { geometry: Geometry::Polyline { closed, vertices: vertices.clone() }, ..old.clone() };
+                    result.replace_checked(id, entity, &mut delta)?;
                 }
+                Change::RemoveEntity { .. } | Change::AddEntity { .. } => {}
             }
         }
         // From the last index to the first, so that the indices of the edit stay true.
-        removed_vertices.sort_unstable_by(|a, b| b.cmp(a));
-        for (entity, index) in removed_vertices {
-            delta.touched.push(result.splice(entity, index, 1, &[])?);
+        moving.sort_by_key(|(entity, index, _)| std::cmp::Reverse((*entity, *index)));
+        for (entity, index, vertex) in moving {
+            delta.touched.push(match vertex {
+                Some(vertex) => result.splice(entity, index, 0, &[vertex])?,
+                None => result.splice(entity, index, 1, &[])?,
+            });
+        }
+        for change in &edit.changes {
+            if let Change::AddEntity { after, geometry } = change {
+                let entity = result.add_next_to(*after, geometry.clone())?;
+                delta.touched.push(Touched::Entity { entity });
+            }
+        }
+        for change in &edit.changes {
+            if let Change::RemoveEntity { entity } = *change {
+                result.remove(entity);
+                delta.touched.push(Touched::Removed { entity });
+            }
         }
         *self = result;
         Ok(delta)
+    }
+
+    /// Adds an entity behind `after` in machining order, on its layer and with its role, under a handle made from its own.
+    fn add_next_to(&mut self, after: EntityId, geometry: Geometry) -> Result<EntityId, ChangeError> {
+        if !geometry.is_sound() {
+            return Err(ChangeError::NotFinite);
+        }
+        let model = self.get(after).ok_or(ChangeError::UnknownEntity)?.clone();
+        let kind = match geometry {
+            Geometry::Polyline { .. } => "LWPOLYLINE",
+            Geometry::Line { .. } => "LINE",
+            Geometry::Arc { .. } => "ARC",
+            Geometry::Circle { .. } => "CIRCLE",
+            Geometry::Text { .. } => "TEXT",
+        };
+        let position = self.order.iter().position(|&id| id == after).map_or(self.order.len(), |at| at + 1);
+        Ok(self.insert_at(position, Entity { geometry, kind, ..model }))
     }
 
     fn replace_checked(&mut self, id: EntityId, entity: Entity, delta: &mut Delta) -> Result<(), ChangeError> {

@@ -6,8 +6,8 @@ use crate::geometry::{Bounds, Point};
 use std::ops::Range;
 
 /// Segments in one run. Short enough that one run is looked through in a microsecond, long enough that a million
-/// segments make only a few thousand boxes.
-const RUN: usize = 256;
+/// segments make only some thousand boxes.
+pub const RUN: usize = 64;
 
 #[derive(Clone, Debug)]
 struct Run {
@@ -79,13 +79,24 @@ impl ContourIndex {
         found
     }
 
-    fn range_of(&self, run: usize) -> Range<usize> {
+    /// Segments of a run.
+    pub fn range_of(&self, run: usize) -> Range<usize> {
         run * RUN..((run + 1) * RUN).min(self.segments)
     }
 
     /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour.
     pub fn twice_area(&self) -> f64 {
         self.runs.iter().map(|run| run.twice_area).sum()
+    }
+
+    /// Number of runs.
+    pub fn run_count(&self) -> usize {
+        self.runs.len()
+    }
+
+    /// The box of a run; empty past the last one.
+    pub fn bounds_of_run(&self, run: usize) -> Bounds {
+        self.runs.get(run).map_or(Bounds::EMPTY, |run| run.bounds)
     }
 
     pub fn bounds(&self) -> Bounds {

@@ -15,7 +15,7 @@ pub use chain::{Chains, Key as ContourKey, Rechained, stated_role};
 pub use contour::{Contour, ContourSegment, Piece};
 pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, Geometry, Role, Vertex};
-pub use index::ContourIndex;
+pub use index::{ContourIndex, RUN};
 pub use nesting::{nesting_depths, winding};
 pub use outline::{Outline, wire_side};
 

@@ -51,6 +51,9 @@ impl Document {
                     of_entity.arc = Some((center, radius, start_angle, end_angle));
                 }
                 Change::RemoveEntity { .. } => of_entity.removed = true,
+                Change::InsertVertex { .. } | Change::SetClosed { .. } | Change::AddEntity { .. } => {
+                    return Err("this edit cannot be made in DXF text".into());
+                }
             }
         }
         let mut edits = Vec::new();

@@ -14,7 +14,13 @@ pub(super) fn oddity(findings: &mut Vec<Finding>, range: Range<usize>, sentence:
 }
 
 pub(super) fn push(findings: &mut Vec<Finding>, range: Range<usize>, severity: Severity, sentence: String) {
-    findings.push(Finding { rule: Rule::Syntax, severity, place: Place::Text { range }, detail: Detail::Syntax(sentence) });
+    findings.push(Finding {
+        rule: Rule::Syntax,
+        severity,
+        place: Place::Text { range },
+        detail: Detail::Syntax(sentence),
+        related: Vec::new(),
+    });
 }
 
 /// A value as it is quoted: at most 32 characters, nothing that a terminal would obey.

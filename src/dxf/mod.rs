@@ -141,8 +141,13 @@ impl Document {
         }
         drawing.unit = unit.and_then(unit_of);
         if let Some(sentence) = about_unit(unit) {
-            let finding =
-                Finding { rule: Rule::Units, severity: Severity::Warning, place: Place::Document, detail: Detail::Units(sentence) };
+            let finding = Finding {
+                rule: Rule::Units,
+                severity: Severity::Warning,
+                place: Place::Document,
+                detail: Detail::Units(sentence),
+                related: Vec::new(),
+            };
             self.findings.insert(0, finding);
         }
         self.drawing = Arc::new(drawing);
@@ -172,6 +177,7 @@ impl Document {
                 severity: Severity::Information,
                 place: Place::Text { range: lines.trimmed_range(line) },
                 detail: Detail::UnsupportedEntity { kind: kind.clone(), count, why },
+                related: Vec::new(),
             });
         }
         self.findings.sort_by_key(range_key);

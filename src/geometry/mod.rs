@@ -5,12 +5,14 @@
 
 mod arc;
 mod bounds;
+mod grid;
 mod intersection;
 mod segment;
 mod tolerances;
 
 pub use arc::Arc;
 pub use bounds::Bounds;
+pub use grid::Grid;
 pub use intersection::{circle_circle, line_circle, line_line};
 pub use segment::{Line, Segment};
 pub use tolerances::Tolerances;

@@ -9,6 +9,10 @@ pub struct Tolerances {
     pub report: f64,
     /// How far a fitted arc may lie from the curve it stands for.
     pub arc_fit: f64,
+    /// Two entities within this of each other lie in the same place.
+    pub same_place: f64,
+    /// A segment shorter than this is one that controllers stumble over.
+    pub short: f64,
     /// A segment shorter than this has no direction.
     pub zero_length: f64,
     /// How deep a new arc's disc may dip into a neighbour before the arc counts as cutting it.
@@ -17,7 +21,7 @@ pub struct Tolerances {
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Tolerances { join: 0.01, report: 1e-6, arc_fit: 1e-3, zero_length: 1e-9, clearance: 1e-7 }
+        Tolerances { join: 0.01, report: 1e-6, arc_fit: 1e-3, same_place: 0.005, short: 0.005, zero_length: 1e-9, clearance: 1e-7 }
     }
 }
 
@@ -28,6 +32,8 @@ impl Tolerances {
             join: self.join / unit_mm,
             report: self.report / unit_mm,
             arc_fit: self.arc_fit / unit_mm,
+            same_place: self.same_place / unit_mm,
+            short: self.short / unit_mm,
             zero_length: self.zero_length / unit_mm,
             clearance: self.clearance / unit_mm,
         }

@@ -8,6 +8,42 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
         Detail::SmallRadius(numbers) => small_radius(numbers, unit_mm),
         Detail::UnsupportedEntity { kind, count: 1, why } => format!("{kind} is not cut: {why}"),
         Detail::UnsupportedEntity { kind, count, why } => format!("{kind} ({count} of them) is not cut: {why}"),
+        Detail::SharpCorner { turn, radius, uncut, count: 1 } => format!(
+            "corner of {:.1}° is left with R {} mm: {} mm of it stay uncut",
+            turn.abs().to_degrees(),
+            mm(radius * unit_mm),
+            mm(uncut * unit_mm)
+        ),
+        Detail::SharpCorner { radius, count, .. } => {
+            format!("{count} sharp corners: those that the wire runs inside of are left with R {} mm", mm(radius * unit_mm))
+        }
+        Detail::NarrowSlot { width, required } => {
+            let (width, required) = told_apart(width * unit_mm, required * unit_mm);
+            format!("slot is {width} mm wide, the wire needs {required} mm: it cannot pass without cutting the walls")
+        }
+        Detail::LostPocket { .. } => "the offset loses this part of the outline: the wire does not reach it".into(),
+        Detail::OffsetCollapse { required } => {
+            format!("nothing is left of the outline at a correction of {} mm: the wire does not fit in", mm(required * unit_mm))
+        }
+        Detail::OpenContour { distance } => format!("contour is open: its ends are {} mm apart", mm(distance * unit_mm)),
+        Detail::Gap { distance } => format!("ends do not meet: they are {} mm apart, within the join tolerance", mm(distance * unit_mm)),
+        Detail::DuplicateEntity => "entity lies in the same place as another: the wire would cut it twice".into(),
+        Detail::Overlap { length } => format!("segment runs on another one over {} mm", mm(length * unit_mm)),
+        Detail::ShortSegment { length } => format!("segment is only {} mm long: controllers stumble over it", mm(length * unit_mm)),
+        Detail::NearTangent { turn } => {
+            format!("contour kinks by {:.2}° where it looks tangent: the wire leaves a mark", turn.abs().to_degrees())
+        }
+        Detail::SelfIntersection { touches, .. } => {
+            format!(
+                "contour {} here: the wire would cut into the part",
+                if *touches { "touches itself or another" } else { "crosses itself or another" }
+            )
+        }
+        Detail::ArcAsChords { chords, radius, deviation, .. } => format!(
+            "{chords} chords lie on one arc of R {} mm, within {} mm: the wire leaves facets",
+            mm(radius * unit_mm),
+            mm(deviation * unit_mm)
+        ),
         Detail::More { count } => format!("{count} more findings are not shown"),
         Detail::LeadIn(sentence) | Detail::Units(sentence) | Detail::Syntax(sentence) | Detail::Settings(sentence) => sentence.clone(),
     }
@@ -25,6 +61,14 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
             mm(radius * unit_mm),
             kink.to_degrees()
         ),
+        FixKind::Fillet { radius } => format!("Round the corner with R {} mm", mm(radius * unit_mm)),
+        FixKind::Close { length: 0.0 } => "Close the contour".into(),
+        FixKind::Close { length } => format!("Close the contour with a line of {} mm", mm(length * unit_mm)),
+        FixKind::Snap { distance } => format!("Snap the ends together (moves them by {} mm)", mm(distance * unit_mm)),
+        FixKind::DeleteDouble => "Delete the double".into(),
+        FixKind::Merge => "Remove the short segment, its neighbours meet".into(),
+        FixKind::MakeTangent { moved } => format!("Make the segments tangent (moves the contour by {} mm)", mm(moved * unit_mm)),
+        FixKind::OneArc { chords, radius } => format!("Replace the {chords} chords by one arc of R {} mm", mm(radius * unit_mm)),
     }
 }
 

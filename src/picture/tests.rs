@@ -26,7 +26,13 @@ fn tight(id: EntityId, segment: usize, geometry: Segment, required: f64) -> Find
         no_fix: None,
     };
     let place = Place::Segment { entity: id, segment };
-    Finding { rule: Rule::SmallRadius, severity: Severity::Error, place, detail: Detail::SmallRadius(Box::new(detail)) }
+    Finding {
+        rule: Rule::SmallRadius,
+        severity: Severity::Error,
+        place,
+        detail: Detail::SmallRadius(Box::new(detail)),
+        related: Vec::new(),
+    }
 }
 
 /// An opening with one fillet of R 0.08 in a plate that is not cut, a text, and a path beside it.

@@ -171,19 +171,30 @@ fn apply_one(drawing: &mut core::Drawing, change: DrawingChange, delta: &mut Del
 /// A fix as changes that are valid one after another and touch nothing that stays: neighbouring vertices of one polyline
 /// are one splice, lines and arcs are replaced whole.
 pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<DrawingChange> {
-    // Vertices of each polyline by index; `None` removes.
-    let mut vertices: BTreeMap<EntityId, BTreeMap<usize, Option<core::Vertex>>> = BTreeMap::new();
+    let mut vertices: BTreeMap<EntityId, BTreeMap<usize, AtVertex>> = BTreeMap::new();
     let mut entities: BTreeMap<EntityId, Option<core::Entity>> = BTreeMap::new();
+    let mut added = Vec::new();
     for change in &edit.changes {
         let id = change.entity();
         let Some(old) = drawing.get(id) else { continue };
         match *change {
             Change::SetVertex { index, vertex, .. } => {
-                vertices.entry(id).or_default().entry(index).or_insert(Some(vertex));
+                let at = vertices.entry(id).or_default().entry(index).or_default();
+                at.own = at.own.or(Some(Some(vertex)));
             }
             Change::RemoveVertex { index, .. } => {
-                vertices.entry(id).or_default().insert(index, None);
+                vertices.entry(id).or_default().entry(index).or_default().own = Some(None);
             }
+            Change::InsertVertex { index, vertex, .. } => {
+                vertices.entry(id).or_default().entry(index).or_default().before.push(vertex);
+            }
+            Change::SetClosed { closed, .. } => {
+                if let core::Geometry::Polyline { vertices, .. } = &old.geometry {
+                    let geometry = core::Geometry::Polyline { closed, vertices: vertices.clone() };
+                    entities.insert(id, Some(core::Entity { geometry, ..old.clone() }));
+                }
+            }
+            Change::AddEntity { after, .. } => added.push((after, change)),
             Change::SetLine { start, end, .. } => {
                 entities.insert(id, Some(core::Entity { geometry: core::Geometry::Line { start, end }, ..old.clone() }));
             }
@@ -206,20 +217,41 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
         let Some(old) = drawing.get(id) else { continue };
         changes.push(DrawingChange::Entity { handle: old.handle.to_string(), entity: entity.as_ref().map(Entity::from), before: None });
     }
-    changes
+    // New entities come first, while those that they stand next to are still there; their handles are those that the core gives.
+    let mut grown = drawing.clone();
+    let mut new = Vec::new();
+    for (after, change) in added {
+        let Ok(delta) = grown.apply(&core::DrawingEdit { changes: vec![change.clone()] }) else { continue };
+        let Some(core::Touched::Entity { entity }) = delta.touched.first() else { continue };
+        let Some(entity) = grown.get(*entity) else { continue };
+        let next = drawing.order().iter().skip_while(|&&id| id != after).nth(1).and_then(|&id| drawing.get(id));
+        let before = next.map(|next| next.handle.to_string());
+        new.push(DrawingChange::Entity { handle: entity.handle.to_string(), entity: Some(Entity::from(entity)), before });
+    }
+    new.append(&mut changes);
+    new
+}
+
+/// What becomes of one vertex, and what comes before it.
+#[derive(Default)]
+struct AtVertex {
+    before: Vec<core::Vertex>,
+    /// `Some(None)` removes it, `None` leaves it.
+    own: Option<Option<core::Vertex>>,
 }
 
 /// One splice for each run of neighbouring vertices, from the last run to the first, so that indices stay true.
-fn splices(by_index: &BTreeMap<usize, Option<core::Vertex>>) -> Vec<Splice> {
+fn splices(by_index: &BTreeMap<usize, AtVertex>) -> Vec<Splice> {
     let mut splices: Vec<Splice> = Vec::new();
-    for (&index, vertex) in by_index {
-        let insert = vertex.map(Vertex::from);
+    for (&index, at) in by_index {
+        let insert = at.before.iter().copied().chain(at.own.flatten()).map(Vertex::from);
+        let delete_count = usize::from(at.own.is_some());
         match splices.last_mut() {
             Some(last) if last.start + last.delete_count == index => {
-                last.delete_count += 1;
+                last.delete_count += delete_count;
                 last.insert.extend(insert);
             }
-            _ => splices.push(Splice { start: index, delete_count: 1, insert: insert.into_iter().collect() }),
+            _ => splices.push(Splice { start: index, delete_count, insert: insert.collect() }),
         }
     }
     splices.reverse();

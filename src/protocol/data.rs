@@ -51,6 +51,20 @@ pub struct FindingData {
     /// Why no fix is offered: `narrow-slot`, `seals-contour`, `no-neighbour` or `not-editable`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_fix: Option<String>,
+    /// Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn: Option<f64>,
+    /// How much of a corner the wire leaves standing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncut: Option<f64>,
+    /// The point where two segments meet, or near which a part is lost.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Point>,
+    /// Width of a slot, distance of two ends, or deviation of chords from their circle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
     /// Kind of entity that is not cut.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kind: Option<String>,
@@ -81,6 +95,29 @@ impl FindingData {
                 data.count = Some(*count);
             }
             Detail::More { count } => data.count = Some(*count),
+            Detail::SharpCorner { turn, radius, uncut, count } => {
+                data.turn = Some(turn.to_degrees());
+                data.radius = Some(*radius);
+                data.uncut = Some(*uncut);
+                data.count = (*count > 1).then_some(*count);
+            }
+            Detail::NarrowSlot { width, required } => {
+                data.distance = Some(*width);
+                data.required = Some(*required);
+            }
+            Detail::LostPocket { near } => data.at = Some((*near).into()),
+            Detail::OffsetCollapse { required } => data.required = Some(*required),
+            Detail::OpenContour { distance } | Detail::Gap { distance } => data.distance = Some(*distance),
+            Detail::DuplicateEntity => {}
+            Detail::Overlap { length } | Detail::ShortSegment { length } => data.length = Some(*length),
+            Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
+            Detail::SelfIntersection { at, .. } => data.at = Some((*at).into()),
+            Detail::ArcAsChords { chords, center, radius, deviation } => {
+                data.count = Some(*chords);
+                data.center = Some((*center).into());
+                data.radius = Some(*radius);
+                data.distance = Some(*deviation);
+            }
             Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
         }
         data

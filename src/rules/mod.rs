@@ -3,10 +3,15 @@
 //! A rule speaks geometry: it sees contours and gives back findings on segments and fixes as drawing edits.
 //! It knows nothing of text, of protocols, or of how a sentence about it reads.
 
+mod duplicate_entity;
+mod short_segment;
 pub mod small_radius;
 
+use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
+use crate::finding::{Detail, Fix, Place, Rule, Side};
 use crate::geometry::Tolerances;
 use crate::settings::Effective;
+use std::ops::Range;
 
 /// What the rules measure against, in the units of one drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,3 +39,84 @@ impl Limits {
         }
     }
 }
+
+/// One contour as a rule sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Outlook<'a> {
+    pub drawing: &'a Drawing,
+    pub contour: &'a Contour,
+    pub index: &'a ContourIndex,
+    pub limits: &'a Limits,
+}
+
+impl Outlook<'_> {
+    /// Segment at `index`, which goes round and round on a closed contour; `None` past the ends of an open one.
+    pub fn segment(&self, index: isize) -> Option<ContourSegment> {
+        let count = self.contour.len() as isize;
+        if count == 0 || (!self.contour.closed && !(0..count).contains(&index)) {
+            return None;
+        }
+        self.contour.segment(self.drawing, index.rem_euclid(count) as usize)
+    }
+
+    /// The place of the segment at `index`.
+    pub fn place(&self, index: usize) -> Option<Place> {
+        let segment = self.segment(index as isize)?;
+        Some(Place::Segment { entity: segment.entity, segment: segment.segment })
+    }
+}
+
+/// Something that a rule has seen at one segment of a contour. Small, since a contour may have one at every segment;
+/// its numbers are worked out when it is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fact {
+    /// Index of the segment within the contour.
+    pub index: u32,
+    /// The side of travel that it concerns, `None` where it holds whichever side the wire runs on.
+    pub side: Option<Side>,
+}
+
+/// A rule on a segment and its near neighbours. All of them stand in [`LOCAL_RULES`].
+pub struct LocalRule {
+    pub rule: Rule,
+    /// Looks at the segments `range` of a contour and adds what it sees there. What it sees at a segment may depend only on
+    /// that segment and those within `reach` of it.
+    pub look: fn(&Outlook, Range<usize>, &mut Vec<Fact>),
+    /// How many segments before and behind a changed one must be looked at again.
+    pub reach: fn(&Outlook, Range<usize>) -> (usize, usize),
+    /// The numbers of a fact. `count` is 1, or the number of facts that one finding stands for.
+    pub detail: fn(&Outlook, Fact, usize) -> Option<Detail>,
+    /// Repairs, the preferred one first.
+    pub fixes: fn(&Outlook, Fact) -> Vec<Fix>,
+    /// Where the wire side is not known: one hint for each contour in place of a finding for each fact.
+    pub one_hint_when_side_unknown: bool,
+}
+
+/// Every rule on single segments and their neighbours.
+pub const LOCAL_RULES: &[LocalRule] = &[short_segment::RULE];
+
+/// Something that a rule has seen between two segments, of one contour or of two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairFact {
+    pub rule: Rule,
+    /// Indices within the first and the second contour.
+    pub one: u32,
+    pub other: u32,
+    /// Sides of travel that it concerns, of the first and of the second segment; `None` where any.
+    pub sides: (Option<Side>, Option<Side>),
+}
+
+/// A rule on segments that come near each other. All of them stand in [`PAIR_RULES`].
+pub struct PairRule {
+    pub rule: Rule,
+    /// How near two segments must come to be looked at together.
+    pub reach: fn(&Limits) -> f64,
+    /// Looks at two segments, `one` before `other` in (contour, index); says what it sees, with the sides it concerns.
+    /// What it sees may depend only on the two and on those that follow and precede them in their contours.
+    pub look: fn(&Outlook, usize, &Outlook, usize, bool) -> Option<(Option<Side>, Option<Side>)>,
+    pub detail: fn(&Outlook, usize, &Outlook, usize) -> Option<Detail>,
+    pub fixes: fn(&Outlook, usize, &Outlook, usize) -> Vec<Fix>,
+}
+
+/// Every rule on pairs of segments.
+pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE];

@@ -22,7 +22,11 @@ pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Dia
         && let Some(severity) = document.settings().severity(Rule::More)
     {
         let detail = Detail::More { count: count - findings.len() };
-        diagnostics.push(diagnostic(document, &Finding { rule: Rule::More, severity, place: Place::Document, detail }, encoding));
+        diagnostics.push(diagnostic(
+            document,
+            &Finding { rule: Rule::More, severity, place: Place::Document, detail, related: Vec::new() },
+            encoding,
+        ));
     }
     diagnostics
 }

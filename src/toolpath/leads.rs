@@ -196,7 +196,7 @@ pub(super) fn thread_hole(
             Some(Source::Segment { entity, segment }) => Place::Segment { entity, segment },
             _ => Place::Document,
         };
-        Finding { rule: Rule::LeadIn, severity, place, detail: Detail::LeadIn(sentence) }
+        Finding { rule: Rule::LeadIn, severity, place, detail: Detail::LeadIn(sentence), related: Vec::new() }
     };
     let correction = settings.correction;
     if let Some(thread) = wanted.thread {

@@ -68,6 +68,18 @@ fn level(severity: Severity) -> &'static str {
 fn summary(rule: Rule) -> &'static str {
     match rule {
         Rule::SmallRadius => "An arc is tighter than the correction: the wire cannot follow it",
+        Rule::SharpCorner => "A corner that the wire leaves rounded",
+        Rule::NarrowSlot => "A slot narrower than the wire's way through it",
+        Rule::LostPocket => "The offset loses a part of the outline",
+        Rule::OffsetCollapse => "Nothing is left of the outline at this correction",
+        Rule::OpenContour => "A contour that does not close",
+        Rule::Gap => "Two ends that belong together do not meet",
+        Rule::DuplicateEntity => "Two entities lie in the same place",
+        Rule::Overlap => "Two segments run on one another",
+        Rule::ShortSegment => "A segment too short to cut",
+        Rule::NearTangent => "Two segments are nearly tangent, but not quite",
+        Rule::SelfIntersection => "A contour touches or crosses itself or another",
+        Rule::ArcAsChords => "An arc drawn as short lines",
         Rule::LeadIn => "The lead-in is too short or crosses a contour",
         Rule::UnsupportedEntity => "Something in the drawing is not cut",
         Rule::Units => "The drawing's unit is missing or absurd",

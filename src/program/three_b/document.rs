@@ -79,6 +79,7 @@ fn finding(fault: SyntaxFault) -> Finding {
         severity: Rule::Syntax.default_severity(),
         place: Place::Text { range: fault.range },
         detail: Detail::Syntax(fault.sentence),
+        related: Vec::new(),
     }
 }
 

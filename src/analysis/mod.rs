@@ -1,15 +1,23 @@
 //! Drawing → contours → findings, and what of it may be reused after an edit.
 
+mod known;
+mod pairs;
+mod report;
+
 use crate::drawing::{
-    Chains, ContourIndex, ContourKey, ContourSegment, Delta, Drawing, DrawingEdit, EntityId, Outline, Role, Touched, nesting_depths,
+    Chains, ContourIndex, ContourKey, ContourSegment, Delta, Drawing, DrawingEdit, EntityId, Outline, RUN, Role, Touched, nesting_depths,
     stated_role,
 };
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::Bounds;
-use crate::rules::Limits;
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
+use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook, PAIR_RULES};
 use crate::settings::{Effective, SideSetting};
+use known::Known;
+use pairs::{Pairs, RunId};
+use report::Report;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -19,9 +27,11 @@ pub struct Analysis {
     settings: Arc<Effective>,
     limits: Limits,
     chains: Chains,
-    indexes: FxHashMap<ContourKey, ContourIndex>,
+    known: FxHashMap<ContourKey, Known>,
+    pairs: Pairs,
     /// Whether a fix was found for a fault, and the region that the answer depends on.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
+    order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
 }
 
@@ -29,10 +39,18 @@ impl Analysis {
     pub fn new(drawing: &Drawing, settings: Arc<Effective>) -> Analysis {
         let limits = Limits::new(&settings, settings.unit_of(drawing).mm);
         let chains = Chains::new(drawing, limits.tolerances.join, &|id| is_cut(drawing, &settings, id));
-        let mut analysis =
-            Analysis { settings, limits, chains, indexes: FxHashMap::default(), answers: FxHashMap::default(), outlines: OnceLock::new() };
+        let mut analysis = Analysis {
+            settings,
+            limits,
+            chains,
+            known: FxHashMap::default(),
+            pairs: Pairs::default(),
+            answers: FxHashMap::default(),
+            order: OnceLock::new(),
+            outlines: OnceLock::new(),
+        };
         let keys: Vec<ContourKey> = analysis.chains.keys().collect();
-        keys.into_iter().for_each(|key| analysis.index(drawing, key));
+        analysis.learn(drawing, &keys);
         analysis
     }
 
@@ -57,16 +75,24 @@ impl Analysis {
             if !stays || !self.look_again(drawing, entity, vertices) {
                 moved.push(entity);
             }
+            if vertices.is_none() {
+                self.order = OnceLock::new();
+            }
         }
         if moved.is_empty() {
             return;
         }
+        self.order = OnceLock::new();
         let settings = self.settings.clone();
         let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
+        for key in &rechained.gone {
+            if let Some(known) = self.known.remove(key) {
+                self.pairs.forget(*key, &known.index);
+            }
+        }
         let gone: FxHashSet<ContourKey> = rechained.gone.into_iter().collect();
-        self.indexes.retain(|key, _| !gone.contains(key));
         self.answers.retain(|(key, _), _| !gone.contains(key));
-        rechained.new.into_iter().for_each(|key| self.index(drawing, key));
+        self.learn(drawing, &rechained.new);
     }
 
     /// The settings that the findings hold under.
@@ -78,10 +104,10 @@ impl Analysis {
     pub fn outlines(&self, drawing: &Drawing) -> &Arc<Vec<Outline>> {
         self.outlines.get_or_init(|| {
             let ordered = self.in_machining_order(drawing);
-            let roles = self.roles(drawing, &ordered);
+            let roles = self.roles(drawing, ordered);
             let outline = |(key, role): (ContourKey, Role)| {
                 let contour = self.chains.get(key)?.clone();
-                let twice_area = if contour.closed { self.indexes.get(&key)?.twice_area() } else { 0.0 };
+                let twice_area = if contour.closed { self.known.get(&key)?.index.twice_area() } else { 0.0 };
                 Some(Outline { contour, role, twice_area })
             };
             Arc::new(ordered.iter().copied().zip(roles).filter_map(outline).collect())
@@ -90,30 +116,43 @@ impl Analysis {
 
     /// At most `limit` findings, errors first, then in machining order; and how many there are in all.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
-        let Some(severity) = self.settings.severity(Rule::SmallRadius) else { return (Vec::new(), 0) };
-        let mut findings = Vec::new();
-        let mut count = 0;
-        for (key, wire_side) in self.with_tight_arcs(drawing) {
-            for index in self.tight_in_entity_order(key) {
-                let Some((segment, mut numbers)) = self.fault(drawing, key, index, wire_side) else { continue };
-                count += 1;
-                if findings.len() < limit {
-                    numbers.no_fix = self.answer(drawing, key, index);
-                    findings.push(Finding {
-                        rule: Rule::SmallRadius,
-                        severity,
-                        place: Place::Segment { entity: segment.entity, segment: segment.segment },
-                        detail: Detail::SmallRadius(Box::new(numbers)),
-                    });
-                }
+        let mut report = Report::new(self.settings.clone(), limit);
+        let ordered = self.in_machining_order(drawing).to_vec();
+        let roles = self.roles(drawing, &ordered);
+        let sides: Vec<Option<Side>> = ordered.iter().zip(&roles).map(|(key, role)| self.wire_side(*key, *role)).collect();
+        for (&key, &wire_side) in ordered.iter().zip(&sides) {
+            self.report_small_radii(drawing, key, wire_side, &mut report);
+        }
+        for (&key, &wire_side) in ordered.iter().zip(&sides) {
+            if let (Some(known), Some(outlook)) = (self.known.get(&key), self.outlook(drawing, key)) {
+                known.report(&outlook, wire_side, &mut report);
             }
         }
-        (findings, count)
+        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.into_iter().zip(sides).collect();
+        self.pairs.report(&|key| self.outlook(drawing, key), &side_of, &mut report);
+        report.finish()
+    }
+
+    /// Arcs below the correction in one contour.
+    fn report_small_radii(&mut self, drawing: &Drawing, key: ContourKey, wire_side: Option<Side>, report: &mut Report) {
+        let tight: Vec<usize> = self.known.get(&key).map_or_else(Vec::new, |known| known.index.tight().collect());
+        for index in tight {
+            let Some((segment, mut numbers)) = self.fault(drawing, key, index, wire_side) else { continue };
+            if report.counts(Rule::SmallRadius, None) {
+                numbers.no_fix = self.answer(drawing, key, index);
+                let place = Place::Segment { entity: segment.entity, segment: segment.segment };
+                report.add(Rule::SmallRadius, None, place, Detail::SmallRadius(Box::new(numbers)), Vec::new());
+            }
+        }
     }
 
     /// The fixes of one finding, the preferred one first; empty where none is right.
     pub fn fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
-        let (Place::Segment { entity, segment }, Detail::SmallRadius(_)) = (&finding.place, &finding.detail) else { return Vec::new() };
+        let Place::Segment { entity, segment } = &finding.place else { return Vec::new() };
+        if finding.rule != Rule::SmallRadius {
+            let fixes = self.other_fixes(drawing, finding, (*entity, *segment)).unwrap_or_default();
+            return fixes.into_iter().filter(|fix| self.keeps_radii(drawing, &fix.edit)).collect();
+        }
         let Some(key) = self.chains.contour_of(*entity) else { return Vec::new() };
         let Some(index) = self.chains.get(key).and_then(|contour| contour.index_of(*entity, *segment)) else { return Vec::new() };
         let mut fixes = Vec::new();
@@ -145,6 +184,32 @@ impl Analysis {
         fixes
     }
 
+    /// The fixes of a finding of any rule but `small-radius`.
+    fn other_fixes(&self, drawing: &Drawing, finding: &Finding, at: (EntityId, usize)) -> Option<Vec<Fix>> {
+        let (key, index) = self.locate(at)?;
+        let outlook = self.outlook(drawing, key)?;
+        if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
+            let is_hint = rule.one_hint_when_side_unknown && matches!(finding.detail, Detail::SharpCorner { count, .. } if count > 1);
+            let side = if is_hint { return None } else { None };
+            return Some((rule.fixes)(&outlook, Fact { index: index as u32, side }));
+        }
+        let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
+        let Place::Segment { entity, segment } = finding.related.first()? else { return None };
+        let (other_key, other_index) = self.locate((*entity, *segment))?;
+        Some((rule.fixes)(&outlook, index, &self.outlook(drawing, other_key)?, other_index))
+    }
+
+    /// The contour that holds a segment, and its index in there.
+    fn locate(&self, (entity, segment): (EntityId, usize)) -> Option<(ContourKey, usize)> {
+        let key = self.chains.contour_of(entity)?;
+        Some((key, self.chains.get(key)?.index_of(entity, segment)?))
+    }
+
+    fn outlook<'a>(&'a self, drawing: &'a Drawing, key: ContourKey) -> Option<Outlook<'a>> {
+        let contour = self.chains.get(key)?;
+        Some(Outlook { drawing, contour, index: &self.known.get(&key)?.index, limits: &self.limits })
+    }
+
     /// One edit that makes every safe fix; `None` where there is none.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
         self.settings.severity(Rule::SmallRadius)?;
@@ -174,22 +239,20 @@ impl Analysis {
 
     /// Contours that have tight arcs, in machining order, with the wire side of each.
     fn with_tight_arcs(&self, drawing: &Drawing) -> Vec<(ContourKey, Option<Side>)> {
-        if self.indexes.values().all(|index| index.tight().next().is_none()) {
-            return Vec::new();
-        }
         let ordered = self.in_machining_order(drawing);
-        let roles = self.roles(drawing, &ordered);
-        let sided = ordered.into_iter().zip(roles).filter_map(|(key, role)| {
-            let index = self.indexes.get(&key)?;
-            index.tight().next()?;
-            let closed = self.chains.get(key)?.closed;
-            Some((key, crate::drawing::wire_side(role, closed, index.twice_area())))
-        });
-        sided.collect()
+        let roles = self.roles(drawing, ordered);
+        let tight =
+            ordered.iter().zip(roles).filter(|(key, _)| self.known.get(key).is_some_and(|known| known.index.tight().next().is_some()));
+        tight.map(|(&key, role)| (key, self.wire_side(key, role))).collect()
+    }
+
+    fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {
+        let closed = self.chains.get(key)?.closed;
+        crate::drawing::wire_side(role, closed, self.known.get(&key)?.index.twice_area())
     }
 
     fn tight_in_entity_order(&self, key: ContourKey) -> Vec<usize> {
-        self.indexes.get(&key).map_or_else(Vec::new, |index| index.tight().collect())
+        self.known.get(&key).map_or_else(Vec::new, |known| known.index.tight().collect())
     }
 
     fn fault(
@@ -207,7 +270,7 @@ impl Analysis {
     fn attempt<'a>(&'a self, drawing: &'a Drawing, key: ContourKey, index: usize) -> Option<(Travel<'a>, Attempt)> {
         let contour = self.chains.get(key)?;
         let arc = *contour.segment(drawing, index)?.geometry.as_arc()?;
-        let travel = Travel { drawing, contour, index: self.indexes.get(&key)?, side: small_radius::center_side(arc.sweep) };
+        let travel = Travel { drawing, contour, index: &self.known.get(&key)?.index, side: small_radius::center_side(arc.sweep) };
         let run = small_radius::run_of(&travel, travel.position_of(index), &self.limits)?;
         Some((travel, small_radius::refillet(&travel, &run, &self.limits)))
     }
@@ -226,83 +289,135 @@ impl Analysis {
     /// True when the edit can be made and leaves fewer tight arcs than there were.
     fn betters(&self, drawing: &Drawing, edit: &DrawingEdit) -> bool {
         let touched: FxHashSet<EntityId> = edit.changes.iter().map(crate::drawing::Change::entity).collect();
-        let tight = |drawing: &Drawing| {
-            let entities = touched.iter().filter_map(|&id| drawing.get(id));
-            let arcs = entities.flat_map(|entity| entity.geometry.segments());
-            arcs.filter(|segment| segment.as_arc().is_some_and(|arc| small_radius::is_too_small(arc.radius, &self.limits))).count()
-        };
         let mut after = drawing.clone();
-        after.apply(edit).is_ok() && tight(&after) < tight(drawing)
+        after.apply(edit).is_ok() && self.tight(&after, &touched) < self.tight(drawing, &touched)
     }
 
-    fn index(&mut self, drawing: &Drawing, key: ContourKey) {
-        if let Some(contour) = self.chains.get(key) {
-            let threshold = self.limits.correction - self.limits.tolerances.report;
-            self.indexes.insert(key, ContourIndex::new(drawing, contour, threshold));
+    /// True when an edit can be made and leaves no more tight arcs than there were.
+    fn keeps_radii(&self, drawing: &Drawing, edit: &DrawingEdit) -> bool {
+        let mut after = drawing.clone();
+        let Ok(delta) = after.apply(edit) else { return false };
+        let touched: FxHashSet<EntityId> = delta
+            .touched
+            .iter()
+            .filter_map(|touched| match touched {
+                Touched::Vertices { entity, .. } | Touched::Entity { entity } | Touched::Removed { entity } => Some(*entity),
+                Touched::All => None,
+            })
+            .collect();
+        self.tight(&after, &touched) <= self.tight(drawing, &touched)
+    }
+
+    /// Number of arcs below the correction in some entities.
+    fn tight(&self, drawing: &Drawing, entities: &FxHashSet<EntityId>) -> usize {
+        let entities = entities.iter().filter_map(|&id| drawing.get(id));
+        let arcs = entities.flat_map(|entity| entity.geometry.segments());
+        arcs.filter(|segment| segment.as_arc().is_some_and(|arc| small_radius::is_too_small(arc.radius, &self.limits))).count()
+    }
+
+    /// Looks at whole contours for the first time.
+    fn learn(&mut self, drawing: &Drawing, keys: &[ContourKey]) {
+        let mut runs = Vec::new();
+        for &key in keys {
+            let Some(contour) = self.chains.get(key) else { continue };
+            let index = ContourIndex::new(drawing, contour, self.limits.correction - self.limits.tolerances.report);
+            let mut known = Known::new(index, stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied()));
+            known.look(drawing, contour, &self.limits, &self.settings, 0..contour.len());
+            runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
+            self.known.insert(key, known);
         }
+        self.look_at_pairs(drawing, &runs);
+    }
+
+    /// Looks at the pairs of segments that the runs form with each other and with others; the runs are new or have been
+    /// forgotten.
+    fn look_at_pairs(&mut self, drawing: &Drawing, runs: &[RunId]) {
+        let mut pairs = std::mem::take(&mut self.pairs);
+        let outlook = |key| self.outlook(drawing, key);
+        pairs.look(&outlook, &self.limits, &self.settings, runs);
+        self.pairs = pairs;
     }
 
     /// Looks again at an entity whose contour still runs as it did. False where it is in none.
     fn look_again(&mut self, drawing: &Drawing, entity: EntityId, vertices: Option<(usize, usize, usize)>) -> bool {
         let Some(key) = self.chains.contour_of(entity) else { return drawing.get(entity).is_none_or(|e| e.geometry.segment_count() == 0) };
-        let (Some(contour), Some(known)) = (self.chains.get(key), self.indexes.get(&key).map(ContourIndex::len)) else { return false };
         let Some(geometry) = drawing.get(entity).map(|entity| &entity.geometry) else { return false };
-        let Some(piece) = contour.pieces.iter().find(|piece| piece.entity == entity) else { return false };
-        let recounted = piece.count != geometry.segment_count();
+        let piece_of =
+            |chains: &Chains| chains.get(key).and_then(|contour| contour.pieces.iter().find(|piece| piece.entity == entity)).copied();
+        let Some(before) = piece_of(&self.chains) else { return false };
+        let recounted = before.count != geometry.segment_count();
         if recounted {
             self.chains.recount(drawing, entity);
+            self.answers.retain(|(other, _), _| *other != key);
         }
+        let (Some(piece), Some(mut known)) = (piece_of(&self.chains), self.known.remove(&key)) else { return false };
         let Some(contour) = self.chains.get(key) else { return false };
-        let Some(piece) = contour.pieces.iter().find(|piece| piece.entity == entity).copied() else { return false };
-        let own = segments_of(vertices, piece.count, geometry.is_closed());
-        let Some(index) = self.indexes.get_mut(&key) else { return false };
+        if vertices.is_none() {
+            known.stated = stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied());
+        }
+        // What holds of a whole entity is kept with its first and last segment.
+        let mut own = segments_of(vertices, piece.count, geometry.is_closed());
+        if piece.count > 0 {
+            own.extend([0..1, piece.count - 1..piece.count]);
+        }
+        let mut runs = BTreeSet::new();
         for range in own {
             let range = match piece.reversed {
                 true => piece.first + piece.count - range.end..piece.first + piece.count - range.start,
                 false => piece.first + range.start..piece.first + range.end,
             };
-            let mut changed = index.bounds_about(range.clone());
-            index.update(drawing, contour, range.clone());
-            changed.merge(&index.bounds_about(range));
+            // Neighbours across a joint belong to what is looked at together.
+            let runs_before = known.index.run_count();
+            let first_run = range.start / RUN;
+            let last_run = if recounted { runs_before } else { range.end.div_ceil(RUN).max(first_run + 1) };
+            let mut changed = known.index.bounds_about(range.clone());
+            for run in first_run..last_run {
+                self.pairs.forget_run((key, run as u32), &known.index.bounds_of_run(run));
+            }
+            known.index.update(drawing, contour, range.clone());
+            changed.merge(&known.index.bounds_about(range.clone()));
+            known.look(drawing, contour, &self.limits, &self.settings, range.clone());
+            let last_run = if recounted { known.index.run_count() } else { last_run.min(known.index.run_count()) };
+            runs.extend((first_run..last_run).map(|run| (key, run as u32)));
             self.answers.retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
         }
-        if recounted || known != index.len() {
-            self.answers.retain(|(other, _), _| *other != key);
-        }
+        self.known.insert(key, known);
+        let runs: Vec<RunId> = runs.into_iter().collect();
+        self.look_at_pairs(drawing, &runs);
         true
     }
 
     /// Keys of all contours in machining order: that of the first entity of each.
-    fn in_machining_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
-        let mut seen = FxHashSet::default();
-        let mut last = None;
-        let mut keys = Vec::new();
-        for &id in drawing.order() {
-            let key = self.chains.contour_of(id);
-            if key != last
-                && let Some(key) = key
-                && seen.insert(key)
-            {
-                keys.push(key);
+    fn in_machining_order(&self, drawing: &Drawing) -> &[ContourKey] {
+        self.order.get_or_init(|| {
+            let mut seen = FxHashSet::default();
+            let mut last = None;
+            let mut keys = Vec::new();
+            for &id in drawing.order() {
+                let key = self.chains.contour_of(id);
+                if key != last
+                    && let Some(key) = key
+                    && seen.insert(key)
+                {
+                    keys.push(key);
+                }
+                last = key;
             }
-            last = key;
-        }
-        keys
+            keys
+        })
     }
 
     /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting.
     fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
         let depths = match self.settings.side {
             SideSetting::Auto => {
-                let contours: Vec<_> = keys.iter().filter_map(|key| Some((self.chains.get(*key)?, self.indexes.get(key)?))).collect();
+                let contours: Vec<_> = keys.iter().filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index))).collect();
                 nesting_depths(drawing, &contours)
             }
             _ => Vec::new(),
         };
         let role = |(position, key): (usize, &ContourKey)| {
-            let contour = self.chains.get(*key);
-            let stated = contour.and_then(|contour| stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied()));
-            stated.unwrap_or(match self.settings.side {
+            self.known.get(key).and_then(|known| known.stated).unwrap_or(match self.settings.side {
                 SideSetting::Opening => Role::Opening,
                 SideSetting::Punch => Role::Punch,
                 SideSetting::Both => Role::Both,

@@ -1,0 +1,78 @@
+//! What is known of one contour: its index, its stated role, what the local rules have seen in it.
+
+use super::report::Report;
+use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
+use crate::finding::{Severity, Side};
+use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook};
+use crate::settings::Effective;
+use std::ops::Range;
+
+#[derive(Clone, Debug)]
+pub struct Known {
+    pub index: ContourIndex,
+    /// The role that an entity or a layer states.
+    pub stated: Option<Role>,
+    /// For each local rule, for each run of the index, what it has seen.
+    facts: Vec<Vec<Vec<Fact>>>,
+}
+
+impl Known {
+    pub fn new(index: ContourIndex, stated: Option<Role>) -> Known {
+        Known { index, stated, facts: vec![Vec::new(); LOCAL_RULES.len()] }
+    }
+
+    /// Lets every local rule look again at the segments of `changed` and as far about as it reaches; at all behind when
+    /// the number of segments has changed.
+    pub fn look(&mut self, drawing: &Drawing, contour: &Contour, limits: &Limits, settings: &Effective, changed: Range<usize>) {
+        let outlook = Outlook { drawing, contour, index: &self.index, limits };
+        let (count, runs) = (contour.len(), self.index.run_count());
+        for (rule, facts) in LOCAL_RULES.iter().zip(&mut self.facts) {
+            if settings.severity(rule.rule).is_none() {
+                continue;
+            }
+            let (before, behind) = (rule.reach)(&outlook, changed.clone());
+            let recounted = facts.len() != runs;
+            let end = if recounted { count } else { (changed.end + behind).min(count) };
+            let mut ranges = vec![changed.start.saturating_sub(before)..end];
+            if contour.closed && changed.start < before {
+                ranges.push(count.saturating_sub(before - changed.start)..count);
+            }
+            if contour.closed && changed.end + behind > count {
+                ranges.push(0..(changed.end + behind - count).min(count));
+            }
+            facts.resize(runs, Vec::new());
+            for range in ranges {
+                for run in range.start / RUN..range.end.div_ceil(RUN).min(runs) {
+                    facts[run].clear();
+                    (rule.look)(&outlook, self.index.range_of(run), &mut facts[run]);
+                }
+            }
+        }
+    }
+
+    /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
+    pub fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
+        for (rule, facts) in LOCAL_RULES.iter().zip(&self.facts) {
+            let concerned = |fact: &&Fact| fact.side.is_none() || wire_side.is_none() || fact.side == wire_side;
+            let mut facts = facts.iter().flatten().filter(concerned);
+            if rule.one_hint_when_side_unknown && wire_side.is_none() {
+                let Some(&first) = facts.next() else { continue };
+                let mildest = Some(Severity::Hint);
+                if report.counts(rule.rule, mildest)
+                    && let (Some(place), Some(detail)) =
+                        (outlook.place(first.index as usize), (rule.detail)(outlook, first, 1 + facts.count()))
+                {
+                    report.add(rule.rule, mildest, place, detail, Vec::new());
+                }
+                continue;
+            }
+            for &fact in facts {
+                if report.counts(rule.rule, None)
+                    && let (Some(place), Some(detail)) = (outlook.place(fact.index as usize), (rule.detail)(outlook, fact, 1))
+                {
+                    report.add(rule.rule, None, place, detail, Vec::new());
+                }
+            }
+        }
+    }
+}
