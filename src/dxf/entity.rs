@@ -7,6 +7,7 @@ use super::fault::{damage, meaning, oddity, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
+use super::strings::{decoded, words_of_mtext};
 use crate::drawing::{Geometry, Vertex};
 use crate::finding::Finding;
 use crate::geometry::Point;
@@ -30,6 +31,8 @@ pub(super) struct VertexLines {
     pub(super) lines: Vec<u32>,
     /// True where the entity's plane has the extrusion (0, 0, -1).
     pub(super) mirrored: bool,
+    /// True for a 3D polyline, whose bulges mean nothing.
+    pub(super) in_space: bool,
 }
 
 #[derive(Debug)]
@@ -392,7 +395,9 @@ fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, 
         Plane::Mirrored if kind == "TEXT" => 0.0 - x,
         _ => x,
     };
-    let geometry = Geometry::Text { at: Point::new(x, y), text: String::from_utf8_lossy(&content).trim().to_owned() };
+    let content = decoded(&content);
+    let words = if kind == "MTEXT" { words_of_mtext(&content) } else { content };
+    let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
     common.finish(lexer, layers, kind, geometry, None, findings)
 }
 
@@ -477,7 +482,7 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
         let sentence = format!("group code 90 (number of vertices) is {stated}, but {found} vertices are there");
         oddity(findings, lexer.lines.range(tag.value_line()), sentence);
     }
-    polyline_of("LWPOLYLINE", start, common, closed, read, mirrored, lexer, layers, findings)
+    polyline_of("LWPOLYLINE", start, common, closed, read, (mirrored, false), lexer, layers, findings)
 }
 
 fn lacks_y(common: &mut Common, read: &Vertices, start: Tag, lexer: &Lexer, findings: &mut Vec<Finding>) {
@@ -496,7 +501,7 @@ fn polyline_of(
     common: Common,
     closed: bool,
     mut read: Vertices,
-    mirrored: bool,
+    (mirrored, in_space): (bool, bool),
     lexer: &Lexer,
     layers: &mut Layers,
     findings: &mut Vec<Finding>,
@@ -512,7 +517,7 @@ fn polyline_of(
     read.vertices.shrink_to_fit();
     read.lines.shrink_to_fit();
     let geometry = Geometry::Polyline { closed, vertices: read.vertices };
-    common.finish(lexer, layers, kind, geometry, Some(VertexLines { lines: read.lines, mirrored }), findings)
+    common.finish(lexer, layers, kind, geometry, Some(VertexLines { lines: read.lines, mirrored, in_space }), findings)
 }
 
 /// A vertex once x runs the other way. Its own inverse.
@@ -596,5 +601,5 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
         Plane::Tilted => return Outcome::Unsupported("POLYLINE".into(), TILTED),
         plane => plane == Plane::Mirrored,
     };
-    polyline_of("POLYLINE", start, common, flags & CLOSED != 0, read, mirrored, lexer, layers, findings)
+    polyline_of("POLYLINE", start, common, flags & CLOSED != 0, read, (mirrored, in_space), lexer, layers, findings)
 }
