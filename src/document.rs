@@ -82,7 +82,9 @@ impl Document {
 
     /// What long work may look at; `None` for a program.
     pub fn snapshot(&self) -> Option<Snapshot> {
-        Some(Snapshot { drawing: self.drawing()?.clone(), outlines: self.analysis.outlines().clone(), settings: self.settings().clone() })
+        let drawing = self.drawing()?.clone();
+        let outlines = self.analysis.outlines(&drawing).clone();
+        Some(Snapshot { drawing, outlines, settings: self.settings().clone() })
     }
 
     /// Replaces a range of bytes of the text. Nothing happens to a drawing that has none.

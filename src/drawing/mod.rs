@@ -7,13 +7,17 @@ mod chain;
 mod contour;
 mod edit;
 mod entity;
+mod index;
+mod nesting;
 mod outline;
 
-pub use chain::Chains;
+pub use chain::{Chains, Key as ContourKey, Rechained, stated_role};
 pub use contour::{Contour, ContourSegment, Piece};
 pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, Geometry, Role, Vertex};
-pub use outline::Outline;
+pub use index::ContourIndex;
+pub use nesting::{nesting_depths, winding};
+pub use outline::{Outline, wire_side};
 
 use rustc_hash::FxHashMap;
 use std::sync::Arc;

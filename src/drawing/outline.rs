@@ -14,19 +14,24 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Side of the direction of travel on which the wire runs: inside an opening, outside a punch.
-    /// `None` where every arc must survive both sides, and for an open or empty outline.
+    /// Side of the direction of travel on which the wire runs: see [`wire_side`].
     pub fn wire_side(&self) -> Option<Side> {
-        if !self.contour.closed || self.twice_area == 0.0 {
-            return None;
-        }
-        let counter_clockwise = self.twice_area > 0.0;
-        match self.role {
-            Role::Opening if counter_clockwise => Some(Side::Left),
-            Role::Opening => Some(Side::Right),
-            Role::Punch if counter_clockwise => Some(Side::Right),
-            Role::Punch => Some(Side::Left),
-            Role::Both | Role::Ignore => None,
-        }
+        wire_side(self.role, self.contour.closed, self.twice_area)
+    }
+}
+
+/// Side of the direction of travel on which the wire runs: inside an opening, outside a punch.
+/// `None` where every arc must survive both sides, for an open contour and for one without area.
+pub fn wire_side(role: Role, closed: bool, twice_area: f64) -> Option<Side> {
+    if !closed || twice_area == 0.0 {
+        return None;
+    }
+    let counter_clockwise = twice_area > 0.0;
+    match role {
+        Role::Opening if counter_clockwise => Some(Side::Left),
+        Role::Opening => Some(Side::Right),
+        Role::Punch if counter_clockwise => Some(Side::Right),
+        Role::Punch => Some(Side::Left),
+        Role::Both | Role::Ignore => None,
     }
 }

@@ -1,0 +1,61 @@
+//! `small-radius`: an arc that curves round the wire more tightly than the correction.
+//!
+//! An arc is at fault when its centre lies on the wire side and `r < c − tolerance`. Its offset would have a negative
+//! radius: the control loses the arc or cuts into the part. `r = c` is the limit and passes.
+//!
+//! The fix replaces a run of such arcs by one arc of radius `R = c + margin`. From foot to foot the new outline is the
+//! boundary of the morphological opening of the wire's region by a disc of radius R; outside nothing changes.
+
+mod edit;
+mod refillet;
+mod run;
+mod travel;
+
+pub use edit::{drawing_edit, keep_end_points};
+pub use refillet::{Attempt, Replacement, refillet};
+pub use run::run_of;
+pub use travel::Travel;
+
+use super::Limits;
+use crate::drawing::ContourSegment;
+use crate::finding::{Side, SmallRadius};
+use std::f64::consts::PI;
+
+/// Side of travel on which an arc's centre lies.
+pub fn center_side(sweep: f64) -> Side {
+    if sweep > 0.0 { Side::Left } else { Side::Right }
+}
+
+/// True when a radius is below the correction by more than rounding.
+pub fn is_too_small(radius: f64, limits: &Limits) -> bool {
+    radius < limits.correction - limits.tolerances.report
+}
+
+/// The numbers of an arc at fault, `None` when the segment is no arc, is wide enough, or curves away from the wire.
+/// `wire_side` is that of the contour's travel; `None` where the arc must survive both sides.
+pub fn check(segment: &ContourSegment, wire_side: Option<Side>, limits: &Limits) -> Option<SmallRadius> {
+    let arc = segment.geometry.as_arc()?;
+    let side = center_side(arc.sweep);
+    if !is_too_small(arc.radius, limits) || wire_side.is_some_and(|wire| wire != side) {
+        return None;
+    }
+    let (c, r, turn) = (limits.correction, arc.radius, arc.sweep.abs());
+    // Stock that a later pass takes away is no harm of this one.
+    let later = c - limits.last_correction;
+    let overcut = if turn >= PI { 2.0 * (c - r) } else { (c - r) * (1.0 - turn.cos()) };
+    let stock_left = if turn >= PI { f64::INFINITY } else { (c - r) * (1.0 / (turn / 2.0).cos() - 1.0) };
+    let own = if segment.reversed { arc.reversed() } else { *arc };
+    Some(SmallRadius {
+        radius: r,
+        required: c,
+        center: own.center,
+        start: own.start,
+        end: own.end,
+        sweep: own.sweep,
+        side: if segment.reversed { side.reversed() } else { side },
+        overcut: (overcut - later).max(0.0),
+        stock_left,
+        pass: limits.pass,
+        no_fix: None,
+    })
+}

@@ -1,0 +1,298 @@
+//! The new arc of a run: where its centre lies, whether it fits, how far it moves the contour.
+
+use super::Travel;
+use crate::finding::NoFix;
+use crate::geometry::{Arc, Bounds, Point, Segment, circle_circle, left_normal, line_circle, line_line, positive_angle};
+use crate::rules::Limits;
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+/// How many segments at one end may be swallowed. Each must lie within the correction of the new arc, so only
+/// contours of many tiny segments come near it.
+const MOST_SWALLOWED: usize = 24;
+
+/// One arc of the fix radius in the place of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Replacement {
+    /// Positions of the two neighbours that stay; everything between them goes.
+    pub before: isize,
+    pub after: isize,
+    /// The new arc, travelled with the wire on its left; it starts on the one neighbour and ends on the other.
+    pub arc: Arc,
+    /// Number of arcs of the run.
+    pub arcs: usize,
+    /// Largest distance by which the contour moves.
+    pub moved: f64,
+}
+
+/// What came of looking for a replacement, and the region that it was looked for in: as long as nothing in there
+/// changes, the answer stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attempt {
+    pub outcome: Result<Replacement, NoFix>,
+    pub region: Bounds,
+}
+
+/// Looks for the arc of radius `limits.fix_radius` that replaces `run`.
+///
+/// Its centre lies on two loci, one for each end: at a line the parallel, at an arc the concentric circle shifted to the
+/// wire side, or the circle about the end vertex itself. A solution counts when its feet lie on the neighbours, it turns
+/// by at most a half turn, and its disc keeps clear of the whole contour. Where none fits, short neighbours are swallowed,
+/// as long as that moves the contour by no more than the correction.
+pub fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -> Attempt {
+    let (first, last) = (*run.start(), *run.end());
+    let mut search = Search {
+        travel,
+        limits,
+        run: run.clone(),
+        region: Bounds::EMPTY,
+        would_seal: false,
+        slack: limits.tolerances.clearance,
+        old_center: Point::origin(),
+        arcs: (last - first + 1) as usize,
+    };
+    let outcome = search.search();
+    Attempt { outcome, region: search.region.grown(limits.tolerances.join) }
+}
+
+/// What the new arc is held by at one end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Hold {
+    /// Tangent to the neighbour.
+    Neighbour,
+    /// Through the neighbour's end.
+    Vertex,
+}
+
+/// Where the centre may lie.
+enum Locus {
+    Line { point: Point, direction: crate::geometry::Vector },
+    Circle { center: Point, radius: f64 },
+}
+
+struct Search<'a> {
+    travel: &'a Travel<'a>,
+    limits: &'a Limits,
+    run: RangeInclusive<isize>,
+    region: Bounds,
+    would_seal: bool,
+    /// How far the disc may dip into what is replaced.
+    slack: f64,
+    old_center: Point,
+    arcs: usize,
+}
+
+impl Search<'_> {
+    fn search(&mut self) -> Result<Replacement, NoFix> {
+        let (first, last) = (*self.run.start(), *self.run.end());
+        let count = self.travel.len() as isize;
+        if self.arcs as isize >= count {
+            // A hole, or an outline of nothing but tight arcs: there is no neighbour to be tangent to.
+            return Err(if self.travel.contour.closed { NoFix::NarrowSlot } else { NoFix::NoNeighbour });
+        }
+        let mut longest = 0.0;
+        for position in self.run.clone() {
+            if let Some(Segment::Arc(arc)) = self.look_at(position)
+                && arc.length() >= longest
+            {
+                (longest, self.old_center) = (arc.length(), arc.center);
+            }
+        }
+        if self.look_at(first - 1).is_none() || self.look_at(last + 1).is_none() {
+            return Err(NoFix::NoNeighbour);
+        }
+        // First exactly. Then with the slack that a drawing rounded to three decimals needs: its fillets kink a little at
+        // their ends, and what is replaced may stick out by as much.
+        let exact = self.search_outward(first, last, count);
+        self.slack = self.limits.tolerances.arc_fit;
+        exact.or_else(|| self.search_outward(first, last, count)).ok_or(if self.would_seal {
+            NoFix::SealsContour
+        } else {
+            NoFix::NarrowSlot
+        })
+    }
+
+    /// Tries the neighbours themselves, then swallows one more segment at either end each time.
+    fn search_outward(&mut self, first: isize, last: isize, count: isize) -> Option<Replacement> {
+        let (before, after) = (self.reach(first - 1, -1), self.reach(last + 1, 1));
+        for swallowed in 0..=before + after {
+            for left in swallowed.saturating_sub(after)..=swallowed.min(before) {
+                let (one, other) = (first - 1 - left as isize, last + 1 + (swallowed - left) as isize);
+                // Both neighbours may be one and the same segment, but no further round.
+                if other - one > count {
+                    continue;
+                }
+                if let Some(found) = self.best(one, other, swallowed > 0) {
+                    return Some(found);
+                }
+            }
+        }
+        None
+    }
+
+    /// How many segments from `position` on may be swallowed in the direction `step`: their length is bounded by what a
+    /// detour round the disc can have.
+    fn reach(&mut self, position: isize, step: isize) -> usize {
+        let most = 4.0 * (self.limits.fix_radius + self.limits.correction);
+        let mut length = 0.0;
+        for swallowed in 0..MOST_SWALLOWED {
+            let at = position + step * swallowed as isize;
+            let (Some(segment), Some(_)) = (self.look_at(at), self.look_at(at + step)) else { return swallowed };
+            length += segment.length();
+            if length > most {
+                return swallowed;
+            }
+        }
+        MOST_SWALLOWED
+    }
+
+    /// The segment at a position, entered into the region that the answer depends on.
+    fn look_at(&mut self, position: isize) -> Option<Segment> {
+        let segment = self.travel.segment(position)?.geometry;
+        self.region.merge(&segment.bounds());
+        Some(segment)
+    }
+
+    /// The valid replacement between two neighbours that lies nearest to the old arc.
+    fn best(&mut self, before: isize, after: isize, swallows: bool) -> Option<Replacement> {
+        let (one, other) = (self.look_at(before)?, self.look_at(after)?);
+        let mut candidates = Vec::new();
+        for at_start in [Hold::Neighbour, Hold::Vertex] {
+            for at_end in [Hold::Neighbour, Hold::Vertex] {
+                let (Some(first), Some(second)) = (self.locus(&one, one.end(), at_start), self.locus(&other, other.start(), at_end)) else {
+                    continue;
+                };
+                let vertices = [at_start, at_end].iter().filter(|&&hold| hold == Hold::Vertex).count();
+                for center in meet(&first, &second) {
+                    // Where both neighbours are one segment, its two ends must not be cut off past each other.
+                    let same = (after - before) as usize == self.travel.len();
+                    if let Some(arc) = self.arc_about(center, &one, at_start, &other, at_end)
+                        && !(same && one.share_of(arc.start) <= one.share_of(arc.end))
+                    {
+                        candidates.push(((center - self.old_center).norm(), vertices, arc));
+                    }
+                }
+            }
+        }
+        // Of solutions that are the same within rounding, the tangent one: a fillet with noise at its ends is no notch.
+        let noise = self.limits.tolerances.arc_fit;
+        candidates.sort_by(|a, b| if (a.0 - b.0).abs() <= noise { a.1.cmp(&b.1).then(a.0.total_cmp(&b.0)) } else { a.0.total_cmp(&b.0) });
+        for (_, _, arc) in candidates {
+            self.region.merge(&Bounds::of_disc(arc.center, arc.radius));
+            if !self.is_clear(&arc, before, after) {
+                continue;
+            }
+            let moved = self.moved(&arc, before, after);
+            if swallows && moved > self.limits.correction {
+                self.would_seal = true;
+                continue;
+            }
+            return Some(Replacement { before, after, arc, arcs: self.arcs, moved });
+        }
+        None
+    }
+
+    /// Where the centre may lie so that the new arc is held by a neighbour, or by the vertex at its end.
+    fn locus(&self, neighbour: &Segment, vertex: Point, hold: Hold) -> Option<Locus> {
+        let radius = self.limits.fix_radius;
+        match (hold, neighbour) {
+            (Hold::Vertex, _) => Some(Locus::Circle { center: vertex, radius }),
+            (Hold::Neighbour, Segment::Line(line)) => {
+                let direction = line.direction();
+                (line.length() > self.limits.tolerances.zero_length)
+                    .then(|| Locus::Line { point: line.start + left_normal(direction) * radius, direction })
+            }
+            (Hold::Neighbour, Segment::Arc(arc)) if arc.sweep > 0.0 => {
+                (arc.radius > radius).then(|| Locus::Circle { center: arc.center, radius: arc.radius - radius })
+            }
+            (Hold::Neighbour, Segment::Arc(arc)) => Some(Locus::Circle { center: arc.center, radius: arc.radius + radius }),
+        }
+    }
+
+    /// The arc about `center` from its foot on the one neighbour to that on the other, if the feet lie on them and it turns
+    /// to the left by at most a half turn.
+    fn arc_about(&self, center: Point, one: &Segment, at_start: Hold, other: &Segment, at_end: Hold) -> Option<Arc> {
+        let start = match at_start {
+            Hold::Vertex => one.end(),
+            Hold::Neighbour => self.foot(center, one, true)?,
+        };
+        let end = match at_end {
+            Hold::Vertex => other.start(),
+            Hold::Neighbour => self.foot(center, other, false)?,
+        };
+        let angle = |point: Point| (point.y - center.y).atan2(point.x - center.x);
+        let sweep = positive_angle(angle(end) - angle(start));
+        if !(1e-9..=PI + 1e-6).contains(&sweep) {
+            return None;
+        }
+        Some(Arc { center, radius: self.limits.fix_radius, start_angle: angle(start), sweep, start, end })
+    }
+
+    /// The point of a neighbour that is nearest to `center`, if it lies on it. At the end towards the run it may lie
+    /// beyond by rounding noise: the neighbour is then lengthened by as much.
+    fn foot(&self, center: Point, neighbour: &Segment, run_behind: bool) -> Option<Point> {
+        let share = neighbour.share_of(center);
+        let length = neighbour.length();
+        let noise = self.limits.tolerances.arc_fit / length;
+        let least = self.limits.tolerances.zero_length / length;
+        let (low, high) = if run_behind { (least, 1.0 + noise) } else { (-noise, 1.0 - least) };
+        if !(low..=high).contains(&share) {
+            return None;
+        }
+        Some(match neighbour {
+            Segment::Line(line) => line.start + (line.end - line.start) * share,
+            Segment::Arc(arc) => arc.center + (center - arc.center).normalize() * arc.radius,
+        })
+    }
+
+    /// True when the disc of the new arc keeps clear of the contour. What is replaced may come as near as rounding noise.
+    fn is_clear(&self, arc: &Arc, before: isize, after: isize) -> bool {
+        let tolerances = &self.limits.tolerances;
+        let count = self.travel.len() as isize;
+        let is_replaced = |position: isize| {
+            let beyond = (position - before).rem_euclid(count);
+            beyond > 0 && beyond < after - before
+        };
+        self.travel.keeps_clear(arc.center, arc.radius, tolerances.clearance, self.slack, &is_replaced)
+    }
+
+    /// Largest distance of what is replaced, the cut-off ends of the neighbours included, from the new arc.
+    fn moved(&self, arc: &Arc, before: isize, after: isize) -> f64 {
+        let mut moved: f64 = 0.0;
+        for position in before..=after {
+            let Some(segment) = self.travel.segment(position) else { continue };
+            let whole = segment.geometry;
+            let gone = match position {
+                p if p == before => whole.part(whole.share_of(arc.start).clamp(0.0, 1.0), 1.0),
+                p if p == after => whole.part(0.0, whole.share_of(arc.end).clamp(0.0, 1.0)),
+                _ => whole,
+            };
+            moved = farthest(&gone, arc.center).into_iter().map(|point| arc.distance_to(point)).fold(moved, f64::max);
+        }
+        moved
+    }
+}
+
+/// The points of a segment among which the farthest from the new arc is found: its ends, its middle and, on an arc, the
+/// place farthest from the new centre.
+fn farthest(segment: &Segment, center: Point) -> Vec<Point> {
+    let mut points = vec![segment.start(), segment.point_at(0.25), segment.point_at(0.5), segment.point_at(0.75), segment.end()];
+    if let Segment::Arc(arc) = segment
+        && let Some(away) = (arc.center - center).try_normalize(1e-12)
+    {
+        let point = arc.center + away * arc.radius;
+        if (0.0..=1.0).contains(&arc.share_of(point)) {
+            points.push(point);
+        }
+    }
+    points
+}
+
+fn meet(one: &Locus, other: &Locus) -> Vec<Point> {
+    match (one, other) {
+        (Locus::Line { point: p, direction: u }, Locus::Line { point: q, direction: v }) => line_line(*p, *u, *q, *v).into_iter().collect(),
+        (Locus::Line { point, direction }, Locus::Circle { center, radius })
+        | (Locus::Circle { center, radius }, Locus::Line { point, direction }) => line_circle(*point, *direction, *center, *radius),
+        (Locus::Circle { center: a, radius: ra }, Locus::Circle { center: b, radius: rb }) => circle_circle(*a, *ra, *b, *rb),
+    }
+}

@@ -1,0 +1,72 @@
+//! A contour travelled so that the wire lies on the left.
+
+use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
+use crate::finding::Side;
+use crate::geometry::{Bounds, Point};
+
+/// A contour seen in the direction that has the wire on its left: arcs concave to the wire turn left.
+///
+/// Positions count segments in that direction. On a closed contour they go round and round, below zero too.
+#[derive(Clone, Copy, Debug)]
+pub struct Travel<'a> {
+    pub drawing: &'a Drawing,
+    pub contour: &'a Contour,
+    pub index: &'a ContourIndex,
+    /// Wire side in the contour's own direction.
+    pub side: Side,
+}
+
+impl Travel<'_> {
+    pub fn len(&self) -> usize {
+        self.contour.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.contour.is_empty()
+    }
+
+    /// The contour's own index at a position; `None` past the ends of an open contour.
+    pub fn index_at(&self, position: isize) -> Option<usize> {
+        let count = self.len() as isize;
+        let inside = (0..count).contains(&position);
+        if count == 0 || (!inside && !self.contour.closed) {
+            return None;
+        }
+        let along = position.rem_euclid(count) as usize;
+        Some(match self.side {
+            Side::Left => along,
+            Side::Right => self.len() - 1 - along,
+        })
+    }
+
+    /// The position, within one round, of a contour's own index.
+    pub fn position_of(&self, index: usize) -> isize {
+        match self.side {
+            Side::Left => index as isize,
+            Side::Right => self.len() as isize - 1 - index as isize,
+        }
+    }
+
+    /// The segment at a position, with the wire on the left of its direction.
+    pub fn segment(&self, position: isize) -> Option<ContourSegment> {
+        let own = self.contour.segment(self.drawing, self.index_at(position)?)?;
+        Some(match self.side {
+            Side::Left => own,
+            Side::Right => ContourSegment { reversed: !own.reversed, geometry: own.geometry.reversed(), ..own },
+        })
+    }
+
+    /// True when every segment keeps a distance of at least `radius` less a slack from `center`. Segments at the positions
+    /// for which `is_replaced` holds have `loose` as their slack, the others `strict`.
+    pub fn keeps_clear(&self, center: Point, radius: f64, strict: f64, loose: f64, is_replaced: &dyn Fn(isize) -> bool) -> bool {
+        let disc = Bounds::of_disc(center, radius);
+        self.index.near(&disc).flatten().all(|index| {
+            let Some(segment) = self.contour.segment(self.drawing, index) else { return true };
+            if !segment.geometry.bounds().touches(&disc) {
+                return true;
+            }
+            let slack = if is_replaced(self.position_of(index)) { loose } else { strict };
+            segment.geometry.distance_to(center) >= radius - slack
+        })
+    }
+}

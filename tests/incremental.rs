@@ -1,0 +1,110 @@
+//! What an analysis knows after any sequence of edits is what a fresh one knows.
+
+use proptest::prelude::*;
+use std::sync::Arc;
+use wedm::analysis::Analysis;
+use wedm::drawing::{Delta, Drawing, Entity, Geometry, Role, Touched, Vertex};
+use wedm::geometry::Point;
+use wedm::settings::{Effective, Settings, SideSetting};
+
+#[derive(Clone, Debug)]
+enum Edit {
+    Add(usize, Geometry, Option<Role>),
+    Replace(usize, Geometry, Option<Role>),
+    Remove(usize),
+    Splice(usize, usize, usize, Vec<Vertex>),
+}
+
+/// Points of a coarse grid, so that ends often coincide and nodes branch; now and then a little off.
+fn point() -> impl Strategy<Value = Point> {
+    (0..4i32, 0..4i32, prop_oneof![8 => Just(0.0), 1 => Just(0.004), 1 => Just(0.02)])
+        .prop_map(|(x, y, off)| Point::new(f64::from(x) + off, f64::from(y)))
+}
+
+fn vertex() -> impl Strategy<Value = Vertex> {
+    (point(), prop_oneof![2 => Just(0.0), 1 => -1.5..1.5f64]).prop_map(|(point, bulge)| Vertex { point, bulge })
+}
+
+fn geometry() -> impl Strategy<Value = Geometry> {
+    prop_oneof![
+        6 => (point(), point()).prop_map(|(start, end)| Geometry::Line { start, end }),
+        3 => (point(), 0..4i32, 1..4i32).prop_map(|(center, from, sweep)| {
+            let quarter = std::f64::consts::FRAC_PI_2;
+            Geometry::Arc { center, radius: 1.0, start_angle: f64::from(from) * quarter, end_angle: f64::from(from + sweep) * quarter }
+        }),
+        2 => (any::<bool>(), proptest::collection::vec(vertex(), 0..6)).prop_map(|(closed, vertices)| Geometry::Polyline { closed, vertices }),
+        1 => (point(), 0.2..2.0f64).prop_map(|(center, radius)| Geometry::Circle { center, radius }),
+    ]
+}
+
+fn role() -> impl Strategy<Value = Option<Role>> {
+    prop_oneof![6 => Just(None), 1 => Just(Some(Role::Opening)), 1 => Just(Some(Role::Punch)), 1 => Just(Some(Role::Ignore))]
+}
+
+fn edit() -> impl Strategy<Value = Edit> {
+    prop_oneof![
+        3 => (0..20usize, geometry(), role()).prop_map(|(at, geometry, role)| Edit::Add(at, geometry, role)),
+        3 => (0..20usize, geometry(), role()).prop_map(|(at, geometry, role)| Edit::Replace(at, geometry, role)),
+        2 => (0..20usize).prop_map(Edit::Remove),
+        6 => (0..20usize, 0..7usize, 0..3usize, proptest::collection::vec(vertex(), 0..3))
+            .prop_map(|(at, start, count, insert)| Edit::Splice(at, start, count, insert)),
+    ]
+}
+
+fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
+    Entity { handle: "A".into(), layer: "0".into(), role, kind: "LINE", geometry }
+}
+
+fn apply(drawing: &mut Drawing, edit: &Edit) -> Option<Touched> {
+    let pick = |drawing: &Drawing, at: usize| (!drawing.is_empty()).then(|| drawing.order()[at % drawing.len()]);
+    match edit {
+        Edit::Add(at, geometry, role) => {
+            let position = at % (drawing.len() + 1);
+            let id = drawing.insert_at(position, entity(geometry.clone(), *role));
+            Some(Touched::Entity { entity: id })
+        }
+        Edit::Replace(at, geometry, role) => {
+            let id = pick(drawing, *at)?;
+            drawing.replace(id, entity(geometry.clone(), *role));
+            Some(Touched::Entity { entity: id })
+        }
+        Edit::Remove(at) => {
+            let id = pick(drawing, *at)?;
+            drawing.remove(id);
+            Some(Touched::Removed { entity: id })
+        }
+        Edit::Splice(at, start, count, insert) => drawing.splice(pick(drawing, *at)?, *start, *count, insert).ok(),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn incremental_equals_fresh(
+        start in proptest::collection::vec((geometry(), role()), 0..12),
+        edits in proptest::collection::vec(proptest::collection::vec(edit(), 1..3), 1..12),
+        side in 0..4usize,
+    ) {
+        let side = [SideSetting::Both, SideSetting::Auto, SideSetting::Opening, SideSetting::Punch][side];
+        let settings = Arc::new(Effective::of(&Settings { correction: Some(0.8), side: Some(side), ..Settings::default() }));
+        let mut drawing = Drawing::new(None);
+        for (geometry, role) in start {
+            drawing.push(entity(geometry, role));
+        }
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        for batch in edits {
+            let touched = batch.iter().filter_map(|edit| apply(&mut drawing, edit)).collect();
+            analysis.update(&drawing, &Delta { touched });
+            let mut fresh = Analysis::new(&drawing, settings.clone());
+            let (now, then) = (analysis.outlines(&drawing).clone(), fresh.outlines(&drawing).clone());
+            prop_assert_eq!(now.len(), then.len(), "{:?}\n{:?}", now, then);
+            for (a, b) in now.iter().zip(then.iter()) {
+                prop_assert_eq!(&a.contour, &b.contour);
+                prop_assert_eq!(a.role, b.role);
+                prop_assert!((a.twice_area - b.twice_area).abs() < 1e-9, "{} {}", a.twice_area, b.twice_area);
+            }
+            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+        }
+    }
+}
