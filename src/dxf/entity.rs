@@ -421,7 +421,19 @@ fn value_line_of(start: Tag, lexer: &Lexer, code: i16) -> usize {
 struct Vertices {
     vertices: Vec<Vertex>,
     lines: Vec<u32>,
+    /// The last vertex has no y yet.
     lacks_y: bool,
+    /// The first vertex that got none. Said at the end: lines that are out of step may be the cause.
+    without_y: Option<usize>,
+}
+
+impl Vertices {
+    fn close(&mut self) {
+        if self.lacks_y {
+            self.without_y = self.without_y.or(self.vertices.len().checked_sub(1));
+        }
+        self.lacks_y = false;
+    }
 }
 
 fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
@@ -435,9 +447,7 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
                 let value = common.coordinate(lexer, tag, findings).unwrap_or_default();
                 match (tag.code, read.vertices.last_mut()) {
                     (10, _) => {
-                        if read.lacks_y {
-                            lacks_y(&mut common, &read, start, lexer, findings);
-                        }
+                        read.close();
                         read.vertices.push(Vertex::new(value, 0.0, 0.0));
                         read.lines.push((tag.line - start.line) as u32);
                         read.lacks_y = true;
@@ -462,10 +472,14 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
             _ => {}
         }
     }
-    if read.lacks_y {
-        lacks_y(&mut common, &read, start, lexer, findings);
-    }
+    read.close();
     if common.bad || lexer.out_of_step {
+        return Outcome::Damaged;
+    }
+    if let Some(index) = read.without_y {
+        let line = start.line + read.lines.get(index).map_or(0, |&line| line as usize);
+        let sentence = format!("vertex {} lacks group code 20 (y)", index + 1);
+        damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
         return Outcome::Damaged;
     }
     let mirrored = match common.plane() {
@@ -483,15 +497,6 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
         oddity(findings, lexer.lines.range(tag.value_line()), sentence);
     }
     polyline_of("LWPOLYLINE", start, common, closed, read, (mirrored, false), lexer, layers, findings)
-}
-
-fn lacks_y(common: &mut Common, read: &Vertices, start: Tag, lexer: &Lexer, findings: &mut Vec<Finding>) {
-    if !common.bad && !lexer.out_of_step {
-        let line = start.line + read.lines.last().map_or(0, |&line| line as usize);
-        let sentence = format!("vertex {} lacks group code 20 (y)", read.vertices.len());
-        damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
-    }
-    common.bad = true;
 }
 
 #[expect(clippy::too_many_arguments, reason = "what a polyline is made of, in one call from each of its two kinds")]
