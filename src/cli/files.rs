@@ -35,8 +35,18 @@ enum Kind {
 pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let kind = kind_of(path)?;
     let (settings, settings_rows) = settings_for(path, common, last)?;
-    let bytes = std::fs::read(path).map_err(|error| Failure(format!("{}: {}", path.display(), plain(&error))))?;
+    let bytes = read(path)?;
     Ok(Opened { path: path.to_path_buf(), document: document(&kind, bytes, Arc::new(settings)), settings_rows })
+}
+
+/// A text that cannot be held whole is refused: what is written from it would lack its end.
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let failure = |reason: String| Failure(format!("{}: {reason}", path.display()));
+    let length = std::fs::metadata(path).map_err(|error| failure(plain(&error)))?.len();
+    if length >= u64::from(u32::MAX) {
+        return Err(failure(format!("it has {length} bytes, expected less than 4 GiB")));
+    }
+    std::fs::read(path).map_err(|error| failure(plain(&error)))
 }
 
 /// The same for a command that needs a drawing, and settings without a fault: it makes something of them.
