@@ -146,7 +146,8 @@ pub fn search(paths: &[PathBuf]) -> Found {
             match entry {
                 Ok(entry) => {
                     let named = entry.depth() == 0 && !entry.path().is_dir();
-                    let found_inside = entry.file_type().is_file() && has_known_ending(entry.path());
+                    // A link to a file counts; a link to a folder may lead back to where it stands.
+                    let found_inside = has_known_ending(entry.path()) && entry.path().is_file();
                     if (named || found_inside) && seen.insert(entry.path().to_path_buf()) {
                         found.files.push(entry.into_path());
                     }
