@@ -242,7 +242,17 @@ fn a_folder_is_searched_in_all_its_depth_and_every_file_stands_once() {
     check(&desk, "check empty", 0, &["0 files checked"]);
 }
 
-/// Fifty tight arcs a file: `check` knows no limit of findings.
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_file_is_checked_and_a_circle_of_folders_ends() {
+    let desk = Desk::new();
+    desk.write("parts/notes.txt", "nothing");
+    std::os::unix::fs::symlink("../tight.dxf", desk.path("parts/link.dxf")).unwrap();
+    std::os::unix::fs::symlink("..", desk.path("parts/up")).unwrap();
+    check(&desk, "check parts", 1, &["--> parts/link.dxf", "1 file checked: 1 error"]);
+}
+
+/// `check` knows no limit of findings.
 #[test]
 fn check_sees_all_findings() {
     let desk = Desk::new();
@@ -396,4 +406,18 @@ fn a_picture_is_well_formed_enough_to_be_shown() {
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
     check(&desk, "draw clean.dxf --side opening -o clean.svg", 0, &[]);
     assert!(String::from_utf8(desk.read("clean.svg")).unwrap().contains("class=\"wire\""));
+}
+
+/// `UPDATE_EXPECT=1 cargo test --test cli` makes the pictures anew.
+#[test]
+fn the_pictures_of_the_documentation_are_current() {
+    let desk = Desk::new();
+    let drawing = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures/small-radius.dxf");
+    desk.write("small-radius.dxf", std::fs::read(drawing).unwrap());
+    check(&desk, "check small-radius.dxf --side opening", 1, &["3 errors"]);
+    let faulty = desk.run("draw small-radius.dxf --side opening").stdout;
+    check(&desk, "fix small-radius.dxf --side opening --in-place", 0, &["!3 arcs repaired"]);
+    let fixed = desk.run("draw small-radius.dxf --side opening").stdout;
+    expect_test::expect_file!["../docs/pictures/small-radius.svg"].assert_eq(&faulty);
+    expect_test::expect_file!["../docs/pictures/small-radius-fixed.svg"].assert_eq(&fixed);
 }
