@@ -314,8 +314,12 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
         resend_drawing: ours("/wedm/resendDrawing"),
         document_changes: workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes) == Some(true),
         configuration: workspace.and_then(|workspace| workspace.configuration) == Some(true),
-        register_configuration: registers(workspace.and_then(|workspace| workspace.did_change_configuration.as_ref()?.dynamic_registration)),
-        register_watched_files: registers(workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)),
+        register_configuration: registers(
+            workspace.and_then(|workspace| workspace.did_change_configuration.as_ref()?.dynamic_registration),
+        ),
+        register_watched_files: registers(
+            workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration),
+        ),
     }
 }
 

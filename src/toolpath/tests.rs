@@ -178,6 +178,23 @@ fn a_mark_is_the_thread_hole_of_the_nearest_contour() {
 }
 
 #[test]
+fn what_lies_within_a_contour_is_cut_before_it() {
+    let square = |x: f64, y: f64, size: f64| -> Vec<[f64; 3]> {
+        SQUARE.iter().map(|c| [x + c[0] / 10.0 * size, y + c[1] / 10.0 * size, 0.0]).collect()
+    };
+    let check = |squares: &[[f64; 3]], expected: &[usize]| {
+        let corners: Vec<_> = squares.iter().map(|&[x, y, size]| square(x, y, size)).collect();
+        let outlines: Vec<_> = corners.iter().map(|corners| (&corners[..], Some(Role::Opening))).collect();
+        let (drawing, outlines) = drawing(&outlines);
+        let paths = plan(&drawing, &outlines, &Effective { lead_in: 1.0, ..defaults() }, None).expect("paths");
+        assert_eq!(paths.iter().map(|path| path.outline).collect::<Vec<_>>(), expected);
+    };
+    check(&[[0.0, 0.0, 50.0], [10.0, 10.0, 5.0], [30.0, 30.0, 5.0]], &[1, 2, 0]);
+    check(&[[10.0, 10.0, 5.0], [0.0, 0.0, 50.0], [80.0, 0.0, 5.0]], &[0, 1, 2]);
+    check(&[[80.0, 0.0, 5.0], [0.0, 0.0, 50.0], [10.0, 10.0, 20.0], [15.0, 15.0, 5.0]], &[0, 3, 2, 1]);
+}
+
+#[test]
 fn a_thread_hole_on_the_entry_has_no_lead() {
     for thread in [at(5.0, 0.0), at(5.0, 0.1)] {
         let settings = Effective { thread, entry: at(5.0, 0.0), ..defaults() };
