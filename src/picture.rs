@@ -1,1 +1,283 @@
-//! A picture of contours, faults and wire path as SVG.
+//! A picture of contours, faults and wire path as SVG, for people: one file that needs nothing beside it.
+//!
+//! It shows what others have found and planned and decides nothing. It knows drawings, findings and paths,
+//! and nothing of files or protocols. The same input gives the same bytes.
+
+mod figure;
+mod lens;
+mod marks;
+mod style;
+
+use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};
+use crate::finding::{Detail, Finding, Place, SmallRadius};
+use crate::geometry::{Bounds, Segment};
+use crate::toolpath::{Source, WirePath};
+use figure::{Frame, escaped, path_data};
+
+use rustc_hash::FxHashSet;
+use std::fmt::Write;
+
+/// Width of the sheet and of the margin round it, in the picture's own units.
+const SHEET_WIDTH: f64 = 960.0;
+const MARGIN: f64 = 40.0;
+const FIGURE_WIDTH: f64 = SHEET_WIDTH - 2.0 * MARGIN;
+const FIGURE_HEIGHT: f64 = 560.0;
+const FIGURE_TOP: f64 = 84.0;
+/// Up to this many segments each one is an element of its own, with a tooltip; beyond it each entity is.
+const TOOLTIP_SEGMENTS: usize = 4000;
+
+/// The drawing with its faults and the paths of the wire as one SVG.
+///
+/// `outlines` are what is cut; entities in none of them are drawn faintly. Every arc that is too tight is marked, and
+/// the first ones are shown enlarged with the circle of the correction. `unit_mm` is the drawing's unit in mm: all
+/// figures that a reader sees are in mm. The y axis points up, as in the drawing. A drawing without geometry gives
+/// a sheet that says so.
+pub fn svg(drawing: &Drawing, outlines: &[Outline], findings: &[Finding], paths: &[WirePath], unit_mm: f64) -> String {
+    let Some(bounds) = extents(drawing, paths) else { return style::empty_sheet() };
+    let scale = scale_to_fit(&bounds);
+    let height = (bounds.height() * scale).max(24.0);
+    let faults = tight_arcs(drawing, findings);
+    let cut = outlines.iter().flat_map(|outline| outline.contour.pieces.iter().map(|piece| piece.entity)).collect();
+    let picture = Picture { drawing, outlines, cut, findings, faults, paths, unit_mm };
+    let inset = (FIGURE_WIDTH - bounds.width() * scale) / 2.0;
+    let frame = Frame { origin: bounds.min, scale, left: MARGIN + inset, bottom: FIGURE_TOP + height };
+
+    let details_top = frame.bottom + 48.0;
+    let details_height = lens::height_of(picture.faults.len());
+    let legend_top = details_top + details_height;
+    let mut sheet = style::opening(SHEET_WIDTH, legend_top + 48.0, &picture.title());
+    picture.header(&mut sheet);
+    picture.figure(&mut sheet, &frame);
+    marks::faults(&mut sheet, &frame, &picture.faults, unit_mm, FIGURE_TOP - 26.0);
+    lens::row(&mut sheet, &picture, details_top);
+    style::legend(&mut sheet, legend_top + 12.0, picture.faults.is_empty(), picture.paths.is_empty());
+    style::scale_bar(&mut sheet, SHEET_WIDTH - MARGIN, legend_top + 12.0, scale / unit_mm);
+    sheet.push_str("</svg>\n");
+    sheet
+}
+
+/// All that is shown.
+struct Picture<'a> {
+    drawing: &'a Drawing,
+    outlines: &'a [Outline],
+    /// The entities of the outlines.
+    cut: FxHashSet<EntityId>,
+    findings: &'a [Finding],
+    faults: Vec<Fault<'a>>,
+    paths: &'a [WirePath],
+    unit_mm: f64,
+}
+
+/// An arc that is too tight, and what its segment is called.
+struct Fault<'a> {
+    detail: &'a SmallRadius,
+    handle: String,
+    segment: usize,
+    entity: Option<EntityId>,
+}
+
+impl Fault<'_> {
+    /// The arc as it was found, which may differ from the drawing's present one.
+    fn arc(&self) -> crate::geometry::Arc {
+        let detail = self.detail;
+        let start_angle = (detail.start.y - detail.center.y).atan2(detail.start.x - detail.center.x);
+        crate::geometry::Arc {
+            center: detail.center,
+            radius: detail.radius,
+            start_angle,
+            sweep: detail.sweep,
+            start: detail.start,
+            end: detail.end,
+        }
+    }
+}
+
+fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> {
+    let faults = findings.iter().filter_map(|finding| {
+        let Detail::SmallRadius(detail) = &finding.detail else { return None };
+        let (entity, segment) = match finding.place {
+            Place::Segment { entity, segment } => (Some(entity), segment),
+            Place::Entity { entity } => (Some(entity), 0),
+            _ => (None, 0),
+        };
+        let handle = entity.and_then(|id| drawing.get(id)).map_or_else(String::new, |entity| entity.handle.to_string());
+        Some(Fault { detail, handle, segment, entity })
+    });
+    faults.collect()
+}
+
+/// The box of all that is drawn; `None` where nothing finite is.
+fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
+    let mut bounds = Bounds::EMPTY;
+    for (_, entity) in drawing.entities() {
+        bounds.merge(&entity.geometry.bounds());
+    }
+    for path in paths {
+        bounds.include(path.thread_hole);
+        path.segments.iter().for_each(|segment| bounds.merge(&segment.geometry.bounds()));
+    }
+    let corners = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
+    corners.iter().all(|corner| corner.is_finite()).then_some(bounds)
+}
+
+fn scale_to_fit(bounds: &Bounds) -> f64 {
+    let scale = (FIGURE_WIDTH / bounds.width()).min(FIGURE_HEIGHT / bounds.height());
+    // A single point has no extent to fit.
+    if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+}
+
+impl Picture<'_> {
+    fn mm(&self, length: f64) -> f64 {
+        length * self.unit_mm
+    }
+
+    fn title(&self) -> String {
+        match self.faults.len() {
+            0 => "Contour and wire path".into(),
+            1 => "1 arc is tighter than the correction".into(),
+            count => format!("{count} arcs are tighter than the correction"),
+        }
+    }
+
+    fn header(&self, sheet: &mut String) {
+        let correction = self.faults.first().map(|fault| fault.detail.required).or(self.paths.first().map(|path| path.correction));
+        let mut facts = Vec::new();
+        if let Some(correction) = correction {
+            facts.push(format!("correction {:.3} mm", self.mm(correction)));
+        }
+        facts.push(match self.outlines.len() {
+            1 => "1 contour".into(),
+            count => format!("{count} contours"),
+        });
+        if !self.paths.is_empty() {
+            let length: f64 = self.paths.iter().flat_map(|path| &path.segments).map(|segment| segment.geometry.length()).sum();
+            facts.push(format!("wire path {:.3} mm", self.mm(length)));
+        }
+        let _ = writeln!(sheet, r#"<text class="heading" x="{MARGIN}" y="34">{}</text>"#, escaped(&self.title()));
+        let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="52">{}</text>"#, escaped(&facts.join(" · ")));
+    }
+
+    fn figure(&self, sheet: &mut String, frame: &Frame) {
+        let _ = writeln!(sheet, "{}", frame.opening());
+        self.areas(sheet, frame);
+        self.asides(sheet, frame);
+        self.contours(sheet, frame);
+        self.wire(sheet, frame);
+        self.other_faults(sheet, frame);
+        for fault in &self.faults {
+            let arc = Segment::Arc(fault.arc());
+            let _ = writeln!(
+                sheet,
+                r#"<path class="fault" d="{}"><title>{}</title></path>"#,
+                path_data(frame, [arc], false),
+                escaped(&self.fault_label(fault))
+            );
+        }
+        marks::thread_holes(sheet, frame, self);
+        sheet.push_str("</g>\n");
+    }
+
+    fn fault_label(&self, fault: &Fault) -> String {
+        let (radius, required) = (self.mm(fault.detail.radius), self.mm(fault.detail.required));
+        format!("{} · segment {} · R {radius:.3} mm, the correction is {required:.3} mm", fault.handle, fault.segment)
+    }
+
+    /// The insides of closed contours, the largest first, so that openings lie upon the part that holds them.
+    fn areas(&self, sheet: &mut String, frame: &Frame) {
+        let mut areas: Vec<(f64, &str, String)> = Vec::new();
+        for (id, entity) in self.drawing.entities() {
+            if entity.geometry.is_closed() && !self.cut.contains(&id) {
+                let segments: Vec<Segment> = entity.geometry.segments().collect();
+                let bounds = entity.geometry.bounds();
+                areas.push((bounds.width() * bounds.height() * 2.0, "part", path_data(frame, segments, true)));
+            }
+        }
+        for outline in self.outlines.iter().filter(|outline| outline.contour.closed) {
+            let class = if outline.role == Role::Opening { "void" } else { "part" };
+            let segments = outline.contour.segments(self.drawing).map(|segment| segment.geometry);
+            areas.push((outline.twice_area.abs(), class, path_data(frame, segments, true)));
+        }
+        areas.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, class, data) in areas {
+            let _ = writeln!(sheet, r#"<path class="{class}" d="{data}"/>"#);
+        }
+    }
+
+    /// What is drawn and not cut.
+    fn asides(&self, sheet: &mut String, frame: &Frame) {
+        for (_, entity) in self.drawing.entities().filter(|(id, _)| !self.cut.contains(id)) {
+            if let Geometry::Text { at, text } = &entity.geometry {
+                if !self.paths.iter().any(|path| (path.thread_hole - at).norm() * frame.scale < 1.0) {
+                    marks::text(sheet, frame, *at, text);
+                }
+                continue;
+            }
+            let data = path_data(frame, entity.geometry.segments(), entity.geometry.is_closed());
+            let label = format!("{} {} on layer {}, not cut", entity.kind, entity.handle, entity.layer);
+            if !data.is_empty() {
+                let _ = writeln!(sheet, r#"<path class="aside" d="{data}"><title>{}</title></path>"#, escaped(&label));
+            }
+        }
+    }
+
+    fn contours(&self, sheet: &mut String, frame: &Frame) {
+        let count: usize = self.outlines.iter().map(|outline| outline.contour.len()).sum();
+        for outline in self.outlines {
+            for piece in &outline.contour.pieces {
+                let Some(entity) = self.drawing.get(piece.entity) else { continue };
+                if count > TOOLTIP_SEGMENTS {
+                    let data = path_data(frame, entity.geometry.segments(), entity.geometry.is_closed());
+                    let label = format!("{} {} · {} segments", entity.kind, entity.handle, piece.count);
+                    let _ = writeln!(sheet, r#"<path class="contour" d="{data}"><title>{}</title></path>"#, escaped(&label));
+                    continue;
+                }
+                for (index, segment) in entity.geometry.segments().enumerate() {
+                    let data = path_data(frame, [segment], false);
+                    let label = escaped(&self.segment_label(entity, index, &segment));
+                    let _ = writeln!(sheet, r#"<path class="contour" d="{data}"><title>{label}</title></path>"#);
+                }
+            }
+        }
+    }
+
+    fn segment_label(&self, entity: &Entity, index: usize, segment: &Segment) -> String {
+        let what = match segment {
+            Segment::Line(line) => format!("line, {:.3} mm", self.mm(line.length())),
+            Segment::Arc(arc) => format!("arc R {:.3} mm, {:.1}°", self.mm(arc.radius), arc.sweep.to_degrees()),
+        };
+        format!("{} {} · segment {index} · {what}", entity.kind, entity.handle)
+    }
+
+    fn wire(&self, sheet: &mut String, frame: &Frame) {
+        for path in self.paths {
+            let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
+            let label = format!("path of the wire's centre, {:.3} mm from the contour", self.mm(path.correction));
+            // Runs of one kind: the way round the contour is one line, the leads are others.
+            for run in path.segments.chunk_by(|a, b| is_lead(&a.source) == is_lead(&b.source)) {
+                let lead = run.first().is_some_and(|segment| is_lead(&segment.source));
+                let (class, label) = if lead { ("lead", "lead-in and lead-out") } else { ("wire", label.as_str()) };
+                let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
+                let _ = writeln!(sheet, r#"<path class="{class}" d="{data}"><title>{}</title></path>"#, escaped(label));
+            }
+        }
+    }
+
+    /// Findings on segments that have no picture of their own: the segment is marked and its rule named.
+    fn other_faults(&self, sheet: &mut String, frame: &Frame) {
+        for finding in self.findings.iter().filter(|finding| !matches!(finding.detail, Detail::SmallRadius(_))) {
+            let Place::Segment { entity, segment } = finding.place else { continue };
+            let Some(entity) = self.drawing.get(entity) else { continue };
+            let Some(geometry) = entity.geometry.segment(segment) else { continue };
+            let _ = writeln!(
+                sheet,
+                r#"<path class="other" d="{}"><title>{} · segment {segment} · {}</title></path>"#,
+                path_data(frame, [geometry], false),
+                escaped(&entity.handle),
+                finding.rule.name()
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

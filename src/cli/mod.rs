@@ -1,1 +1,115 @@
-//! The command line.
+//! The command line: what each command takes, what it prints, and with which code it ends.
+//!
+//! One file a command. Nothing is decided here: reading, rules, fixes and programs are those of the floors below,
+//! and what is printed as JSON has the types of [`crate::protocol`].
+
+mod check;
+mod completions;
+mod contours;
+mod demo;
+mod draw;
+mod files;
+mod fix;
+mod generate;
+mod inspect;
+mod options;
+mod output;
+mod report;
+mod serve;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Language server and command line for wire EDM
+///
+/// Finds every arc that is tighter than the wire's correction, repairs it, and writes proved 3B programs.
+/// Without a command it is the language server on stdin and stdout.
+#[derive(Debug, Parser)]
+#[command(name = "wedm", version, max_term_width = 100, after_help = EXAMPLES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Speak the language server protocol on stdin and stdout (what happens without a command)
+    #[arg(long)]
+    stdio: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  wedm check plate.dxf                     every arc tighter than 0.10 mm, with its place in the file
+  wedm check --correction 0.12 drawings/   a whole folder, with another correction
+  wedm fix plate.dxf -o fixed.dxf          repair what can be repaired
+  wedm generate fixed.dxf --side opening -o plate.3b
+  wedm demo                                a whole session with the server, on a drawing that ships inside
+
+Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wrong usage.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Check(check::Arguments),
+    Fix(fix::Arguments),
+    Generate(generate::Arguments),
+    Inspect(inspect::Arguments),
+    Draw(draw::Arguments),
+    Contours(contours::Arguments),
+    Demo(demo::Arguments),
+    Serve(serve::Arguments),
+    Completions(completions::Arguments),
+}
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Verdict {
+    /// Nothing to object to.
+    Clean,
+    /// The drawing has errors.
+    Errors,
+    /// Something could not be read, or was asked for wrongly.
+    Failed,
+}
+
+impl Verdict {
+    fn code(self) -> u8 {
+        match self {
+            Verdict::Clean => 0,
+            Verdict::Errors => 1,
+            Verdict::Failed => 2,
+        }
+    }
+}
+
+/// Why a command could not do what it was asked: one sentence, lower-case, no final dot.
+#[derive(Debug, PartialEq)]
+struct Failure(String);
+
+/// Does what the process was called for.
+pub fn run() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match arguments.command {
+        None => serve::run(),
+        Some(Command::Serve(_)) => serve::run(),
+        Some(Command::Check(arguments)) => check::run(&arguments),
+        Some(Command::Fix(arguments)) => fix::run(&arguments),
+        Some(Command::Generate(arguments)) => generate::run(&arguments),
+        Some(Command::Inspect(arguments)) => inspect::run(&arguments),
+        Some(Command::Draw(arguments)) => draw::run(&arguments),
+        Some(Command::Contours(arguments)) => contours::run(&arguments),
+        Some(Command::Demo(arguments)) => demo::run(&arguments),
+        Some(Command::Completions(arguments)) => completions::run(&arguments, &mut Arguments::command()),
+    };
+    let verdict = outcome.unwrap_or_else(|Failure(sentence)| {
+        output::complain(&sentence);
+        Verdict::Failed
+    });
+    ExitCode::from(verdict.code())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_commands_are_declared_without_contradiction() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,1 +1,51 @@
-//! The types of the `wedm/` methods, shared by server and command line.
+//! The types of every `wedm/` message, and how they are made from the core and turned into it.
+//!
+//! Keys are camelCase, angles degrees, coordinates drawing units. Server and command line share these types, so that
+//! what an editor is sent and what `--output json` prints are one thing. Nothing here knows of transport or state.
+
+mod change;
+mod contours;
+mod data;
+mod diagnostic;
+mod drawing;
+mod generate;
+mod inspection;
+mod number;
+mod requests;
+mod schema;
+mod segment;
+mod toolpath;
+
+pub use change::{DrawingChange, Splice, apply, changes_of};
+pub use contours::{ContourPiece, Contours, ContoursContour, Direction, Gap};
+pub use data::{FindingData, SideName};
+pub use diagnostic::{CodeDescription, Diagnostic, Position, Range, severity_number};
+pub use drawing::{Drawing, Entity, Geometry, Point, Units, Vertex};
+pub use generate::{Closure, Generate, Program, Refused};
+pub use inspection::{InspectedEntity, InspectedSegment, Inspection};
+pub use requests::{
+    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, DrawingVersion, Inspect, OpenDrawing, OptionsOf,
+    Picture, ResendDrawing, Resent,
+};
+pub use schema::schema;
+pub use segment::{SegmentKind, SegmentShape};
+pub use toolpath::{PathPiece, PathSource, Toolpath, ToolpathPath};
+
+/// Version of the `wedm/` name space that the handshake states.
+pub const PROTOCOL: u32 = 1;
+
+/// Names of the methods, notifications and commands.
+pub mod method {
+    pub const DID_OPEN_DRAWING: &str = "wedm/didOpenDrawing";
+    pub const DID_CHANGE_DRAWING: &str = "wedm/didChangeDrawing";
+    pub const DID_CLOSE_DRAWING: &str = "wedm/didCloseDrawing";
+    pub const RESEND_DRAWING: &str = "wedm/resendDrawing";
+    pub const APPLY_DRAWING_EDIT: &str = "wedm/applyDrawingEdit";
+    pub const GENERATE: &str = "wedm/generate";
+    pub const INSPECT: &str = "wedm/inspect";
+    pub const CONTOURS: &str = "wedm/contours";
+    pub const TOOLPATH: &str = "wedm/toolpath";
+    pub const PICTURE: &str = "wedm/picture";
+    /// The command that a drawing's code actions hold.
+    pub const APPLY_DRAWING_EDIT_COMMAND: &str = "wedm.applyDrawingEdit";
+}

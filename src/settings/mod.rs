@@ -3,8 +3,14 @@
 //! Each level holds only what somebody set. Keys are camelCase in JSON and kebab-case in `wedm.toml`.
 
 mod effective;
+mod from_json;
+mod from_toml;
+mod reader;
+mod value;
 
 pub use effective::Effective;
+pub use from_json::from_json;
+pub use from_toml::{FILE_NAME, from_toml};
 
 use crate::drawing::Role;
 use crate::finding::Severity;

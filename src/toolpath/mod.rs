@@ -1,9 +1,23 @@
 //! The path of the wire's centre: offset, corners, leads, order.
+//!
+//! Each piece of a path remembers the segment of the drawing that it comes from. A path never comes nearer to its contour than the
+//! correction: where an offset would, there is a refusal and no path. Everything is in drawing units; settings are in mm.
+
+mod clearance;
+mod corners;
+mod leads;
+mod offset;
+mod order;
 
 use crate::drawing::{Drawing, EntityId, Outline};
-use crate::finding::Finding;
+use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment};
-use crate::settings::Effective;
+use crate::settings::{Compensation, Effective};
+use clearance::Walls;
+use corners::{Element, Joining, closed_path};
+use leads::{Entry, Surroundings, Wanted, default_entry, nearest, off_contour, path_point, thread_hole};
+use offset::{Wall, walls};
+use order::{begin_at, directed, name};
 
 /// Where a piece of the path comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,12 +64,179 @@ pub enum Refusal {
     Findings(Vec<Finding>),
 }
 
+/// How much nearer than the correction a path may come by rounding, mm.
+const ROUNDING: f64 = 1e-6;
+
 /// The paths of all `outlines`, or of those that hold one of `handles`, in machining order.
-pub fn plan(
-    _drawing: &Drawing,
-    _outlines: &[Outline],
-    _settings: &Effective,
-    _handles: Option<&[String]>,
-) -> Result<Vec<WirePath>, Refusal> {
-    Ok(Vec::new())
+pub fn plan(drawing: &Drawing, outlines: &[Outline], settings: &Effective, handles: Option<&[String]>) -> Result<Vec<WirePath>, Refusal> {
+    if settings.compensation == Compensation::Controller {
+        return Err(Refusal::Sentence(
+            "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path".into(),
+        ));
+    }
+    let chosen = order::chosen(drawing, outlines, handles)?;
+    let wanted = leads::wanted(drawing, outlines, &chosen, settings)?;
+    let job = Job { drawing, outlines, settings, unit_mm: settings.unit_of(drawing).mm };
+    let all = job.all_walls();
+    let (mut paths, mut findings) = (Vec::new(), Vec::new());
+    for (&index, wanted) in chosen.iter().zip(&wanted) {
+        let path = match settings.compensation {
+            Compensation::None => job.as_drawn(index, wanted),
+            Compensation::Path | Compensation::Controller => job.compensated(index, wanted, &all),
+        };
+        match path {
+            Ok(path) => paths.push(path),
+            Err(Refusal::Findings(found)) => findings.extend(found),
+            Err(refusal) => return Err(refusal),
+        }
+    }
+    if findings.is_empty() { Ok(paths) } else { Err(Refusal::Findings(findings)) }
+}
+
+/// What all contours of one request have in common.
+struct Job<'a> {
+    drawing: &'a Drawing,
+    outlines: &'a [Outline],
+    settings: &'a Effective,
+    unit_mm: f64,
+}
+
+impl Job<'_> {
+    fn all_walls(&self) -> Walls {
+        let segments = self.outlines.iter().flat_map(|outline| outline.contour.segments(self.drawing));
+        Walls::new(segments.map(|segment| segment.geometry).collect())
+    }
+
+    /// mm in drawing units.
+    fn units(&self, mm: f64) -> f64 {
+        mm / self.unit_mm
+    }
+
+    /// The contour itself as the wire's path.
+    fn as_drawn(&self, index: usize, wanted: &Wanted) -> Result<WirePath, Refusal> {
+        let outline = &self.outlines[index];
+        let zero_length = self.units(self.settings.tolerances.zero_length);
+        let (contour, _) = directed(outline, self.settings.direction);
+        let mut walls = walls(contour.segments(self.drawing), contour.closed, zero_length);
+        let handle = name(self.drawing, outline);
+        let empty = || Refusal::Sentence(format!("contour {handle} has no length"));
+        let path = if contour.closed {
+            let path: Vec<Element> =
+                walls.iter().enumerate().map(|(wall, w)| Element { geometry: w.geometry, source: w.source, wall }).collect();
+            match self.entry(outline, &walls, wanted)? {
+                Some(entry) => begin_at(path, entry.wall, entry.point),
+                None => path,
+            }
+        } else {
+            let (first, last) = (walls.first().ok_or_else(empty)?.geometry.start(), walls.last().ok_or_else(empty)?.geometry.end());
+            if let Some(begin) = wanted.entry.or(wanted.thread) {
+                let (to_first, to_last) = ((begin - first).norm(), (begin - last).norm());
+                if wanted.entry.is_some() && to_first.min(to_last) > self.units(self.settings.tolerances.join) {
+                    return Err(Refusal::Sentence(format!(
+                        "contour {handle} is open and cannot be entered at ({}, {}), expected one of its ends",
+                        begin.x, begin.y
+                    )));
+                }
+                if to_last < to_first {
+                    walls.reverse();
+                    walls.iter_mut().for_each(|wall| wall.geometry = wall.geometry.reversed());
+                }
+            }
+            walls.iter().enumerate().map(|(wall, w)| Element { geometry: w.geometry, source: w.source, wall }).collect()
+        };
+        let begin = path.first().ok_or_else(empty)?.geometry.start();
+        let thread = wanted.thread.filter(|thread| (thread - begin).norm() > self.units(ROUNDING)).unwrap_or(begin);
+        Ok(self.with_leads(index, 0.0, thread, path, contour.closed))
+    }
+
+    /// The offset of a closed contour.
+    fn compensated(&self, index: usize, wanted: &Wanted, all: &Walls) -> Result<WirePath, Refusal> {
+        let (outline, settings) = (&self.outlines[index], self.settings);
+        let handle = name(self.drawing, outline);
+        if !outline.contour.closed {
+            return Err(Refusal::Sentence(format!(
+                "contour {handle} is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn"
+            )));
+        }
+        let Some(own_side) = outline.wire_side() else {
+            return Err(Refusal::Sentence(format!("side of contour {handle} is not known: say opening or punch")));
+        };
+        let correction = self.units(settings.correction);
+        let (contour, turned) = directed(outline, settings.direction);
+        let side = if turned { own_side.reversed() } else { own_side }.sign();
+        let walls = walls(contour.segments(self.drawing), true, self.units(settings.tolerances.zero_length));
+        let joining = Joining {
+            correction,
+            side,
+            corner: settings.corner,
+            touch: self.units(1e-7),
+            tolerance: self.units(settings.tolerances.report),
+        };
+        let collapsed = |at: Point| {
+            Refusal::Sentence(format!(
+                "the wire with a correction of {:.3} mm does not fit along contour {handle} near ({:.3}, {:.3}): its path would cut into the part",
+                settings.correction, at.x, at.y
+            ))
+        };
+        let path = closed_path(&walls, &joining).map_err(collapsed)?;
+        let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+        let clearance = correction - self.units(ROUNDING);
+        if let Some(wall) = path.iter().find_map(|element| own.too_near(&element.geometry, clearance)) {
+            return Err(collapsed(walls[wall].geometry.point_at(0.5)));
+        }
+        if !keeps_its_side(&path, &walls, side) {
+            return Err(collapsed(walls[0].geometry.start()));
+        }
+        let entry = match self.entry(outline, &walls, wanted)?.or_else(|| default_entry(&walls)) {
+            Some(entry) => entry,
+            None => return Err(Refusal::Sentence(format!("contour {handle} has no length"))),
+        };
+        let (element, begin) = path_point(&path, &walls, &entry, correction, side).ok_or_else(|| collapsed(entry.point))?;
+        let severity = settings.severity(Rule::LeadIn).unwrap_or(Severity::Error);
+        let surroundings = Surroundings { own: &own, all, clearance, unit_mm: self.unit_mm, severity };
+        let thread = thread_hole(wanted, &entry, begin, &walls, settings, &surroundings).map_err(|fault| Refusal::Findings(vec![fault]))?;
+        Ok(self.with_leads(index, correction, thread, begin_at(path, element, begin), true))
+    }
+
+    /// The entry that is asked for, or the one nearest to the thread hole; `None` where neither is given.
+    fn entry(&self, outline: &Outline, walls: &[Wall], wanted: &Wanted) -> Result<Option<Entry>, Refusal> {
+        let tie = self.units(ROUNDING);
+        if let Some(point) = wanted.entry {
+            return match nearest(walls, point, tie) {
+                Some((entry, distance)) if distance <= self.units(self.settings.tolerances.join) => Ok(Some(entry)),
+                found => {
+                    let distance_mm = found.map_or(f64::INFINITY, |(_, distance)| distance * self.unit_mm);
+                    Err(off_contour(self.drawing, outline, point, distance_mm))
+                }
+            };
+        }
+        Ok(wanted.thread.and_then(|thread| nearest(walls, thread, tie)).map(|(entry, _)| entry))
+    }
+
+    /// The path with the way from and back to the thread hole, where that is another point than its begin. An open path ends where it ends.
+    fn with_leads(&self, outline: usize, correction: f64, thread_hole: Point, path: Vec<Element>, closed: bool) -> WirePath {
+        let (begin, end) = match (path.first(), path.last()) {
+            (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
+            _ => (thread_hole, thread_hole),
+        };
+        let mut segments: Vec<PathSegment> = Vec::with_capacity(path.len() + 2);
+        if thread_hole != begin {
+            segments.push(PathSegment { geometry: Segment::line(thread_hole, begin), source: Source::LeadIn });
+        }
+        segments.extend(path.iter().map(|element| PathSegment { geometry: element.geometry, source: element.source }));
+        if thread_hole != begin && closed {
+            segments.push(PathSegment { geometry: Segment::line(end, thread_hole), source: Source::LeadOut });
+        }
+        WirePath { outline, correction, thread_hole, segments }
+    }
+}
+
+/// True when a path runs round as its contour does, inside an opening and outside a punch.
+fn keeps_its_side(path: &[Element], walls: &[Wall], side: f64) -> bool {
+    let Some(origin) = walls.first().map(|wall| wall.geometry.start()) else { return false };
+    let contour: f64 = walls.iter().map(|wall| wall.geometry.twice_area(origin)).sum();
+    let path: f64 = path.iter().map(|element| element.geometry.twice_area(origin)).sum();
+    let grows = (path - contour) * contour.signum();
+    // To the left of a counter-clockwise contour lies its inside.
+    path * contour > 0.0 && grows * side * contour.signum() <= 0.0
 }

@@ -1,0 +1,112 @@
+//! The findings as SARIF 2.1.0, which code hosts and editors read.
+
+use super::Survey;
+use crate::cli::Failure;
+use crate::cli::report::Row;
+use crate::finding::{Rule, Severity};
+use serde_json::{Value, json};
+
+pub(super) fn render(survey: &Survey) -> String {
+    let notifications: Vec<Value> = survey
+        .failures
+        .iter()
+        .map(|Failure(sentence)| json!({ "level": "error", "message": { "text": sentence } }))
+        .collect();
+    let log = json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": { "driver": {
+                "name": "wedm",
+                "semanticVersion": env!("CARGO_PKG_VERSION"),
+                "rules": Rule::ALL.iter().map(|&rule| described(rule)).collect::<Vec<_>>(),
+            } },
+            "columnKind": "unicodeCodePoints",
+            "invocations": [{
+                "executionSuccessful": survey.failures.is_empty(),
+                "toolExecutionNotifications": notifications,
+            }],
+            "results": survey.rows.iter().map(result).collect::<Vec<_>>(),
+        }],
+    });
+    format!("{log:#}\n")
+}
+
+fn described(rule: Rule) -> Value {
+    json!({
+        "id": rule.name(),
+        "shortDescription": { "text": summary(rule) },
+        "defaultConfiguration": { "level": level(rule.default_severity()) },
+    })
+}
+
+fn result(row: &Row) -> Value {
+    json!({
+        "ruleId": row.rule.name(),
+        "ruleIndex": Rule::ALL.iter().position(|&rule| rule == row.rule),
+        "level": level(row.severity),
+        "message": { "text": row.message },
+        "locations": [{ "physicalLocation": {
+            "artifactLocation": { "uri": uri(&row.path) },
+            "region": {
+                "startLine": row.line,
+                "startColumn": row.column,
+                "endLine": row.end_line,
+                "endColumn": row.end_column,
+            },
+        } }],
+        "properties": row.data,
+    })
+}
+
+/// SARIF has no level below `note`.
+fn level(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Information | Severity::Hint => "note",
+    }
+}
+
+fn summary(rule: Rule) -> &'static str {
+    match rule {
+        Rule::SmallRadius => "An arc is tighter than the correction: the wire cannot follow it",
+        Rule::LeadIn => "The lead-in is too short or crosses a contour",
+        Rule::UnsupportedEntity => "Something in the drawing is not cut",
+        Rule::Units => "The drawing's unit is missing or absurd",
+        Rule::Syntax => "The file is damaged",
+        Rule::Settings => "A setting does not fit",
+        Rule::More => "Stands for further findings",
+    }
+}
+
+/// A path as a URI reference: relative paths stay relative, what a URI cannot hold is escaped.
+fn uri(path: &str) -> String {
+    let forward = if cfg!(windows) { path.replace('\\', "/") } else { path.to_string() };
+    let mut uri = String::new();
+    if forward.starts_with('/') {
+        uri.push_str("file://");
+    } else if forward.as_bytes().get(1) == Some(&b':') {
+        uri.push_str("file:///");
+    }
+    for byte in forward.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => uri.push(byte as char),
+            byte => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+#[cfg(test)]
+mod tests {
+    use super::uri;
+
+    #[test]
+    fn paths_become_uri_references() {
+        let expected = [("a b/ä.dxf", "a%20b/%C3%A4.dxf"), ("/tmp/x#1.dxf", "file:///tmp/x%231.dxf"), ("./p.3b", "./p.3b")];
+        for (path, expected) in expected {
+            assert_eq!(uri(path), expected);
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! The findings as a person reads them, and what they come to.
+
+use super::Survey;
+use crate::cli::output::{self, counted, styled};
+use crate::finding::Severity;
+use std::fmt::Write;
+
+pub(super) fn render(survey: &Survey) -> String {
+    let mut text = String::new();
+    for row in &survey.rows {
+        let _ = writeln!(text, "{}\n", row.rendered());
+    }
+    let count = |severity| survey.rows.iter().filter(|row| row.severity == severity).count();
+    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+    let notes = survey.rows.len() - errors - warnings;
+    let mut parts = Vec::new();
+    if errors > 0 {
+        parts.push(styled(output::ERROR, counted(errors, "error")));
+    }
+    if warnings > 0 {
+        parts.push(styled(output::WARNING, counted(warnings, "warning")));
+    }
+    if notes > 0 {
+        parts.push(counted(notes, "note"));
+    }
+    let result = if parts.is_empty() { styled(output::GOOD, "nothing found") } else { parts.join(", ") };
+    let _ = writeln!(text, "{} checked: {result}", counted(survey.files, "file"));
+    if let [only] = survey.fixable.as_slice() {
+        let _ = writeln!(text, "{} wedm fix {} --in-place", styled(output::NOTE, "repair what can be repaired with:"), only.display());
+    } else if let Some(first) = survey.fixable.first() {
+        let heading = styled(output::NOTE, format!("{} can be repaired, such as:", counted(survey.fixable.len(), "file")));
+        let _ = writeln!(text, "{heading} wedm fix {} --in-place", first.display());
+    }
+    text
+}

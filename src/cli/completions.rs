@@ -1,0 +1,23 @@
+//! `wedm completions`: what a shell needs to complete the commands and their options.
+
+use super::{Failure, Verdict, output};
+use clap::Args;
+use clap_complete::Shell;
+
+/// Print the completions for a shell
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm completions bash > ~/.local/share/bash-completion/completions/wedm
+  wedm completions fish > ~/.config/fish/completions/wedm.fish")]
+pub struct Arguments {
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+pub fn run(arguments: &Arguments, command: &mut clap::Command) -> Result<Verdict, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, command, "wedm", &mut script);
+    output::write(None, &script)?;
+    Ok(Verdict::Clean)
+}

@@ -1,0 +1,82 @@
+//! `wedm contours`: what is chained to what.
+
+use super::inspect::Format;
+use super::options::Common;
+use super::output::{self, counted, styled};
+use super::{Failure, Verdict, files};
+use crate::drawing::Role;
+use crate::protocol::{Contours, ContoursContour, Direction};
+use clap::Args;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// List the contours: what is chained to what, closed or open, with role, area and length
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm contours plate.dxf
+  wedm contours plate.dxf --side auto --output json")]
+pub struct Arguments {
+    /// The drawing
+    #[arg(value_name = "PATH")]
+    path: PathBuf,
+    /// Form of what is printed
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    output: Format,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let opened = files::open_drawing(&arguments.path, &arguments.common, &arguments.common.settings())?;
+    files::refuse_faulty_settings(&opened)?;
+    let Some(snapshot) = opened.document.snapshot() else {
+        return Err(Failure(format!("{}: there is no drawing in it", arguments.path.display())));
+    };
+    let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
+    let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, unit_mm);
+    let printed = match arguments.output {
+        Format::Text => list(&contours),
+        Format::Json => format!("{}\n", serde_json::to_string(&contours).map_err(|error| Failure(error.to_string()))?),
+    };
+    output::print(&printed)?;
+    Ok(Verdict::Clean)
+}
+
+fn list(contours: &Contours) -> String {
+    let mut text = String::new();
+    for (index, contour) in contours.contours.iter().enumerate() {
+        let _ = writeln!(text, "{}", styled(output::STRONG, heading(index, contour, contours.units_to_mm)));
+        for run in contour.segments.chunk_by(|a, b| a.handle == b.handle) {
+            let (Some(first), Some(last)) = (run.first(), run.last()) else { continue };
+            let against = if first.reversed { ", against its own direction" } else { "" };
+            let range = if run.len() == 1 { format!("segment {}", first.segment) } else { format!("segments {} to {}", first.segment, last.segment) };
+            let _ = writeln!(text, "  {:<12} {range}{against}", first.handle);
+        }
+        for gap in &contour.gaps {
+            let distance = gap.distance * contours.units_to_mm * 1000.0;
+            let _ = writeln!(text, "  {}", styled(output::WARNING, format!("gap of {distance:.3} µm closed after segment {}", gap.after)));
+        }
+        text.push('\n');
+    }
+    let _ = writeln!(text, "{}", counted(contours.contours.len(), "contour"));
+    text
+}
+
+fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
+    let shape = match (contour.closed, contour.direction) {
+        (false, _) => "open",
+        (true, Some(Direction::Ccw)) => "closed, counter-clockwise",
+        (true, Some(Direction::Cw)) => "closed, clockwise",
+        (true, None) => "closed, without area",
+    };
+    let role = match contour.role {
+        Role::Opening => "opening",
+        Role::Punch => "punch",
+        Role::Both => "both sides",
+        Role::Ignore => "not cut",
+    };
+    let length = contour.length * unit_mm;
+    let area = contour.area.map_or_else(String::new, |area| format!(", area {:.3} mm²", area * unit_mm * unit_mm));
+    format!("contour {index}: {shape}, {role}, {}, length {length:.3} mm{area}", counted(contour.segments.len(), "segment"))
+}

@@ -1,0 +1,142 @@
+//! The demonstration's own proof: drawing and program are read again, with nothing of the session but their text.
+
+use super::super::Failure;
+use super::holds;
+use crate::document::{Document, Source};
+use crate::drawing::Role;
+use crate::geometry::{Arc, Point, Segment};
+use crate::program::three_b::{self, Item, Word, Words};
+use crate::protocol::{PathPiece, PathSource, SegmentShape, Toolpath};
+use crate::settings::{Effective, Settings};
+use crate::{dxf, picture, toolpath};
+use serde_json::Value;
+use std::sync::Arc as Shared;
+
+pub struct Proof {
+    pub blocks: usize,
+    /// Largest distance of a decoded block from the path, µm.
+    pub from_path_um: f64,
+    /// Distance between the program's start and its end, each block decoded from the end of the last, µm.
+    pub open_um: f64,
+    /// Smallest and largest distance in mm from the contours to where the wire cuts along them.
+    pub least_distance: f64,
+    pub largest_distance: f64,
+    pub picture: String,
+}
+
+/// Places on each block that are looked at.
+const SAMPLES: u32 = 16;
+
+/// `faulty` and `fixed` are DXF text; `path` is the reply of `wedm/toolpath` for the latter.
+pub fn of(faulty: &str, fixed: &str, program: &str, path: &Value, correction: f64) -> Result<Proof, Failure> {
+    let path: Toolpath = serde_json::from_value(path.clone()).map_err(|error| Failure(format!("the wire path is not one: {error}")))?;
+    let settings = settings(correction);
+    let mut before = document(faulty, &settings);
+    let mut after = document(fixed, &settings);
+    let (faults, _) = before.findings(usize::MAX);
+    holds(!after.has_errors() && !faults.is_empty(), || "the repaired drawing has errors when it is read again".into())?;
+    let (Some(snapshot), Some(first)) = (after.snapshot(), path.paths.first()) else {
+        return Err(Failure("there is no path to hold the program against".into()));
+    };
+
+    let motions = decoded(program, Point::from(first.thread_hole))?;
+    let pieces: Vec<(PathSource, Segment)> =
+        path.paths.iter().flat_map(|path| &path.segments).filter_map(|piece| Some((piece.source, geometry(piece)?))).collect();
+    let contours: Vec<Segment> = snapshot
+        .outlines
+        .iter()
+        .flat_map(|outline| outline.contour.segments(&snapshot.drawing).map(|segment| segment.geometry))
+        .collect();
+    let mut proof = measured(&motions, &pieces, &contours);
+    let arcs = motions.iter().filter(|motion| motion.segment.as_arc().is_some()).count();
+    let (start, end) = (motions.first().map(|motion| motion.segment.start()), motions.last().map(|motion| motion.segment.end()));
+    if let (Some(start), Some(end), true) = (start, end, path.paths.len() == 1) {
+        proof.open_um = (end - start).norm() * 1e3;
+    }
+    // A controller that counts J may drift by 2 µm and 1 µm for each arc on the way round.
+    let allowed_um = 2.0 + arcs as f64;
+    let near = proof.from_path_um <= allowed_um && proof.open_um <= allowed_um;
+    holds(near, || format!("the program lies {:.2} µm from the path", proof.from_path_um))?;
+    let distances = (proof.least_distance - correction).abs().max((proof.largest_distance - correction).abs()) * 1e3;
+    holds(distances <= allowed_um, || format!("the wire leaves its distance by {distances:.2} µm"))?;
+
+    let planned = toolpath::plan(&snapshot.drawing, &snapshot.outlines, &snapshot.settings, None).unwrap_or_default();
+    proof.picture = picture::svg(&snapshot.drawing, &snapshot.outlines, &faults, &planned, path.units_to_mm);
+    Ok(proof)
+}
+
+fn settings(correction: f64) -> Shared<Effective> {
+    let layers = [("DIE", Role::Opening), ("HOLES", Role::Opening), ("PLATE", Role::Ignore)];
+    let layers = layers.into_iter().map(|(layer, role)| (layer.to_string(), role)).collect();
+    Shared::new(Effective::of(&Settings { correction: Some(correction), layers: Some(layers), ..Settings::default() }))
+}
+
+fn document(text: &str, settings: &Shared<Effective>) -> Document {
+    Document::new(Source::Dxf(dxf::Document::read(text.as_bytes().to_vec())), settings.clone())
+}
+
+/// One decoded block in mm, and whether it is on the way between two contours.
+struct Motion {
+    segment: Segment,
+    jump: bool,
+}
+
+/// Every block decoded from where the one before it ended.
+fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
+    let (items, faults) = three_b::read(program.as_bytes(), &Words::default());
+    holds(faults.is_empty(), || faults.first().map_or_else(String::new, |fault| fault.sentence.clone()))?;
+    let mut motions = Vec::new();
+    let mut at = start * 1e3;
+    let (mut jump, mut ended) = (false, false);
+    for item in items {
+        match item {
+            Item::Word { word: Word::Pause, .. } => jump = !jump,
+            Item::Word { word: Word::End, .. } => ended = true,
+            Item::StartPoint { .. } => {}
+            Item::Block { block, .. } => {
+                let segment = three_b::decode(&block, at).map_err(|fault| Failure(format!("block {} leads nowhere: {fault:?}", motions.len() + 1)))?;
+                at = segment.end();
+                motions.push(Motion { segment: in_mm(&segment), jump });
+            }
+        }
+    }
+    holds(ended, || "the program has no end".into())?;
+    Ok(motions)
+}
+
+fn in_mm(segment: &Segment) -> Segment {
+    let mm = |point: Point| point * 1e-3;
+    match segment {
+        Segment::Line(line) => Segment::line(mm(line.start), mm(line.end)),
+        Segment::Arc(arc) => {
+            Segment::Arc(Arc { center: mm(arc.center), radius: arc.radius * 1e-3, start: mm(arc.start), end: mm(arc.end), ..*arc })
+        }
+    }
+}
+
+fn geometry(piece: &PathPiece) -> Option<Segment> {
+    let SegmentShape { start, end, center, sweep, .. } = &piece.shape;
+    let (start, end) = (Point::from(*start), Point::from(*end));
+    let (Some(center), Some(sweep)) = (center, sweep) else { return Some(Segment::line(start, end)) };
+    Some(Segment::Arc(Arc::about(Point::from(*center), start, end, *sweep > 0.0)))
+}
+
+/// Holds each block against the path, and where it cuts along a contour against the contours.
+fn measured(motions: &[Motion], pieces: &[(PathSource, Segment)], contours: &[Segment]) -> Proof {
+    let mut proof =
+        Proof { blocks: motions.len(), from_path_um: 0.0, open_um: 0.0, least_distance: f64::INFINITY, largest_distance: 0.0, picture: String::new() };
+    for motion in motions.iter().filter(|motion| !motion.jump) {
+        for sample in 0..=SAMPLES {
+            let point = motion.segment.point_at(f64::from(sample) / f64::from(SAMPLES));
+            let nearest = pieces.iter().map(|(source, piece)| (piece.distance_to(point), *source)).min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((distance, source)) = nearest else { continue };
+            proof.from_path_um = proof.from_path_um.max(distance * 1e3);
+            if matches!(source, PathSource::Segment | PathSource::Corner) {
+                let clearance = contours.iter().map(|contour| contour.distance_to(point)).fold(f64::INFINITY, f64::min);
+                proof.least_distance = proof.least_distance.min(clearance);
+                proof.largest_distance = proof.largest_distance.max(clearance);
+            }
+        }
+    }
+    proof
+}

@@ -1,0 +1,166 @@
+//! Files in: which there are, of which kind each is, and the settings that hold for it.
+
+use super::options::Common;
+use super::report::Row;
+use super::{Failure, output};
+use crate::document::{Document, Source};
+use crate::drawing::Unit;
+use crate::finding::{Detail, Finding, Place, Rule};
+use crate::message::en;
+use crate::program::three_b;
+use crate::protocol::FindingData;
+use crate::settings::{Effective, Settings, SettingsError};
+use crate::text::SourceText;
+use crate::{dxf, settings};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Name endings that a folder is searched for.
+const ENDINGS: [&str; 5] = ["dxf", "dxb", "3b", "iso", "nc"];
+
+/// A file that has been read.
+pub struct Opened {
+    pub path: PathBuf,
+    pub document: Document,
+    /// Values in settings files that do not fit; the settings without them hold.
+    pub settings_rows: Vec<Row>,
+}
+
+enum Kind {
+    Dxf,
+    ThreeB,
+}
+
+/// Reads one file with the settings that hold for it: `wedm.toml` upwards from it, `--config`, then the options.
+pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
+    let kind = kind_of(path)?;
+    let (settings, settings_rows) = settings_for(path, common, last)?;
+    let bytes = std::fs::read(path).map_err(|error| Failure(format!("{}: {}", path.display(), plain(&error))))?;
+    Ok(Opened { path: path.to_path_buf(), document: document(&kind, bytes, Arc::new(settings)), settings_rows })
+}
+
+/// The same for a command that needs a drawing, and settings without a fault: it makes something of them.
+pub fn open_drawing(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
+    let opened = open(path, common, last)?;
+    if opened.document.drawing().is_none() {
+        return Err(Failure(format!("{}: it is a program, expected a drawing (.dxf)", path.display())));
+    }
+    Ok(opened)
+}
+
+/// An error where a settings file has a fault: nothing is made with settings that may not be those that were meant.
+pub fn refuse_faulty_settings(opened: &Opened) -> Result<(), Failure> {
+    if opened.settings_rows.is_empty() {
+        return Ok(());
+    }
+    opened.settings_rows.iter().for_each(|row| output::say(&row.rendered()));
+    Err(Failure("nothing is made with settings that do not fit, see above".into()))
+}
+
+fn kind_of(path: &Path) -> Result<Kind, Failure> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    let refusal = match ending.as_str() {
+        "dxf" => return Ok(Kind::Dxf),
+        "3b" => return Ok(Kind::ThreeB),
+        "dxb" => "binary DXB is not read yet, expected .dxf or .3b".into(),
+        "iso" | "nc" => "ISO programs are not read yet, expected .dxf or .3b".into(),
+        "dwg" => "DWG is not read, expected .dxf: save the drawing as DXF".into(),
+        "" => "its name has no ending, expected .dxf or .3b".into(),
+        ending => format!("its name ends with .{ending}, expected .dxf or .3b"),
+    };
+    Err(Failure(format!("{}: {refusal}", path.display())))
+}
+
+fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
+    let source = match kind {
+        Kind::Dxf => Source::Dxf(dxf::Document::read(bytes)),
+        Kind::ThreeB => Source::ThreeB(three_b::Document::read(bytes)),
+    };
+    Document::new(source, settings)
+}
+
+/// DXF bytes under given settings, such as a fix has made them.
+pub fn drawing_of(bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
+    document(&Kind::Dxf, bytes, settings)
+}
+
+/// The settings for an input, and the faults found in settings files.
+fn settings_for(path: &Path, common: &Common, last: &Settings) -> Result<(Effective, Vec<Row>), Failure> {
+    let mut settings = Settings::default();
+    let mut rows = Vec::new();
+    for file in project_file(path).iter().chain(&common.config) {
+        let bytes = std::fs::read(file).map_err(|error| Failure(format!("{}: {}", file.display(), plain(&error))))?;
+        let text = String::from_utf8(bytes).map_err(|_| Failure(format!("{}: it is not UTF-8 text", file.display())))?;
+        let (level, errors) = settings::from_toml(&text);
+        settings = settings.overlaid(&level);
+        let source = SourceText::new(text.into_bytes());
+        rows.extend(errors.into_iter().map(|error| settings_row(file, &source, error)));
+    }
+    Ok((Effective::of(&settings.overlaid(last)), rows))
+}
+
+fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
+    let range = error.range.unwrap_or(0..0);
+    let place = Place::Text { range: range.clone() };
+    let severity = Rule::Settings.default_severity();
+    let finding = Finding { rule: Rule::Settings, severity, place, detail: Detail::Settings(error.message) };
+    let message = en::sentence(&finding, Unit::MILLIMETRE.mm);
+    Row::new(file, Some(source), range, (Rule::Settings, severity), message, FindingData::default())
+}
+
+/// The nearest `wedm.toml` in the input's folder or one that holds it.
+fn project_file(path: &Path) -> Option<PathBuf> {
+    let folder = path.canonicalize().ok()?.parent()?.to_path_buf();
+    let file = folder.ancestors().map(|folder| folder.join(settings::FILE_NAME)).find(|file| file.is_file())?;
+    // A file that lies beside the input is named as the input is.
+    match path.parent() {
+        Some(parent) if file.parent() == Some(&folder) => Some(parent.join(settings::FILE_NAME)),
+        _ => Some(file),
+    }
+}
+
+/// What a search for files came to.
+#[derive(Default)]
+pub struct Found {
+    pub files: Vec<PathBuf>,
+    /// Folders that could not be read, and paths that are not there.
+    pub failures: Vec<Failure>,
+}
+
+/// The files that `paths` name: files as they are, folders searched, in the order of their names. None stands twice.
+pub fn search(paths: &[PathBuf]) -> Found {
+    let mut found = Found::default();
+    let mut seen = std::collections::HashSet::new();
+    for path in paths {
+        for entry in walkdir::WalkDir::new(path).sort_by_file_name() {
+            match entry {
+                Ok(entry) => {
+                    let named = entry.depth() == 0 && !entry.path().is_dir();
+                    let found_inside = entry.file_type().is_file() && has_known_ending(entry.path());
+                    if (named || found_inside) && seen.insert(entry.path().to_path_buf()) {
+                        found.files.push(entry.into_path());
+                    }
+                }
+                Err(error) => {
+                    let place = error.path().unwrap_or(path).display().to_string();
+                    let reason = error.io_error().map_or_else(|| error.to_string(), plain);
+                    found.failures.push(Failure(format!("{place}: {reason}")));
+                }
+            }
+        }
+    }
+    found
+}
+
+fn has_known_ending(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
+}
+
+/// The system's reason without its number.
+pub fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    let short = text.split(" (os error").next().unwrap_or(&text);
+    let mut characters = short.chars();
+    characters.next().map_or_else(String::new, |first| first.to_lowercase().chain(characters).collect())
+}

@@ -1,0 +1,133 @@
+//! `wedm generate`: a program for the machine.
+
+use super::options::{Common, Program};
+use super::output::{self, counted, styled};
+use super::{Failure, Verdict, files, report};
+use crate::document::Document;
+use crate::finding::{Finding, Severity};
+use crate::program::three_b::{self, ProvedProgram};
+use crate::settings::Settings;
+use crate::toolpath::{self, Refusal, WirePath};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Write the program of a drawing
+///
+/// Every block is decoded again and held against the path before anything is written. A drawing with errors is refused, unless
+/// --force says otherwise. The program goes to stdout, or to a file with -o; what it came to is said on stderr.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm generate plate.dxf --side opening -o plate.3b
+  wedm generate plate.dxf --handle 2A --thread -115,-10 --layout checking
+  wedm generate plate.dxf --side punch --correction 0.12 --corner intersection --direction cw")]
+pub struct Arguments {
+    /// The drawing
+    #[arg(value_name = "PATH")]
+    path: PathBuf,
+    /// Language of the program: 3b
+    #[arg(long, default_value = "3b", value_parser = format)]
+    format: String,
+    /// Write the program there [default: stdout]
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Only the contours that hold this entity; may be given several times
+    #[arg(long, value_name = "HANDLE")]
+    handle: Vec<String>,
+    /// Write it although the drawing has errors
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    program: Program,
+    #[command(flatten)]
+    common: Common,
+}
+
+fn format(text: &str) -> Result<String, String> {
+    match text.to_ascii_lowercase().as_str() {
+        "3b" => Ok("3b".into()),
+        _ => Err("there is: 3b".into()),
+    }
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let path = &arguments.path;
+    if let Some(target) = &arguments.output {
+        output::refuse_input(target, path)?;
+    }
+    let last = Settings { program: Some(arguments.program.settings()), ..arguments.common.settings() };
+    let opened = files::open_drawing(path, &arguments.common, &last)?;
+    files::refuse_faulty_settings(&opened)?;
+    let mut document = opened.document;
+    if !arguments.force && refused_for_errors(arguments, &mut document) {
+        return Ok(Verdict::Errors);
+    }
+    let Some(paths) = planned(arguments, &document)? else { return Ok(Verdict::Errors) };
+    let unit_mm = document.drawing().map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
+    let program = three_b::write(&paths, unit_mm, document.settings())
+        .map_err(|error| Failure(format!("{}: internal error, no program is written: {}", path.display(), error.0)))?;
+    output::write(arguments.output.as_deref(), program.text.as_bytes())?;
+    summarise(arguments, &program, paths.len());
+    Ok(Verdict::Clean)
+}
+
+/// True when errors stand in the drawing; they are listed then.
+fn refused_for_errors(arguments: &Arguments, document: &mut Document) -> bool {
+    let mut rows = report::rows(&arguments.path, document);
+    rows.retain(|row| row.severity == Severity::Error);
+    if rows.is_empty() {
+        return false;
+    }
+    rows.iter().for_each(|row| output::say(&format!("{}\n", row.rendered())));
+    let path = arguments.path.display();
+    let errors = counted(rows.len(), "error");
+    output::complain(&format!("{path}: no program is written, the drawing has {errors}; repair it (wedm fix {path}), or insist with --force"));
+    true
+}
+
+/// The paths of the wire; `None` after the reason has been said.
+fn planned(arguments: &Arguments, document: &Document) -> Result<Option<Vec<WirePath>>, Failure> {
+    let path = &arguments.path;
+    let Some(snapshot) = document.snapshot() else {
+        return Err(Failure(format!("{}: there is no drawing in it", path.display())));
+    };
+    let handles = (!arguments.handle.is_empty()).then_some(arguments.handle.as_slice());
+    match toolpath::plan(&snapshot.drawing, &snapshot.outlines, &snapshot.settings, handles) {
+        Ok(paths) if paths.is_empty() => {
+            output::complain(&format!("{}: it has no contour to cut", path.display()));
+            Ok(None)
+        }
+        Ok(paths) => Ok(Some(paths)),
+        Err(Refusal::Sentence(sentence)) => {
+            output::complain(&format!("{}: {sentence}", path.display()));
+            Ok(None)
+        }
+        Err(Refusal::Findings(findings)) => {
+            list(arguments, document, &findings);
+            Ok(None)
+        }
+    }
+}
+
+fn list(arguments: &Arguments, document: &Document, findings: &[Finding]) {
+    for finding in findings {
+        output::say(&format!("{}\n", report::row(&arguments.path, document, finding).rendered()));
+    }
+    output::complain(&format!("{}: no program is written", arguments.path.display()));
+}
+
+fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
+    let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| path.display().to_string());
+    let [x, y] = program.closure;
+    output::say(&format!(
+        "{} {target}: {}, {}, wire path {:.3} mm",
+        styled(output::GOOD, "written"),
+        counted(program.blocks, "block"),
+        counted(contours, "contour"),
+        program.length
+    ));
+    output::say(&format!(
+        "decoded again: at most {:.2} µm from the path; a controller that counts J drifts {x:+.2}, {y:+.2} µm",
+        program.deviation
+    ));
+}

@@ -1,0 +1,132 @@
+//! `wedm inspect`: the radius list, every segment with its verdict.
+
+use super::files::{self, Opened};
+use super::options::Common;
+use super::output::{self, counted, styled};
+use super::report::{self, Row};
+use super::{Failure, Verdict};
+use crate::finding::Severity;
+use crate::protocol::{InspectedEntity, InspectedSegment, Inspection, SegmentKind};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// List every segment with its radius and its verdict
+///
+/// Ends with 1 when the drawing has errors; JSON is printed also then.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm inspect plate.dxf
+  wedm inspect plate.dxf --handle 2A --correction 0.12
+  wedm inspect plate.dxf --output json | jq '.entities[].segments[] | select(.verdict != \"ok\")'")]
+pub struct Arguments {
+    /// The drawing
+    #[arg(value_name = "PATH")]
+    path: PathBuf,
+    /// Form of what is printed
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    output: Format,
+    /// Only this entity
+    #[arg(long, value_name = "HANDLE")]
+    handle: Option<String>,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Serialize)]
+struct Printed {
+    #[serde(flatten)]
+    inspection: Inspection,
+    diagnostics: Vec<Row>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let opened = files::open_drawing(&arguments.path, &arguments.common, &arguments.common.settings());
+    let (printed, failure) = match opened.map(|opened| inspected(arguments, opened)) {
+        Ok(printed) => (printed, None),
+        Err(failure) => {
+            let nothing = Inspection { units_to_mm: 1.0, entities: Vec::new() };
+            (Printed { inspection: nothing, diagnostics: Vec::new() }, Some(failure))
+        }
+    };
+    match (arguments.output, failure) {
+        (Format::Text, Some(failure)) => return Err(failure),
+        (Format::Text, None) => output::print(&table(&printed))?,
+        (Format::Json, failure) => {
+            let json = serde_json::to_string(&printed).map_err(|error| Failure(error.to_string()))?;
+            output::print(&format!("{json}\n"))?;
+            failure.map_or(Ok(()), Err)?;
+        }
+    }
+    let errors = printed.diagnostics.iter().any(|row| row.severity == Severity::Error);
+    Ok(if errors { Verdict::Errors } else { Verdict::Clean })
+}
+
+fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
+    let mut diagnostics = opened.settings_rows;
+    diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
+    let inspection = Inspection::of(&mut opened.document, arguments.handle.as_deref());
+    let inspection = inspection.unwrap_or(Inspection { units_to_mm: 1.0, entities: Vec::new() });
+    Printed { inspection, diagnostics }
+}
+
+fn table(printed: &Printed) -> String {
+    let mut text = String::new();
+    let unit = printed.inspection.units_to_mm;
+    for entity in &printed.inspection.entities {
+        let _ = writeln!(text, "{}", styled(output::STRONG, heading(entity)));
+        let _ = writeln!(text, "{}", styled(output::FAINT, columns()));
+        for segment in &entity.segments {
+            let _ = writeln!(text, "{}", line(segment, unit));
+        }
+        text.push('\n');
+    }
+    let apart = |row: &&Row| row.data.segment.is_none();
+    for row in printed.diagnostics.iter().filter(apart) {
+        let _ = writeln!(text, "{}\n", row.rendered());
+    }
+    let segments: usize = printed.inspection.entities.iter().map(|entity| entity.segments.len()).sum();
+    let faulty = printed.inspection.entities.iter().flat_map(|entity| &entity.segments).filter(|segment| segment.verdict != "ok");
+    let result = match faulty.count() {
+        0 => styled(output::GOOD, "all of them can be cut"),
+        count => styled(output::ERROR, format!("{count} not ok")),
+    };
+    let entities = match printed.inspection.entities.len() {
+        1 => "1 entity".into(),
+        count => format!("{count} entities"),
+    };
+    let units = if unit == 1.0 { "mm".into() } else { format!("drawing units of {unit} mm; radius in mm") };
+    let _ = writeln!(text, "{entities}, {} in {units}: {result}", counted(segments, "segment"));
+    text
+}
+
+fn heading(entity: &InspectedEntity) -> String {
+    let closed = if entity.closed { "closed" } else { "open" };
+    format!("{} {} on layer {}, {closed}", entity.r#type, entity.handle, entity.layer)
+}
+
+fn columns() -> String {
+    format!("{:>7} {:>13} {:>13}  {:<7} {:>10} {:>9}  verdict", "vertex", "x", "y", "segment", "radius", "sweep °")
+}
+
+fn line(segment: &InspectedSegment, unit_mm: f64) -> String {
+    let shape = &segment.shape;
+    let kind = match shape.kind {
+        SegmentKind::Line => "line",
+        SegmentKind::Arc => "arc",
+        SegmentKind::Circle => "circle",
+    };
+    let radius = shape.radius.map_or_else(String::new, |radius| format!("{:.3}", radius * unit_mm));
+    let sweep = shape.sweep.map_or_else(String::new, |sweep| format!("{sweep:.2}"));
+    let row = format!("{:>7} {:>13.4} {:>13.4}  {kind:<7} {radius:>10} {sweep:>9}  ", segment.index, shape.start.0, shape.start.1);
+    let style = if segment.verdict == "ok" { output::GOOD } else { output::ERROR };
+    format!("{row}{}", styled(style, &segment.verdict))
+}

@@ -1,0 +1,126 @@
+//! Options that several commands share, and the settings that come of them.
+
+use crate::settings::{Compensation, Corner, Direction, Layout, PointSetting, ProgramSettings, Settings, SideSetting};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use serde::de::DeserializeOwned;
+use std::path::PathBuf;
+
+/// What every command that looks at a drawing takes.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Settings")]
+pub struct Common {
+    /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub correction: Option<f64>,
+    /// Side on which the wire runs, where neither entity nor layer says
+    #[arg(long, value_parser = words::<SideSetting>(&["both", "auto", "opening", "punch"]))]
+    pub side: Option<SideSetting>,
+    /// Settings file, laid over the `wedm.toml` found upwards from the input
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
+}
+
+/// How a program is written.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Program")]
+pub struct Program {
+    /// Direction in which closed contours are cut
+    #[arg(long, value_parser = words::<Direction>(&["ccw", "cw", "as-drawn"]))]
+    pub direction: Option<Direction>,
+    /// How the wire goes round convex corners
+    #[arg(long, value_parser = words::<Corner>(&["arc", "intersection"]))]
+    pub corner: Option<Corner>,
+    /// Thread hole, in drawing units [default: the "O" mark, else found from the entry]
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub thread: Option<[f64; 2]>,
+    /// Point of the contour where the cut begins, in drawing units
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub entry: Option<[f64; 2]>,
+    /// Length of the lead-in in mm, where no thread hole is given
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub lead_in: Option<f64>,
+    /// Form of the blocks
+    #[arg(long, value_parser = words::<Layout>(&["compact", "aligned", "checking"]))]
+    pub layout: Option<Layout>,
+    /// Where the correction is applied
+    #[arg(long, value_parser = words::<Compensation>(&["path", "controller", "none"]))]
+    pub compensation: Option<Compensation>,
+    /// Word that ends the program [default: DD]
+    #[arg(long, value_name = "WORD")]
+    pub end: Option<String>,
+    /// Word that pauses it, to thread the wire [default: D]
+    #[arg(long, value_name = "WORD")]
+    pub pause: Option<String>,
+}
+
+impl Common {
+    /// The last level of settings: what the command line says.
+    pub fn settings(&self) -> Settings {
+        Settings { correction: self.correction, side: self.side, ..Settings::default() }
+    }
+}
+
+impl Program {
+    pub fn settings(&self) -> ProgramSettings {
+        ProgramSettings {
+            layout: self.layout,
+            direction: self.direction,
+            corner: self.corner,
+            thread: self.thread.map(PointSetting::One),
+            entry: self.entry.map(PointSetting::One),
+            lead_in: self.lead_in,
+            compensation: self.compensation,
+            end: self.end.clone(),
+            pause: self.pause.clone(),
+            ..ProgramSettings::default()
+        }
+    }
+}
+
+/// Words that a setting may have, read as the setting's own type reads them.
+fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+where
+    T: DeserializeOwned + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(words).try_map(|word| serde_json::from_value::<T>(word.into()))
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(length) if length.is_finite() && length > 0.0 => Ok(length),
+        _ => Err("expected a length in mm above 0".into()),
+    }
+}
+
+/// `X,Y`, both finite; either may be negative.
+pub fn point(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let both = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    both.ok_or_else(|| "expected two numbers with a comma between, such as -115,-10".into())
+}
+
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_two_finite_numbers() {
+        let expected = [("1,2", Some([1.0, 2.0])), ("-115,-10.5", Some([-115.0, -10.5])), ("1, 2", Some([1.0, 2.0]))];
+        for (text, point_of_text) in expected {
+            assert_eq!(point(text).ok(), point_of_text, "{text}");
+        }
+        for text in ["", "1", "1,2,3", "nan,1", "1,inf", "a,b", "1;2"] {
+            assert!(point(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_correction_is_above_zero() {
+        assert_eq!(positive("0.1"), Ok(0.1));
+        for text in ["0", "-0.1", "nan", "inf", "thick"] {
+            assert!(positive(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Findings as rows: a file, a place in it, a rule, a sentence; and each row as text with its excerpt, or as JSON.
+
+use crate::document::Document;
+use crate::drawing::Unit;
+use crate::finding::{Finding, Rule, Severity};
+use crate::message::en;
+use crate::protocol::FindingData;
+use crate::text::SourceText;
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use serde::Serialize;
+use std::ops::Range;
+use std::path::Path;
+
+/// One finding of one file. Lines and columns count from 1, columns in characters.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Row {
+    pub path: String,
+    pub line: usize,
+    pub column: usize,
+    pub end_line: usize,
+    pub end_column: usize,
+    #[serde(serialize_with = "rule_name")]
+    pub rule: Rule,
+    pub severity: Severity,
+    pub message: String,
+    pub data: FindingData,
+    #[serde(skip)]
+    excerpt: Option<Excerpt>,
+}
+
+/// The lines that a reader needs to see the fault in its place.
+#[derive(Clone, Debug)]
+struct Excerpt {
+    first_line: usize,
+    text: String,
+    /// Bytes of `text` at fault.
+    span: Range<usize>,
+}
+
+/// Lines longer than this (100 MB of zeros have one) are shown from near the fault on.
+const LONGEST_LINE: usize = 160;
+
+fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(rule.name())
+}
+
+/// Every finding of a document, errors first.
+pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
+    let (findings, _) = document.findings(usize::MAX);
+    findings.iter().map(|finding| row(path, document, finding)).collect()
+}
+
+/// One finding of a document.
+pub fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
+    let drawing = document.drawing();
+    let unit = drawing.map_or(Unit::MILLIMETRE, |drawing| document.settings().unit_of(drawing));
+    let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
+    let range = document.range_of(&finding.place).unwrap_or(0..0);
+    let message = en::sentence(finding, unit.mm);
+    Row::new(path, document.text(), range, (finding.rule, finding.severity), message, data)
+}
+
+impl Row {
+    /// A row whose place is a range of bytes of `text`.
+    pub fn new(
+        path: &Path,
+        text: Option<&SourceText>,
+        range: Range<usize>,
+        (rule, severity): (Rule, Severity),
+        message: String,
+        data: FindingData,
+    ) -> Row {
+        let (start, end) = match text {
+            Some(text) => (place(text, range.start), place(text, range.end.max(range.start))),
+            None => ((1, 1), (1, 1)),
+        };
+        Row {
+            path: path.display().to_string(),
+            line: start.0,
+            column: start.1,
+            end_line: end.0,
+            end_column: end.1,
+            rule,
+            severity,
+            message,
+            data,
+            excerpt: text.and_then(|text| excerpt(text, &range)),
+        }
+    }
+
+    /// The row as a person reads it: rule, sentence, place, and the lines at fault; with colours, which a stream may strip.
+    pub fn rendered(&self) -> String {
+        let level = match self.severity {
+            Severity::Error => Level::ERROR,
+            Severity::Warning => Level::WARNING,
+            Severity::Information => Level::INFO.with_name("information"),
+            Severity::Hint => Level::NOTE.with_name("hint"),
+        };
+        let title = level.primary_title(self.message.as_str()).id(self.rule.name());
+        let renderer = Renderer::styled();
+        match &self.excerpt {
+            Some(excerpt) => {
+                let snippet = Snippet::source(excerpt.text.as_str())
+                    .line_start(excerpt.first_line)
+                    .path(self.path.as_str())
+                    .fold(false)
+                    .annotation(AnnotationKind::Primary.span(excerpt.span.clone()).label(self.label()));
+                renderer.render(&[title.element(snippet)])
+            }
+            None => renderer.render(&[title.element(annotate_snippets::Origin::path(self.path.as_str()))]),
+        }
+    }
+
+    /// What stands beside the caret.
+    fn label(&self) -> Option<String> {
+        let handle = self.data.handle.as_ref()?;
+        let place = self.data.segment.map_or_else(String::new, |segment| format!(", segment {segment}"));
+        Some(format!("{handle}{place}"))
+    }
+}
+
+/// Line and column from 1; the column counts characters, and a byte that is no UTF-8 as one.
+fn place(text: &SourceText, offset: usize) -> (usize, usize) {
+    let line = text.line_of(offset);
+    let start = text.line_range(line).start;
+    let before = text.bytes().get(start..offset).unwrap_or_default();
+    (line + 1, String::from_utf8_lossy(before).chars().count() + 1)
+}
+
+/// The lines from the one above the fault (in DXF the group code of the number) to its end, at most six.
+fn excerpt(text: &SourceText, range: &Range<usize>) -> Option<Excerpt> {
+    if range.start >= range.end || range.end > text.bytes().len() {
+        return None;
+    }
+    let fault_line = text.line_of(range.start);
+    let last_line = text.line_of(range.end - 1).min(fault_line + 4);
+    let has_code = fault_line > 0 && is_group_code(&text.bytes()[text.line_range(fault_line - 1)]);
+    let first_line = if has_code { fault_line - 1 } else { fault_line };
+    let mut shown = String::new();
+    let mut span = 0..0;
+    for line in first_line..=last_line {
+        let whole = text.line_range(line);
+        let from = if line == fault_line { whole.start.max(range.start.saturating_sub(LONGEST_LINE / 2)) } else { whole.start };
+        let to = whole.end.min(from + LONGEST_LINE);
+        let fault = range.start.clamp(from, to)..range.end.clamp(from, to);
+        if line > first_line {
+            shown.push('\n');
+        }
+        push_readable(&mut shown, &text.bytes()[from..fault.start]);
+        if line == fault_line {
+            span.start = shown.len();
+        }
+        push_readable(&mut shown, &text.bytes()[fault.clone()]);
+        if !fault.is_empty() {
+            span.end = shown.len();
+        }
+        push_readable(&mut shown, &text.bytes()[fault.end..to]);
+    }
+    span.end = span.end.max(span.start);
+    Some(Excerpt { first_line: first_line + 1, text: shown, span })
+}
+
+fn is_group_code(line: &[u8]) -> bool {
+    let trimmed = line.trim_ascii();
+    !trimmed.is_empty() && trimmed.len() <= 5 && trimmed.iter().all(|byte| byte.is_ascii_digit() || *byte == b'-')
+}
+
+/// Bytes as text that a terminal can show: what is no UTF-8 and what would move its cursor becomes U+FFFD.
+fn push_readable(shown: &mut String, bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    shown.extend(text.chars().map(|character| if character.is_control() && character != '\t' { '\u{fffd}' } else { character }));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &[u8], range: Range<usize>) -> Option<(usize, String, String)> {
+        let excerpt = excerpt(&SourceText::new(text.to_vec()), &range)?;
+        let fault = excerpt.text[excerpt.span].to_string();
+        Some((excerpt.first_line, excerpt.text, fault))
+    }
+
+    #[test]
+    fn an_excerpt_holds_the_group_code_and_the_value() {
+        let text = b"  0\r\nLWPOLYLINE\r\n 42\r\n0.414\r\n 10\r\n";
+        assert_eq!(shown(text, 24..29), Some((3, " 42\n0.414".into(), "0.414".into())));
+        assert_eq!(shown(b"B1B2B3GXL1\nB\n", 2..4), Some((1, "B1B2B3GXL1".into(), "B2".into())));
+    }
+
+    #[test]
+    fn an_excerpt_of_anything_can_be_shown() {
+        assert_eq!(shown(b"", 0..0), None);
+        assert_eq!(shown(b"abc", 1..9), None);
+        assert_eq!(shown(b" 1\n\xff\x1b[31m\xfe", 4..5), Some((1, " 1\n\u{fffd}\u{fffd}[31m\u{fffd}".into(), "\u{fffd}".into())));
+        let (_, text, fault) = shown(&vec![0; 5000], 1000..4000).unwrap();
+        assert!(text.chars().count() <= LONGEST_LINE && !fault.is_empty());
+    }
+
+    #[test]
+    fn places_count_characters_from_one() {
+        let text = SourceText::new("a\näöü 1\n".as_bytes().to_vec());
+        assert_eq!(place(&text, 0), (1, 1));
+        assert_eq!(place(&text, 9), (2, 5));
+    }
+}

@@ -1,0 +1,108 @@
+use super::figure::number;
+use super::*;
+use crate::drawing::{Contour, Geometry, Vertex};
+use crate::finding::{Rule, Severity, Side};
+use crate::geometry::{Point, Segment};
+use crate::toolpath::PathSegment;
+
+fn entity(handle: &str, layer: &str, kind: &'static str, geometry: Geometry) -> Entity {
+    Entity { handle: handle.into(), layer: layer.into(), role: None, kind, geometry }
+}
+
+fn tight(id: EntityId, segment: usize, geometry: Segment, required: f64) -> Finding {
+    let arc = *geometry.as_arc().unwrap();
+    let turn = arc.sweep.abs();
+    let detail = SmallRadius {
+        radius: arc.radius,
+        required,
+        center: arc.center,
+        start: arc.start,
+        end: arc.end,
+        sweep: arc.sweep,
+        side: Side::Left,
+        overcut: (required - arc.radius) * (1.0 - turn.cos()),
+        stock_left: (required - arc.radius) * (1.0 / (turn / 2.0).cos() - 1.0),
+        pass: None,
+        no_fix: None,
+    };
+    let place = Place::Segment { entity: id, segment };
+    Finding { rule: Rule::SmallRadius, severity: Severity::Error, place, detail: Detail::SmallRadius(Box::new(detail)) }
+}
+
+/// An opening with one fillet of R 0.08 in a plate that is not cut, a text, and a path beside it.
+fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
+    let quarter = (std::f64::consts::PI / 8.0).tan();
+    let mut drawing = Drawing::new(None);
+    let rectangle = [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)].map(|(x, y)| Vertex::new(x, y, 0.0));
+    drawing.push(entity("10", "PLATE", "LWPOLYLINE", Geometry::Polyline { closed: true, vertices: rectangle.to_vec() }));
+    let opening = [(10.0, 8.0, 0.0), (29.92, 8.0, quarter), (30.0, 8.08, 0.0), (30.0, 22.0, 0.0), (10.0, 22.0, 0.0)];
+    let opening = opening.map(|(x, y, bulge)| Vertex::new(x, y, bulge));
+    let id = drawing.push(entity("2A", "DIE", "LWPOLYLINE", Geometry::Polyline { closed: true, vertices: opening.to_vec() }));
+    drawing.push(entity("2B", "DIE", "TEXT", Geometry::Text { at: Point::new(20.0, 15.0), text: "O".into() }));
+    drawing.push(entity("2C", "NOTE", "TEXT", Geometry::Text { at: Point::new(2.0, 26.0), text: "<plate & die>".into() }));
+    let contour = Contour::new(&drawing, [(id, false)], true);
+    let twice_area = contour.twice_area(&drawing);
+    let fault = contour.segment(&drawing, 1).unwrap();
+    let findings = vec![tight(id, 1, fault.geometry, 0.1)];
+    let at = |x, y| Point::new(x, y);
+    let around = [at(20.0, 15.0), at(20.0, 8.1), at(29.9, 8.1), at(29.9, 21.9), at(10.1, 21.9), at(10.1, 8.1), at(20.0, 8.1)];
+    let mut segments: Vec<PathSegment> = around
+        .windows(2)
+        .map(|ends| PathSegment { geometry: Segment::line(ends[0], ends[1]), source: Source::Segment { entity: id, segment: 0 } })
+        .collect();
+    segments[0].source = Source::LeadIn;
+    let path = WirePath { outline: 0, correction: 0.1, thread_hole: at(20.0, 15.0), segments };
+    (drawing, vec![Outline { contour, role: Role::Opening, twice_area }], findings, vec![path])
+}
+
+#[test]
+fn a_plate_shows_contour_fault_correction_and_path() {
+    let (drawing, outlines, findings, paths) = plate();
+    let picture = svg(&drawing, &outlines, &findings, &paths, 1.0);
+    let expected = [
+        "<title>1 arc is tighter than the correction</title>",
+        "LWPOLYLINE 2A · segment 1 · arc R 0.080 mm, 90.0°",
+        "2A · segment 1 · R 0.080 mm, the correction is 0.100 mm",
+        "R 0.080 &lt; 0.100 mm",
+        "overcut 0.020",
+        "thread hole at 20.000, 15.000 mm",
+        "LWPOLYLINE 10 on layer PLATE, not cut",
+        "&lt;plate &amp; die&gt;",
+        "5 mm</text>",
+    ];
+    for text in expected {
+        assert!(picture.contains(text), "{text} is missing");
+    }
+    assert_eq!(picture, svg(&drawing, &outlines, &findings, &paths, 1.0));
+}
+
+#[test]
+fn figures_for_people_are_mm_whatever_the_unit() {
+    let (drawing, outlines, findings, paths) = plate();
+    let picture = svg(&drawing, &outlines, &findings, &paths, 25.4);
+    assert!(picture.contains("R 2.032 &lt; 2.540 mm"));
+}
+
+#[test]
+fn a_full_circle_is_drawn_in_pieces_below_a_half_turn() {
+    let frame = Frame { origin: Point::origin(), scale: 1.0, left: 0.0, bottom: 0.0 };
+    let circle = Geometry::Circle { center: Point::new(5.0, 5.0), radius: 2.0 };
+    let data = path_data(&frame, circle.segments(), true);
+    assert_eq!(data, "M7 5A2 2 0 0 1 4 6.732A2 2 0 0 1 4 3.268A2 2 0 0 1 7 5Z");
+}
+
+#[test]
+fn numbers_are_short() {
+    for (value, text) in [(0.0, "0"), (-0.0001, "0"), (1.5, "1.5"), (100.0, "100"), (-2.0625, "-2.062"), (1e-9, "0")] {
+        assert_eq!(number(value), text, "{value}");
+    }
+}
+
+#[test]
+fn nothing_and_a_single_point_are_pictures_too() {
+    assert!(svg(&Drawing::default(), &[], &[], &[], 1.0).contains("no lines, arcs or circles"));
+    let mut drawing = Drawing::default();
+    drawing.push(entity("1", "0", "TEXT", Geometry::Text { at: Point::new(3.0, 4.0), text: "O\u{1}".into() }));
+    let picture = svg(&drawing, &[], &[], &[], 1.0);
+    assert!(picture.contains(">O</text>") && !picture.contains("NaN") && !picture.contains("inf"));
+}

@@ -1,0 +1,102 @@
+//! One block of 3B as typed numbers in micrometres; what it looks like as text is in `layout` and `parse`.
+
+/// The largest number that a six-digit controller takes, in µm: longer blocks are split.
+pub const LARGEST: i64 = 999_999;
+
+/// A node of a program on its µm grid, in absolute coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Node {
+    pub x: i64,
+    pub y: i64,
+}
+
+/// G: the axis whose projections the controller counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CountingAxis {
+    X,
+    Y,
+}
+
+/// A quadrant, 1 to 4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quadrant {
+    First,
+    Second,
+    Third,
+    Fourth,
+}
+
+impl Quadrant {
+    /// The quadrant by its number, `None` but for 1 to 4.
+    pub fn from_number(number: u8) -> Option<Quadrant> {
+        match number {
+            1 => Some(Quadrant::First),
+            2 => Some(Quadrant::Second),
+            3 => Some(Quadrant::Third),
+            4 => Some(Quadrant::Fourth),
+            _ => None,
+        }
+    }
+
+    pub fn number(self) -> u8 {
+        match self {
+            Quadrant::First => 1,
+            Quadrant::Second => 2,
+            Quadrant::Third => 3,
+            Quadrant::Fourth => 4,
+        }
+    }
+
+    /// Signs of x and y in the quadrant.
+    pub fn signs(self) -> (f64, f64) {
+        match self {
+            Quadrant::First => (1.0, 1.0),
+            Quadrant::Second => (-1.0, 1.0),
+            Quadrant::Third => (-1.0, -1.0),
+            Quadrant::Fourth => (1.0, -1.0),
+        }
+    }
+
+    /// The quadrant of a direction, or of a point that is left counter-clockwise: each axis belongs to the quadrant after it.
+    pub fn counter_clockwise(x: i64, y: i64) -> Quadrant {
+        match (x, y) {
+            (x, y) if x > 0 && y >= 0 => Quadrant::First,
+            (x, y) if x <= 0 && y > 0 => Quadrant::Second,
+            (x, y) if x < 0 && y <= 0 => Quadrant::Third,
+            _ => Quadrant::Fourth,
+        }
+    }
+
+    /// The quadrant of a point that is left clockwise: each axis belongs to the quadrant before it.
+    pub fn clockwise(x: i64, y: i64) -> Quadrant {
+        match (x, y) {
+            (x, y) if x >= 0 && y > 0 => Quadrant::First,
+            (x, y) if x < 0 && y >= 0 => Quadrant::Second,
+            (x, y) if x <= 0 && y < 0 => Quadrant::Third,
+            _ => Quadrant::Fourth,
+        }
+    }
+}
+
+/// Z: what kind of motion, and the quadrant of a line's direction or of an arc's start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// `L1` to `L4`.
+    Line(Quadrant),
+    /// `SR1` to `SR4`.
+    Clockwise(Quadrant),
+    /// `NR1` to `NR4`.
+    CounterClockwise(Quadrant),
+}
+
+/// `B X B Y B J G Z`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// µm, not negative: a line's end relative to its start, or an arc's start relative to its centre.
+    pub x: i64,
+    pub y: i64,
+    /// µm, not negative: what the controller counts on `axis` before it stops.
+    pub j: i64,
+    pub axis: CountingAxis,
+    pub motion: Motion,
+}

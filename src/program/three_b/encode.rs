@@ -1,0 +1,229 @@
+//! From a line or arc of the path to blocks on the µm grid.
+
+use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
+use super::decode::{decode, phase};
+use crate::geometry::{Arc, Line, Point, Segment};
+use std::f64::consts::{PI, TAU};
+
+/// How far a decoded block may end from its node, µm.
+pub(super) const END_TOLERANCE: f64 = 1.5;
+
+/// The largest sagitta of a chord that stands for a piece of an arc too large for the format, µm.
+const CHORD_SAGITTA: f64 = 0.5;
+
+/// A radius in µm above which an arc goes out as chords: its centre needs more digits than a block has.
+const LARGEST_RADIUS: f64 = 2.0 * LARGEST as f64;
+
+/// A block, the nodes between which it runs, and the piece of the path that it stands for, in µm.
+#[derive(Clone, Copy, Debug)]
+pub struct Encoded {
+    pub block: Block,
+    pub from: Node,
+    pub to: Node,
+    pub piece: Segment,
+}
+
+/// The grid point nearest to a point in µm; `None` beyond what a program can address exactly.
+pub fn snap(point: Point) -> Option<Node> {
+    const FAR: f64 = 1e12;
+    let fits = |value: f64| value.abs() <= FAR;
+    (fits(point.x) && fits(point.y)).then(|| Node { x: point.x.round() as i64, y: point.y.round() as i64 })
+}
+
+pub(super) fn point_of(node: Node) -> Point {
+    Point::new(node.x as f64, node.y as f64)
+}
+
+/// Appends the blocks of `piece` (µm) from `from` to `to`, the snapped ends of it.
+///
+/// A piece that has no length on the grid, an arc of radius zero among them, appends nothing. `None` when an arc cannot be
+/// written within tolerance, or a number does not fit.
+pub fn encode(piece: &Segment, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> Option<()> {
+    match piece {
+        Segment::Line(line) => encode_line(line, from, to, blocks),
+        Segment::Arc(arc) => encode_arc(arc, from, to, 0, blocks),
+    }
+}
+
+fn encode_line(line: &Line, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> Option<()> {
+    let longest = (to.x - from.x).abs().max((to.y - from.y).abs());
+    if longest == 0 {
+        return Some(());
+    }
+    // Pieces one µm short of the limit, because a snapped node may lie one further.
+    let count = if longest <= LARGEST { 1 } else { longest / (LARGEST - 1) + 1 };
+    in_pieces(&Segment::Line(*line), from, to, count, |piece, from, to| {
+        blocks.push(Encoded { block: line_block(from, to), from, to, piece });
+        Some(())
+    })
+}
+
+/// Cuts `whole` into `count` pieces of equal length with snapped nodes between them; pieces without length are left out.
+fn in_pieces(whole: &Segment, from: Node, to: Node, count: i64, mut each: impl FnMut(Segment, Node, Node) -> Option<()>) -> Option<()> {
+    if count <= 1 {
+        return each(*whole, from, to);
+    }
+    let (mut node, mut share) = (from, 0.0);
+    for number in 1..=count {
+        let next_share = number as f64 / count as f64;
+        let next = if number == count { to } else { snap(whole.point_at(next_share))? };
+        if next != node {
+            each(whole.part(share, next_share), node, next)?;
+            (node, share) = (next, next_share);
+        }
+    }
+    Some(())
+}
+
+/// The block of a straight line between two different nodes.
+///
+/// A line at 45° counts Y in the quadrants I and III, X in II and IV; sources disagree, and J is the same either way.
+pub(super) fn line_block(from: Node, to: Node) -> Block {
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
+    let (x, y) = (dx.abs(), dy.abs());
+    let quadrant = Quadrant::counter_clockwise(dx, dy);
+    let axis = match x.cmp(&y) {
+        std::cmp::Ordering::Greater => CountingAxis::X,
+        std::cmp::Ordering::Less => CountingAxis::Y,
+        std::cmp::Ordering::Equal if matches!(quadrant, Quadrant::First | Quadrant::Third) => CountingAxis::Y,
+        std::cmp::Ordering::Equal => CountingAxis::X,
+    };
+    Block { x, y, j: x.max(y), axis, motion: Motion::Line(quadrant) }
+}
+
+fn encode_arc(arc: &Arc, from: Node, to: Node, depth: u32, blocks: &mut Vec<Encoded>) -> Option<()> {
+    let full_turn = from == to && arc.sweep.abs() > PI;
+    if from == to && (!full_turn || arc.radius < 0.5) {
+        return Some(());
+    }
+    if arc.radius > LARGEST_RADIUS {
+        return chords(arc, from, to, blocks);
+    }
+    let whole = Segment::Arc(*arc);
+    match arc_block(arc, from, to, full_turn) {
+        Attempt::Block(block) if block.x > LARGEST || block.y > LARGEST => chords(arc, from, to, blocks),
+        Attempt::Block(block) if block.j > LARGEST => {
+            let count = block.j / (LARGEST - 1000) + 1;
+            in_pieces(&whole, from, to, count, |piece, from, to| encode(&piece, from, to, blocks))
+        }
+        Attempt::Block(block) => {
+            blocks.push(Encoded { block, from, to, piece: whole });
+            Some(())
+        }
+        // A chord of an arc this flat is as near to it as the grid is.
+        Attempt::Misses if sagitta(arc) <= 2.0 * CHORD_SAGITTA => encode_line(&Line { start: arc.start, end: arc.end }, from, to, blocks),
+        Attempt::Misses if depth < 8 => {
+            let middle = snap(arc.point_at(0.5))?;
+            for (share, from, to) in [(0.0, from, middle), (0.5, middle, to)] {
+                if let Segment::Arc(half) = whole.part(share, share + 0.5) {
+                    encode_arc(&half, from, to, depth + 1, blocks)?;
+                }
+            }
+            Some(())
+        }
+        Attempt::Misses => None,
+    }
+}
+
+fn sagitta(arc: &Arc) -> f64 {
+    arc.radius * (1.0 - (arc.sweep.abs() / 2.0).min(PI).cos())
+}
+
+/// Lines whose sagitta stays below [`CHORD_SAGITTA`].
+fn chords(arc: &Arc, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> Option<()> {
+    let half_step = (1.0 - (CHORD_SAGITTA / arc.radius).min(1.0)).acos();
+    // Where the radius is so large that the step vanishes in rounding, s = l² / 8r gives it.
+    let step = if half_step > 1e-6 { 2.0 * half_step } else { (8.0 * CHORD_SAGITTA / arc.radius).sqrt() };
+    let length = arc.radius * arc.sweep.abs();
+    let count = (arc.sweep.abs() / step).ceil();
+    if !count.is_finite() || !length.is_finite() || count > 1e7 {
+        return None;
+    }
+    in_pieces(&Segment::Arc(*arc), from, to, (count as i64).max(1), |piece, from, to| {
+        let mut straight = Vec::new();
+        encode_line(&Line { start: piece.start(), end: piece.end() }, from, to, &mut straight)?;
+        blocks.extend(straight);
+        Some(())
+    })
+}
+
+enum Attempt {
+    Block(Block),
+    /// Decoded again, the block would not end at its node.
+    Misses,
+}
+
+fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
+    let center = best_center(arc, from, to);
+    let (start_x, start_y) = (from.x - center.x, from.y - center.y);
+    let (end_x, end_y) = (to.x - center.x, to.y - center.y);
+    if (start_x, start_y) == (0, 0) || (end_x, end_y) == (0, 0) {
+        return Attempt::Misses;
+    }
+    let counter_clockwise = arc.sweep > 0.0;
+    let radius = (start_x as f64).hypot(start_y as f64);
+    let axis = if end_x.abs() < end_y.abs() { CountingAxis::X } else { CountingAxis::Y };
+    let j = if full_turn {
+        4.0 * radius
+    } else {
+        let start_angle = (start_y as f64).atan2(start_x as f64);
+        let between = (end_y as f64).atan2(end_x as f64) - start_angle;
+        let sweep = between + TAU * ((arc.sweep - between) / TAU).round();
+        if sweep * arc.sweep <= 0.0 || sweep.abs() > TAU {
+            return Attempt::Misses;
+        }
+        let (first, last) = match axis {
+            CountingAxis::X => (start_x, end_x),
+            CountingAxis::Y => (start_y, end_y),
+        };
+        projections(first as f64, last as f64, radius, phase(axis, start_angle, counter_clockwise), sweep.abs())
+    };
+    let motion = if counter_clockwise {
+        Motion::CounterClockwise(Quadrant::counter_clockwise(start_x, start_y))
+    } else {
+        Motion::Clockwise(Quadrant::clockwise(start_x, start_y))
+    };
+    let block = Block { x: start_x.abs(), y: start_y.abs(), j: j.round() as i64, axis, motion };
+    match decode(&block, point_of(from)) {
+        Ok(Segment::Arc(decoded)) if decoded.is_full_turn() == full_turn && (decoded.end - point_of(to)).norm() <= END_TOLERANCE => {
+            Attempt::Block(block)
+        }
+        _ => Attempt::Misses,
+    }
+}
+
+/// Sum of the absolute projections of an arc on the counting axis, piece by piece between the axis crossings, from the first to
+/// the last counted coordinate. `phase` is the start's, see [`phase`].
+fn projections(first: f64, last: f64, radius: f64, phase: f64, sweep: f64) -> f64 {
+    let half_turn = (phase / PI).floor();
+    let crossings = ((phase + sweep) / PI).floor() - half_turn;
+    if crossings < 1.0 {
+        return (last - first).abs();
+    }
+    // The counted coordinate is R cos(phase): at the end of an even half turn it is −R.
+    let extreme = |half_turn: f64| if half_turn % 2.0 == 0.0 { -radius } else { radius };
+    (extreme(half_turn) - first).abs() + 2.0 * radius * (crossings - 1.0) + (last - extreme(half_turn + crossings - 1.0)).abs()
+}
+
+/// Among the nine grid points around the true centre the one that is most nearly as far from the start as from the end; the nearest one
+/// where they are equally good.
+fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
+    let nearest = Node { x: arc.center.x.round() as i64, y: arc.center.y.round() as i64 };
+    let mut best = (nearest, f64::INFINITY, f64::INFINITY);
+    for dx in -1..=1 {
+        for dy in -1..=1 {
+            let center = Node { x: nearest.x + dx, y: nearest.y + dy };
+            let difference = (distance(from, center) - distance(to, center)).abs();
+            let away = (point_of(center) - arc.center).norm();
+            let better = difference < best.1 - 1e-9 || (difference < best.1 + 1e-9 && away < best.2);
+            if better {
+                best = (center, difference, away);
+            }
+        }
+    }
+    best.0
+}
+
+fn distance(a: Node, b: Node) -> f64 {
+    (point_of(a) - point_of(b)).norm()
+}

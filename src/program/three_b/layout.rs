@@ -1,0 +1,81 @@
+//! What blocks look like as text: compact, aligned, checking.
+
+use super::block::{Block, CountingAxis, Motion, Node};
+use crate::settings::Layout;
+
+/// Appends one block with its line end. `number` (from 1) and the absolute end point stand in the checking layout only.
+pub(super) fn push_block(out: &mut Vec<u8>, layout: Layout, number: usize, block: &Block, end: Node) {
+    let width = if layout == Layout::Compact { 0 } else { 6 };
+    let between: &[u8] = if layout == Layout::Compact { b"" } else { b" " };
+    if layout == Layout::Checking {
+        out.push(b'N');
+        push_number(out, number as u64, 5);
+        out.extend_from_slice(b": ");
+    }
+    for value in [block.x, block.y, block.j] {
+        out.push(b'B');
+        out.extend_from_slice(between);
+        push_number(out, value.unsigned_abs(), width);
+        out.extend_from_slice(between);
+    }
+    out.extend_from_slice(match block.axis {
+        CountingAxis::X => b"GX",
+        CountingAxis::Y => b"GY",
+    });
+    out.extend_from_slice(between);
+    let (kind, quadrant): (&[u8], _) = match block.motion {
+        Motion::Line(quadrant) => (b"L", quadrant),
+        Motion::Clockwise(quadrant) => (b"SR", quadrant),
+        Motion::CounterClockwise(quadrant) => (b"NR", quadrant),
+    };
+    out.extend_from_slice(kind);
+    out.push(b'0' + quadrant.number());
+    if layout == Layout::Checking {
+        // Lines and arcs end in one column.
+        out.extend_from_slice(if kind.len() == 1 { b"  ; " } else { b" ; " });
+        push_millimetres(out, end.x, 10);
+        out.extend_from_slice(b" , ");
+        push_millimetres(out, end.y, 10);
+    }
+    out.push(b'\n');
+}
+
+/// Appends the header that carries the absolute start of a program, which blocks cannot.
+pub(super) fn push_start_point(out: &mut Vec<u8>, start: Node) {
+    out.extend_from_slice(b"; Start Point = ");
+    push_millimetres(out, start.x, 0);
+    out.extend_from_slice(b" , ");
+    push_millimetres(out, start.y, 0);
+    out.push(b'\n');
+}
+
+/// Right-aligned in `width` columns, wider where it does not fit.
+fn push_number(out: &mut Vec<u8>, mut value: u64, width: usize) {
+    let mut digits = [b' '; 20];
+    let mut first = digits.len();
+    loop {
+        first -= 1;
+        digits[first] = b'0' + (value % 10) as u8;
+        value /= 10;
+        if value == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[first.min(digits.len() - width.min(digits.len()))..]);
+}
+
+/// µm as mm with three decimals, right-aligned in `width` columns.
+fn push_millimetres(out: &mut Vec<u8>, micrometres: i64, width: usize) {
+    let mut text = Vec::with_capacity(24);
+    if micrometres < 0 {
+        text.push(b'-');
+    }
+    let magnitude = micrometres.unsigned_abs();
+    push_number(&mut text, magnitude / 1000, 0);
+    text.push(b'.');
+    for digit in [magnitude / 100 % 10, magnitude / 10 % 10, magnitude % 10] {
+        text.push(b'0' + digit as u8);
+    }
+    out.extend(std::iter::repeat_n(b' ', width.saturating_sub(text.len())));
+    out.extend_from_slice(&text);
+}

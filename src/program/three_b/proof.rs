@@ -1,0 +1,72 @@
+//! Decoding what was written and holding it against the path, block by block.
+
+use super::block::{Block, Node};
+use super::decode::decode;
+use super::encode::{END_TOLERANCE, Encoded, point_of};
+use super::parse::{Item, Words, read_line};
+use crate::geometry::Vector;
+
+/// How far the middle of a decoded block may lie from that of the path, µm: the grid centre of an arc is up to 2.1 µm from the true one.
+const MIDDLE_TOLERANCE: f64 = 3.5;
+
+/// What the blocks of one program have shown so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Proof {
+    /// Sum of what each block ends beside its node: where a controller that only counts J has drifted to, µm.
+    pub drift: Vector,
+    /// Largest distance between a block's end and its node, µm.
+    pub deviation: f64,
+    pub arcs: usize,
+    drift_at_start: Vector,
+    arcs_at_start: usize,
+}
+
+impl Proof {
+    /// Reads `line` again, decodes it from its own node and compares it with its piece of the path.
+    pub fn check_line(&mut self, line: &[u8], words: &Words<'_>, encoded: &Encoded) -> Result<(), String> {
+        let mut read: Option<Block> = None;
+        let outcome = read_line(line, 0, words, |item| {
+            if let Item::Block { block, .. } = item {
+                read = Some(block);
+            }
+        });
+        outcome.map_err(|fault| format!("a written block cannot be read again: {}", fault.sentence))?;
+        match read {
+            Some(block) if block == encoded.block => self.check_block(&block, encoded),
+            _ => Err(format!("a written block reads as {read:?}, not as {:?}", encoded.block)),
+        }
+    }
+
+    fn check_block(&mut self, block: &Block, encoded: &Encoded) -> Result<(), String> {
+        let decoded = decode(block, point_of(encoded.from)).map_err(|fault| format!("{block:?} cannot be decoded: {fault:?}"))?;
+        let miss = decoded.end() - point_of(encoded.to);
+        let distance = miss.norm();
+        if distance > END_TOLERANCE {
+            return Err(format!("{block:?} ends {distance:.3} µm from its node {:?}", encoded.to));
+        }
+        let aside = (decoded.point_at(0.5) - encoded.piece.point_at(0.5)).norm();
+        if aside > MIDDLE_TOLERANCE || aside.is_nan() {
+            return Err(format!("{block:?} runs {aside:.3} µm beside the path at {:?}", encoded.from));
+        }
+        self.drift += miss;
+        self.deviation = self.deviation.max(distance);
+        self.arcs += usize::from(decoded.as_arc().is_some());
+        Ok(())
+    }
+
+    /// Ends one contour: what it drifted must stay within 2 µm and 1 µm for each arc.
+    ///
+    /// `first` and `last` are its nodes where the path is closed: they must be the same.
+    pub fn finish_contour(&mut self, closed: bool, first: Node, last: Node) -> Result<(), String> {
+        if closed && first != last {
+            return Err(format!("the cut begins at {first:?} and ends at {last:?}"));
+        }
+        let drift = (self.drift - self.drift_at_start).norm();
+        let allowed = 2.0 + (self.arcs - self.arcs_at_start) as f64;
+        if drift > allowed {
+            return Err(format!("a controller that counts J drifts by {drift:.3} µm, {allowed:.0} µm are allowed"));
+        }
+        (self.drift_at_start, self.arcs_at_start) = (self.drift, self.arcs);
+        Ok(())
+    }
+}

@@ -1,0 +1,315 @@
+//! Changes of a drawing: as a CAD program sends them, and as a fix asks for them.
+
+use super::drawing::{Entity, Geometry, Vertex};
+use crate::drawing::{self as core, Change, Delta, EntityId, Touched};
+use rustc_hash::FxHashMap;
+use schemars::JsonSchema;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
+
+/// One change to a drawing.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum DrawingChange {
+    /// Vertices of one polyline give way to others.
+    Vertices { handle: String, vertices: Splice },
+    /// The entity is added or replaced; null deletes it.
+    Entity {
+        handle: String,
+        entity: Option<Entity>,
+        /// Handle of the entity before which it comes in machining order; at the end, or where it was, when left out.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        before: Option<String>,
+    },
+}
+
+/// `delete_count` vertices from `start` on give way to `insert`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Splice {
+    pub start: usize,
+    pub delete_count: usize,
+    pub insert: Vec<Vertex>,
+}
+
+#[derive(Deserialize)]
+struct Keys {
+    handle: String,
+    vertices: Option<Splice>,
+    #[serde(default, deserialize_with = "given")]
+    entity: Option<Option<Entity>>,
+    before: Option<String>,
+}
+
+/// Tells `"entity": null` from no entity at all.
+fn given<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<Entity>>, D::Error> {
+    Option::deserialize(deserializer).map(Some)
+}
+
+impl<'de> Deserialize<'de> for DrawingChange {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let Keys { handle, vertices, entity, before } = Keys::deserialize(deserializer)?;
+        match (vertices, entity) {
+            (Some(vertices), None) => Ok(DrawingChange::Vertices { handle, vertices }),
+            (None, Some(entity)) => Ok(DrawingChange::Entity { handle, entity, before }),
+            _ => Err(D::Error::custom(format!("the change of {handle} holds neither or both of vertices and entity, expected one"))),
+        }
+    }
+}
+
+/// What stands under a handle while changes are tried.
+#[derive(Clone, Copy)]
+enum Standing {
+    Nothing,
+    Polyline(usize),
+    Other,
+}
+
+impl Standing {
+    fn of(drawing: &core::Drawing, handle: &str) -> Standing {
+        match drawing.find(handle).and_then(|id| drawing.get(id)).map(|entity| &entity.geometry) {
+            None => Standing::Nothing,
+            Some(core::Geometry::Polyline { vertices, .. }) => Standing::Polyline(vertices.len()),
+            Some(_) => Standing::Other,
+        }
+    }
+}
+
+/// Applies changes one after another: all of them, or none and the reason, which names the change by its index.
+pub fn apply(drawing: &mut core::Drawing, changes: Vec<DrawingChange>) -> Result<Delta, String> {
+    // All are tried on what the handles stand for first: undoing half of them would need new ids for what was removed.
+    let mut standing: FxHashMap<&str, Standing> = FxHashMap::default();
+    for (index, change) in changes.iter().enumerate() {
+        try_change(drawing, &mut standing, change).map_err(|reason| format!("change {index}: {reason}"))?;
+    }
+    let mut delta = Delta::default();
+    for change in changes {
+        apply_one(drawing, change, &mut delta)?;
+    }
+    Ok(delta)
+}
+
+fn try_change<'a>(drawing: &core::Drawing, standing: &mut FxHashMap<&'a str, Standing>, change: &'a DrawingChange) -> Result<(), String> {
+    let mut stands = |handle: &'a str| *standing.entry(handle).or_insert_with(|| Standing::of(drawing, handle));
+    match change {
+        DrawingChange::Vertices { handle, vertices: Splice { start, delete_count, insert } } => {
+            let count = match stands(handle) {
+                Standing::Polyline(count) => count,
+                Standing::Nothing => return Err(format!("there is no entity {handle}")),
+                Standing::Other => return Err(format!("entity {handle} is not a polyline and has no vertices")),
+            };
+            if start.checked_add(*delete_count).is_none_or(|end| end > count) {
+                return Err(format!("vertices {start} + {delete_count} are out of range, polyline {handle} has {count}"));
+            }
+            if let Some(index) = insert.iter().position(|vertex| !vertex.is_finite()) {
+                return Err(format!("vertex {index} to insert in {handle} is not of finite numbers"));
+            }
+            standing.insert(handle, Standing::Polyline(count - delete_count + insert.len()));
+        }
+        DrawingChange::Entity { handle, entity, before } => {
+            if let Some(before) = before
+                && matches!(stands(before), Standing::Nothing)
+            {
+                return Err(format!("there is no entity {before} to put {handle} before"));
+            }
+            let becomes = match entity {
+                None if matches!(stands(handle), Standing::Nothing) => return Err(format!("there is no entity {handle} to delete")),
+                None => Standing::Nothing,
+                Some(entity) if entity.handle != *handle => {
+                    return Err(format!("the entity's handle is {}, expected {handle}", entity.handle));
+                }
+                Some(entity) => {
+                    entity.check()?;
+                    match &entity.geometry {
+                        Geometry::Polyline { vertices, .. } => Standing::Polyline(vertices.len()),
+                        _ => Standing::Other,
+                    }
+                }
+            };
+            standing.insert(handle, becomes);
+        }
+    }
+    Ok(())
+}
+
+fn apply_one(drawing: &mut core::Drawing, change: DrawingChange, delta: &mut Delta) -> Result<(), String> {
+    match change {
+        DrawingChange::Vertices { handle, vertices: Splice { start, delete_count, insert } } => {
+            let id = drawing.find(&handle).ok_or_else(|| format!("there is no entity {handle}"))?;
+            let insert: Vec<core::Vertex> = insert.into_iter().map(core::Vertex::from).collect();
+            delta.touched.push(drawing.splice(id, start, delete_count, &insert).map_err(|error| error.to_string())?);
+        }
+        DrawingChange::Entity { handle, entity: None, .. } => {
+            let id = drawing.find(&handle).ok_or_else(|| format!("there is no entity {handle}"))?;
+            drawing.remove(id);
+            delta.touched.push(Touched::Removed { entity: id });
+        }
+        DrawingChange::Entity { handle, entity: Some(entity), before } => {
+            let entity = entity.into_core()?;
+            match (drawing.find(&handle), before.filter(|before| *before != handle)) {
+                (Some(id), None) => {
+                    drawing.replace(id, entity);
+                    delta.touched.push(Touched::Entity { entity: id });
+                }
+                (old, before) => {
+                    if let Some(old) = old {
+                        drawing.remove(old);
+                        delta.touched.push(Touched::Removed { entity: old });
+                    }
+                    let next = before.and_then(|before| drawing.find(&before));
+                    let position = next.and_then(|next| drawing.order().iter().position(|&id| id == next));
+                    let id = drawing.insert_at(position.unwrap_or(drawing.len()), entity);
+                    delta.touched.push(Touched::Entity { entity: id });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A fix as changes that are valid one after another and touch nothing that stays: neighbouring vertices of one polyline
+/// are one splice, lines and arcs are replaced whole.
+pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<DrawingChange> {
+    // Vertices of each polyline by index; `None` removes.
+    let mut vertices: BTreeMap<EntityId, BTreeMap<usize, Option<core::Vertex>>> = BTreeMap::new();
+    let mut entities: BTreeMap<EntityId, Option<core::Entity>> = BTreeMap::new();
+    for change in &edit.changes {
+        let id = change.entity();
+        let Some(old) = drawing.get(id) else { continue };
+        match *change {
+            Change::SetVertex { index, vertex, .. } => {
+                vertices.entry(id).or_default().entry(index).or_insert(Some(vertex));
+            }
+            Change::RemoveVertex { index, .. } => {
+                vertices.entry(id).or_default().insert(index, None);
+            }
+            Change::SetLine { start, end, .. } => {
+                entities.insert(id, Some(core::Entity { geometry: core::Geometry::Line { start, end }, ..old.clone() }));
+            }
+            Change::SetArc { center, radius, start_angle, end_angle, .. } => {
+                let geometry = core::Geometry::Arc { center, radius, start_angle, end_angle };
+                entities.insert(id, Some(core::Entity { geometry, ..old.clone() }));
+            }
+            Change::RemoveEntity { .. } => {
+                entities.insert(id, None);
+            }
+        }
+    }
+    let mut changes = Vec::new();
+    for (id, by_index) in &vertices {
+        let Some(entity) = drawing.get(*id).filter(|_| !entities.contains_key(id)) else { continue };
+        changes
+            .extend(splices(by_index).into_iter().map(|vertices| DrawingChange::Vertices { handle: entity.handle.to_string(), vertices }));
+    }
+    for (id, entity) in entities {
+        let Some(old) = drawing.get(id) else { continue };
+        changes.push(DrawingChange::Entity { handle: old.handle.to_string(), entity: entity.as_ref().map(Entity::from), before: None });
+    }
+    changes
+}
+
+/// One splice for each run of neighbouring vertices, from the last run to the first, so that indices stay true.
+fn splices(by_index: &BTreeMap<usize, Option<core::Vertex>>) -> Vec<Splice> {
+    let mut splices: Vec<Splice> = Vec::new();
+    for (&index, vertex) in by_index {
+        let insert = vertex.map(Vertex::from);
+        match splices.last_mut() {
+            Some(last) if last.start + last.delete_count == index => {
+                last.delete_count += 1;
+                last.insert.extend(insert);
+            }
+            _ => splices.push(Splice { start: index, delete_count: 1, insert: insert.into_iter().collect() }),
+        }
+    }
+    splices.reverse();
+    splices
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn drawing() -> core::Drawing {
+        let drawing: super::super::Drawing = serde_json::from_value(json!({ "uri": "cad:///1", "version": 1, "entities": [
+            { "handle": "A", "type": "polyline", "closed": true, "vertices": [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0.5]] },
+            { "handle": "B", "type": "line", "start": [0, 0], "end": [1, 0] },
+        ] }))
+        .unwrap();
+        drawing.into_core().unwrap()
+    }
+
+    fn try_apply(changes: Value) -> Result<core::Drawing, String> {
+        let changes: Vec<DrawingChange> = serde_json::from_value(changes).map_err(|error| error.to_string())?;
+        let mut result = drawing();
+        apply(&mut result, changes).map(|_| result)
+    }
+
+    #[test]
+    fn what_cannot_apply_is_refused_whole_and_named() {
+        let check = |changes: Value, expected: &str| {
+            let error = try_apply(changes).expect_err(expected);
+            assert!(error.contains(expected), "{error}");
+        };
+        let splice = |handle: &str, start: u64, delete: u64, insert: Value| json!({ "handle": handle, "vertices": { "start": start, "deleteCount": delete, "insert": insert } });
+        check(json!([splice("Z", 0, 1, json!([]))]), "change 0: there is no entity Z");
+        check(json!([splice("B", 0, 1, json!([]))]), "entity B is not a polyline");
+        check(json!([splice("A", 4, 2, json!([]))]), "vertices 4 + 2 are out of range, polyline A has 5");
+        check(json!([splice("A", u64::MAX, 2, json!([]))]), "out of range");
+        check(json!([splice("A", 0, 1, json!([[0, null]]))]), "vertex 0 to insert in A");
+        check(
+            json!([splice("A", 0, 4, json!([])), splice("A", 1, 1, json!([]))]),
+            "change 1: vertices 1 + 1 are out of range, polyline A has 1",
+        );
+        check(json!([{ "handle": "Z", "entity": null }]), "no entity Z to delete");
+        check(json!([{ "handle": "Z" }]), "neither or both");
+        check(json!([{ "handle": "B", "entity": null }, splice("B", 0, 0, json!([]))]), "change 1: there is no entity B");
+        let line = json!({ "handle": "C", "type": "line", "start": [0, 0], "end": [1, 0] });
+        check(json!([{ "handle": "C", "entity": line, "before": "Z" }]), "no entity Z to put C before");
+        check(json!([{ "handle": "D", "entity": line }]), "the entity's handle is C, expected D");
+    }
+
+    #[test]
+    fn changes_apply_one_after_another() {
+        let line = json!({ "handle": "C", "type": "line", "start": [5, 5], "end": [1, 0] });
+        let result = try_apply(json!([
+            { "handle": "C", "entity": line, "before": "B" },
+            { "handle": "B", "entity": null },
+            { "handle": "A", "vertices": { "start": 1, "deleteCount": 2, "insert": [[9, 9, 0.5]] } },
+            { "handle": "A", "vertices": { "start": 1, "deleteCount": 0, "insert": [[8, 8]] } },
+            { "handle": "C", "entity": line, "before": "A" },
+        ]))
+        .unwrap();
+        let handles: Vec<_> = result.entities().map(|(_, entity)| entity.handle.to_string()).collect();
+        assert_eq!(handles, ["C", "A"]);
+        let id = result.find("A").unwrap();
+        let core::Geometry::Polyline { vertices, .. } = &result.get(id).unwrap().geometry else { panic!("a polyline") };
+        let expected = [(0.0, 0.0, 0.0), (8.0, 8.0, 0.0), (9.0, 9.0, 0.5), (0.0, 1.0, 0.0), (0.0, 0.5, 0.0)];
+        assert_eq!(*vertices, expected.map(|(x, y, bulge)| core::Vertex::new(x, y, bulge)));
+    }
+
+    #[test]
+    fn a_fix_becomes_splices_with_the_same_outcome_as_the_edit() {
+        let before = drawing();
+        let entity = before.find("A").unwrap();
+        let edit = core::DrawingEdit {
+            changes: vec![
+                Change::SetVertex { entity, index: 0, vertex: core::Vertex::new(7.0, 0.0, 0.0) },
+                Change::RemoveVertex { entity, index: 2 },
+                Change::SetVertex { entity, index: 3, vertex: core::Vertex::new(7.0, 3.0, 0.1) },
+                Change::RemoveVertex { entity, index: 4 },
+            ],
+        };
+        let changes = changes_of(&before, &edit);
+        let expected = json!([
+            { "handle": "A", "vertices": { "start": 2, "deleteCount": 3, "insert": [[7.0, 3.0, 0.1]] } },
+            { "handle": "A", "vertices": { "start": 0, "deleteCount": 1, "insert": [[7.0, 0.0, 0.0]] } },
+        ]);
+        assert_eq!(serde_json::to_value(&changes).unwrap(), expected);
+        let (mut spliced, mut edited) = (before.clone(), before);
+        apply(&mut spliced, changes).unwrap();
+        edited.apply(&edit).unwrap();
+        assert_eq!(spliced.get(entity), edited.get(entity));
+    }
+}

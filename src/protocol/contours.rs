@@ -1,0 +1,100 @@
+//! The reply of `wedm/contours`: what is chained to what.
+
+use super::segment::SegmentShape;
+use crate::drawing::{Drawing, Outline, Role};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Contours in machining order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Contours {
+    /// Millimetres in one drawing unit.
+    pub units_to_mm: f64,
+    pub contours: Vec<ContoursContour>,
+}
+
+/// Direction in which a closed contour is travelled as it was drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    Ccw,
+    Cw,
+}
+
+/// A contour; `area` and `direction` are those of a closed one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ContoursContour {
+    pub closed: bool,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
+    pub role: Role,
+    /// Square drawing units, arcs counted in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<f64>,
+    /// Drawing units, along the segments.
+    pub length: f64,
+    /// In the direction of travel.
+    pub segments: Vec<ContourPiece>,
+    /// Ends that lay apart within the join tolerance and were taken as one.
+    pub gaps: Vec<Gap>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ContourPiece {
+    pub handle: String,
+    /// Index within the entity.
+    pub segment: usize,
+    /// Travelled against the entity's own direction.
+    pub reversed: bool,
+    #[serde(flatten)]
+    pub shape: SegmentShape,
+}
+
+/// A gap that chaining closed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Gap {
+    /// Index in the contour's `segments` of the one that ends here.
+    pub after: usize,
+    /// Drawing units.
+    pub distance: f64,
+}
+
+impl Contours {
+    /// `unit_mm` is the drawing's unit in mm.
+    pub fn new(drawing: &Drawing, outlines: &[Outline], unit_mm: f64) -> Contours {
+        Contours { units_to_mm: unit_mm, contours: outlines.iter().map(|outline| contour(drawing, outline)).collect() }
+    }
+}
+
+fn contour(drawing: &Drawing, outline: &Outline) -> ContoursContour {
+    let segments: Vec<_> = outline.contour.segments(drawing).collect();
+    let count = segments.len();
+    let closed = outline.contour.closed;
+    let joints = if closed { count } else { count.saturating_sub(1) };
+    let gaps = (0..joints).filter_map(|after| {
+        let (end, start) = (segments.get(after)?.geometry.end(), segments.get((after + 1) % count)?.geometry.start());
+        let distance = (start - end).norm();
+        (distance > 0.0).then_some(Gap { after, distance })
+    });
+    let direction = if outline.twice_area < 0.0 { Direction::Cw } else { Direction::Ccw };
+    ContoursContour {
+        closed,
+        direction: (closed && outline.twice_area != 0.0).then_some(direction),
+        role: outline.role,
+        area: closed.then_some(outline.twice_area.abs() / 2.0),
+        length: segments.iter().map(|segment| segment.geometry.length()).sum(),
+        gaps: gaps.collect(),
+        segments: segments
+            .iter()
+            .filter_map(|segment| {
+                Some(ContourPiece {
+                    handle: drawing.get(segment.entity)?.handle.to_string(),
+                    segment: segment.segment,
+                    reversed: segment.reversed,
+                    shape: SegmentShape::from(&segment.geometry),
+                })
+            })
+            .collect(),
+    }
+}

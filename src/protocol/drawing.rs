@@ -1,0 +1,363 @@
+//! A drawing as a CAD program sends it, and the way to and from the core's drawing.
+
+use super::number::Number;
+use crate::drawing::{self as core, Role, Unit};
+use schemars::JsonSchema;
+use serde::de::{Error as _, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// A point `[x, y]` in drawing units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Point(pub f64, pub f64);
+
+impl From<crate::geometry::Point> for Point {
+    fn from(point: crate::geometry::Point) -> Point {
+        Point(point.x, point.y)
+    }
+}
+
+impl From<Point> for crate::geometry::Point {
+    fn from(point: Point) -> Self {
+        crate::geometry::Point::new(point.0, point.1)
+    }
+}
+
+impl Point {
+    fn is_finite(self) -> bool {
+        self.0.is_finite() && self.1.is_finite()
+    }
+}
+
+impl<'de> Deserialize<'de> for Point {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let Number2(x, y) = Number2::deserialize(deserializer)?;
+        Ok(Point(x.0, y.0))
+    }
+}
+
+#[derive(Deserialize)]
+struct Number2(Number, Number);
+
+/// A vertex `[x, y, bulge]` of a polyline; the bulge may be left out and is 0 then.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Vertex(pub f64, pub f64, pub f64);
+
+impl From<core::Vertex> for Vertex {
+    fn from(vertex: core::Vertex) -> Vertex {
+        Vertex(vertex.point.x, vertex.point.y, vertex.bulge)
+    }
+}
+
+impl From<Vertex> for core::Vertex {
+    fn from(vertex: Vertex) -> core::Vertex {
+        core::Vertex::new(vertex.0, vertex.1, vertex.2)
+    }
+}
+
+impl Vertex {
+    pub(super) fn is_finite(self) -> bool {
+        self.0.is_finite() && self.1.is_finite() && self.2.is_finite()
+    }
+}
+
+impl<'de> Deserialize<'de> for Vertex {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Numbers;
+        impl<'de> Visitor<'de> for Numbers {
+            type Value = Vertex;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a vertex [x, y] or [x, y, bulge]")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut numbers: A) -> Result<Vertex, A::Error> {
+                let mut next = |missing: Option<f64>| -> Result<f64, A::Error> {
+                    let number: Option<Number> = numbers.next_element()?;
+                    number.map(|number| number.0).or(missing).ok_or_else(|| A::Error::invalid_length(1, &"[x, y] or [x, y, bulge]"))
+                };
+                let vertex = Vertex(next(None)?, next(None)?, next(Some(0.0))?);
+                match numbers.next_element::<Number>()? {
+                    None => Ok(vertex),
+                    Some(_) => Err(A::Error::invalid_length(4, &"[x, y] or [x, y, bulge]")),
+                }
+            }
+        }
+        deserializer.deserialize_seq(Numbers)
+    }
+}
+
+impl JsonSchema for Vertex {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Vertex".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "A vertex [x, y, bulge] of a polyline; the bulge may be left out and is 0 then.",
+            "type": "array",
+            "items": { "type": "number" },
+            "minItems": 2,
+            "maxItems": 3
+        })
+    }
+}
+
+/// The unit of a drawing's coordinates; the settings decide where it is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Units {
+    Mm,
+    Inch,
+}
+
+impl From<Units> for Unit {
+    fn from(units: Units) -> Unit {
+        match units {
+            Units::Mm => Unit::MILLIMETRE,
+            Units::Inch => Unit::INCH,
+        }
+    }
+}
+
+/// A drawing without text behind it, entities in machining order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Drawing {
+    pub uri: String,
+    pub version: i64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<Units>,
+    pub entities: Vec<Entity>,
+}
+
+/// One entity: what it is called, where it belongs, what it is.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Entity {
+    pub handle: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub role: Option<Role>,
+    #[serde(flatten)]
+    pub geometry: Geometry,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "lowercase", rename_all_fields = "camelCase")]
+pub enum Geometry {
+    Polyline {
+        closed: bool,
+        vertices: Vec<Vertex>,
+    },
+    Line {
+        start: Point,
+        end: Point,
+    },
+    /// Angles in degrees, counter-clockwise, as in DXF.
+    Arc {
+        center: Point,
+        radius: f64,
+        start_angle: f64,
+        end_angle: f64,
+    },
+    Circle {
+        center: Point,
+        radius: f64,
+    },
+    /// "O" marks a starting point.
+    Text {
+        at: Point,
+        text: String,
+    },
+}
+
+/// Every key an entity may have. Read as one flat struct: a tagged enum would hold a million vertices twice.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Keys {
+    handle: String,
+    layer: Option<String>,
+    role: Option<Role>,
+    r#type: String,
+    closed: Option<bool>,
+    vertices: Option<Vec<Vertex>>,
+    start: Option<Point>,
+    end: Option<Point>,
+    center: Option<Point>,
+    #[serde(default, deserialize_with = "given")]
+    radius: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    start_angle: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    end_angle: Option<f64>,
+    at: Option<Point>,
+    text: Option<String>,
+}
+
+fn given<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    Number::deserialize(deserializer).map(|number| Some(number.0))
+}
+
+impl<'de> Deserialize<'de> for Entity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let keys = Keys::deserialize(deserializer)?;
+        let kind = keys.r#type;
+        let name = keys.handle.clone();
+        let missing = |key: &str| D::Error::custom(format!("entity {name}: a {kind} needs {key}"));
+        let geometry = match kind.as_str() {
+            "polyline" => Geometry::Polyline {
+                closed: keys.closed.ok_or_else(|| missing("closed"))?,
+                vertices: keys.vertices.ok_or_else(|| missing("vertices"))?,
+            },
+            "line" => Geometry::Line { start: keys.start.ok_or_else(|| missing("start"))?, end: keys.end.ok_or_else(|| missing("end"))? },
+            "arc" => Geometry::Arc {
+                center: keys.center.ok_or_else(|| missing("center"))?,
+                radius: keys.radius.ok_or_else(|| missing("radius"))?,
+                start_angle: keys.start_angle.ok_or_else(|| missing("startAngle"))?,
+                end_angle: keys.end_angle.ok_or_else(|| missing("endAngle"))?,
+            },
+            "circle" => Geometry::Circle {
+                center: keys.center.ok_or_else(|| missing("center"))?,
+                radius: keys.radius.ok_or_else(|| missing("radius"))?,
+            },
+            "text" => Geometry::Text { at: keys.at.ok_or_else(|| missing("at"))?, text: keys.text.ok_or_else(|| missing("text"))? },
+            _ => {
+                let message = format!("entity {name}: type is \"{kind}\", expected polyline, line, arc, circle or text");
+                return Err(D::Error::custom(message));
+            }
+        };
+        Ok(Entity { handle: keys.handle, layer: keys.layer, role: keys.role, geometry })
+    }
+}
+
+impl Drawing {
+    /// The core's drawing. Errors: a handle that stands twice, a number that is none, a radius that is not above 0.
+    pub fn into_core(self) -> Result<core::Drawing, String> {
+        let mut drawing = core::Drawing::new(self.units.map(Unit::from));
+        for entity in self.entities {
+            let entity = entity.into_core()?;
+            if drawing.find(&entity.handle).is_some() {
+                return Err(format!("handle {} stands twice, expected a handle of its own for each entity", entity.handle));
+            }
+            drawing.push(entity);
+        }
+        Ok(drawing)
+    }
+}
+
+impl Entity {
+    /// The core's entity. Errors: a number that is none, a radius that is not above 0.
+    pub fn into_core(self) -> Result<core::Entity, String> {
+        self.check()?;
+        let (kind, geometry) = match self.geometry {
+            Geometry::Polyline { closed, vertices } => {
+                let vertices = vertices.into_iter().map(core::Vertex::from).collect();
+                ("LWPOLYLINE", core::Geometry::Polyline { closed, vertices })
+            }
+            Geometry::Line { start, end } => ("LINE", core::Geometry::Line { start: start.into(), end: end.into() }),
+            Geometry::Arc { center, radius, start_angle, end_angle } => {
+                let (start_angle, end_angle) = (start_angle.to_radians(), end_angle.to_radians());
+                ("ARC", core::Geometry::Arc { center: center.into(), radius, start_angle, end_angle })
+            }
+            Geometry::Circle { center, radius } => ("CIRCLE", core::Geometry::Circle { center: center.into(), radius }),
+            Geometry::Text { at, text } => ("TEXT", core::Geometry::Text { at: at.into(), text }),
+        };
+        let layer = self.layer.unwrap_or_else(|| "0".into());
+        Ok(core::Entity { handle: self.handle.into(), layer: layer.into(), role: self.role, kind, geometry })
+    }
+
+    /// Says which number of the entity is none.
+    pub fn check(&self) -> Result<(), String> {
+        let name = &self.handle;
+        let point = |key: &str, point: Point| match point.is_finite() {
+            true => Ok(()),
+            false => Err(format!("entity {name}: {key} is not two finite numbers")),
+        };
+        let radius_is_sound = |radius: f64| match radius.is_finite() && radius > 0.0 {
+            true => Ok(()),
+            false => Err(format!("entity {name}: radius is {radius}, expected a finite number above 0")),
+        };
+        let angle = |key: &str, angle: f64| match angle.is_finite() {
+            true => Ok(()),
+            false => Err(format!("entity {name}: {key} is not a finite number")),
+        };
+        match &self.geometry {
+            Geometry::Polyline { vertices, .. } => match vertices.iter().position(|vertex| !vertex.is_finite()) {
+                Some(index) => Err(format!("entity {name}: vertex {index} is not of finite numbers")),
+                None => Ok(()),
+            },
+            Geometry::Line { start, end } => point("start", *start).and(point("end", *end)),
+            Geometry::Arc { center, radius, start_angle, end_angle } => {
+                point("center", *center)?;
+                radius_is_sound(*radius)?;
+                angle("startAngle", *start_angle).and(angle("endAngle", *end_angle))
+            }
+            Geometry::Circle { center, radius } => point("center", *center).and(radius_is_sound(*radius)),
+            Geometry::Text { at, .. } => point("at", *at),
+        }
+    }
+}
+
+impl From<&core::Entity> for Entity {
+    fn from(entity: &core::Entity) -> Entity {
+        let geometry = match &entity.geometry {
+            core::Geometry::Polyline { closed, vertices } => {
+                Geometry::Polyline { closed: *closed, vertices: vertices.iter().map(|&vertex| vertex.into()).collect() }
+            }
+            core::Geometry::Line { start, end } => Geometry::Line { start: (*start).into(), end: (*end).into() },
+            core::Geometry::Arc { center, radius, start_angle, end_angle } => Geometry::Arc {
+                center: (*center).into(),
+                radius: *radius,
+                start_angle: start_angle.to_degrees(),
+                end_angle: end_angle.to_degrees(),
+            },
+            core::Geometry::Circle { center, radius } => Geometry::Circle { center: (*center).into(), radius: *radius },
+            core::Geometry::Text { at, text } => Geometry::Text { at: (*at).into(), text: text.clone() },
+        };
+        Entity { handle: entity.handle.to_string(), layer: Some(entity.layer.to_string()), role: entity.role, geometry }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn read(entities: Value) -> Result<core::Drawing, String> {
+        let drawing = json!({ "uri": "cad:///1", "version": 1, "entities": entities });
+        let drawing: Drawing = serde_json::from_value(drawing).map_err(|error| error.to_string())?;
+        drawing.into_core()
+    }
+
+    #[test]
+    fn an_unsound_drawing_is_refused_and_the_fault_named() {
+        let check = |entities: Value, expected: &str| {
+            let error = read(entities).expect_err(expected);
+            assert!(error.contains(expected), "{error}");
+        };
+        let polyline = |vertices: Value| json!([{ "handle": "2A", "type": "polyline", "closed": true, "vertices": vertices }]);
+        check(polyline(json!([[0, 0], [1, null]])), "entity 2A: vertex 1 is not of finite numbers");
+        check(polyline(json!([["NaN", 0], [1, 2]])), "entity 2A: vertex 0 is not of finite numbers");
+        check(polyline(json!([[0, 0, null], [1, 2]])), "entity 2A: vertex 0 is not of finite numbers");
+        check(polyline(json!([[0], [1, 2]])), "[x, y] or [x, y, bulge]");
+        check(polyline(json!([[0, 1, 2, 3]])), "[x, y] or [x, y, bulge]");
+        check(json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": 0 }]), "entity 1: radius is 0, expected");
+        check(json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": null }]), "entity 1: radius is NaN, expected");
+        check(json!([{ "handle": "1", "type": "circle", "center": [0, 0] }]), "entity 1: a circle needs radius");
+        check(json!([{ "handle": "1", "type": "spline" }]), "entity 1: type is \"spline\"");
+        let line = json!({ "handle": "7", "type": "line", "start": [0, 0], "end": [1, 0] });
+        check(json!([line, line]), "handle 7 stands twice");
+    }
+
+    #[test]
+    fn an_entity_survives_the_way_to_the_core_and_back() {
+        for entity in [
+            json!({ "handle": "1", "layer": "DIE", "role": "opening", "type": "polyline", "closed": true, "vertices": [[0.0, 0.0, 0.5], [1.0, 0.0, 0.0]] }),
+            json!({ "handle": "2", "layer": "0", "type": "line", "start": [0.0, 0.0], "end": [1.0, 2.0] }),
+            json!({ "handle": "3", "layer": "0", "type": "arc", "center": [0.0, 0.0], "radius": 2.0, "startAngle": 0.0, "endAngle": 90.0 }),
+            json!({ "handle": "4", "layer": "0", "type": "circle", "center": [0.0, 0.0], "radius": 2.0 }),
+            json!({ "handle": "5", "layer": "0", "type": "text", "at": [0.0, 0.0], "text": "O" }),
+        ] {
+            let read: Entity = serde_json::from_value(entity.clone()).unwrap();
+            assert_eq!(serde_json::to_value(Entity::from(&read.into_core().unwrap())).unwrap(), entity);
+        }
+    }
+}

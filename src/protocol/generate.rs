@@ -1,0 +1,65 @@
+//! `wedm/generate`: a program for the machine.
+
+use super::diagnostic::Diagnostic;
+use crate::program::three_b::ProvedProgram;
+use crate::settings::Settings;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Params of `wedm/generate`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Generate {
+    pub uri: String,
+    /// Language of the program: `3b`.
+    pub format: String,
+    /// Only the contours that hold one of these entities.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub handles: Option<Vec<String>>,
+    /// Laid over every other level of settings for this request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub options: Option<Settings>,
+    /// Make the program although errors stand in the drawing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<bool>,
+}
+
+/// Drift that a controller which only counts J accumulates on the way round, µm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Closure {
+    pub x: f64,
+    pub y: f64,
+}
+
+/// Result of `wedm/generate`: a program that has been decoded again and held against its path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Program {
+    pub program: String,
+    /// Number of blocks.
+    pub blocks: usize,
+    /// Length of the path in mm.
+    pub length: f64,
+    pub closure: Closure,
+    /// Largest distance in µm between the end of a decoded block and the path.
+    pub deviation: f64,
+    pub warnings: Vec<Diagnostic>,
+}
+
+impl Program {
+    pub fn new(proved: ProvedProgram, warnings: Vec<Diagnostic>) -> Program {
+        Program {
+            program: proved.text,
+            blocks: proved.blocks,
+            length: proved.length,
+            closure: Closure { x: proved.closure[0], y: proved.closure[1] },
+            deviation: proved.deviation,
+            warnings,
+        }
+    }
+}
+
+/// `data` of the error −32803: what stands in the way.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Refused {
+    pub diagnostics: Vec<Diagnostic>,
+}

@@ -1,0 +1,82 @@
+//! The radius list: every segment of every entity with its verdict.
+
+use super::segment::SegmentShape;
+use crate::document::Document;
+use crate::drawing::{Drawing, EntityId};
+use crate::finding::{Finding, Place};
+use rustc_hash::FxHashMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Every entity that has plane geometry, in machining order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Inspection {
+    /// Millimetres in one drawing unit.
+    pub units_to_mm: f64,
+    pub entities: Vec<InspectedEntity>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct InspectedEntity {
+    pub handle: String,
+    /// The DXF name: LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE.
+    pub r#type: String,
+    pub layer: String,
+    pub closed: bool,
+    pub segments: Vec<InspectedSegment>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct InspectedSegment {
+    /// Index within the entity: that of the vertex it starts in.
+    pub index: usize,
+    #[serde(flatten)]
+    pub shape: SegmentShape,
+    /// `ok`, or the names of the rules at fault with a comma between.
+    pub verdict: String,
+}
+
+impl Inspection {
+    /// The list of an open document; `None` for a program, which holds no drawing.
+    pub fn of(document: &mut Document, handle: Option<&str>) -> Option<Inspection> {
+        let (findings, _) = document.findings(usize::MAX);
+        let drawing = document.drawing()?;
+        let unit = document.settings().unit_of(drawing);
+        let zero_length = document.settings().tolerances.in_units(unit.mm).zero_length;
+        Some(Inspection::new(drawing, unit.mm, zero_length, &findings, handle))
+    }
+
+    /// The list of all of `drawing`, or of the entity `handle`. `findings` are all of the drawing's; a segment shorter
+    /// than `zero_length` (drawing units) is left out, its neighbours keep their index.
+    pub fn new(drawing: &Drawing, unit_mm: f64, zero_length: f64, findings: &[Finding], handle: Option<&str>) -> Inspection {
+        let mut rules: FxHashMap<(EntityId, usize), Vec<&'static str>> = FxHashMap::default();
+        for finding in findings {
+            if let Place::Segment { entity, segment } = finding.place {
+                let names = rules.entry((entity, segment)).or_default();
+                if !names.contains(&finding.rule.name()) {
+                    names.push(finding.rule.name());
+                }
+            }
+        }
+        let segments_of = |id: EntityId, entity: &crate::drawing::Entity| -> Vec<InspectedSegment> {
+            let segments = entity.geometry.segments().enumerate().filter(|(_, segment)| segment.length() > zero_length);
+            let inspected = segments.map(|(index, segment)| InspectedSegment {
+                index,
+                shape: SegmentShape::from(&segment),
+                verdict: rules.get(&(id, index)).map_or_else(|| "ok".into(), |names| names.join(",")),
+            });
+            inspected.collect()
+        };
+        let asked_for = drawing.entities().filter(|(_, entity)| handle.is_none_or(|handle| *entity.handle == *handle));
+        let with_geometry = asked_for.filter(|(_, entity)| entity.geometry.segment_count() > 0);
+        let entities = with_geometry.map(|(id, entity)| InspectedEntity {
+            handle: entity.handle.to_string(),
+            r#type: entity.kind.into(),
+            layer: entity.layer.to_string(),
+            closed: entity.geometry.is_closed(),
+            segments: segments_of(id, entity),
+        });
+        Inspection { units_to_mm: unit_mm, entities: entities.collect() }
+    }
+}

@@ -1,0 +1,54 @@
+//! A line, arc or circle in a reply: the same keys in the radius list, in contours and in wire paths.
+
+use super::drawing::Point;
+use crate::geometry::{Arc, Segment};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SegmentKind {
+    Line,
+    Arc,
+    Circle,
+}
+
+/// Geometry of one segment in drawing units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SegmentShape {
+    pub kind: SegmentKind,
+    pub start: Point,
+    pub end: Point,
+    pub length: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center: Option<Point>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Degrees, positive counter-clockwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<f64>,
+    /// `tan(sweep / 4)`; left out for lines and for a full turn, which has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bulge: Option<f64>,
+}
+
+impl From<&Segment> for SegmentShape {
+    fn from(segment: &Segment) -> SegmentShape {
+        let arc = segment.as_arc();
+        let kind = match arc {
+            None => SegmentKind::Line,
+            Some(arc) if arc.is_full_turn() => SegmentKind::Circle,
+            Some(_) => SegmentKind::Arc,
+        };
+        SegmentShape {
+            kind,
+            start: segment.start().into(),
+            end: segment.end().into(),
+            length: segment.length(),
+            center: arc.map(|arc| arc.center.into()),
+            radius: arc.map(|arc| arc.radius),
+            sweep: arc.map(|arc| arc.sweep.to_degrees()),
+            bulge: arc.filter(|arc| !arc.is_full_turn()).map(Arc::bulge),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! The reply of `wedm/toolpath`: the path of the wire's centre.
+
+use super::drawing::Point;
+use super::segment::SegmentShape;
+use crate::drawing::Drawing;
+use crate::toolpath::{Source, WirePath};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Wire paths in machining order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Toolpath {
+    /// Millimetres in one drawing unit.
+    pub units_to_mm: f64,
+    pub paths: Vec<ToolpathPath>,
+}
+
+/// The path for one contour in one pass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct ToolpathPath {
+    /// Index of the contour in the reply of `wedm/contours`.
+    pub contour: usize,
+    /// 1-based number of the pass.
+    pub pass: usize,
+    /// How far the path lies from the contour, drawing units.
+    pub correction: f64,
+    pub thread_hole: Point,
+    /// Drawing units, leads included.
+    pub length: f64,
+    pub segments: Vec<PathPiece>,
+}
+
+/// What a piece of the path follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PathSource {
+    Segment,
+    /// The way round the convex corner at the end of a segment.
+    Corner,
+    LeadIn,
+    LeadOut,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathPiece {
+    pub source: PathSource,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub handle: Option<String>,
+    /// Index within the entity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub segment: Option<usize>,
+    #[serde(flatten)]
+    pub shape: SegmentShape,
+}
+
+impl Toolpath {
+    /// `unit_mm` is the drawing's unit in mm.
+    pub fn new(drawing: &Drawing, paths: &[WirePath], unit_mm: f64) -> Toolpath {
+        Toolpath { units_to_mm: unit_mm, paths: paths.iter().map(|path| one_path(drawing, path)).collect() }
+    }
+}
+
+fn one_path(drawing: &Drawing, path: &WirePath) -> ToolpathPath {
+    let segments = path.segments.iter().map(|piece| {
+        let (source, of) = match piece.source {
+            Source::Segment { entity, segment } => (PathSource::Segment, Some((entity, segment))),
+            Source::Corner { entity, segment } => (PathSource::Corner, Some((entity, segment))),
+            Source::LeadIn => (PathSource::LeadIn, None),
+            Source::LeadOut => (PathSource::LeadOut, None),
+        };
+        PathPiece {
+            source,
+            handle: of.and_then(|(entity, _)| Some(drawing.get(entity)?.handle.to_string())),
+            segment: of.map(|(_, segment)| segment),
+            shape: SegmentShape::from(&piece.geometry),
+        }
+    });
+    ToolpathPath {
+        contour: path.outline,
+        pass: 1,
+        correction: path.correction,
+        thread_hole: path.thread_hole.into(),
+        length: path.segments.iter().map(|piece| piece.geometry.length()).sum(),
+        segments: segments.collect(),
+    }
+}

@@ -1,0 +1,56 @@
+//! Settings out of the project's file `wedm.toml`.
+
+use super::reader;
+use super::value::{Entry, Node, Value};
+use super::{Settings, SettingsError};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Name of the project's file.
+pub const FILE_NAME: &str = "wedm.toml";
+
+/// Reads a `wedm.toml`. What does not fit is left out and reported with its bytes, everything else holds.
+pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
+    let (table, faults) = DeTable::parse_recoverable(text);
+    let mut errors: Vec<SettingsError> = faults
+        .into_iter()
+        .map(|fault| SettingsError {
+            key: String::new(),
+            message: format!("not TOML: {}", fault.message().replace('\n', ", ")),
+            range: fault.span(),
+        })
+        .collect();
+    // What follows a fault on its line is the parser's guess.
+    errors.dedup_by_key(|error| {
+        error.range.as_ref().map_or(0, |range| text.as_bytes()[..range.start.min(text.len())].iter().filter(|&&byte| byte == b'\n').count())
+    });
+    let range = table.span();
+    let (settings, misfits) = reader::read(&Node { value: Value::Table(entries(table.get_ref())), range: Some(range) });
+    errors.extend(misfits);
+    errors.sort_by_key(|error| error.range.as_ref().map_or(0, |range| range.start));
+    (settings, errors)
+}
+
+fn entries(table: &DeTable<'_>) -> Vec<Entry> {
+    let entries = table.iter().map(|(key, value)| Entry { key: key.get_ref().to_string(), key_range: Some(key.span()), node: node(value) });
+    entries.collect()
+}
+
+fn node(value: &Spanned<DeValue<'_>>) -> Node {
+    let range = Some(value.span());
+    let value = match value.get_ref() {
+        // The parser puts an empty stand-in where it found no value; the fault has been said.
+        DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) | DeValue::Boolean(_) if value.span().is_empty() => Value::Null,
+        DeValue::Boolean(truth) => Value::Truth(*truth),
+        DeValue::Integer(integer) => {
+            let number = i64::from_str_radix(integer.as_str(), integer.radix());
+            Value::Number(number.map_or(f64::NAN, |number| number as f64))
+        }
+        DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Datetime(date) => Value::Text(date.to_string()),
+        DeValue::Array(items) => Value::List(items.iter().map(node).collect()),
+        DeValue::Table(table) => Value::Table(entries(table)),
+    };
+    Node { value, range }
+}

@@ -1,0 +1,340 @@
+//! One level of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
+
+use super::value::{Entry, Node, Value};
+use super::{Passes, PointSetting, ProgramSettings, RuleSeverity, Settings, SettingsError};
+use crate::drawing::Role;
+use crate::finding::Rule;
+use serde::de::value::{Error, StrDeserializer};
+use serde::de::{DeserializeOwned, IntoDeserializer};
+use std::collections::BTreeMap;
+
+/// Reads the root table. Null is an empty level.
+pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
+    let mut reader = Reader { errors: Vec::new() };
+    let settings = reader.settings(root);
+    (settings, reader.errors)
+}
+
+struct Reader {
+    errors: Vec<SettingsError>,
+}
+
+impl Reader {
+    fn settings(&mut self, root: &Node) -> Settings {
+        let mut settings = Settings::default();
+        self.table("", root, |reader, key, entry| {
+            let node = &entry.node;
+            match camel_case(&entry.key).as_str() {
+                "correction" => settings.correction = reader.number_above_zero(key, node),
+                "wireDiameter" => settings.wire_diameter = reader.number_above_zero(key, node),
+                "gap" => settings.gap = reader.number_from_zero(key, node),
+                "side" => settings.side = reader.name(key, node),
+                "units" => settings.units = reader.name(key, node),
+                "margin" => settings.margin = reader.number_from_zero(key, node),
+                "passes" => settings.passes = reader.passes(key, node),
+                "layers" => settings.layers = reader.layers(key, node),
+                "rules" => settings.rules = reader.rules(key, node),
+                "program" => settings.program = reader.program(key, node),
+                _ => reader.unknown(key, entry, "correction, wire-diameter, gap, side, units, margin, passes, layers, rules or program"),
+            }
+        });
+        if settings.correction.is_some() && settings.wire_diameter.is_some() {
+            let range = entry_of(root, "wireDiameter").and_then(|entry| entry.key_range.clone());
+            let message = "wire-diameter stands beside correction, expected one of the two; correction holds".into();
+            self.errors.push(SettingsError { key: "wire-diameter".into(), message, range });
+            settings.wire_diameter = None;
+        }
+        settings
+    }
+
+    fn passes(&mut self, key: &str, node: &Node) -> Option<Passes> {
+        let mut passes = Passes::default();
+        self.table(key, node, |reader, key, entry| match entry.key.as_str() {
+            "corrections" => passes.corrections = reader.corrections(key, &entry.node),
+            _ => reader.unknown(key, entry, "corrections"),
+        })
+        .then_some(passes)
+    }
+
+    fn corrections(&mut self, key: &str, node: &Node) -> Option<Vec<f64>> {
+        let expected = "a list of numbers above 0, one for each pass";
+        match &node.value {
+            Value::Null => None,
+            Value::List(items) if !items.is_empty() => {
+                let numbers = items.iter().enumerate().map(|(index, item)| match item.value {
+                    Value::Null => self.misfit(&format!("{key}[{index}]"), item, "a number above 0"),
+                    _ => self.number_above_zero(&format!("{key}[{index}]"), item),
+                });
+                // A list of which one pass is wrong says nothing sure about the others.
+                let numbers: Vec<Option<f64>> = numbers.collect();
+                numbers.into_iter().collect()
+            }
+            Value::List(_) => self.complain(key, node, format!("{key} is empty, expected {expected}")),
+            _ => self.misfit(key, node, expected),
+        }
+    }
+
+    fn layers(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
+        let mut layers = BTreeMap::new();
+        self.table(key, node, |reader, key, entry| {
+            if let Some(role) = reader.name(key, &entry.node) {
+                layers.insert(entry.key.clone(), role);
+            }
+        })
+        .then_some(layers)
+    }
+
+    fn rules(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, RuleSeverity>> {
+        let mut rules = BTreeMap::new();
+        self.table(key, node, |reader, key, entry| {
+            if !Rule::ALL.iter().any(|rule| rule.name() == entry.key) {
+                let names: Vec<&str> = Rule::ALL.iter().map(|rule| rule.name()).collect();
+                reader.unknown(key, entry, &names.join(", "));
+            } else if let Some(severity) = reader.name(key, &entry.node) {
+                rules.insert(entry.key.clone(), severity);
+            }
+        })
+        .then_some(rules)
+    }
+
+    fn program(&mut self, key: &str, node: &Node) -> Option<ProgramSettings> {
+        let mut program = ProgramSettings::default();
+        self.table(key, node, |reader, key, entry| {
+            let node = &entry.node;
+            match camel_case(&entry.key).as_str() {
+                "layout" => program.layout = reader.name(key, node),
+                "direction" => program.direction = reader.name(key, node),
+                "corner" => program.corner = reader.name(key, node),
+                "thread" => program.thread = reader.point_setting(key, node),
+                "entry" => program.entry = reader.point_setting(key, node),
+                "leadIn" => program.lead_in = reader.number_above_zero(key, node),
+                "jumps" => program.jumps = reader.name(key, node),
+                "compensation" => program.compensation = reader.name(key, node),
+                "end" => program.end = reader.word(key, node),
+                "pause" => program.pause = reader.word(key, node),
+                _ => {
+                    let expected = "layout, direction, corner, thread, entry, lead-in, jumps, compensation, end or pause";
+                    reader.unknown(key, entry, expected);
+                }
+            }
+        })
+        .then_some(program)
+    }
+
+    /// Hands each entry with its dotted key to `each`; false when there is no table.
+    fn table(&mut self, key: &str, node: &Node, mut each: impl FnMut(&mut Reader, &str, &Entry)) -> bool {
+        match &node.value {
+            Value::Table(entries) => {
+                for entry in entries {
+                    let dotted = if key.is_empty() { entry.key.clone() } else { format!("{key}.{}", entry.key) };
+                    each(self, &dotted, entry);
+                }
+                true
+            }
+            Value::Null => false,
+            _ => self.misfit::<()>(if key.is_empty() { "settings" } else { key }, node, "a table").is_some(),
+        }
+    }
+
+    fn number(&mut self, key: &str, node: &Node, expected: &str, fits: impl Fn(f64) -> bool) -> Option<f64> {
+        match node.value {
+            Value::Null => None,
+            Value::Number(number) if number.is_finite() && fits(number) => Some(number),
+            _ => self.misfit(key, node, expected),
+        }
+    }
+
+    fn number_above_zero(&mut self, key: &str, node: &Node) -> Option<f64> {
+        self.number(key, node, "a number above 0", |number| number > 0.0)
+    }
+
+    fn number_from_zero(&mut self, key: &str, node: &Node) -> Option<f64> {
+        self.number(key, node, "a number of 0 or above", |number| number >= 0.0)
+    }
+
+    /// A word out of a closed set, which the type itself knows.
+    fn name<T: DeserializeOwned>(&mut self, key: &str, node: &Node) -> Option<T> {
+        let text = match &node.value {
+            Value::Null => return None,
+            Value::Text(text) => text.as_str(),
+            _ => "",
+        };
+        let deserializer: StrDeserializer<'_, Error> = text.into_deserializer();
+        match T::deserialize(deserializer) {
+            Ok(name) => Some(name),
+            Err(error) => {
+                let error = error.to_string();
+                let expected = error.split_once("expected ").map_or("another word", |(_, names)| names).replace('`', "");
+                self.misfit(key, node, &expected)
+            }
+        }
+    }
+
+    fn word(&mut self, key: &str, node: &Node) -> Option<String> {
+        match &node.value {
+            Value::Null => None,
+            Value::Text(text) if !text.is_empty() && text.chars().all(|c| c.is_ascii_graphic()) => Some(text.clone()),
+            _ => self.misfit(key, node, "a word such as \"DD\""),
+        }
+    }
+
+    fn point_setting(&mut self, key: &str, node: &Node) -> Option<PointSetting> {
+        match &node.value {
+            Value::Table(_) => {
+                let mut points = BTreeMap::new();
+                self.table(key, node, |reader, key, entry| {
+                    if let Some(point) = reader.point(key, &entry.node) {
+                        points.insert(entry.key.clone(), point);
+                    }
+                });
+                Some(PointSetting::ByHandle(points))
+            }
+            _ => self.point(key, node).map(PointSetting::One),
+        }
+    }
+
+    fn point(&mut self, key: &str, node: &Node) -> Option<[f64; 2]> {
+        match &node.value {
+            Value::Null => return None,
+            Value::List(items) => {
+                if let [Node { value: Value::Number(x), .. }, Node { value: Value::Number(y), .. }] = items.as_slice()
+                    && x.is_finite()
+                    && y.is_finite()
+                {
+                    return Some([*x, *y]);
+                }
+            }
+            _ => {}
+        }
+        self.misfit(key, node, "a point [x, y]")
+    }
+
+    fn misfit<T>(&mut self, key: &str, node: &Node, expected: &str) -> Option<T> {
+        self.complain(key, node, format!("{key} is {}, expected {expected}", node.value.shown()))
+    }
+
+    fn complain<T>(&mut self, key: &str, node: &Node, message: String) -> Option<T> {
+        self.errors.push(SettingsError { key: key.into(), message, range: node.range.clone() });
+        None
+    }
+
+    fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
+        let message = format!("{key} is not known, expected {expected}");
+        self.errors.push(SettingsError { key: key.into(), message, range: entry.key_range.clone() });
+    }
+}
+
+fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
+    match &root.value {
+        Value::Table(entries) => entries.iter().find(|entry| camel_case(&entry.key) == key),
+        _ => None,
+    }
+}
+
+/// `wire-diameter` as `wireDiameter`; both spellings are taken everywhere.
+fn camel_case(key: &str) -> String {
+    let mut words = key.split('-');
+    let mut camel: String = words.next().unwrap_or_default().into();
+    for word in words {
+        let mut letters = word.chars();
+        camel.extend(letters.next().map(|first| first.to_ascii_uppercase()));
+        camel.push_str(letters.as_str());
+    }
+    camel
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Corner, Layout, SideSetting, UnitSetting, from_json, from_toml};
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn the_documented_file_is_read_whole() {
+        let text = r#"
+wire-diameter = 0.18
+gap = 0.01
+side = "opening"
+units = "inch"
+margin = 0
+[passes]
+corrections = [0.175, 0.146, 0.140]
+[layers]
+"DIE" = "opening"
+[rules]
+small-radius = "hint"
+units = "off"
+[program]
+layout = "checking"
+corner = "intersection"
+thread = [115.0, -10]
+entry = { 2A = [105.0, -10.0] }
+lead-in = 3.0
+end = "DD"
+"#;
+        let (settings, errors) = from_toml(text);
+        assert_eq!(errors, []);
+        let program = settings.program.unwrap();
+        assert_eq!((settings.wire_diameter, settings.gap, settings.margin), (Some(0.18), Some(0.01), Some(0.0)));
+        assert_eq!((settings.side, settings.units), (Some(SideSetting::Opening), Some(UnitSetting::Inch)));
+        assert_eq!(settings.passes.unwrap().corrections, Some(vec![0.175, 0.146, 0.140]));
+        assert_eq!(settings.layers.unwrap()["DIE"], Role::Opening);
+        assert_eq!(settings.rules.unwrap()["units"], RuleSeverity::Off);
+        assert_eq!((program.layout, program.corner), (Some(Layout::Checking), Some(Corner::Intersection)));
+        assert_eq!(program.thread, Some(PointSetting::One([115.0, -10.0])));
+        assert_eq!(program.entry, Some(PointSetting::ByHandle([("2A".to_string(), [105.0, -10.0])].into())));
+        assert_eq!((program.lead_in, program.end.as_deref()), (Some(3.0), Some("DD")));
+    }
+
+    #[test]
+    fn a_misfit_is_named_with_its_place_and_the_other_keys_hold() {
+        let check = |line: &str, place: &str, expected: &str| {
+            let text = format!("margin = 0.5\n{line}\n[layers]\nDIE = \"punch\"\n");
+            let (settings, errors) = from_toml(&text);
+            let [error] = errors.as_slice() else { panic!("{line}: {errors:?}") };
+            assert!(error.message.contains(expected), "{}", error.message);
+            assert_eq!(&text[error.range.clone().unwrap()], place);
+            assert_eq!(settings.margin, Some(0.5), "{line}");
+            assert_eq!(settings.layers.unwrap()["DIE"], Role::Punch, "{line}");
+        };
+        check("correction = -1", "-1", "correction is -1, expected a number above 0");
+        check("correction = nan", "nan", "correction is NaN, expected a number above 0");
+        check("correction = \"0.1\"", "\"0.1\"", "correction is \"0.1\", expected a number above 0");
+        check("gap = -0.1", "-0.1", "gap is -0.1, expected a number of 0 or above");
+        check("side = \"left\"", "\"left\"", "side is \"left\", expected one of both, auto, opening, punch");
+        check("corection = 1", "corection", "corection is not known, expected correction,");
+        check("passes = { corrections = [0.1, 0] }", "0", "passes.corrections[1] is 0, expected a number above 0");
+        check("passes = { corrections = [] }", "[]", "passes.corrections is empty");
+        check("rules = { small-radii = \"off\" }", "small-radii", "rules.small-radii is not known, expected small-radius");
+        check("rules = { small-radius = \"loud\" }", "\"loud\"", "rules.small-radius is \"loud\", expected one of error,");
+        check("program = { lead-in = 0 }", "0", "program.lead-in is 0, expected a number above 0");
+        check("program = { thread = [1] }", "[1]", "program.thread is a list, expected a point [x, y]");
+        check("program = { end = \"\" }", "\"\"", "program.end is \"\", expected a word");
+        check("program = 3", "3", "program is 3, expected a table");
+    }
+
+    #[test]
+    fn a_file_that_is_not_toml_is_said_to_be_none_and_what_can_be_read_holds() {
+        let (settings, errors) = from_toml("correction = 0.2\nside = = 3\n");
+        assert_eq!(settings.correction, Some(0.2));
+        assert!(errors[0].message.starts_with("not TOML: "), "{errors:?}");
+        assert!(errors[0].range.is_some());
+    }
+
+    #[test]
+    fn json_is_taken_bare_or_as_the_section_and_null_is_not_set() {
+        let check = |json: serde_json::Value, correction: Option<f64>, errors: usize| {
+            let (settings, found) = from_json(&json);
+            assert_eq!((settings.correction, found.len()), (correction, errors), "{json}: {found:?}");
+        };
+        check(json!(null), None, 0);
+        check(json!({}), None, 0);
+        check(json!({ "correction": 0.12, "wireDiameter": null, "program": null }), Some(0.12), 0);
+        check(json!({ "wedm": { "correction": 0.12 }, "editor": { "tabSize": 2 } }), Some(0.12), 0);
+        check(json!({ "wedm": null }), None, 0);
+        check(json!({ "correction": true }), None, 1);
+        check(json!({ "correction": 0.1, "wireDiameter": 0.2 }), Some(0.1), 1);
+        check(json!([]), None, 1);
+        check(json!("x"), None, 1);
+    }
+}

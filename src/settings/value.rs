@@ -1,0 +1,39 @@
+//! A tree of values with their places: what TOML and JSON have in common for the reader of settings.
+
+use std::ops::Range;
+
+pub(super) enum Value {
+    /// Not set.
+    Null,
+    Truth(bool),
+    Number(f64),
+    Text(String),
+    List(Vec<Node>),
+    Table(Vec<Entry>),
+}
+
+pub(super) struct Node {
+    pub value: Value,
+    /// Bytes in the source text, where there is one.
+    pub range: Option<Range<usize>>,
+}
+
+pub(super) struct Entry {
+    pub key: String,
+    pub key_range: Option<Range<usize>>,
+    pub node: Node,
+}
+
+impl Value {
+    /// The value as a message shows it.
+    pub fn shown(&self) -> String {
+        match self {
+            Value::Null => "not set".into(),
+            Value::Truth(truth) => truth.to_string(),
+            Value::Number(number) => number.to_string(),
+            Value::Text(text) => format!("\"{}\"", text.escape_debug()),
+            Value::List(_) => "a list".into(),
+            Value::Table(_) => "a table".into(),
+        }
+    }
+}

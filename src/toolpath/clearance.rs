@@ -1,0 +1,103 @@
+//! How near a path comes to the walls, for contours of any size.
+
+use crate::geometry::{Arc, Bounds, Line, Point, Segment, Vector, circle_circle, line_circle, line_line};
+
+/// Walls in boxes of boxes over their order along the contour, in which neighbours lie together.
+pub(super) struct Walls {
+    segments: Vec<Segment>,
+    /// Boxes of `FAN` segments, then boxes of `FAN` of those, up to one.
+    levels: Vec<Vec<Bounds>>,
+}
+
+const FAN: usize = 8;
+
+impl Walls {
+    pub fn new(segments: Vec<Segment>) -> Walls {
+        let mut level: Vec<Bounds> = segments.iter().map(Segment::bounds).collect();
+        let mut levels = Vec::new();
+        while level.len() > 1 {
+            let above = level.chunks(FAN).map(|boxes| {
+                let mut bounds = Bounds::EMPTY;
+                boxes.iter().for_each(|inner| bounds.merge(inner));
+                bounds
+            });
+            let above = above.collect();
+            levels.push(std::mem::replace(&mut level, above));
+        }
+        levels.push(level);
+        Walls { segments, levels }
+    }
+
+    /// The first wall found to which `path` comes nearer than `distance`.
+    pub fn too_near(&self, path: &Segment, distance: f64) -> Option<usize> {
+        let reach = path.bounds().grown(distance);
+        let mut waiting = vec![(self.levels.len() - 1, 0..self.levels.last().map_or(0, Vec::len))];
+        while let Some((level, range)) = waiting.pop() {
+            for index in range {
+                if !self.levels[level][index].touches(&reach) {
+                    continue;
+                }
+                if level > 0 {
+                    let below = self.levels[level - 1].len();
+                    waiting.push((level - 1, index * FAN..((index + 1) * FAN).min(below)));
+                } else if distance_between(path, &self.segments[index]) < distance {
+                    return Some(index);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Smallest distance between two segments, 0 where they cross or touch.
+pub(super) fn distance_between(a: &Segment, b: &Segment) -> f64 {
+    let ends = a.distance_to(b.start()).min(a.distance_to(b.end())).min(b.distance_to(a.start())).min(b.distance_to(a.end()));
+    ends.min(match (a, b) {
+        (Segment::Line(a), Segment::Line(b)) => between_lines(a, b),
+        (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => between_line_and_arc(line, arc),
+        (Segment::Arc(a), Segment::Arc(b)) => between_arcs(a, b),
+    })
+}
+
+fn within(share: f64) -> bool {
+    (0.0..=1.0).contains(&share)
+}
+
+fn between_lines(a: &Line, b: &Line) -> f64 {
+    let crossing = line_line(a.start, a.end - a.start, b.start, b.end - b.start);
+    match crossing {
+        Some(point) if within(a.share_of(point)) && within(b.share_of(point)) => 0.0,
+        _ => f64::INFINITY,
+    }
+}
+
+fn between_line_and_arc(line: &Line, arc: &Arc) -> f64 {
+    let along = line.end - line.start;
+    let crosses = |&point: &Point| within(line.share_of(point)) && within(arc.share_of(point));
+    if line_circle(line.start, along, arc.center, arc.radius).iter().any(crosses) {
+        return 0.0;
+    }
+    let share = line.share_of(arc.center);
+    let foot = line.start + along * share;
+    if within(share) && within(arc.share_of(foot)) { ((foot - arc.center).norm() - arc.radius).abs() } else { f64::INFINITY }
+}
+
+fn between_arcs(a: &Arc, b: &Arc) -> f64 {
+    let crosses = |&point: &Point| within(a.share_of(point)) && within(b.share_of(point));
+    if circle_circle(a.center, a.radius, b.center, b.radius).iter().any(crosses) {
+        return 0.0;
+    }
+    // The nearest inner points of two circles lie on the line of their centres.
+    let Some(axis) = (b.center - a.center).try_normalize(0.0) else { return f64::INFINITY };
+    let mut nearest = f64::INFINITY;
+    let reached = |arc: &Arc, way: Vector| {
+        let point = arc.center + way * arc.radius;
+        within(arc.share_of(point)).then_some(point)
+    };
+    for (on_a, on_b) in [(axis, axis), (axis, -axis), (-axis, axis), (-axis, -axis)] {
+        if let (Some(p), Some(q)) = (reached(a, on_a), reached(b, on_b)) {
+            nearest = nearest.min((p - q).norm());
+        }
+    }
+    nearest
+}

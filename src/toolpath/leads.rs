@@ -1,0 +1,242 @@
+//! Thread hole, entry and the leads between them.
+
+use super::clearance::Walls;
+use super::corners::Element;
+use super::offset::{Wall, normal};
+use super::order::{name, outline_of};
+use super::{Refusal, Source};
+use crate::drawing::{Drawing, Geometry, Outline};
+use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::geometry::{Arc, Point, Segment};
+use crate::settings::{Effective, PointSetting};
+
+/// What settings and start marks say about one contour, in drawing units.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Wanted {
+    pub thread: Option<Point>,
+    pub entry: Option<Point>,
+}
+
+/// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
+pub(super) fn wanted(drawing: &Drawing, outlines: &[Outline], chosen: &[usize], settings: &Effective) -> Result<Vec<Wanted>, Refusal> {
+    let threads = points(drawing, outlines, chosen, settings.thread.as_ref(), "thread hole")?;
+    let entries = points(drawing, outlines, chosen, settings.entry.as_ref(), "entry")?;
+    let marks = marks(drawing, outlines);
+    let wanted = chosen.iter().zip(threads.into_iter().zip(entries)).map(|(&index, (thread, entry))| {
+        let mark = || marks.iter().filter(|mark| mark.outline == index).min_by(|a, b| a.distance.total_cmp(&b.distance));
+        Wanted { thread: thread.or_else(|| mark().map(|mark| mark.at)), entry }
+    });
+    Ok(wanted.collect())
+}
+
+fn points(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    chosen: &[usize],
+    setting: Option<&PointSetting>,
+    what: &str,
+) -> Result<Vec<Option<Point>>, Refusal> {
+    let mut points = vec![None; chosen.len()];
+    match setting {
+        None => {}
+        Some(PointSetting::One(at)) => match &mut points[..] {
+            [only] => *only = Some(Point::from(*at)),
+            several => {
+                let count = several.len();
+                return Err(Refusal::Sentence(format!(
+                    "one {what} is given for {count} contours: choose one contour by its handle, or give a table by handle"
+                )));
+            }
+        },
+        Some(PointSetting::ByHandle(table)) => {
+            for (handle, at) in table {
+                let outline = outline_of(drawing, outlines, handle)?;
+                if let Some(place) = chosen.iter().position(|&index| index == outline) {
+                    points[place] = Some(Point::from(*at));
+                }
+            }
+        }
+    }
+    Ok(points)
+}
+
+struct Mark {
+    at: Point,
+    /// The outline nearest to it.
+    outline: usize,
+    distance: f64,
+}
+
+/// Every text "O", with the contour that it marks.
+fn marks(drawing: &Drawing, outlines: &[Outline]) -> Vec<Mark> {
+    let texts = drawing.entities().filter_map(|(_, entity)| match &entity.geometry {
+        Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
+        _ => None,
+    });
+    texts
+        .filter_map(|at| {
+            let distance =
+                |outline: &Outline| outline.contour.segments(drawing).map(|s| s.geometry.distance_to(at)).fold(f64::INFINITY, f64::min);
+            let nearest = outlines.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+            nearest.map(|(outline, distance)| Mark { at, outline, distance })
+        })
+        .collect()
+}
+
+/// A place on the walls.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub wall: usize,
+    pub share: f64,
+    pub point: Point,
+}
+
+/// The place on the walls that is nearest to `point`, and how far it is. Among equally near ones that with the largest x, so that
+/// a thread hole in the centre of a circle leads to its +X-most point.
+pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, f64)> {
+    let mut best: Option<(Entry, f64)> = None;
+    for (wall, segment) in walls.iter().map(|wall| &wall.geometry).enumerate() {
+        let share = match segment {
+            Segment::Arc(arc) if (point - arc.center).norm() <= tie => furthest_x(arc),
+            segment => segment.share_of(point).clamp(0.0, 1.0),
+        };
+        let at = segment.point_at(share);
+        let distance = (at - point).norm();
+        let better = best.is_none_or(|(entry, least)| distance < least - tie || (distance <= least + tie && at.x > entry.point.x + tie));
+        if better {
+            best = Some((Entry { wall, share, point: at }, distance));
+        }
+    }
+    best
+}
+
+/// The middle of the longest line, else the +X-most point of the longest arc. The first drawn one where several are as long.
+pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
+    let rank = |wall: &Wall| match wall.source {
+        Source::Segment { entity, segment } | Source::Corner { entity, segment } => (entity, segment),
+        Source::LeadIn | Source::LeadOut => (crate::drawing::EntityId(u32::MAX), 0),
+    };
+    let longest = |arcs: bool| {
+        let mut best: Option<usize> = None;
+        for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.geometry.as_arc().is_some() == arcs) {
+            let better = best.is_none_or(|best| {
+                let (length, least) = (wall.geometry.length(), walls[best].geometry.length());
+                let equal = (length - least).abs() <= 1e-9 * least;
+                if equal { rank(wall) < rank(&walls[best]) } else { length > least }
+            });
+            if better {
+                best = Some(index);
+            }
+        }
+        best
+    };
+    let wall = longest(false).or_else(|| longest(true))?;
+    let segment = &walls[wall].geometry;
+    let share = segment.as_arc().map_or(0.5, furthest_x);
+    Some(Entry { wall, share, point: segment.point_at(share) })
+}
+
+/// Share of an arc's point with the largest x.
+fn furthest_x(arc: &Arc) -> f64 {
+    let share = arc.share_of(arc.center + crate::geometry::Vector::x() * arc.radius);
+    if (0.0..=1.0).contains(&share) {
+        return share;
+    }
+    if arc.start.x >= arc.end.x { 0.0 } else { 1.0 }
+}
+
+/// The element of a closed path and the point on it that belong to an entry. Where the entry's own offset is cut off or left out, the
+/// nearest point that remains of it, or the point that stands for it.
+pub(super) fn path_point(path: &[Element], walls: &[Wall], entry: &Entry, correction: f64, side: f64) -> Option<(usize, Point)> {
+    let wall = &walls.get(entry.wall)?.geometry;
+    let wanted = entry.point + normal(wall, entry.share, side) * correction;
+    let own = |element: &Element| element.wall == entry.wall && !matches!(element.source, Source::Corner { .. });
+    let Some(index) = path.iter().position(own) else {
+        // Elements stand in the order of their walls.
+        let index = path.iter().position(|element| element.wall > entry.wall).unwrap_or(0);
+        return Some((index, path.get(index)?.geometry.start()));
+    };
+    let element = &path[index].geometry;
+    let point = match element.share_of(wanted) {
+        _ if path.len() == 1 => wanted,
+        share if share <= 0.0 => element.start(),
+        share if share >= 1.0 => element.end(),
+        _ => wanted,
+    };
+    Some((index, point))
+}
+
+/// What a lead is checked against.
+pub(super) struct Surroundings<'a> {
+    /// The walls of the contour itself.
+    pub own: &'a Walls,
+    /// Those of all contours.
+    pub all: &'a Walls,
+    /// The path keeps at least this from the walls, and so must the leads; drawing units.
+    pub clearance: f64,
+    pub unit_mm: f64,
+    pub severity: Severity,
+}
+
+/// The thread hole for a lead to `begin`, the point of the path that belongs to `entry`. `begin` itself where there is no lead.
+///
+/// A hole that is given must be reached without coming nearer to the contour than the correction. Where none is given, the lead runs
+/// on from the entry through `begin`; its length, counted from the entry, is halved until it fits.
+pub(super) fn thread_hole(
+    wanted: &Wanted,
+    entry: &Entry,
+    begin: Point,
+    walls: &[Wall],
+    settings: &Effective,
+    surroundings: &Surroundings<'_>,
+) -> Result<Point, Finding> {
+    let Surroundings { own, all, clearance, unit_mm, severity } = *surroundings;
+    let fault = |sentence: String| {
+        let place = match walls.get(entry.wall).map(|wall| wall.source) {
+            Some(Source::Segment { entity, segment }) => Place::Segment { entity, segment },
+            _ => Place::Document,
+        };
+        Finding { rule: Rule::LeadIn, severity, place, detail: Detail::LeadIn(sentence) }
+    };
+    let correction = settings.correction;
+    if let Some(thread) = wanted.thread {
+        let join = settings.tolerances.join / unit_mm;
+        let on_entry = (thread - entry.point).norm() <= join || (thread - begin).norm() <= 1e-6 / unit_mm;
+        if on_entry {
+            return Ok(begin);
+        }
+        return match own.too_near(&Segment::line(thread, begin), clearance) {
+            None => Ok(thread),
+            Some(_) => Err(fault(format!(
+                "the lead-in from the thread hole ({:.3}, {:.3}) to ({:.3}, {:.3}) crosses the contour or comes nearer to it than the correction {correction:.3} mm",
+                thread.x, thread.y, begin.x, begin.y
+            ))),
+        };
+    }
+    let to_path = begin - entry.point;
+    let nearest = to_path.norm();
+    let Some(way) = to_path.try_normalize(0.0) else { return Ok(begin) };
+    for walls in [all, own] {
+        let mut length = settings.lead_in / unit_mm;
+        while length > nearest + 1e-6 / unit_mm {
+            let thread = entry.point + way * length;
+            if walls.too_near(&Segment::line(thread, begin), clearance).is_none() {
+                return Ok(thread);
+            }
+            length /= 2.0;
+        }
+    }
+    Err(fault(format!(
+        "no lead-in from {:.3} mm down to the correction {correction:.3} mm fits at ({:.3}, {:.3}): give a thread hole or another entry",
+        settings.lead_in, entry.point.x, entry.point.y
+    )))
+}
+
+/// The refusal of an entry that does not lie on the contour.
+pub(super) fn off_contour(drawing: &Drawing, outline: &Outline, entry: Point, distance_mm: f64) -> Refusal {
+    let handle = name(drawing, outline);
+    Refusal::Sentence(format!(
+        "the entry ({}, {}) lies {distance_mm:.3} mm from contour {handle}, expected a point on it",
+        entry.x, entry.y
+    ))
+}

@@ -1,0 +1,120 @@
+//! The offset of one segment, which remembers where it comes from. Corners join them, see `corners`.
+
+use super::Source;
+use crate::drawing::ContourSegment;
+use crate::geometry::{Arc, Line, Point, Segment, Vector, left_normal};
+
+/// A segment of a contour as it is cut: without gaps to its neighbours, in the direction of the cut.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wall {
+    pub geometry: Segment,
+    pub source: Source,
+}
+
+/// The walls of a contour. Gaps within the join tolerance are closed half way by both neighbours, and what has no length is left out.
+pub(super) fn walls(segments: impl IntoIterator<Item = ContourSegment>, closed: bool, zero_length: f64) -> Vec<Wall> {
+    let mut walls: Vec<Wall> = segments
+        .into_iter()
+        .filter(|segment| segment.geometry.length() > zero_length)
+        .map(|segment| Wall { geometry: segment.geometry, source: Source::Segment { entity: segment.entity, segment: segment.segment } })
+        .collect();
+    let count = walls.len();
+    if count < 2 {
+        if let (true, Some(wall)) = (closed, walls.first_mut())
+            && wall.geometry.as_arc().is_some_and(|arc| !arc.is_full_turn())
+        {
+            // One arc that comes back to its start within the join tolerance is a circle.
+            if let Segment::Arc(arc) = wall.geometry {
+                wall.geometry = Segment::Arc(Arc::about(arc.center, arc.start, arc.start, arc.sweep > 0.0));
+            }
+        }
+        return walls;
+    }
+    for index in 0..if closed { count } else { count - 1 } {
+        let next = (index + 1) % count;
+        let (end, start) = (walls[index].geometry.end(), walls[next].geometry.start());
+        if end != start {
+            let middle = end + (start - end) * 0.5;
+            walls[index].geometry = with_ends(&walls[index].geometry, walls[index].geometry.start(), middle);
+            walls[next].geometry = with_ends(&walls[next].geometry, middle, walls[next].geometry.end());
+        }
+    }
+    walls
+}
+
+/// The segment with its ends moved a little; an arc keeps its sweep.
+fn with_ends(segment: &Segment, start: Point, end: Point) -> Segment {
+    match segment {
+        Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) if (start - arc.start).norm().max((end - arc.end).norm()) <= 1e-9 * arc.radius.max(1.0) => {
+            Segment::Arc(Arc { start, end, ..*arc })
+        }
+        Segment::Arc(arc) => Segment::from_bulge(start, end, arc.bulge()),
+    }
+}
+
+/// The normal of a wall at a share of it, towards the wire. `side` is +1 for left, −1 for right.
+pub(super) fn normal(wall: &Segment, share: f64, side: f64) -> Vector {
+    left_normal(wall.tangent_at(share)) * side
+}
+
+/// A wall shifted by `correction` to the wire's side.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Offset {
+    /// A line, or an arc of radius r ∓ c, down to a zero-radius arc that is a point.
+    Runs(Segment),
+    /// An arc about `center` tighter than the correction: the wire's centre cannot follow it.
+    TooTight { center: Point },
+}
+
+/// Shifts `wall` by `correction` to `side`. A radius that falls below the correction by at most `tolerance` counts as the limit.
+pub(super) fn offset(wall: &Segment, correction: f64, side: f64, tolerance: f64) -> Offset {
+    match wall {
+        Segment::Line(Line { start, end }) => {
+            let shift = normal(wall, 0.0, side) * correction;
+            Offset::Runs(Segment::line(start + shift, end + shift))
+        }
+        Segment::Arc(arc) => {
+            let center_on_wire_side = arc.sweep * side > 0.0;
+            let radius = if center_on_wire_side { arc.radius - correction } else { arc.radius + correction };
+            if radius < -tolerance {
+                return Offset::TooTight { center: arc.center };
+            }
+            if radius <= tolerance {
+                return Offset::Runs(Segment::Arc(Arc { radius: 0.0, start: arc.center, end: arc.center, ..*arc }));
+            }
+            let out = |point: Point| arc.center + (point - arc.center) * (radius / arc.radius);
+            Offset::Runs(Segment::Arc(Arc { radius, start: out(arc.start), end: out(arc.end), ..*arc }))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(wall: Segment, side: f64, expected: Option<(f64, [f64; 2])>) {
+        match (offset(&wall, 0.1, side, 1e-6), expected) {
+            (Offset::TooTight { .. }, None) => {}
+            (Offset::Runs(segment), Some((radius, start))) => {
+                assert!((segment.as_arc().map_or(0.0, |arc| arc.radius) - radius).abs() < 1e-12, "{segment:?}");
+                assert!((segment.start() - Point::from(start)).norm() < 1e-12, "{segment:?}");
+            }
+            (got, expected) => panic!("{got:?}, expected {expected:?}"),
+        }
+    }
+
+    #[test]
+    fn arcs_shrink_on_the_side_of_their_centre() {
+        let arc = |radius: f64, sweep: f64| Segment::Arc(Arc::from_center(Point::origin(), radius, 0.0, sweep));
+        check(arc(2.0, 1.0), 1.0, Some((1.9, [1.9, 0.0])));
+        check(arc(2.0, 1.0), -1.0, Some((2.1, [2.1, 0.0])));
+        check(arc(2.0, -1.0), 1.0, Some((2.1, [2.1, 0.0])));
+        check(arc(2.0, -1.0), -1.0, Some((1.9, [1.9, 0.0])));
+        check(arc(0.1, 1.0), 1.0, Some((0.0, [0.0, 0.0])));
+        check(arc(0.1 - 5e-7, 1.0), 1.0, Some((0.0, [0.0, 0.0])));
+        check(arc(0.09, 1.0), 1.0, None);
+        check(Segment::line(Point::origin(), Point::new(3.0, 0.0)), 1.0, Some((0.0, [0.0, 0.1])));
+        check(Segment::line(Point::origin(), Point::new(3.0, 0.0)), -1.0, Some((0.0, [0.0, -0.1])));
+    }
+}
