@@ -30,7 +30,12 @@ fn neovim_shows_the_fault_and_applies_the_fix() {
     let seen = String::from_utf8_lossy(&output.stdout).replace('\r', "");
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{seen}\n{errors}");
-    for expected in ["arc R 0.050 mm is below the correction 0.100 mm", "offered: Replace the arc by one of R 0.101 mm", "faults: 1, then 0", "after undo: 1"] {
+    for expected in [
+        "arc R 0.050 mm is below the correction 0.100 mm",
+        "offered: Replace the arc by one of R 0.101 mm",
+        "faults: 1, then 0",
+        "after undo: 1",
+    ] {
         assert!(seen.contains(expected), "no {expected:?} in:\n{seen}\n{errors}");
     }
     // Only numbers of the two vertices have changed.

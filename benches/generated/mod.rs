@@ -1,0 +1,109 @@
+//! Generated drawings for the benchmarks: the same bytes on every machine.
+
+#![allow(dead_code)]
+
+use std::fmt::Write;
+
+/// Vertices of one die opening near (x, y): a rounded rectangle, counter-clockwise, its first fillet of radius `tight`.
+pub fn opening(x: f64, y: f64, tight: f64) -> Vec<[f64; 3]> {
+    let bulge = (std::f64::consts::PI / 8.0).tan();
+    let (width, height, wide) = (6.0, 4.0, 0.5);
+    let corners =
+        [(width, 0.0, tight, 1.0, 0.0), (width, height, wide, 0.0, 1.0), (0.0, height, wide, -1.0, 0.0), (0.0, 0.0, wide, 0.0, -1.0)];
+    let mut vertices = Vec::new();
+    for (cx, cy, r, along_x, along_y) in corners {
+        let (x, y): (f64, f64) = (x + cx, y + cy);
+        vertices.push([x - along_x * r, y - along_y * r, bulge]);
+        vertices.push([x - along_y * r, y + along_x * r, 0.0]);
+    }
+    vertices
+}
+
+fn header(text: &mut String) {
+    text.push_str("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
+}
+
+fn place(i: usize) -> (f64, f64) {
+    ((i % 100) as f64 * 8.0, (i / 100) as f64 * 6.0)
+}
+
+/// DXF of at least `bytes` bytes: openings as LWPOLYLINEs, every fiftieth with a fillet below the correction of 0.1.
+pub fn polylines(bytes: usize) -> String {
+    let mut text = String::with_capacity(bytes + 1000);
+    header(&mut text);
+    let mut i = 0;
+    while text.len() < bytes {
+        let (x, y) = place(i);
+        let vertices = opening(x, y, if i % 50 == 7 { 0.05 } else { 0.3 });
+        let _ =
+            write!(text, "0\nLWPOLYLINE\n5\n{:X}\n100\nAcDbEntity\n8\nDIE\n100\nAcDbPolyline\n90\n{}\n70\n1\n", 100 + i, vertices.len());
+        for [x, y, bulge] in vertices {
+            let _ = write!(text, "10\n{x:.9}\n20\n{y:.9}\n");
+            if bulge != 0.0 {
+                let _ = write!(text, "42\n{bulge:.12}\n");
+            }
+        }
+        i += 1;
+    }
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
+
+/// The same openings as chains of LINE and ARC.
+pub fn lines_and_arcs(bytes: usize) -> String {
+    let mut text = String::with_capacity(bytes + 1000);
+    header(&mut text);
+    let (mut i, mut handle) = (0, 100);
+    while text.len() < bytes {
+        let (x, y) = place(i);
+        let vertices = opening(x, y, if i % 50 == 7 { 0.05 } else { 0.3 });
+        for (k, &[x0, y0, bulge]) in vertices.iter().enumerate() {
+            let [x1, y1, _] = vertices[(k + 1) % vertices.len()];
+            handle += 1;
+            if bulge == 0.0 {
+                let _ = write!(text, "0\nLINE\n5\n{handle:X}\n8\nDIE\n10\n{x0:.9}\n20\n{y0:.9}\n11\n{x1:.9}\n21\n{y1:.9}\n");
+            } else {
+                let (dx, dy) = (x1 - x0, y1 - y0);
+                let h = (1.0 - bulge * bulge) / (4.0 * bulge);
+                let (cx, cy) = ((x0 + x1) / 2.0 - h * dy, (y0 + y1) / 2.0 + h * dx);
+                let angle = |px: f64, py: f64| (py - cy).atan2(px - cx).to_degrees().rem_euclid(360.0);
+                let _ = write!(
+                    text,
+                    "0\nARC\n5\n{handle:X}\n8\nDIE\n10\n{cx:.9}\n20\n{cy:.9}\n40\n{:.9}\n50\n{:.9}\n51\n{:.9}\n",
+                    (x0 - cx).hypot(y0 - cy),
+                    angle(x0, y0),
+                    angle(x1, y1)
+                );
+            }
+        }
+        i += 1;
+    }
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
+
+/// Vertices of one closed polyline of `count` vertices: a saw round a large circle, every tenth tooth rounded.
+pub fn long_outline(count: usize) -> Vec<[f64; 3]> {
+    let radius = count as f64 * 0.2;
+    let vertex = |i: usize| {
+        let angle = i as f64 / count as f64 * std::f64::consts::TAU;
+        let r = radius + if i % 2 == 0 { 0.0 } else { 0.4 };
+        [r * angle.cos(), r * angle.sin(), if i % 10 == 0 { 0.1 } else { 0.0 }]
+    };
+    (0..count).map(vertex).collect()
+}
+
+/// DXF with one LWPOLYLINE of `count` vertices.
+pub fn one_polyline(count: usize) -> String {
+    let mut text = String::new();
+    header(&mut text);
+    let _ = write!(text, "0\nLWPOLYLINE\n5\n2A\n8\nDIE\n90\n{count}\n70\n1\n");
+    for [x, y, bulge] in long_outline(count) {
+        let _ = write!(text, "10\n{x:.9}\n20\n{y:.9}\n");
+        if bulge != 0.0 {
+            let _ = write!(text, "42\n{bulge:.12}\n");
+        }
+    }
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
