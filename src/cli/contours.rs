@@ -50,7 +50,11 @@ fn list(contours: &Contours) -> String {
         for run in contour.segments.chunk_by(|a, b| a.handle == b.handle) {
             let (Some(first), Some(last)) = (run.first(), run.last()) else { continue };
             let against = if first.reversed { ", against its own direction" } else { "" };
-            let range = if run.len() == 1 { format!("segment {}", first.segment) } else { format!("segments {} to {}", first.segment, last.segment) };
+            let range = if run.len() == 1 {
+                format!("segment {}", first.segment)
+            } else {
+                format!("segments {} to {}", first.segment, last.segment)
+            };
             let _ = writeln!(text, "  {:<12} {range}{against}", first.handle);
         }
         for gap in &contour.gaps {

@@ -128,7 +128,7 @@ fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
 fn deliver(arguments: &Arguments, repair: &Repair) -> Result<(), Failure> {
     let target = &arguments.target;
     if target.diff {
-        return output::print(&diff(&arguments.path, &repair.bytes_before, repair.bytes()));
+        return output::print(diff(&arguments.path, &repair.bytes_before, repair.bytes()));
     }
     match &target.output {
         Some(path) => output::write(Some(path), repair.bytes()),

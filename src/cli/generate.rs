@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let Some(paths) = planned(arguments, &document)? else { return Ok(Verdict::Errors) };
     let unit_mm = document.drawing().map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
     let program = three_b::write(&paths, unit_mm, document.settings())
-        .map_err(|error| Failure(format!("{}: internal error, no program is written: {}", path.display(), error.0)))?;
+        .map_err(|error| Failure(format!("{}: internal error, no program is written: {error}", path.display())))?;
     output::write(arguments.output.as_deref(), program.text.as_bytes())?;
     summarise(arguments, &program, paths.len());
     Ok(Verdict::Clean)
@@ -81,7 +81,9 @@ fn refused_for_errors(arguments: &Arguments, document: &mut Document) -> bool {
     rows.iter().for_each(|row| output::say(&format!("{}\n", row.rendered())));
     let path = arguments.path.display();
     let errors = counted(rows.len(), "error");
-    output::complain(&format!("{path}: no program is written, the drawing has {errors}; repair it (wedm fix {path}), or insist with --force"));
+    output::complain(&format!(
+        "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {path}), or insist with --force"
+    ));
     true
 }
 
@@ -118,7 +120,8 @@ fn list(arguments: &Arguments, document: &Document, findings: &[Finding]) {
 
 fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
     let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| path.display().to_string());
-    let [x, y] = program.closure;
+    // A drift that rounds to zero has no sign.
+    let [x, y] = program.closure.map(|drift| (drift * 100.0).round() / 100.0 + 0.0);
     output::say(&format!(
         "{} {target}: {}, {}, wire path {:.3} mm",
         styled(output::GOOD, "written"),
@@ -127,7 +130,7 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         program.length
     ));
     output::say(&format!(
-        "decoded again: at most {:.2} µm from the path; a controller that counts J drifts {x:+.2}, {y:+.2} µm",
+        "decoded again: at most {:.2} µm from the path; a controller that counts J drifts by {x:.2}, {y:.2} µm",
         program.deviation
     ));
 }

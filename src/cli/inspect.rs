@@ -59,10 +59,10 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     match (arguments.output, failure) {
         (Format::Text, Some(failure)) => return Err(failure),
-        (Format::Text, None) => output::print(&table(&printed))?,
+        (Format::Text, None) => output::print(table(&printed))?,
         (Format::Json, failure) => {
             let json = serde_json::to_string(&printed).map_err(|error| Failure(error.to_string()))?;
-            output::print(&format!("{json}\n"))?;
+            output::print(format!("{json}\n"))?;
             failure.map_or(Ok(()), Err)?;
         }
     }

@@ -36,11 +36,11 @@ struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  wedm check plate.dxf                     every arc tighter than 0.10 mm, with its place in the file
+  wedm check plate.dxf                     every arc tighter than 0.10 mm, and its place
   wedm check --correction 0.12 drawings/   a whole folder, with another correction
   wedm fix plate.dxf -o fixed.dxf          repair what can be repaired
   wedm generate fixed.dxf --side opening -o plate.3b
-  wedm demo                                a whole session with the server, on a drawing that ships inside
+  wedm demo                                a whole session, on a drawing that ships inside
 
 Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wrong usage.";
 

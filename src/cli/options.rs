@@ -11,7 +11,7 @@ use std::path::PathBuf;
 #[command(next_help_heading = "Settings")]
 pub struct Common {
     /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour
-    #[arg(long, value_name = "MM", value_parser = positive)]
+    #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub correction: Option<f64>,
     /// Side on which the wire runs, where neither entity nor layer says
     #[arg(long, value_parser = words::<SideSetting>(&["both", "auto", "opening", "punch"]))]
@@ -38,7 +38,7 @@ pub struct Program {
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub entry: Option<[f64; 2]>,
     /// Length of the lead-in in mm, where no thread hole is given
-    #[arg(long, value_name = "MM", value_parser = positive)]
+    #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub lead_in: Option<f64>,
     /// Form of the blocks
     #[arg(long, value_parser = words::<Layout>(&["compact", "aligned", "checking"]))]
@@ -99,7 +99,6 @@ pub fn point(text: &str) -> Result<[f64; 2], String> {
     let both = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
     both.ok_or_else(|| "expected two numbers with a comma between, such as -115,-10".into())
 }
-
 
 #[cfg(test)]
 mod tests {

@@ -39,7 +39,7 @@ struct Excerpt {
 }
 
 /// Lines longer than this (100 MB of zeros have one) are shown from near the fault on.
-const LONGEST_LINE: usize = 160;
+const LONGEST_LINE: usize = 100;
 
 fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(rule.name())
@@ -108,7 +108,10 @@ impl Row {
                     .annotation(AnnotationKind::Primary.span(excerpt.span.clone()).label(self.label()));
                 renderer.render(&[title.element(snippet)])
             }
-            None => renderer.render(&[title.element(annotate_snippets::Origin::path(self.path.as_str()))]),
+            None => {
+                let place = annotate_snippets::Origin::path(self.path.as_str()).line(self.line).char_column(self.column);
+                renderer.render(&[title.element(place)])
+            }
         }
     }
 
@@ -130,11 +133,12 @@ fn place(text: &SourceText, offset: usize) -> (usize, usize) {
 
 /// The lines from the one above the fault (in DXF the group code of the number) to its end, at most six.
 fn excerpt(text: &SourceText, range: &Range<usize>) -> Option<Excerpt> {
-    if range.start >= range.end || range.end > text.bytes().len() {
+    let stands_for_all = range.end == 0;
+    if stands_for_all || range.start > range.end || range.end > text.bytes().len() {
         return None;
     }
     let fault_line = text.line_of(range.start);
-    let last_line = text.line_of(range.end - 1).min(fault_line + 4);
+    let last_line = text.line_of(range.start.max(range.end - 1)).min(fault_line + 4);
     let has_code = fault_line > 0 && is_group_code(&text.bytes()[text.line_range(fault_line - 1)]);
     let first_line = if has_code { fault_line - 1 } else { fault_line };
     let mut shown = String::new();
@@ -185,13 +189,14 @@ mod tests {
     #[test]
     fn an_excerpt_holds_the_group_code_and_the_value() {
         let text = b"  0\r\nLWPOLYLINE\r\n 42\r\n0.414\r\n 10\r\n";
-        assert_eq!(shown(text, 24..29), Some((3, " 42\n0.414".into(), "0.414".into())));
+        assert_eq!(shown(text, 22..27), Some((3, " 42\n0.414".into(), "0.414".into())));
         assert_eq!(shown(b"B1B2B3GXL1\nB\n", 2..4), Some((1, "B1B2B3GXL1".into(), "B2".into())));
     }
 
     #[test]
     fn an_excerpt_of_anything_can_be_shown() {
         assert_eq!(shown(b"", 0..0), None);
+        assert_eq!(shown(b"a = \nb", 4..4), Some((1, "a = ".into(), "".into())));
         assert_eq!(shown(b"abc", 1..9), None);
         assert_eq!(shown(b" 1\n\xff\x1b[31m\xfe", 4..5), Some((1, " 1\n\u{fffd}\u{fffd}[31m\u{fffd}".into(), "\u{fffd}".into())));
         let (_, text, fault) = shown(&vec![0; 5000], 1000..4000).unwrap();

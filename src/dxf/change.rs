@@ -89,10 +89,10 @@ impl Document {
                 return Err(format!("{name} is not an ARC"));
             }
             if is_mirrored(lines, &tags) {
-                center.x = -center.x;
+                center.x = 0.0 - center.x;
                 (start_angle, end_angle) = mirrored_angles(start_angle, end_angle);
             }
-            if !(radius > 0.0) {
+            if radius <= 0.0 || radius.is_nan() {
                 return Err(format!("{name} cannot have the radius {radius}"));
             }
             for (code, value) in [(10, center.x), (20, center.y), (40, radius)] {

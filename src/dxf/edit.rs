@@ -1,14 +1,347 @@
-//! An edit of the text: what it touched is read again.
+//! An edit of the text: what it touched is read again, and nothing else.
+//!
+//! A number within a vertex of a LWPOLYLINE costs that vertex; other edits cost the items around them. Where an edit
+//! reaches further (sections, doubled handles, ordinals as names), everything is read.
 
 use super::Document;
-use crate::drawing::Delta;
+use super::entity::{Outcome, Read, mirror};
+use super::foreign;
+use super::lexer::{LOOKAHEAD, Lexer};
+use super::lines::Lines;
+use super::number::{self, Code, Number};
+use super::reader::{ReadItem, Said, range_key, read_item};
+use super::table::{Became, Context, Item, NO_ITEM, Named};
+use crate::drawing::{Delta, Drawing, Entity, EntityId, Touched, Vertex};
+use crate::finding::{Finding, Place, Rule};
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
+use std::sync::Arc;
+
+/// Reading begins at least this many lines before an edit: what was decided there may have looked at it.
+const LOOKBACK: usize = LOOKAHEAD + 4;
+/// An edit in the first bytes may change what the text is taken for.
+const HEAD: usize = 1024;
+/// Each entity that comes or goes costs the length of the drawing; of more than these, all are read again.
+const FEW: usize = 64;
+
+/// A vertex of a LWPOLYLINE that an edit lies in: its lines before the edit.
+struct VertexZone {
+    entity: EntityId,
+    item: usize,
+    index: usize,
+    lines: Range<usize>,
+}
+
+/// What was known before the edit, of all that it can have touched.
+struct ItemZone {
+    first: usize,
+    /// The last line, before the edit, that the edit touches.
+    end_line: usize,
+}
 
 impl Document {
-    /// Replaces a range of bytes and reads again what it touched.
+    /// Replaces a range of bytes (clamped to the text) and reads again what it touched.
+    ///
+    /// Ids of entities that the edit did not touch stay, unless the delta says that everything may have changed.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> Delta {
-        self.text.replace(range, replacement);
+        let end = range.end.min(self.text.len());
+        let range = range.start.min(end)..end;
+        let vertex = self.vertex_zone(&range);
+        let zone = self.item_zone(&range);
+        let (old_lines, old_length) = (self.text.line_count(), self.text.len());
+        self.text.replace(range.clone(), replacement);
+        let lines = self.text.line_count() as i64 - old_lines as i64;
+        let bytes = self.text.len() as i64 - old_length as i64;
+        if range.start >= HEAD || foreign::recognise(self.text.bytes()).is_none() {
+            if let Some(delta) = vertex.and_then(|zone| self.reread_vertex(zone, &range, lines, bytes)) {
+                return delta;
+            }
+            if let Some(delta) = zone.and_then(|zone| self.reread_items(&zone, lines, bytes)) {
+                return delta;
+            }
+        }
         self.read_all();
         Delta::all()
+    }
+
+    /// The vertex that the edit lies in, when it leaves the first and the last byte of the vertex alone.
+    fn vertex_zone(&self, range: &Range<usize>) -> Option<VertexZone> {
+        let line = self.text.line_of(range.start);
+        let item = self.table.item_at(line)?;
+        let Became::Entity(entity) = self.table.items.get(item)?.became else { return None };
+        let vertices = self.table.vertices.get(&entity)?;
+        let lines = Lines::new(&self.text);
+        let start = self.table.lines_of(item, lines.count()).start;
+        let relative = line.checked_sub(start)?;
+        let index = vertices.lines.partition_point(|&vertex| vertex as usize <= relative).checked_sub(1)?;
+        let zone = self.vertex_lines(entity, index)?;
+        let inside = range.start > self.text.line_start(zone.start)
+            && range.end < self.text.line_start(zone.end)
+            && zone.end < lines.count()
+            && lines.trimmed(start + 1) == b"LWPOLYLINE";
+        // A fault near by was judged by what follows it.
+        let near = self.text.line_start(zone.start.saturating_sub(LOOKBACK));
+        let behind = self.findings.partition_point(|finding| range_key(finding).0 < self.text.line_start(zone.end));
+        let faults = self.findings[behind.saturating_sub(3)..behind]
+            .iter()
+            .any(|finding| matches!(&finding.place, Place::Text { range } if range.end >= near) && finding.rule == Rule::Syntax);
+        let plain = inside && !faults && plain_vertex(lines, zone.clone()).is_some();
+        plain.then_some(VertexZone { entity, item, index, lines: zone })
+    }
+
+    fn reread_vertex(&mut self, zone: VertexZone, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
+        let VertexZone { entity, item, index, lines: old } = zone;
+        let end = old.end.checked_add_signed(lines as isize)?;
+        let mut vertex = plain_vertex(Lines::new(&self.text), old.start..end)?;
+        let table = self.table.vertices.get_mut(&entity)?;
+        if table.mirrored {
+            mirror(&mut vertex);
+        }
+        shift(&mut table.lines[index + 1..], lines);
+        shift(&mut self.table.lines[item + 1..], lines);
+        self.shift_findings(range.end, bytes);
+        let touched = Arc::make_mut(&mut self.drawing).splice(entity, index, 1, &[vertex]).ok()?;
+        Some(Delta { touched: vec![touched] })
+    }
+
+    fn shift_findings(&mut self, from: usize, bytes: i64) {
+        let first = self.findings.partition_point(|finding| range_key(finding).0 < from);
+        for finding in &mut self.findings[first..] {
+            shift_place(finding, bytes);
+        }
+    }
+
+    fn item_zone(&self, range: &Range<usize>) -> Option<ItemZone> {
+        // The byte-order mark, and a text that was none.
+        if range.start < 4 || self.table.items.len() < 3 {
+            return None;
+        }
+        let line = self.text.line_of(range.start).saturating_sub(LOOKBACK);
+        Some(ItemZone { first: self.table.item_at(line)?, end_line: self.text.line_of(range.end) })
+    }
+
+    /// Reads the items from the zone's first on until one begins where one began before.
+    fn reread_items(&mut self, zone: &ItemZone, lines: i64, bytes: i64) -> Option<Delta> {
+        let first = zone.first;
+        let mut findings = Vec::new();
+        let (read, next) = self.read_until_known(zone, lines, &mut findings)?;
+        let plan = self.plan(first, next, &read)?;
+        let old_end = self.table.lines.get(next).map(|&line| {
+            // The end of the zone as it was before the edit.
+            let new_start = self.text.line_start((i64::from(line) + lines) as usize);
+            new_start as i64 - bytes
+        });
+        self.replace_findings(first, old_end.map(|end| end as usize), bytes, findings);
+        let delta = self.replace_items(first..next, read, plan, lines);
+        self.name_unsupported();
+        Some(delta)
+    }
+
+    fn read_until_known(&mut self, zone: &ItemZone, lines: i64, findings: &mut Vec<Finding>) -> Option<(Vec<ReadItem>, usize)> {
+        let start = *self.table.lines.get(zone.first)? as usize;
+        let mut context = self.table.items.get(zone.first)?.context;
+        let mut lexer = Lexer::new(Lines::new(&self.text), start);
+        let mut read = Vec::new();
+        let mut next = zone.first + 1;
+        loop {
+            let at = lexer.at() as i64;
+            while self.table.lines.get(next).is_some_and(|&line| i64::from(line) + lines < at || line as usize <= zone.end_line) {
+                next += 1;
+            }
+            let known = self.table.lines.get(next).is_some_and(|&line| i64::from(line) + lines == at);
+            if known && self.table.items.get(next).is_some_and(|item| item.context == context) {
+                return Some((read, next));
+            }
+            let Some(item) = read_item(&mut lexer, context, &mut self.layers, findings) else {
+                return Some((read, self.table.items.len()));
+            };
+            context = item.after;
+            read.push(item);
+        }
+    }
+
+    /// Which entity of before each entity read is. `None` where the edit reaches beyond the zone.
+    fn plan(&self, first: usize, next: usize, read: &[ReadItem]) -> Option<Plan> {
+        let old = &self.table.items[first..next];
+        let structure = |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
+        let before: Vec<Became> = old.iter().filter_map(|item| structure(&item.became)).collect();
+        let after: Vec<Became> = read.iter().filter_map(|item| item.said.structure()).collect();
+        let second_section = before.contains(&Became::Structure { entities: true, unit: None }) && self.table.sections > 1;
+        if before != after || second_section || self.table.items.len() - old.len() + read.len() < 3 {
+            return None;
+        }
+        let counted = |context: Context| context == Context::Entities;
+        let entities_before = old.iter().filter(|item| item.is_entity() && counted(item.context)).count();
+        let entities_after = read.iter().filter(|item| matches!(item.said, Said::Entity(_)) && counted(item.context)).count();
+        let unnamed = read.iter().any(|item| item.said.entity().is_some_and(|read| read.handle.is_none()));
+        if entities_before != entities_after && (unnamed || self.table.by_ordinal > 0) {
+            return None;
+        }
+        if old.iter().any(|item| item.named == Named::Anew) {
+            return None;
+        }
+        let mut ordinal = match unnamed {
+            true => self.table.items[..first].iter().filter(|item| item.is_entity() && counted(item.context)).count(),
+            false => 0,
+        };
+        let ids: Vec<EntityId> = old.iter().filter_map(Item::entity).collect();
+        let position: FxHashMap<&str, usize> =
+            ids.iter().enumerate().filter_map(|(at, &id)| Some((&*self.drawing.get(id)?.handle, at))).collect();
+        let (mut entities, mut handles, mut matched) = (Vec::new(), FxHashSet::default(), 0);
+        let mut last = None;
+        for item in read {
+            ordinal += usize::from(matches!(item.said, Said::Entity(_)) && counted(item.context));
+            let Some(entity) = item.said.entity() else { continue };
+            let handle: Arc<str> = entity.handle.as_ref().map_or_else(|| format!("#{ordinal}").into(), |(handle, _)| handle.clone());
+            let at = position.get(&*handle).copied();
+            // Taken by an entity elsewhere, doubled here, or moved past another one.
+            let taken = at.is_none() && self.drawing.find(&handle).is_some();
+            if taken || !handles.insert(handle.clone()) || (at.is_some() && at < last) {
+                return None;
+            }
+            last = at.or(last);
+            matched += usize::from(at.is_some());
+            entities.push((handle, at.and_then(|at| ids.get(at).copied())));
+        }
+        let (gone, come) = (ids.len() - matched, entities.len() - matched);
+        // An entity that was named anew may get its own handle back, or another one lose it.
+        if gone + come > FEW || (self.table.named_anew > 0 && gone + come > 0) {
+            return None;
+        }
+        Some(Plan { entities, gone: gone > 0, come: come > 0 })
+    }
+
+    /// Puts the findings of the items read in the place of those of the items before.
+    fn replace_findings(&mut self, first: usize, old_end: Option<usize>, bytes: i64, mut fresh: Vec<Finding>) {
+        let start = self.text.line_start(self.table.lines.get(first).map_or(0, |&line| line as usize));
+        let of_document = self.findings.iter().take_while(|finding| finding.place == Place::Document).count();
+        let from = self.findings.partition_point(|finding| range_key(finding).0 < start).max(of_document);
+        let to = old_end.map_or(self.findings.len(), |end| self.findings.partition_point(|finding| range_key(finding).0 < end)).max(from);
+        for finding in &mut self.findings[to..] {
+            shift_place(finding, bytes);
+        }
+        fresh.sort_by_key(range_key);
+        self.findings.splice(from..to, fresh);
+    }
+
+    fn replace_items(&mut self, old: Range<usize>, read: Vec<ReadItem>, plan: Plan, lines: i64) -> Delta {
+        let drawing = Arc::make_mut(&mut self.drawing);
+        let table = &mut self.table;
+        let mut delta = Delta::default();
+        if plan.gone {
+            let kept: FxHashSet<EntityId> = plan.entities.iter().filter_map(|&(_, id)| id).collect();
+            let gone: Vec<EntityId> = table.items[old.clone()].iter().filter_map(Item::entity).filter(|id| !kept.contains(id)).collect();
+            for entity in gone {
+                drawing.remove(entity);
+                table.vertices.remove(&entity);
+                table.set_item_of(entity, NO_ITEM);
+                delta.touched.push(Touched::Removed { entity });
+            }
+        }
+        table.by_ordinal -=
+            table.items[old.clone()].iter().filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal).count();
+        let mut position = if plan.come { table.items[..old.start].iter().filter_map(Item::entity).count() } else { 0 };
+        let mut planned = plan.entities.into_iter();
+        let (mut starts, mut items) = (Vec::with_capacity(read.len()), Vec::with_capacity(read.len()));
+        for ReadItem { line, context, said, .. } in read {
+            let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
+            match said {
+                Said::Entity(Outcome::Entity(read)) => {
+                    let Some((handle, id)) = planned.next() else { continue };
+                    item.named = if read.handle.is_some() { Named::ByText } else { Named::ByOrdinal };
+                    table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
+                    let Read { layer, kind, geometry, vertices, .. } = read;
+                    let entity = Entity { handle, layer, role: None, kind, geometry };
+                    let id = put(drawing, id, position, entity, &mut delta);
+                    position += 1;
+                    item.became = Became::Entity(id);
+                    table.set_item_of(id, (old.start + items.len()) as u32);
+                    match vertices {
+                        Some(vertices) => table.vertices.insert(id, vertices),
+                        None => table.vertices.remove(&id),
+                    };
+                }
+                Said::Entity(Outcome::Damaged) => item.became = Became::Damaged,
+                Said::Entity(Outcome::Unsupported(kind, why)) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
+                other => item.became = other.structure().unwrap_or(Became::Nothing),
+            }
+            starts.push(line as u32);
+            items.push(item);
+        }
+        let grown = items.len() != old.len();
+        let end = old.start + items.len();
+        table.lines.splice(old.clone(), starts);
+        table.items.splice(old, items);
+        shift(&mut table.lines[end..], lines);
+        if grown {
+            for index in end..table.items.len() {
+                if let Became::Entity(entity) = table.items[index].became {
+                    table.set_item_of(entity, index as u32);
+                }
+            }
+        }
+        delta
+    }
+}
+
+/// The entities read, by handle, with the id of the same entity before.
+struct Plan {
+    entities: Vec<(Arc<str>, Option<EntityId>)>,
+    gone: bool,
+    come: bool,
+}
+
+/// Puts an entity into the drawing: in the place of what it was before, or at `position` of the machining order.
+fn put(drawing: &mut Drawing, id: Option<EntityId>, position: usize, entity: Entity, delta: &mut Delta) -> EntityId {
+    let Some(id) = id else {
+        let entity = drawing.insert_at(position, entity);
+        delta.touched.push(Touched::Entity { entity });
+        return entity;
+    };
+    if drawing.get(id) != Some(&entity) {
+        drawing.replace(id, entity);
+        delta.touched.push(Touched::Entity { entity: id });
+    }
+    id
+}
+
+/// A vertex of a LWPOLYLINE that holds nothing but its own, sound tags.
+fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<Vertex> {
+    if !range.len().is_multiple_of(2) || range.end > lines.count() {
+        return None;
+    }
+    let mut vertex = Vertex::new(0.0, 0.0, 0.0);
+    let mut has_y = false;
+    for line in range.clone().step_by(2) {
+        let Code::Known(code) = number::code(lines.content(line)) else { return None };
+        if (code == 10) != (line == range.start) || !matches!(code, 10 | 20 | 40 | 41 | 42 | 91) {
+            return None;
+        }
+        if !matches!(code, 10 | 20 | 42) {
+            continue;
+        }
+        let Number::Exact(value) = number::number(lines.content(line + 1)) else { return None };
+        match code {
+            10 => vertex.point.x = value,
+            20 => vertex.point.y = value,
+            _ => vertex.bulge = value,
+        }
+        has_y |= code == 20;
+    }
+    has_y.then_some(vertex)
+}
+
+fn shift(lines: &mut [u32], by: i64) {
+    if by != 0 {
+        for line in lines {
+            *line = line.wrapping_add(by as u32);
+        }
+    }
+}
+
+fn shift_place(finding: &mut Finding, bytes: i64) {
+    if let Place::Text { range } = &mut finding.place {
+        range.start = (range.start as i64 + bytes) as usize;
+        range.end = (range.end as i64 + bytes) as usize;
     }
 }

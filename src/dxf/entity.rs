@@ -319,7 +319,8 @@ fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<F
         return Outcome::Unsupported("LINE".into(), PAPER_SPACE);
     }
     if numbers.values[4].unwrap_or(0.0) != numbers.values[5].unwrap_or(0.0) {
-        return Outcome::Unsupported("LINE".into(), NOT_PLANE);
+        let sentence = "the ends of this LINE differ in z: it is read as it looks from above".to_owned();
+        oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
     }
     let geometry = Geometry::Line { start: Point::new(x, y), end: Point::new(end_x, end_y) };
     common.finish(lexer, layers, "LINE", geometry, None, findings)
@@ -349,7 +350,7 @@ fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Fi
         Plane::Normal => Geometry::Arc { center: Point::new(x, y), radius, start_angle: from, end_angle: to },
         Plane::Mirrored => {
             let (start_angle, end_angle) = mirrored_angles(from, to);
-            Geometry::Arc { center: Point::new(-x, y), radius, start_angle, end_angle }
+            Geometry::Arc { center: Point::new(0.0 - x, y), radius, start_angle, end_angle }
         }
     };
     common.finish(lexer, layers, "ARC", geometry, None, findings)
@@ -370,7 +371,7 @@ fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec
         _ if common.paper_space => return Outcome::Unsupported("CIRCLE".into(), PAPER_SPACE),
         Plane::Tilted => return Outcome::Unsupported("CIRCLE".into(), TILTED),
         Plane::Normal => x,
-        Plane::Mirrored => -x,
+        Plane::Mirrored => 0.0 - x,
     };
     common.finish(lexer, layers, "CIRCLE", Geometry::Circle { center: Point::new(x, y), radius }, None, findings)
 }
@@ -388,7 +389,7 @@ fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, 
         _ if common.paper_space => return Outcome::Unsupported(kind.into(), PAPER_SPACE),
         Plane::Tilted => return Outcome::Unsupported(kind.into(), TILTED),
         // The place of an MTEXT is in world coordinates.
-        Plane::Mirrored if kind == "TEXT" => -x,
+        Plane::Mirrored if kind == "TEXT" => 0.0 - x,
         _ => x,
     };
     let geometry = Geometry::Text { at: Point::new(x, y), text: String::from_utf8_lossy(&content).trim().to_owned() };
@@ -516,8 +517,8 @@ fn polyline_of(
 
 /// A vertex once x runs the other way. Its own inverse.
 pub(super) fn mirror(vertex: &mut Vertex) {
-    vertex.point.x = -vertex.point.x;
-    vertex.bulge = -vertex.bulge;
+    vertex.point.x = 0.0 - vertex.point.x;
+    vertex.bulge = 0.0 - vertex.bulge;
 }
 
 /// POLYLINE with its VERTEX records, up to and with SEQEND.

@@ -109,12 +109,7 @@ impl<'a> Lexer<'a> {
             return false;
         }
         self.out_of_step = true;
-        let found = quoted(self.lines.trimmed(line));
-        damage(
-            findings,
-            self.lines.range(line),
-            format!("{found} stands where the value of group code {} is expected: a line is missing or one too many", tag.code),
-        );
+        self.lost_value(tag.line, findings);
         self.at = line;
         self.consumed = line;
         true
@@ -140,6 +135,11 @@ impl<'a> Lexer<'a> {
         } else {
             line - 1
         };
+        self.at = next;
+        self.consumed = self.consumed.max(line.min(next));
+        if next < line {
+            return self.lost_value(line - 2, findings);
+        }
         let found = quoted(self.lines.trimmed(line));
         let sentence = if next == line + 2 && number::code(self.lines.content(line)) == Code::Known(0) {
             format!("group code 0 is followed by {}, expected the name of a record", quoted(self.lines.trimmed(line + 1)))
@@ -154,8 +154,14 @@ impl<'a> Lexer<'a> {
         let start = self.lines.range(line).start;
         let whole = if next > line + 2 { start..end.max(start) } else { self.lines.range(line) };
         damage(findings, whole, sentence);
-        self.at = next;
-        self.consumed = self.consumed.max(line.min(next));
+    }
+
+    /// The line behind the code line is not its value but the next code. The place is the code line: what follows may
+    /// be another record.
+    fn lost_value(&self, code_line: usize, findings: &mut Vec<Finding>) {
+        let code = quoted(self.lines.trimmed(code_line));
+        let sentence = format!("group code {code} is not followed by its value: a line is missing or one too many");
+        damage(findings, self.lines.range(code_line), sentence);
     }
 
     fn end_of_garbage(&self, from: usize) -> usize {
@@ -182,7 +188,7 @@ impl<'a> Lexer<'a> {
             }
             at += 2;
         }
-        if seen == 0 { FULL } else { good * FULL / seen }
+        (good * FULL).checked_div(seen).unwrap_or(FULL)
     }
 }
 

@@ -30,6 +30,10 @@ impl<'a> Lines<'a> {
         self.count == self.starts.len()
     }
 
+    pub(super) fn has_byte_order_mark(&self) -> bool {
+        self.bytes.starts_with(BYTE_ORDER_MARK)
+    }
+
     pub(super) fn range(&self, line: usize) -> Range<usize> {
         let Some(&start) = self.starts.get(line) else { return self.bytes.len()..self.bytes.len() };
         let mut start = start as usize;

@@ -38,8 +38,8 @@ pub struct Document {
     text: SourceText,
     drawing: Arc<Drawing>,
     findings: Vec<Finding>,
-    table: Table,
-    layers: Layers,
+    table: Box<Table>,
+    layers: Box<Layers>,
 }
 
 impl Document {
@@ -71,7 +71,7 @@ impl Document {
     /// Reads the whole text.
     fn read_all(&mut self) {
         self.findings.clear();
-        self.table = Table::default();
+        *self.table = Table::default();
         if let Some(sentence) = foreign::recognise(self.text.bytes()) {
             return self.is_no_dxf(sentence);
         }
@@ -79,7 +79,7 @@ impl Document {
             return self.is_no_dxf("the text is empty, expected DXF");
         }
         let mut drawing = Drawing::default();
-        let (mut unit, mut sections, mut ordinal) = (None, 0, 0);
+        let (mut unit, mut ordinal) = (None, 0);
         let lines = Lines::new(&self.text);
         let mut lexer = Lexer::new(lines, 0);
         let mut context = Context::Outside;
@@ -92,17 +92,14 @@ impl Document {
             let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
             match said {
                 Said::Nothing => {}
-                Said::EntitiesBegin => {
-                    item.became = Became::Structure;
-                    sections += 1;
-                    if sections > 1 {
+                Said::Structure { entities, unit: stated } => {
+                    item.became = Became::Structure { entities, unit: stated };
+                    unit = stated.or(unit);
+                    self.table.sections += usize::from(entities);
+                    if entities && self.table.sections > 1 {
                         let sentence = "a second section ENTITIES begins here; both are read".to_owned();
                         fault::oddity(&mut self.findings, lines.trimmed_range(line + 1), sentence);
                     }
-                }
-                Said::Structure(stated) => {
-                    item.became = Became::Structure;
-                    unit = stated.or(unit);
                 }
                 Said::Entity(outcome) => {
                     ordinal += usize::from(context == Context::Entities);
@@ -138,14 +135,6 @@ impl Document {
         }
         if !any_record {
             return self.is_no_dxf("the text has no DXF records: expected lines of group codes and values, as 0 and SECTION");
-        }
-        if self.text.bytes().starts_with(lines::BYTE_ORDER_MARK) {
-            fault::push(
-                &mut self.findings,
-                0..lines::BYTE_ORDER_MARK.len(),
-                Severity::Hint,
-                "the text begins with a byte-order mark".into(),
-            );
         }
         drawing.unit = unit.and_then(unit_of);
         if let Some(sentence) = about_unit(unit) {
@@ -187,7 +176,7 @@ impl Document {
 
     /// Makes the document one without a drawing and with one finding.
     fn is_no_dxf(&mut self, sentence: &str) {
-        self.table = Table::default();
+        *self.table = Table::default();
         self.drawing = Arc::default();
         self.findings.clear();
         let line = self.text.line_range(0);

@@ -144,9 +144,10 @@ fn decimal(text: &[u8]) -> Option<f64> {
     if digits <= 19 && mantissa <= 1 << 53 && scale.unsigned_abs() <= 22 {
         let power = POWERS[scale.unsigned_abs() as usize];
         let value = if scale < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
-        return Some(if negative { -value } else { value });
+        // A zero has no sign here.
+        return Some(if negative { 0.0 - value } else { value });
     }
-    std::str::from_utf8(text).ok()?.parse::<f64>().ok().filter(|value| value.is_finite())
+    std::str::from_utf8(text).ok()?.parse::<f64>().ok().filter(|value| value.is_finite()).map(|value| value + 0.0)
 }
 
 /// A number as DXF text: no exponent, at most `decimals` decimals and at least one.

@@ -1,23 +1,41 @@
 //! One item after another: sections, the entities of the modelspace, everything else passed over.
 
 use super::entity::{self, OUTSIDE, Outcome};
-use super::fault::{damage, oddity, quoted};
+use super::fault::{self, damage, oddity, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
+use super::lines::BYTE_ORDER_MARK;
 use super::number::{self, Number};
-use super::table::Context;
-use crate::finding::Finding;
+use super::table::{Became, Context};
+use crate::finding::{Finding, Severity};
 
 /// What one item of the text says.
 #[derive(Debug)]
 pub(super) enum Said {
     /// Kept, without a meaning here.
     Nothing,
-    /// The section ENTITIES begins.
-    EntitiesBegin,
-    /// Another record that changes the section; a HEADER says the unit (`$INSUNITS`).
-    Structure(Option<i64>),
+    /// Another section: whether ENTITIES begins, and the unit that a HEADER states (`$INSUNITS`).
+    Structure {
+        entities: bool,
+        unit: Option<i64>,
+    },
     Entity(Outcome),
+}
+
+impl Said {
+    pub(super) fn structure(&self) -> Option<Became> {
+        match *self {
+            Said::Structure { entities, unit } => Some(Became::Structure { entities, unit }),
+            _ => None,
+        }
+    }
+
+    pub(super) fn entity(&self) -> Option<&entity::Read> {
+        match self {
+            Said::Entity(Outcome::Entity(read)) => Some(read),
+            _ => None,
+        }
+    }
 }
 
 pub(super) struct ReadItem {
@@ -36,6 +54,9 @@ pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers
     }
     lexer.begin_item(line);
     let already = findings.len();
+    if line == 0 && lexer.lines.has_byte_order_mark() {
+        fault::push(findings, 0..BYTE_ORDER_MARK.len(), Severity::Hint, "the text begins with a byte-order mark".into());
+    }
     let item = |said, after| ReadItem { line, context, said, after };
     let Some(start) = lexer.peek_record() else {
         // Only at the beginning of the text, before its first record.
@@ -46,10 +67,6 @@ pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers
     lexer.next(findings);
     let name = lexer.lines.trimmed(start.value_line());
     let mut read = match (context, name) {
-        (Context::AfterEnd, _) => {
-            entity::pass_over(lexer, findings);
-            item(Said::Nothing, context)
-        }
         (_, b"SECTION") => {
             if context != Context::Outside {
                 oddity(findings, lexer.lines.trimmed_range(start.value_line()), "SECTION begins before ENDSEC of the one before".into());
@@ -59,14 +76,14 @@ pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers
         }
         (_, b"ENDSEC") => {
             entity::pass_over(lexer, findings);
-            item(Said::Structure(None), Context::Outside)
+            item(Said::Structure { entities: false, unit: None }, Context::Outside)
         }
         (_, b"EOF") => {
             if context != Context::Outside {
                 oddity(findings, lexer.lines.trimmed_range(start.value_line()), "EOF stands before ENDSEC of the last section".into());
             }
-            entity::pass_over(lexer, findings);
-            item(Said::Structure(None), Context::AfterEnd)
+            pass_over_what_follows(lexer, findings);
+            item(Said::Structure { entities: false, unit: None }, Context::Outside)
         }
         (Context::Entities, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
             let sentence = format!("{} does not follow an entity that it is a part of", String::from_utf8_lossy(name));
@@ -90,6 +107,15 @@ pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers
         read.said = Said::Entity(Outcome::Damaged);
     }
     Some(read)
+}
+
+/// Behind EOF nothing is read; what is there is named, but for the end mark of old systems (^Z).
+fn pass_over_what_follows(lexer: &mut Lexer, findings: &mut Vec<Finding>) {
+    let blank = |line: &usize| lexer.lines.content(*line).iter().all(|byte| byte.is_ascii_whitespace() || *byte == 0x1a);
+    if let Some(line) = (lexer.at()..lexer.lines.count()).find(|line| !blank(line)) {
+        oddity(findings, lexer.lines.trimmed_range(line), "what stands behind EOF is not read".into());
+    }
+    lexer.begin_item(lexer.lines.count());
 }
 
 /// Where a finding of the text stands: the order of findings.
@@ -154,14 +180,14 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
         }
     }
     match name {
-        Some(b"ENTITIES") => (Said::EntitiesBegin, Context::Entities),
-        Some(_) => (Said::Structure(unit), Context::Other),
+        Some(b"ENTITIES") => (Said::Structure { entities: true, unit: None }, Context::Entities),
+        Some(_) => (Said::Structure { entities: false, unit }, Context::Other),
         None => {
             let sentence = "SECTION lacks group code 2 (its name)".to_owned();
             if !lexer.out_of_step {
                 damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
             }
-            (Said::Structure(None), Context::Other)
+            (Said::Structure { entities: false, unit: None }, Context::Other)
         }
     }
 }

@@ -11,15 +11,18 @@ pub(super) enum Context {
     Entities,
     /// Any section but ENTITIES: kept, not drawn.
     Other,
-    AfterEnd,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Became {
     /// Text that is kept and says nothing about the drawing's modelspace.
     Nothing,
-    /// SECTION, ENDSEC or EOF: decides what the records after it are.
-    Structure,
+    /// SECTION, ENDSEC or EOF: decides what the records after it are. A HEADER says the unit (`$INSUNITS`).
+    Structure {
+        /// The section ENTITIES begins.
+        entities: bool,
+        unit: Option<i64>,
+    },
     Entity(EntityId),
     /// An entity that is not cut, by its index in [`Kinds`].
     Unsupported(u32),
@@ -46,6 +49,13 @@ pub(super) struct Item {
 }
 
 impl Item {
+    pub(super) fn entity(&self) -> Option<EntityId> {
+        match self.became {
+            Became::Entity(entity) => Some(entity),
+            _ => None,
+        }
+    }
+
     /// True for what counts as an entity of the file.
     pub(super) fn is_entity(&self) -> bool {
         matches!(self.became, Became::Entity(_) | Became::Unsupported(_) | Became::Damaged)
@@ -94,6 +104,8 @@ pub(super) struct Table {
     /// Entities that are named by their ordinal, and that were named anew.
     pub(super) by_ordinal: usize,
     pub(super) named_anew: usize,
+    /// Sections ENTITIES.
+    pub(super) sections: usize,
 }
 
 impl Table {

@@ -1,1 +1,109 @@
-//! The language server.
+//! The language server: LSP and the `wedm/` name space over standard input and output.
+//!
+//! The transport reads and writes, the state thread owns every document, workers do what takes long. Nothing is decided
+//! here that the core could decide.
+
+mod backend;
+mod client;
+mod config;
+mod convert;
+mod drawings;
+mod jobs;
+mod open;
+mod parent;
+mod requests;
+mod state;
+mod texts;
+mod transport;
+
+use serde_json::Value;
+use state::Mailbox;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+use transport::{Inbox, Prepared, Transport, Writer};
+
+/// How the server is run.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// End when the process that `initialize` names has died. Off where its number means nothing, as in a container.
+    pub watch_parent: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { watch_parent: true }
+    }
+}
+
+/// Exit code after `shutdown`, and without it.
+const GOOD_END: u8 = 0;
+const BAD_END: u8 = 1;
+
+/// How long the end waits for answers, and for the client to read them; together below the second that the protocol grants.
+const LAST_ANSWERS: Duration = Duration::from_millis(400);
+const LAST_WRITES: Duration = Duration::from_millis(400);
+
+/// Serves the client on standard input and output until `exit` or the end of the input: 0 after `shutdown`, else 1.
+pub fn run_stdio(options: Options) -> ExitCode {
+    log_to_stderr();
+    match serve(options) {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => {
+            tracing::error!("the server cannot start: {error}");
+            ExitCode::from(BAD_END)
+        }
+    }
+}
+
+fn serve(options: Options) -> std::io::Result<u8> {
+    let (input, output) = transport::pipes()?;
+    let writer = Writer::start(output, || end_of_process(BAD_END))?;
+    let mailbox = state::start(writer.clone())?;
+    let prepared = Prepared::default();
+    let flags = Arc::new(backend::Flags::default());
+    let orphaned: Option<fn()> = options.watch_parent.then_some(|| end_of_process(BAD_END));
+    let service = backend::service(mailbox.clone(), prepared.clone(), flags.clone(), orphaned);
+    let inbox = ToState { mailbox: mailbox.clone(), flags: flags.clone() };
+    let mut transport = Transport::new(service, inbox, writer.clone(), prepared)?;
+    transport.serve(input);
+    transport.drain(LAST_ANSWERS);
+    let (done, all_told) = std::sync::mpsc::channel();
+    // The queue may be full and its thread busy: whoever waits for it must not be the one that ends the process.
+    std::thread::spawn(move || mailbox.tell("exit", None, move |state| state.stop(done)));
+    let _ = all_told.recv_timeout(LAST_ANSWERS / 4);
+    writer.drain(LAST_WRITES);
+    // Threads that still work are not waited for.
+    end_of_process(if flags.shut_down.load(Ordering::Acquire) { GOOD_END } else { BAD_END })
+}
+
+fn end_of_process(code: u8) -> ! {
+    std::process::exit(code.into())
+}
+
+/// The transport's way to the state thread.
+struct ToState {
+    mailbox: Mailbox,
+    flags: Arc<backend::Flags>,
+}
+
+impl Inbox for ToState {
+    fn reply(&self, id: String, result: Result<Value, Value>) {
+        self.mailbox.tell("reply", None, move |state| client::answered(state, &id, result));
+    }
+
+    fn note(&self, text: String) {
+        self.mailbox.tell("note", None, move |state| state.client.log(client::Weight::Warning, text));
+    }
+
+    fn taken(&self) -> usize {
+        self.flags.taken.load(Ordering::Relaxed)
+    }
+}
+
+/// Logs to stderr by `WEDM_LOG`, warnings and worse by default. Standard output belongs to the protocol.
+fn log_to_stderr() {
+    let filter = tracing_subscriber::EnvFilter::try_from_env("WEDM_LOG").unwrap_or_else(|_| "warn".into());
+    let _ = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).with_ansi(false).try_init();
+}

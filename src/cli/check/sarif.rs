@@ -7,11 +7,8 @@ use crate::finding::{Rule, Severity};
 use serde_json::{Value, json};
 
 pub(super) fn render(survey: &Survey) -> String {
-    let notifications: Vec<Value> = survey
-        .failures
-        .iter()
-        .map(|Failure(sentence)| json!({ "level": "error", "message": { "text": sentence } }))
-        .collect();
+    let notifications: Vec<Value> =
+        survey.failures.iter().map(|Failure(sentence)| json!({ "level": "error", "message": { "text": sentence } })).collect();
     let log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",

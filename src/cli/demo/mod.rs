@@ -43,7 +43,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let correction = arguments.common.correction.unwrap_or(crate::settings::Effective::CORRECTION);
     if !CORRECTIONS.contains(&correction) {
         let (least, most) = (CORRECTIONS.start(), CORRECTIONS.end());
-        return Err(Failure(format!("the plate of the demonstration is made for corrections from {least} to {most} mm, found {correction}")));
+        return Err(Failure(format!(
+            "the plate of the demonstration is made for corrections from {least} to {most} mm, found {correction}"
+        )));
     }
     if arguments.common.side.is_some() || arguments.common.config.is_some() {
         return Err(Failure("the demonstration brings its own settings, expected --correction alone".into()));

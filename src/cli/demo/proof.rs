@@ -42,11 +42,8 @@ pub fn of(faulty: &str, fixed: &str, program: &str, path: &Value, correction: f6
     let motions = decoded(program, Point::from(first.thread_hole))?;
     let pieces: Vec<(PathSource, Segment)> =
         path.paths.iter().flat_map(|path| &path.segments).filter_map(|piece| Some((piece.source, geometry(piece)?))).collect();
-    let contours: Vec<Segment> = snapshot
-        .outlines
-        .iter()
-        .flat_map(|outline| outline.contour.segments(&snapshot.drawing).map(|segment| segment.geometry))
-        .collect();
+    let contours: Vec<Segment> =
+        snapshot.outlines.iter().flat_map(|outline| outline.contour.segments(&snapshot.drawing).map(|segment| segment.geometry)).collect();
     let mut proof = measured(&motions, &pieces, &contours);
     let arcs = motions.iter().filter(|motion| motion.segment.as_arc().is_some()).count();
     let (start, end) = (motions.first().map(|motion| motion.segment.start()), motions.last().map(|motion| motion.segment.end()));
@@ -94,7 +91,8 @@ fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
             Item::Word { word: Word::End, .. } => ended = true,
             Item::StartPoint { .. } => {}
             Item::Block { block, .. } => {
-                let segment = three_b::decode(&block, at).map_err(|fault| Failure(format!("block {} leads nowhere: {fault:?}", motions.len() + 1)))?;
+                let segment = three_b::decode(&block, at)
+                    .map_err(|fault| Failure(format!("block {} leads nowhere: {fault:?}", motions.len() + 1)))?;
                 at = segment.end();
                 motions.push(Motion { segment: in_mm(&segment), jump });
             }
@@ -123,8 +121,14 @@ fn geometry(piece: &PathPiece) -> Option<Segment> {
 
 /// Holds each block against the path, and where it cuts along a contour against the contours.
 fn measured(motions: &[Motion], pieces: &[(PathSource, Segment)], contours: &[Segment]) -> Proof {
-    let mut proof =
-        Proof { blocks: motions.len(), from_path_um: 0.0, open_um: 0.0, least_distance: f64::INFINITY, largest_distance: 0.0, picture: String::new() };
+    let mut proof = Proof {
+        blocks: motions.len(),
+        from_path_um: 0.0,
+        open_um: 0.0,
+        least_distance: f64::INFINITY,
+        largest_distance: 0.0,
+        picture: String::new(),
+    };
     for motion in motions.iter().filter(|motion| !motion.jump) {
         for sample in 0..=SAMPLES {
             let point = motion.segment.point_at(f64::from(sample) / f64::from(SAMPLES));

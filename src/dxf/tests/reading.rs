@@ -79,7 +79,7 @@ fn each_kind_of_entity() {
         ("0 CIRCLE 5 B 10 1 20 2 40 3 230 -1", "CIRCLE B on 0: -1 2 R3"),
         ("0 TEXT 5 B 10 1 20 2 40 3 1 O", "TEXT B on 0: 1 2 O"),
         ("0 LWPOLYLINE 5 B 90 2 70 1 43 0 10 1 20 2 42 0.5 10 3 20 4", "LWPOLYLINE B on 0: 1 2 0.5, 3 4 0 closed"),
-        ("0 LWPOLYLINE 5 B 90 2 10 1 20 2 42 0.5 10 3 20 4 230 -1.0 1001 X 1010 7 1020 8", "LWPOLYLINE B on 0: -1 2 -0.5, -3 4 -0"),
+        ("0 LWPOLYLINE 5 B 90 2 10 1 20 2 42 0.5 10 3 20 4 230 -1.0 1001 X 1010 7 1020 8", "LWPOLYLINE B on 0: -1 2 -0.5, -3 4 0"),
         (
             "0 POLYLINE 5 B 66 1 10 0 20 0 30 0 70 1 0 VERTEX 5 C 10 1 20 2 42 1 0 VERTEX 10 3 20 4 0 SEQEND 5 D",
             "POLYLINE B on 0: 1 2 1, 3 4 0 closed",

@@ -1,0 +1,124 @@
+//! After any edits a document equals a fresh reading of its text; a drawing's edit does in the text what it does in the drawing.
+
+use super::reading::dxf;
+use crate::drawing::{EntityId, Touched};
+use crate::dxf::Document;
+use crate::finding::Place;
+use proptest::prelude::*;
+
+/// Everything that can be asked of a document, entity ids replaced by the place in the machining order.
+fn all_of(document: &Document) -> String {
+    let drawing = document.drawing();
+    let mut all = format!("{:?}\n", drawing.unit);
+    for (order, (id, entity)) in drawing.entities().enumerate() {
+        all += &format!("{order} {entity:?} at {:?}\n", document.range_of(&Place::Entity { entity: id }));
+        for segment in 0..entity.geometry.segment_count() {
+            let range = document.range_of(&Place::Segment { entity: id, segment });
+            let order_of = |id: EntityId| drawing.order().iter().position(|&other| other == id);
+            let at: Vec<_> = document.segments_at(range.clone()).into_iter().map(|(id, segment)| (order_of(id), segment)).collect();
+            all += &format!("  {segment} at {range:?}: {at:?}\n");
+        }
+    }
+    for finding in document.findings() {
+        all += &format!("{finding:?}\n");
+    }
+    all
+}
+
+/// Makes one edit and holds the document against a fresh one; says what the edit touched.
+fn edit(document: &mut Document, range: std::ops::Range<usize>, replacement: &str) -> Vec<Touched> {
+    let before = document.drawing().clone();
+    let text_before = document.text().as_str_lossy().into_owned();
+    let delta = document.edit(range.clone(), replacement);
+    let fresh = Document::read(document.text().bytes().to_vec());
+    let (edited, fresh) = (all_of(document), all_of(&fresh));
+    let only_in =
+        |one: &str, other: &str| one.lines().filter(|line| !other.contains(*line)).map(|line| format!("{line}\n")).collect::<String>();
+    assert!(
+        edited == fresh,
+        "after {range:?} of {text_before:?} became {replacement:?}, {delta:?}\nedited:\n{}fresh:\n{}",
+        only_in(&edited, &fresh),
+        only_in(&fresh, &edited)
+    );
+    if !delta.touched.contains(&Touched::All) {
+        let touched = |id: EntityId| {
+            delta.touched.iter().any(|touched| match *touched {
+                Touched::Vertices { entity, .. } | Touched::Entity { entity } | Touched::Removed { entity } => entity == id,
+                Touched::All => true,
+            })
+        };
+        for (id, entity) in before.entities() {
+            assert!(touched(id) || document.drawing().get(id) == Some(entity), "{id:?} changed in silence");
+        }
+        for (id, _) in document.drawing().entities() {
+            assert!(touched(id) || before.get(id).is_some(), "{id:?} came in silence");
+        }
+    }
+    delta.touched
+}
+
+const DRAWINGS: [&str; 4] = [
+    "0 LINE 5 A1 8 DIE 10 1 20 2 11 3 21 4 0 ARC 5 A2 8 DIE 10 1 20 2 40 3 50 30 51 90 0 HATCH 5 A3 8 X 10 1 20 1 \
+     0 LWPOLYLINE 5 A4 8 P 90 4 70 1 10 0 20 0 10 10 20 0 42 0.5 10 10 20 10 40 0 41 0 10 0 20 10 42 -0.25 210 0 220 0 230 -1 \
+     0 CIRCLE 5 A5 10 0 20 0 40 5 0 INSERT 5 A6 2 B 66 1 0 ATTRIB 5 A7 1 X 0 SEQEND 0 TEXT 5 A8 10 1 20 1 1 O",
+    "0 LINE 10 1 20 2 11 3 21 4 0 POLYLINE 66 1 70 1 0 VERTEX 10 0 20 0 0 VERTEX 10 1 20 0 42 1 0 VERTEX 10 1 20 5 0 SEQEND \
+     0 LINE 10 1 20 2 11 3 21 4 0 SPLINE 10 1 20 1 0 LINE 10 5 20 5 11 6 21 6",
+    "0 LINE 5 A 10 1 20 2 11 3 21 4 0 LINE 5 A 10 1 20 2 11 3 21 4 0 LWPOLYLINE 5 A 90 2 10 1 20 2 10 3 20 4 0 CIRCLE 5 B 10 0 20 0 40 1 \
+     0 LINE 5 C 10 1,5 20 2 11 3 21 4 0 LINE 5 D 10 1 20 11 3 21 4 8 X 6 Y 0 ARC 5 E 10 1 20 1 40 -1 50 0 51 90",
+    "0 LWPOLYLINE 5 A 8 Q 90 9 10 0.5 20 1 10 1.5 20 2 42 1 10 2.5 20 3 10 3.5 20 4 10 4.5 20 5 42 -1 10 5.5 20 6 10 6.5 20 7 10 7.5 20 8 10 8.5 20 9 \
+     0 LINE 5 B 10 1 20 2 11 3 21 4",
+];
+
+/// An edit as shares of the text, so that it fits every text.
+fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
+    let replacement = prop_oneof![
+        4 => "[0-9.\\-]{0,2}",
+        2 => "[\r\n 0-9A,]{0,3}",
+        2 => prop::sample::select(vec![
+            "\n0\nLINE\n5\nF1\n10\n7\n20\n7\n11\n8\n21\n8\n", "\n0\nENDSEC\n", "\n0\nSECTION\n2\nENTITIES\n", "\n0\nEOF\n", "\n10\n5\n20\n5\n",
+            "\n42\n0.1\n", "\n999\nx\n", "\nx\ny\n", "\n99999\nz\n", "\n0\nPOLYLINE\n", "\n0\nVERTEX\n10\n1\n20\n1\n", "\n5\nA2\n", "\n102\n{X\n",
+            "\n1001\nX\n", "\r", "\r\n", "\n", "\u{feff}", "\n70\n5\n", "0\nHATCH\n", "nan", "1D2",
+        ]).prop_map(str::to_owned),
+    ];
+    (0.0..1.0f64, prop_oneof![3 => Just(0usize), 3 => 1usize..3, 1 => 3usize..40], replacement)
+}
+
+proptest! {
+    #[test]
+    fn after_any_edits_a_document_is_as_if_read_afresh(
+        drawing in 0..DRAWINGS.len(),
+        line_end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
+        edits in prop::collection::vec(any_edit(), 1..12),
+    ) {
+        let text = dxf(DRAWINGS[drawing]).replace('\n', line_end);
+        let mut document = Document::read(text.into_bytes());
+        for (share, length, replacement) in edits {
+            let start = (share * document.text().len() as f64) as usize;
+            edit(&mut document, start..start + length, &replacement);
+        }
+    }
+}
+
+/// Replaces the first `what` behind the first `after`.
+fn replace(document: &mut Document, after: &str, what: &str, by: &str) -> Vec<Touched> {
+    let text = document.text().as_str_lossy().into_owned();
+    let start = text.find(after).unwrap() + after.len();
+    let start = start + text[start..].find(what).unwrap();
+    edit(document, start..start + what.len(), by)
+}
+
+#[test]
+fn an_edit_touches_no_more_than_it_must() {
+    let mut document = Document::read(dxf(DRAWINGS[0]).into_bytes());
+    let [line, arc, polyline] = ["A1", "A2", "A4"].map(|handle| document.drawing().find(handle).unwrap());
+    let vertex = |start| Touched::Vertices { entity: polyline, start, removed: 1, inserted: 1 };
+    assert_eq!(replace(&mut document, "A1\n", "10\n1", "10\n1.5"), [Touched::Entity { entity: line }]);
+    assert_eq!(replace(&mut document, "A2\n", "40\n3", "40\n4"), [Touched::Entity { entity: arc }]);
+    assert_eq!(replace(&mut document, "A4\n", "0.5", "0.75"), [vertex(1)]);
+    assert_eq!(replace(&mut document, "A4\n", "20\n10\n40", "20\n11\n42\n1\n40"), [vertex(2)]);
+    assert_eq!(replace(&mut document, "A4\n", "42\n1\n", ""), [vertex(2)]);
+    assert_eq!(replace(&mut document, "A3\n", "10\n1", "10\n2"), []);
+    assert_eq!(replace(&mut document, "A2\n", "40\n4", "40\n"), [Touched::Removed { entity: arc }]);
+    let arc = EntityId(document.drawing().id_bound() as u32);
+    assert_eq!(replace(&mut document, "A2\n", "40\n", "40\n4"), [Touched::Entity { entity: arc }]);
+}

@@ -1,0 +1,374 @@
+//! The framework's face: every handler hands its message to the state thread before its first wait, and does nothing else.
+
+use super::client::{Abilities, Weight};
+use super::config::{Level, path_of};
+use super::drawings::{self, Sent, SentChanges};
+use super::jobs::Cancel;
+use super::requests::code_action::FIX_ALL;
+use super::requests::{Errand, code_action, contours, drawing_edit, generate, inspect, internal, picture, probe, toolpath};
+use super::state::{Mailbox, Reply, State};
+use super::transport::Prepared;
+use super::{parent, texts};
+use crate::protocol::{self, method};
+use crate::text::Encoding;
+use ls_types::*;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use tower_lsp::jsonrpc::{Error, Result};
+use tower_lsp::{LanguageServer, LspService};
+
+/// What the handlers share with the transport.
+#[derive(Default)]
+pub(super) struct Flags {
+    /// `shutdown` was answered: the end is a good one.
+    pub shut_down: AtomicBool,
+    /// Notifications that reached their handler.
+    pub taken: AtomicUsize,
+}
+
+pub(super) struct Backend {
+    mailbox: Mailbox,
+    prepared: Prepared,
+    flags: Arc<Flags>,
+    /// Called when the client's process has died; `None` where it is not watched.
+    orphaned: Option<fn()>,
+}
+
+/// The service with every method of the protocol.
+pub(super) fn service(mailbox: Mailbox, prepared: Prepared, flags: Arc<Flags>, orphaned: Option<fn()>) -> LspService<Backend> {
+    // The framework's own client waits for answers; ours does not.
+    let build = LspService::build(|_client| Backend { mailbox, prepared, flags, orphaned });
+    let (service, _socket) = build
+        .custom_method(method::DID_OPEN_DRAWING, Backend::did_open_drawing)
+        .custom_method(method::DID_CHANGE_DRAWING, Backend::did_change_drawing)
+        .custom_method(method::DID_CLOSE_DRAWING, Backend::did_close_drawing)
+        .custom_method(method::INSPECT, Backend::inspect)
+        .custom_method(method::CONTOURS, Backend::contours)
+        .custom_method(method::TOOLPATH, Backend::toolpath)
+        .custom_method(method::PICTURE, Backend::picture)
+        .custom_method(method::GENERATE, Backend::generate)
+        .custom_method("wedm/test/panic", Backend::test_panic)
+        .custom_method("wedm/test/ask", Backend::test_ask)
+        .finish();
+    service
+}
+
+impl Backend {
+    fn tell(&self, name: &'static str, about: Option<Arc<str>>, act: impl FnOnce(&mut State) + Send + 'static) {
+        self.flags.taken.fetch_add(1, Ordering::Relaxed);
+        self.mailbox.tell(name, about, act);
+    }
+
+    /// Hands a request over and waits for its answer.
+    async fn ask<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        about: Option<Arc<str>>,
+        act: impl FnOnce(&mut State, Reply<T>) + Send + 'static,
+    ) -> Result<T> {
+        let (reply, answer) = tokio::sync::oneshot::channel();
+        self.tell(name, about, move |state| act(state, reply));
+        answer.await.unwrap_or_else(|_| Err(internal(format!("internal error in {name}"))))
+    }
+
+    /// A request whose result is text already and which may take long.
+    async fn errand(
+        &self,
+        name: &'static str,
+        uri: &str,
+        token: Option<Value>,
+        act: impl FnOnce(&mut State, Errand) + Send + 'static,
+    ) -> Result<Value> {
+        let cancel = Cancel::default();
+        let _cancel_when_dropped = cancel.on_drop();
+        let result = self.ask(name, Some(uri.into()), move |state, reply| act(state, Errand { reply, cancel, token })).await?;
+        Ok(self.prepared.token(result))
+    }
+
+    fn log(&self, message: String) {
+        self.tell("log", None, move |state| state.client.log(Weight::Warning, message));
+    }
+
+    async fn did_open_drawing(&self, params: Value) {
+        match Sent::read(params) {
+            Ok(sent) => {
+                let about = sent.uri.clone();
+                self.tell(method::DID_OPEN_DRAWING, Some(about), move |state| drawings::open(state, sent));
+            }
+            Err(reason) => self.log(format!("{} was ignored: {reason}", method::DID_OPEN_DRAWING)),
+        }
+    }
+
+    async fn did_change_drawing(&self, params: Value) {
+        match SentChanges::read(params) {
+            Ok(sent) => {
+                let about = sent.uri.clone();
+                self.tell(method::DID_CHANGE_DRAWING, Some(about), move |state| drawings::change(state, sent));
+            }
+            Err(reason) => self.log(format!("{} was ignored: {reason}", method::DID_CHANGE_DRAWING)),
+        }
+    }
+
+    async fn did_close_drawing(&self, params: protocol::CloseDrawing) {
+        let uri: Arc<str> = params.drawing.uri.into();
+        self.tell(method::DID_CLOSE_DRAWING, Some(uri.clone()), move |state| drawings::close(state, &uri));
+    }
+
+    async fn inspect(&self, params: Value) -> Result<Value> {
+        let (params, token) = read::<protocol::Inspect>(params)?;
+        let uri = params.uri.clone();
+        self.errand(method::INSPECT, &uri, token, move |state, errand| inspect::inspect(state, params, errand)).await
+    }
+
+    async fn contours(&self, params: Value) -> Result<Value> {
+        let (params, token) = read::<protocol::DrawingName>(params)?;
+        let uri = params.uri.clone();
+        self.errand(method::CONTOURS, &uri, token, move |state, errand| contours::contours(state, params, errand)).await
+    }
+
+    async fn toolpath(&self, params: Value) -> Result<Value> {
+        let (params, token) = read::<WithOptions>(params)?;
+        let WithOptions { uri, options } = params;
+        let about = uri.clone();
+        self.errand(method::TOOLPATH, &about, token, move |state, errand| toolpath::toolpath(state, &uri, options.as_ref(), errand)).await
+    }
+
+    async fn picture(&self, params: Value) -> Result<Value> {
+        let (params, token) = read::<WithOptions>(params)?;
+        let WithOptions { uri, options } = params;
+        let about = uri.clone();
+        self.errand(method::PICTURE, &about, token, move |state, errand| picture::picture(state, &uri, options.as_ref(), errand)).await
+    }
+
+    async fn generate(&self, params: Value) -> Result<Value> {
+        let about = params.get("uri").and_then(Value::as_str).unwrap_or_default().to_owned();
+        let (params, token) = read::<generate::Params>(params)?;
+        self.errand(method::GENERATE, &about, token, move |state, errand| generate::generate(state, params, errand)).await
+    }
+
+    async fn test_panic(&self, params: probe::Panic) -> Result<Value> {
+        match params.site {
+            probe::Site::Handler => panic!("asked for by wedm/test/panic"),
+            probe::Site::State => {
+                let panic = |_: &mut State, _: Reply<Value>| probe::panic_on_state_thread();
+                self.ask("wedm/test/panic", Some(params.uri.into()), panic).await
+            }
+            probe::Site::Worker => self.errand("wedm/test/panic", &params.uri, None, probe::panic_on_worker).await,
+        }
+    }
+
+    async fn test_ask(&self, _: Value) -> Result<Value> {
+        self.ask("wedm/test/ask", None, probe::ask).await
+    }
+}
+
+#[derive(serde::Deserialize)]
+struct WithOptions {
+    uri: String,
+    options: Option<Value>,
+}
+
+/// Params and the token for progress beside them.
+fn read<P: DeserializeOwned>(mut params: Value) -> Result<(P, Option<Value>)> {
+    let token = params.get_mut("workDoneToken").map(Value::take).filter(|token| token.is_string() || token.is_number());
+    let params = serde_json::from_value(params).map_err(|error| Error::invalid_params(error.to_string()))?;
+    Ok((params, token))
+}
+
+fn shared(uri: &Uri) -> Arc<str> {
+    uri.as_str().into()
+}
+
+impl LanguageServer for Backend {
+    async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {
+        if let (Some(orphaned), Some(pid)) = (self.orphaned, params.process_id) {
+            parent::watch(pid, orphaned);
+        }
+        self.ask("initialize", None, move |state, reply| {
+            let _ = reply.send(Ok(initialize(state, params)));
+        })
+        .await
+    }
+
+    async fn initialized(&self, _: InitializedParams) {
+        self.tell("initialized", None, initialized);
+    }
+
+    async fn shutdown(&self) -> Result<()> {
+        self.flags.shut_down.store(true, Ordering::Release);
+        Ok(())
+    }
+
+    async fn did_open(&self, params: DidOpenTextDocumentParams) {
+        let TextDocumentItem { uri, language_id, version, text } = params.text_document;
+        let uri = shared(&uri);
+        self.tell("textDocument/didOpen", Some(uri.clone()), move |state| {
+            texts::open(state, uri, &language_id, version.into(), text);
+        });
+    }
+
+    async fn did_change(&self, params: DidChangeTextDocumentParams) {
+        let uri = shared(&params.text_document.uri);
+        let version = params.text_document.version.into();
+        self.tell("textDocument/didChange", Some(uri.clone()), move |state| {
+            texts::change(state, &uri, version, params.content_changes);
+        });
+    }
+
+    async fn did_save(&self, params: DidSaveTextDocumentParams) {
+        // A project's file may be new on disk, and not every client watches files.
+        if params.text_document.uri.as_str().ends_with(crate::settings::FILE_NAME) {
+            self.tell("textDocument/didSave", None, State::settings_changed);
+        }
+    }
+
+    async fn did_close(&self, params: DidCloseTextDocumentParams) {
+        let uri = shared(&params.text_document.uri);
+        self.tell("textDocument/didClose", Some(uri.clone()), move |state| texts::close(state, &uri));
+    }
+
+    async fn did_change_configuration(&self, params: DidChangeConfigurationParams) {
+        self.tell("workspace/didChangeConfiguration", None, move |state| {
+            if !params.settings.is_null() {
+                set_level(state, Level::Pushed, &params.settings);
+                state.settings_changed();
+            }
+            pull_configuration(state);
+        });
+    }
+
+    async fn did_change_watched_files(&self, _: DidChangeWatchedFilesParams) {
+        self.tell("workspace/didChangeWatchedFiles", None, State::settings_changed);
+    }
+
+    async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
+        self.tell("workspace/didChangeWorkspaceFolders", None, move |state| {
+            let paths = |folders: &[WorkspaceFolder]| folders.iter().filter_map(|folder| path_of(folder.uri.as_str())).collect::<Vec<_>>();
+            state.config.change_folders(&paths(&params.event.removed), paths(&params.event.added));
+            state.settings_changed();
+        });
+    }
+
+    async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
+        let about = shared(&params.text_document.uri);
+        self.ask("textDocument/codeAction", Some(about), move |state, reply| code_action::code_action(state, params, reply)).await
+    }
+
+    async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
+        self.ask("workspace/executeCommand", None, move |state, reply| {
+            drawing_edit::execute(state, &params.command, params.arguments, reply);
+        })
+        .await
+    }
+}
+
+fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
+    let capabilities = &params.capabilities;
+    let offered = capabilities.general.as_ref().and_then(|general| general.position_encodings.as_ref());
+    let utf8 = offered.is_some_and(|offered| offered.contains(&PositionEncodingKind::UTF8));
+    state.encoding = if utf8 { Encoding::Utf8 } else { Encoding::Utf16 };
+    state.set_abilities(abilities(capabilities));
+    state.config.set_folders(folders(&params));
+    set_level(state, Level::Initialization, &params.initialization_options.unwrap_or_default());
+    InitializeResult {
+        capabilities: ServerCapabilities {
+            position_encoding: Some(if utf8 { PositionEncodingKind::UTF8 } else { PositionEncodingKind::UTF16 }),
+            text_document_sync: Some(TextDocumentSyncCapability::Options(TextDocumentSyncOptions {
+                open_close: Some(true),
+                change: Some(TextDocumentSyncKind::INCREMENTAL),
+                save: Some(TextDocumentSyncSaveOptions::Supported(true)),
+                ..TextDocumentSyncOptions::default()
+            })),
+            code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
+                code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, CodeActionKind::new(FIX_ALL)]),
+                work_done_progress_options: WorkDoneProgressOptions { work_done_progress: Some(true) },
+                resolve_provider: None,
+            })),
+            execute_command_provider: Some(ExecuteCommandOptions {
+                commands: vec![method::APPLY_DRAWING_EDIT_COMMAND.into()],
+                ..ExecuteCommandOptions::default()
+            }),
+            workspace: Some(WorkspaceServerCapabilities {
+                workspace_folders: Some(WorkspaceFoldersServerCapabilities {
+                    supported: Some(true),
+                    change_notifications: Some(OneOf::Left(true)),
+                }),
+                ..WorkspaceServerCapabilities::default()
+            }),
+            experimental: Some(json!({ "wedm": { "protocol": protocol::PROTOCOL } })),
+            ..ServerCapabilities::default()
+        },
+        server_info: Some(ServerInfo { name: "wedm".into(), version: Some(env!("CARGO_PKG_VERSION").into()) }),
+        ..InitializeResult::default()
+    }
+}
+
+fn abilities(capabilities: &ClientCapabilities) -> Abilities {
+    let ours = |key: &str| capabilities.experimental.as_ref().and_then(|ours| ours.pointer(key)).and_then(Value::as_bool) == Some(true);
+    let workspace = capabilities.workspace.as_ref();
+    let registers = |dynamic: Option<bool>| dynamic == Some(true);
+    Abilities {
+        apply_drawing_edit: ours("/wedm/applyDrawingEdit"),
+        resend_drawing: ours("/wedm/resendDrawing"),
+        document_changes: workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes) == Some(true),
+        configuration: workspace.and_then(|workspace| workspace.configuration) == Some(true),
+        register_configuration: registers(workspace.and_then(|workspace| workspace.did_change_configuration.as_ref()?.dynamic_registration)),
+        register_watched_files: registers(workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)),
+    }
+}
+
+#[expect(deprecated, reason = "clients that know no workspace folders send the root")]
+fn folders(params: &InitializeParams) -> Vec<std::path::PathBuf> {
+    match &params.workspace_folders {
+        Some(folders) if !folders.is_empty() => folders.iter().filter_map(|folder| path_of(folder.uri.as_str())).collect(),
+        _ => params.root_uri.iter().filter_map(|root| path_of(root.as_str())).collect(),
+    }
+}
+
+fn initialized(state: &mut State) {
+    let mut registrations = Vec::new();
+    if state.client.abilities.register_watched_files {
+        registrations.push(json!({
+            "id": "wedm-files",
+            "method": "workspace/didChangeWatchedFiles",
+            "registerOptions": { "watchers": [{ "globPattern": format!("**/{}", crate::settings::FILE_NAME) }] },
+        }));
+    }
+    if state.client.abilities.register_configuration {
+        registrations.push(json!({
+            "id": "wedm-configuration",
+            "method": "workspace/didChangeConfiguration",
+            "registerOptions": { "section": "wedm" },
+        }));
+    }
+    if !registrations.is_empty() {
+        state.client.ask("client/registerCapability", json!({ "registrations": registrations }), |state, answer| {
+            if let Err(reason) = answer {
+                state.client.log(Weight::Info, reason);
+            }
+        });
+    }
+    pull_configuration(state);
+}
+
+/// Asks for the section `wedm`, where the client can be asked.
+fn pull_configuration(state: &mut State) {
+    if !state.client.abilities.configuration {
+        return;
+    }
+    state.client.ask("workspace/configuration", json!({ "items": [{ "section": "wedm" }] }), |state, answer| match answer {
+        Ok(answer) => {
+            set_level(state, Level::Pulled, answer.get(0).unwrap_or(&Value::Null));
+            state.settings_changed();
+        }
+        Err(reason) => state.client.log(Weight::Warning, reason),
+    });
+}
+
+fn set_level(state: &mut State, level: Level, json: &Value) {
+    for misfit in state.config.set_level(level, json) {
+        state.client.show(Weight::Warning, misfit);
+    }
+}

@@ -1,0 +1,115 @@
+//! Requests to the client: sent without waiting, answered by an event, given up after ten seconds.
+
+use super::state::State;
+use super::transport::Writer;
+use rustc_hash::FxHashMap;
+use serde::Serialize;
+use serde_json::Value;
+use std::time::{Duration, Instant};
+
+const TIME_OUT: Duration = Duration::from_secs(10);
+
+/// What happens with an answer; the error is a sentence.
+type Then = Box<dyn FnOnce(&mut State, Result<Value, String>) + Send>;
+
+struct Asked {
+    method: &'static str,
+    deadline: Instant,
+    then: Then,
+}
+
+/// What the client said it can do, as far as it matters here.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Abilities {
+    pub apply_drawing_edit: bool,
+    pub resend_drawing: bool,
+    pub document_changes: bool,
+    pub configuration: bool,
+    pub register_configuration: bool,
+    pub register_watched_files: bool,
+}
+
+/// The other end of the wire, as the state thread sees it.
+pub(super) struct Client {
+    pub abilities: Abilities,
+    writer: Writer,
+    next_id: u64,
+    asked: FxHashMap<String, Asked>,
+}
+
+#[derive(Serialize)]
+struct Request<'a, P> {
+    jsonrpc: &'static str,
+    id: &'a str,
+    method: &'a str,
+    params: P,
+}
+
+/// Weight of a line in the client's log.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Weight {
+    Warning = 2,
+    Info = 3,
+}
+
+impl Client {
+    pub fn new(writer: Writer) -> Client {
+        Client { abilities: Abilities::default(), writer, next_id: 0, asked: FxHashMap::default() }
+    }
+
+    pub fn writer(&self) -> &Writer {
+        &self.writer
+    }
+
+    /// Sends a request; `then` runs on the state thread when the answer, an error or the time-out comes.
+    pub fn ask(&mut self, method: &'static str, params: impl Serialize, then: impl FnOnce(&mut State, Result<Value, String>) + Send + 'static) {
+        self.next_id += 1;
+        let id = format!("wedm-{}", self.next_id);
+        self.writer.send_json(&Request { jsonrpc: "2.0", id: &id, method, params });
+        self.asked.insert(id, Asked { method, deadline: Instant::now() + TIME_OUT, then: Box::new(then) });
+    }
+
+    /// A line for the client's log.
+    pub fn log(&self, weight: Weight, message: impl Into<String>) {
+        self.say("window/logMessage", weight, message.into());
+    }
+
+    /// A message that the client puts before its user.
+    pub fn show(&self, weight: Weight, message: impl Into<String>) {
+        self.say("window/showMessage", weight, message.into());
+    }
+
+    fn say(&self, method: &str, weight: Weight, message: String) {
+        self.writer.notify(method, serde_json::json!({ "type": weight as u8, "message": message }));
+    }
+
+    /// When the next request is given up.
+    pub fn next_deadline(&self) -> Option<Instant> {
+        self.asked.values().map(|asked| asked.deadline).min()
+    }
+}
+
+/// The client answered.
+pub(super) fn answered(state: &mut State, id: &str, result: Result<Value, Value>) {
+    match state.client.asked.remove(id) {
+        Some(Asked { then, method, .. }) => {
+            let result = result.map_err(|error| {
+                let reason = error.get("message").and_then(Value::as_str).unwrap_or("no reason given");
+                format!("{method} failed: {reason}")
+            });
+            then(state, result);
+        }
+        None => state.client.log(Weight::Info, format!("an answer to {id} came late or answers nothing that was asked")),
+    }
+}
+
+/// Gives up what has waited too long.
+pub(super) fn expire(state: &mut State) {
+    let now = Instant::now();
+    while let Some(id) = state.client.asked.iter().find(|(_, asked)| asked.deadline <= now).map(|(id, _)| id.clone()) {
+        if let Some(Asked { then, method, .. }) = state.client.asked.remove(&id) {
+            state.client.log(Weight::Warning, format!("{method} was not answered within {} s", TIME_OUT.as_secs()));
+            then(state, Err(format!("the client did not answer {method} within {} s", TIME_OUT.as_secs())));
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The one place where the core's findings, places and edits become the protocol's, and back.
+
+use crate::document::Document;
+use crate::finding::{Detail, Finding, Place, Rule};
+use crate::message::en;
+use crate::protocol::{CodeDescription, Diagnostic, FindingData, Position, Range, severity_number};
+use crate::settings::SettingsError;
+use crate::text::{Encoding, SourceText, TextEdit};
+use ls_types as lsp;
+
+/// A publish holds at most this many findings.
+pub(super) const PUBLISH_LIMIT: usize = 500;
+
+/// Where the pages of the rules stand.
+const RULES: &str = "https://github.com/wedm/wedm/blob/main/docs/rules/";
+
+/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others.
+pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Diagnostic> {
+    let (findings, count) = document.findings(PUBLISH_LIMIT);
+    let mut diagnostics = diagnostics(document, &findings, encoding);
+    if count > findings.len()
+        && let Some(severity) = document.settings().severity(Rule::More)
+    {
+        let detail = Detail::More { count: count - findings.len() };
+        diagnostics.push(diagnostic(document, &Finding { rule: Rule::More, severity, place: Place::Document, detail }, encoding));
+    }
+    diagnostics
+}
+
+pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: Encoding) -> Vec<Diagnostic> {
+    findings.iter().map(|finding| diagnostic(document, finding, encoding)).collect()
+}
+
+/// A finding of `document` as the client is shown it.
+pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
+    diagnostic_at(document, document.text(), finding, encoding)
+}
+
+/// A finding whose bytes are counted in `text`: for a document that was made of a text's drawing alone.
+pub(super) fn diagnostic_at(document: &Document, text: Option<&SourceText>, finding: &Finding, encoding: Encoding) -> Diagnostic {
+    let drawing = document.drawing().map(|drawing| &**drawing);
+    let unit_mm = drawing.map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
+    let range = match (text, document.range_of(&finding.place)) {
+        _ if finding.rule == Rule::More => Range::default(),
+        (Some(text), Some(bytes)) => range_of(text, bytes, encoding),
+        _ => match finding.place {
+            Place::Segment { segment, .. } => Range::of_segment(segment),
+            _ => Range::default(),
+        },
+    };
+    let data = FindingData::of(drawing, finding);
+    Diagnostic {
+        range,
+        severity: severity_number(finding.severity),
+        code: finding.rule.name().into(),
+        code_description: code_description(finding.rule),
+        source: "wedm".into(),
+        message: en::sentence(finding, unit_mm),
+        data: (!data.is_empty()).then_some(data),
+    }
+}
+
+/// What is wrong in a `wedm.toml`.
+pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], encoding: Encoding) -> Vec<Diagnostic> {
+    let diagnostic = |error: &SettingsError| Diagnostic {
+        range: error.range.clone().map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
+        severity: severity_number(Rule::Settings.default_severity()),
+        code: Rule::Settings.name().into(),
+        code_description: None,
+        source: "wedm".into(),
+        message: error.message.clone(),
+        data: None,
+    };
+    errors.iter().take(PUBLISH_LIMIT).map(diagnostic).collect()
+}
+
+fn code_description(rule: Rule) -> Option<CodeDescription> {
+    (rule != Rule::More).then(|| CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
+}
+
+pub(super) fn range_of(text: &SourceText, bytes: std::ops::Range<usize>, encoding: Encoding) -> Range {
+    let position = |offset: usize| {
+        let (line, character) = text.position_of(offset, encoding);
+        Position { line: line.try_into().unwrap_or(u32::MAX), character: character.try_into().unwrap_or(u32::MAX) }
+    };
+    Range { start: position(bytes.start), end: position(bytes.end) }
+}
+
+/// Bytes of a client's range, clamped to the text; an end before the start is the start.
+pub(super) fn bytes_of(text: &SourceText, range: lsp::Range, encoding: Encoding) -> std::ops::Range<usize> {
+    let offset = |position: lsp::Position| text.offset_of(position.line as usize, position.character as usize, encoding);
+    let start = offset(range.start);
+    start..offset(range.end).max(start)
+}
+
+pub(super) fn lsp_range(range: Range) -> lsp::Range {
+    let position = |position: Position| lsp::Position { line: position.line, character: position.character };
+    lsp::Range { start: position(range.start), end: position(range.end) }
+}
+
+pub(super) fn lsp_edits(text: &SourceText, edits: Vec<TextEdit>, encoding: Encoding) -> Vec<lsp::TextEdit> {
+    let edit = |edit: TextEdit| lsp::TextEdit { range: lsp_range(range_of(text, edit.range, encoding)), new_text: edit.text };
+    edits.into_iter().map(edit).collect()
+}
+
+/// The diagnostic as the framework's types have it, where it stands in a code action.
+pub(super) fn lsp_diagnostic(diagnostic: &Diagnostic) -> Option<lsp::Diagnostic> {
+    serde_json::from_value(serde_json::to_value(diagnostic).ok()?).ok()
+}

@@ -1,0 +1,142 @@
+//! Drawings without text: opened, changed by splices, closed, and asked for anew when a change does not fit.
+
+use super::client::Weight;
+use super::open::{Content, Open, Remains};
+use super::state::State;
+use super::transport::panic_text;
+use crate::drawing::Drawing;
+use crate::protocol::{self, DrawingChange, ResendDrawing, Resent, method};
+use serde_json::Value;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+/// A drawing as it came, with the reason where it is not sound.
+pub(super) struct Sent {
+    pub uri: Arc<str>,
+    pub drawing: Result<(i64, Drawing), String>,
+}
+
+impl Sent {
+    /// Reads the params of `wedm/didOpenDrawing`; `Err` where not even the URI can be read.
+    pub fn read(mut params: Value) -> Result<Sent, String> {
+        let drawing = params.get_mut("drawing").map(Value::take).unwrap_or_default();
+        let uri = drawing.get("uri").and_then(Value::as_str).ok_or("drawing.uri is missing or not a string")?;
+        let uri: Arc<str> = uri.into();
+        let read = serde_json::from_value::<protocol::Drawing>(drawing).map_err(|error| error.to_string());
+        let drawing = read.and_then(|drawing| Ok((drawing.version, drawing.into_core()?)));
+        Ok(Sent { uri, drawing })
+    }
+}
+
+pub(super) fn open(state: &mut State, sent: Sent) {
+    let Sent { uri, drawing } = sent;
+    match drawing {
+        Ok((version, drawing)) => {
+            let settings = state.settings_for(&uri);
+            let stamp = state.next_stamp();
+            state.log_if_open(&uri);
+            state.insert(Open::drawing(uri, version, drawing, &settings, stamp));
+        }
+        Err(reason) => refuse(state, &uri, &format!("the drawing {uri} is not sound: {reason}")),
+    }
+}
+
+/// Changes as they came, with the reason where they cannot be read.
+pub(super) struct SentChanges {
+    pub uri: Arc<str>,
+    pub changes: Result<(i64, Vec<DrawingChange>), String>,
+}
+
+impl SentChanges {
+    /// Reads the params of `wedm/didChangeDrawing`; `Err` where not even the URI can be read.
+    pub fn read(params: Value) -> Result<SentChanges, String> {
+        let uri = params.pointer("/drawing/uri").and_then(Value::as_str).ok_or("drawing.uri is missing or not a string")?;
+        let uri: Arc<str> = uri.into();
+        let changes = serde_json::from_value::<protocol::ChangeDrawing>(params);
+        let changes = changes.map(|params| (params.drawing.version, params.changes)).map_err(|error| error.to_string());
+        Ok(SentChanges { uri, changes })
+    }
+}
+
+pub(super) fn change(state: &mut State, sent: SentChanges) {
+    let SentChanges { uri, changes } = sent;
+    let applied = catch_unwind(AssertUnwindSafe(|| changes.and_then(|(version, changes)| apply(state, &uri, version, changes))));
+    let applied = applied.unwrap_or_else(|panic| {
+        // The drawing may hold half of the changes now: only the client knows the whole.
+        state.rebuild(&uri);
+        Err(format!("internal error: {}", panic_text(&*panic)))
+    });
+    if let Err(reason) = applied {
+        refuse(state, &uri, &format!("a change of the drawing {uri} does not apply: {reason}"));
+    }
+}
+
+fn apply(state: &mut State, uri: &Arc<str>, version: i64, changes: Vec<DrawingChange>) -> Result<(), String> {
+    let settings = match state.documents.get(uri).map(|open| &open.content) {
+        Some(Content::Read(document)) => document.settings().clone(),
+        _ => state.settings_for(uri),
+    };
+    let open = state.documents.get_mut(uri).filter(|open| open.is_drawing()).ok_or("there is no such drawing open")?;
+    if version <= open.version {
+        return Err(format!("version {version} is not newer than {}", open.version));
+    }
+    match &mut open.content {
+        Content::Read(document) => {
+            document.edit_drawing(|drawing| protocol::apply(drawing, changes)).ok_or("there is no such drawing open")??;
+        }
+        Content::Damaged(Remains::Drawing(drawing)) => {
+            protocol::apply(Arc::make_mut(drawing), changes)?;
+            open.rebuild(&settings);
+        }
+        _ => return Err("there is no such drawing open".into()),
+    }
+    open.version = version;
+    state.mark_dirty(uri);
+    Ok(())
+}
+
+pub(super) fn close(state: &mut State, uri: &Arc<str>) {
+    state.resending.remove(uri);
+    let is_open = state.documents.get(uri).is_some_and(Open::is_drawing);
+    if !is_open || !state.close(uri) {
+        state.client.log(Weight::Warning, format!("the drawing {uri} was closed without being open"));
+    }
+}
+
+/// Says why nothing was changed, and asks for the whole drawing, once at a time.
+pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
+    state.client.log(Weight::Warning, reason);
+    if !state.client.abilities.resend_drawing || !state.resending.insert(uri.clone()) {
+        return;
+    }
+    let params = ResendDrawing { uri: uri.to_string() };
+    let uri = uri.clone();
+    state.client.ask(method::RESEND_DRAWING, params, move |state, answer| {
+        // A drawing that was closed meanwhile stays closed.
+        if !state.resending.remove(&uri) {
+            return;
+        }
+        let drawing = answer
+            .and_then(|answer| serde_json::from_value::<Resent>(answer).map_err(|error| error.to_string()))
+            .and_then(|resent| resent_drawing(state, &uri, resent));
+        if let Err(reason) = drawing {
+            state.client.log(Weight::Warning, format!("the drawing {uri} was not sent again as it should be: {reason}"));
+        }
+    });
+}
+
+fn resent_drawing(state: &mut State, uri: &Arc<str>, resent: Resent) -> Result<(), String> {
+    let drawing = resent.drawing;
+    if *drawing.uri != **uri {
+        return Err(format!("its uri is {}", drawing.uri));
+    }
+    let version = drawing.version;
+    if let Some(open) = state.documents.get(uri).filter(|open| open.version > version) {
+        return Err(format!("version {version} is older than {}", open.version));
+    }
+    let drawing = drawing.into_core()?;
+    let settings = state.settings_for(uri);
+    let stamp = state.next_stamp();
+    state.insert(Open::drawing(uri.clone(), version, drawing, &settings, stamp));
+    Ok(())
+}

@@ -1,0 +1,259 @@
+//! An open document: what the client sent, what was made of it, and what the client has been told.
+
+use super::convert;
+use super::transport::panic_text;
+use crate::document::{Document, Source};
+use crate::drawing::Drawing;
+use crate::program::three_b;
+use crate::protocol::{Diagnostic, Range};
+use crate::settings::{Effective, FILE_NAME, from_toml};
+use crate::text::{Encoding, SourceText};
+use crate::{dxf, finding::Rule};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+/// What a text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Dxf,
+    ThreeB,
+    /// The project's `wedm.toml`.
+    Settings,
+    /// Nothing that is read here.
+    Foreign,
+}
+
+impl Kind {
+    /// By the language that the client names, else by the file's name.
+    pub fn of(language: &str, uri: &str) -> Kind {
+        let path = uri.split(['?', '#']).next().unwrap_or_default();
+        let name = path.rsplit('/').next().unwrap_or_default();
+        if name.eq_ignore_ascii_case(FILE_NAME) {
+            return Kind::Settings;
+        }
+        let by_name = name.rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
+        match (language, by_name.as_deref()) {
+            ("dxf", _) => Kind::Dxf,
+            ("3b", _) => Kind::ThreeB,
+            (_, Some("dxf")) => Kind::Dxf,
+            (_, Some("3b")) => Kind::ThreeB,
+            _ => Kind::Foreign,
+        }
+    }
+}
+
+pub(super) enum Content {
+    Read(Box<Document>),
+    Settings(SourceText),
+    Foreign,
+    /// Reading or judging it panicked: the text or drawing is kept, and tried again with the next change.
+    Damaged(Remains),
+}
+
+pub(super) enum Remains {
+    Text { kind: Kind, text: SourceText },
+    Drawing(Arc<Drawing>),
+}
+
+pub(super) struct Open {
+    /// The client's own spelling.
+    pub uri: Arc<str>,
+    pub version: i64,
+    pub content: Content,
+    /// Differs after every change: what was made for another stamp is out of date.
+    pub stamp: u64,
+    /// The client has been told something since the opening.
+    pub published: bool,
+    /// The client has to be told something.
+    pub dirty: bool,
+}
+
+impl Open {
+    pub fn text(uri: Arc<str>, version: i64, kind: Kind, text: String, settings: &Arc<Effective>, stamp: u64) -> Open {
+        let content = match kind {
+            Kind::Settings => Content::Settings(SourceText::new(text.into_bytes())),
+            Kind::Foreign => Content::Foreign,
+            Kind::Dxf | Kind::ThreeB => read_text(kind, text.into_bytes(), settings),
+        };
+        Open { uri, version, content, stamp, published: false, dirty: true }
+    }
+
+    pub fn drawing(uri: Arc<str>, version: i64, drawing: Drawing, settings: &Arc<Effective>, stamp: u64) -> Open {
+        Open { uri, version, content: judge_drawing(Arc::new(drawing), settings), stamp, published: false, dirty: true }
+    }
+
+    pub fn is_drawing(&self) -> bool {
+        match &self.content {
+            Content::Read(document) => matches!(document.source(), Source::Cad(_)),
+            Content::Damaged(remains) => matches!(remains, Remains::Drawing(_)),
+            Content::Settings(_) | Content::Foreign => false,
+        }
+    }
+
+    pub fn document(&mut self) -> Option<&mut Document> {
+        match &mut self.content {
+            Content::Read(document) => Some(document),
+            _ => None,
+        }
+    }
+
+    pub fn source_text(&self) -> Option<&SourceText> {
+        match &self.content {
+            Content::Read(document) => document.text(),
+            Content::Settings(text) | Content::Damaged(Remains::Text { text, .. }) => Some(text),
+            Content::Foreign | Content::Damaged(Remains::Drawing(_)) => None,
+        }
+    }
+
+    /// Replaces bytes of the text, whatever else comes of it.
+    pub fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str, settings: &Arc<Effective>) {
+        match &mut self.content {
+            Content::Settings(text) => text.replace(range, replacement),
+            Content::Foreign | Content::Damaged(Remains::Drawing(_)) => {}
+            Content::Damaged(Remains::Text { kind, text }) => {
+                let kind = *kind;
+                text.replace(range, replacement);
+                let bytes = text.bytes().to_vec();
+                self.content = read_text(kind, bytes, settings);
+            }
+            Content::Read(document) => {
+                let before = document.text().map_or(0, SourceText::len);
+                let edited = catch_unwind(AssertUnwindSafe(|| document.edit_text(range.clone(), replacement)));
+                if let Err(panic) = edited {
+                    report(&*panic);
+                    let (kind, mut text) = text_of(document);
+                    // The panic came before the text was touched, or behind that.
+                    let done = text.len() == before - range.len() + replacement.len()
+                        && text.bytes().get(range.start..range.start + replacement.len()) == Some(replacement.as_bytes());
+                    if !done {
+                        text.replace(range, replacement);
+                    }
+                    self.content = read_text(kind, text.bytes().to_vec(), settings);
+                }
+            }
+        }
+    }
+
+    /// Drops everything derived and makes it again from the text or drawing.
+    pub fn rebuild(&mut self, settings: &Arc<Effective>) {
+        let content = std::mem::replace(&mut self.content, Content::Foreign);
+        self.content = match content {
+            Content::Read(document) => match document.source() {
+                Source::Cad(drawing) => judge_drawing(drawing.clone(), settings),
+                _ => {
+                    let (kind, text) = text_of(&document);
+                    read_text(kind, text.bytes().to_vec(), settings)
+                }
+            },
+            Content::Damaged(Remains::Text { kind, text }) => read_text(kind, text.bytes().to_vec(), settings),
+            Content::Damaged(Remains::Drawing(drawing)) => judge_drawing(drawing, settings),
+            other @ (Content::Settings(_) | Content::Foreign) => other,
+        };
+        self.dirty = true;
+    }
+
+    pub fn set_settings(&mut self, settings: &Arc<Effective>) {
+        match &mut self.content {
+            Content::Read(document) if document.settings() != settings => {
+                let set = catch_unwind(AssertUnwindSafe(|| document.set_settings(settings.clone())));
+                self.dirty = true;
+                if let Err(panic) = set {
+                    report(&*panic);
+                    self.rebuild(settings);
+                }
+            }
+            Content::Damaged(_) => self.rebuild(settings),
+            _ => {}
+        }
+    }
+
+    /// What the client is shown now.
+    pub fn diagnostics(&mut self, encoding: Encoding) -> Vec<Diagnostic> {
+        match &mut self.content {
+            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(document, encoding))) {
+                Ok(diagnostics) => diagnostics,
+                Err(panic) => {
+                    report(&*panic);
+                    let settings = document.settings().clone();
+                    self.rebuild(&settings);
+                    vec![internal_error()]
+                }
+            },
+            Content::Settings(text) => {
+                let (_, errors) = from_toml(&text.as_str_lossy());
+                convert::settings_diagnostics(text, &errors, encoding)
+            }
+            Content::Foreign => Vec::new(),
+            Content::Damaged(_) => vec![internal_error()],
+        }
+    }
+}
+
+fn text_of(document: &Document) -> (Kind, SourceText) {
+    let kind = if matches!(document.source(), Source::ThreeB(_)) { Kind::ThreeB } else { Kind::Dxf };
+    (kind, document.text().cloned().unwrap_or_default())
+}
+
+fn read_text(kind: Kind, kept: Vec<u8>, settings: &Arc<Effective>) -> Content {
+    let read = catch_unwind(AssertUnwindSafe(|| {
+        let bytes = kept.clone();
+        let source = match kind {
+            Kind::ThreeB => Source::ThreeB(three_b::Document::read(bytes)),
+            _ => Source::Dxf(dxf::Document::read(bytes)),
+        };
+        Box::new(Document::new(source, settings.clone()))
+    }));
+    match read {
+        Ok(document) => Content::Read(document),
+        Err(panic) => {
+            report(&*panic);
+            Content::Damaged(Remains::Text { kind, text: SourceText::new(kept) })
+        }
+    }
+}
+
+fn judge_drawing(drawing: Arc<Drawing>, settings: &Arc<Effective>) -> Content {
+    let kept = drawing.clone();
+    let judged = catch_unwind(AssertUnwindSafe(|| Box::new(Document::new(Source::Cad(drawing), settings.clone()))));
+    match judged {
+        Ok(document) => Content::Read(document),
+        Err(panic) => {
+            report(&*panic);
+            Content::Damaged(Remains::Drawing(kept))
+        }
+    }
+}
+
+fn report(panic: &(dyn Any + Send)) {
+    tracing::error!("a document could not be read or judged: {}", panic_text(panic));
+}
+
+fn internal_error() -> Diagnostic {
+    Diagnostic {
+        range: Range::default(),
+        severity: 1,
+        code: Rule::Syntax.name().into(),
+        code_description: None,
+        source: "wedm".into(),
+        message: "internal error: the document could not be judged; its text is kept and is tried again with the next change".into(),
+        data: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Kind;
+
+    #[test]
+    fn a_text_is_known_by_its_language_or_its_name() {
+        let check = |language: &str, uri: &str, expected: Kind| assert_eq!(Kind::of(language, uri), expected, "{language} {uri}");
+        check("dxf", "file:///a/b", Kind::Dxf);
+        check("plaintext", "file:///a/B.DXF", Kind::Dxf);
+        check("", "untitled:plate.3b", Kind::ThreeB);
+        check("3b", "file:///a/plate.txt", Kind::ThreeB);
+        check("toml", "file:///a/wedm.toml", Kind::Settings);
+        check("toml", "file:///a/Cargo.toml", Kind::Foreign);
+        check("wire-iso", "file:///a/plate.iso", Kind::Foreign);
+    }
+}

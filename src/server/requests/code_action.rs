@@ -1,0 +1,167 @@
+//! `textDocument/codeAction`: the fixes of findings, and one action that makes every safe fix.
+
+use crate::document::{Document, Source};
+use crate::drawing::DrawingEdit as CoreEdit;
+use crate::finding::{Finding, Fix, Place};
+use crate::message::en;
+use crate::protocol::{self, Diagnostic, FindingData, method};
+use crate::server::convert;
+use crate::server::jobs::Progress;
+use crate::server::state::{Reply, State};
+use crate::text::Encoding;
+use ls_types::{
+    CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, DocumentChanges, OneOf,
+    OptionalVersionedTextDocumentIdentifier, Range, TextDocumentEdit, TextEdit, Uri, WorkspaceEdit,
+};
+use rustc_hash::FxHashSet;
+use tower_lsp::jsonrpc::Result;
+
+pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
+
+/// More findings than this in one range get their fixes by "fix all" only: nobody picks from a longer list.
+const LISTED: usize = 100;
+
+pub(in crate::server) fn code_action(state: &mut State, params: CodeActionParams, reply: Reply<Option<CodeActionResponse>>) {
+    let token = params.work_done_progress_params.work_done_token.as_ref().and_then(|token| serde_json::to_value(token).ok());
+    let progress = Progress::begin(state.client.writer(), token, "Looking for fixes");
+    let actions = actions(state, &params);
+    drop(progress);
+    let _ = reply.send(actions.map(Some));
+}
+
+/// Where an edit goes.
+struct Target<'a> {
+    uri: &'a Uri,
+    version: i64,
+    encoding: Encoding,
+    document_changes: bool,
+}
+
+fn actions(state: &mut State, params: &CodeActionParams) -> Result<CodeActionResponse> {
+    let uri = &params.text_document.uri;
+    let encoding = state.encoding;
+    let document_changes = state.client.abilities.document_changes;
+    let open = state.document(uri.as_str())?;
+    let target = Target { uri, version: open.version, encoding, document_changes };
+    let Some(document) = open.document().filter(|document| document.drawing().is_some()) else { return Ok(Vec::new()) };
+    let unit_mm = document.drawing().map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
+    let mut actions = Vec::new();
+    if wants(&params.context, CodeActionKind::QUICKFIX.as_str()) {
+        for finding in chosen(document, params, encoding) {
+            let diagnostic = convert::diagnostic(document, &finding, encoding);
+            for (index, fix) in document.fixes(&finding).iter().enumerate() {
+                actions.extend(quick_fix(document, &target, &diagnostic, fix, index == 0, unit_mm));
+            }
+        }
+    }
+    if wants(&params.context, FIX_ALL)
+        && let Some(edit) = document.fix_all()
+    {
+        let action = CodeAction { title: en::fix_all_title().into(), kind: Some(CodeActionKind::new(FIX_ALL)), ..CodeAction::default() };
+        actions.extend(with_edit(document, &target, action, &edit));
+    }
+    Ok(actions.into_iter().map(CodeActionOrCommand::CodeAction).collect())
+}
+
+/// True when the client asked for this kind, for one above it, or for all.
+fn wants(context: &CodeActionContext, kind: &str) -> bool {
+    let Some(only) = &context.only else { return true };
+    only.iter().any(|asked| {
+        let asked = asked.as_str();
+        asked.is_empty() || kind == asked || kind.strip_prefix(asked).is_some_and(|rest| rest.starts_with('.'))
+    })
+}
+
+/// The findings that the client means: those of its diagnostics where they say which, else those in the range.
+fn chosen(document: &mut Document, params: &CodeActionParams, encoding: Encoding) -> Vec<Finding> {
+    let (findings, _) = document.findings(usize::MAX);
+    let named: FxHashSet<(String, String, usize)> = params.context.diagnostics.iter().filter_map(name_of).collect();
+    let drawing = document.drawing().cloned().unwrap_or_default();
+    let in_range = in_range(document, params.range, encoding);
+    let is_chosen = |finding: &Finding| match (named.is_empty(), &finding.place) {
+        (true, _) => in_range(document, finding),
+        (false, Place::Segment { entity, segment }) => drawing.get(*entity).is_some_and(|entity| {
+            named.contains(&(finding.rule.name().to_owned(), entity.handle.to_string(), *segment))
+        }),
+        (false, _) => false,
+    };
+    let chosen: Vec<Finding> = findings.iter().filter(|finding| is_chosen(finding)).take(LISTED).cloned().collect();
+    chosen
+}
+
+/// Rule, handle and segment that a client's diagnostic names.
+fn name_of(diagnostic: &ls_types::Diagnostic) -> Option<(String, String, usize)> {
+    let data: FindingData = serde_json::from_value(diagnostic.data.clone()?).ok()?;
+    let rule = match diagnostic.code.as_ref()? {
+        ls_types::NumberOrString::String(rule) => rule.clone(),
+        ls_types::NumberOrString::Number(_) => return None,
+    };
+    Some((rule, data.handle?, data.segment?))
+}
+
+/// Whether a finding lies in the range: by line in a drawing, by the bytes of its number or of its segment in a text.
+fn in_range(document: &Document, range: Range, encoding: Encoding) -> impl Fn(&Document, &Finding) -> bool + use<> {
+    let bytes = document.text().map(|text| convert::bytes_of(text, range, encoding));
+    let segments: FxHashSet<_> = bytes.clone().map(|bytes| document.segments_at(bytes)).unwrap_or_default().into_iter().collect();
+    move |document, finding| {
+        let segment = match finding.place {
+            Place::Segment { entity, segment } => Some((entity, segment)),
+            _ => None,
+        };
+        match (&bytes, document.range_of(&finding.place)) {
+            (Some(bytes), Some(own)) => {
+                (own.start <= bytes.end && bytes.start <= own.end) || segment.is_some_and(|segment| segments.contains(&segment))
+            }
+            _ => {
+                let line = segment.map_or(0, |(_, segment)| segment);
+                (range.start.line as usize..=range.end.line as usize).contains(&line)
+            }
+        }
+    }
+}
+
+fn quick_fix(document: &Document, target: &Target<'_>, diagnostic: &Diagnostic, fix: &Fix, first: bool, unit_mm: f64) -> Option<CodeAction> {
+    let action = CodeAction {
+        title: en::title(&fix.kind, unit_mm),
+        kind: Some(CodeActionKind::QUICKFIX),
+        diagnostics: convert::lsp_diagnostic(diagnostic).map(|diagnostic| vec![diagnostic]),
+        is_preferred: (first && fix.preferred).then_some(true),
+        ..CodeAction::default()
+    };
+    with_edit(document, target, action, &fix.edit)
+}
+
+/// The action with its edit in the form that the document takes; `None` where the edit cannot be made there.
+fn with_edit(document: &Document, target: &Target<'_>, action: CodeAction, edit: &CoreEdit) -> Option<CodeAction> {
+    match document.source() {
+        Source::Dxf(dxf) => match dxf.text_edits(edit) {
+            Ok(edits) => {
+                let edits = convert::lsp_edits(dxf.text(), edits, target.encoding);
+                Some(CodeAction { edit: Some(workspace_edit(target, edits)), ..action })
+            }
+            Err(reason) => {
+                tracing::info!("\"{}\" is not offered: {reason}", action.title);
+                None
+            }
+        },
+        Source::Cad(drawing) => {
+            let changes = protocol::changes_of(drawing, edit);
+            let argument = protocol::DrawingEdit { uri: target.uri.as_str().into(), version: target.version, changes };
+            let arguments = vec![serde_json::to_value(argument).ok()?];
+            let command = Command { title: action.title.clone(), command: method::APPLY_DRAWING_EDIT_COMMAND.into(), arguments: Some(arguments) };
+            Some(CodeAction { command: Some(command), ..action })
+        }
+        Source::ThreeB(_) => None,
+    }
+}
+
+fn workspace_edit(target: &Target<'_>, edits: Vec<TextEdit>) -> WorkspaceEdit {
+    if !target.document_changes {
+        return WorkspaceEdit { changes: Some([(target.uri.clone(), edits)].into()), ..WorkspaceEdit::default() };
+    }
+    let version = i32::try_from(target.version).ok();
+    let text_document = OptionalVersionedTextDocumentIdentifier { uri: target.uri.clone(), version };
+    let edits = edits.into_iter().map(OneOf::Left).collect();
+    let changes = DocumentChanges::Edits(vec![TextDocumentEdit { text_document, edits }]);
+    WorkspaceEdit { document_changes: Some(changes), ..WorkspaceEdit::default() }
+}

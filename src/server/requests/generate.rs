@@ -1,0 +1,121 @@
+//! `wedm/generate`: a proved program, or the reason why there is none.
+
+use super::{Errand, Task, internal, refusal, refused, refused_with, run, snapshot_of, with_options, written};
+use crate::finding::{Finding, Severity};
+use crate::program::three_b::{self, ProofError};
+use crate::protocol::Program;
+use crate::server::convert;
+use crate::server::jobs::{Cancel, Progress};
+use crate::server::state::State;
+use crate::text::Encoding;
+use crate::toolpath::plan;
+use serde::Deserialize;
+use serde_json::Value;
+use tower_lsp::jsonrpc::{Error, Result};
+
+/// The languages that can be written.
+const FORMATS: [&str; 1] = ["3b"];
+
+/// Params of the request; the options are read by the settings' own reader, which names a misfit.
+#[derive(Deserialize)]
+pub(in crate::server) struct Params {
+    uri: String,
+    format: String,
+    handles: Option<Vec<String>>,
+    options: Option<Value>,
+    force: Option<bool>,
+}
+
+pub(in crate::server) fn generate(state: &mut State, params: Params, errand: Errand) {
+    match prepare(state, &params) {
+        Err(error) => {
+            let _ = errand.reply.send(Err(error));
+        }
+        Ok(job) => {
+            let stamp = job.stamp;
+            run(state, "Generating 3B", &params.uri, (stamp, false), errand, move |cancel, progress| job.run(cancel, progress));
+        }
+    }
+}
+
+struct Job {
+    snapshot: crate::document::Snapshot,
+    stamp: u64,
+    options: Option<std::sync::Arc<crate::settings::Effective>>,
+    /// What the reader of the text found; the rules' findings depend on the options.
+    of_source: Vec<Finding>,
+    handles: Option<Vec<String>>,
+    force: bool,
+    encoding: Encoding,
+    /// The text, for the places of its findings.
+    text: Option<crate::text::SourceText>,
+}
+
+fn prepare(state: &mut State, params: &Params) -> Result<Job> {
+    let uri = &params.uri;
+    if !FORMATS.contains(&params.format.as_str()) {
+        let message = format!("format is \"{}\", expected {}", params.format, FORMATS.map(|format| format!("\"{format}\"")).join(" or "));
+        return Err(Error::invalid_params(message));
+    }
+    let options = with_options(state, uri, params.options.as_ref())?;
+    let (snapshot, stamp) = snapshot_of(state, uri)?;
+    for handle in params.handles.iter().flatten() {
+        if snapshot.drawing.find(handle).is_none() {
+            return Err(Error::invalid_params(format!("there is no entity {handle}")));
+        }
+    }
+    let encoding = state.encoding;
+    let open = state.document(uri)?;
+    let (of_source, text) = match open.document().map(|document| document.source()) {
+        Some(crate::document::Source::Dxf(dxf)) => (dxf.findings().to_vec(), Some(dxf.text().clone())),
+        _ => (Vec::new(), None),
+    };
+    let force = params.force.unwrap_or(false);
+    Ok(Job { snapshot, stamp, options, of_source, handles: params.handles.clone(), force, encoding, text })
+}
+
+impl Job {
+    fn run(self, cancel: &Cancel, progress: &Progress) -> Result<Vec<u8>> {
+        let task = Task::new(self.snapshot, self.options);
+        let mut document = task.document();
+        let (of_rules, _) = document.findings(usize::MAX);
+        let of_source = self.of_source.iter().filter_map(|finding| {
+            let severity = task.settings.severity(finding.rule)?;
+            Some(Finding { severity, ..finding.clone() })
+        });
+        let findings: Vec<Finding> = of_source.chain(of_rules).collect();
+        let diagnostics = |wanted: &dyn Fn(Severity) -> bool| -> Vec<_> {
+            let wanted = findings.iter().filter(|finding| wanted(finding.severity)).take(convert::PUBLISH_LIMIT);
+            wanted.map(|finding| convert::diagnostic_at(&document, self.text.as_ref(), finding, self.encoding)).collect()
+        };
+        let errors = findings.iter().filter(|finding| finding.severity == Severity::Error).count();
+        if errors > 0 && !self.force {
+            let message = match errors {
+                1 => "an error stands in the drawing".to_string(),
+                _ => format!("{errors} errors stand in the drawing"),
+            };
+            return Err(refused_with(message, diagnostics(&|severity| severity == Severity::Error)));
+        }
+        stop_if(cancel)?;
+        progress.report("laying the wire's path");
+        let handles = self.handles.as_deref();
+        let paths = plan(&task.drawing, &task.outlines, &task.settings, handles).map_err(|reason| refusal(&task, reason))?;
+        if paths.is_empty() {
+            return Err(refused("the drawing holds no contour to cut"));
+        }
+        stop_if(cancel)?;
+        let mut go_on = |done: usize, all: usize| {
+            progress.share("writing and proving the program", done, all);
+            !cancel.is_cancelled()
+        };
+        let program = three_b::write_with(&paths, task.unit_mm(), &task.settings, &mut go_on).map_err(|error| match error {
+            ProofError::Cancelled => Error::request_cancelled(),
+            ProofError::Mismatch(reason) => internal(format!("the program does not hold its proof: {reason}")),
+        })?;
+        written(&Program::new(program, diagnostics(&|severity| severity <= Severity::Warning)))
+    }
+}
+
+fn stop_if(cancel: &Cancel) -> Result<()> {
+    if cancel.is_cancelled() { Err(Error::request_cancelled()) } else { Ok(()) }
+}

@@ -1,0 +1,285 @@
+//! The one thread that owns every document.
+//!
+//! Handlers and workers hand it closures, in the order in which they came; it drains them before it looks at what has
+//! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
+
+use super::client::{self, Abilities, Client, Weight};
+use super::config::{self, Config};
+use super::jobs::Workers;
+use super::open::Open;
+use super::transport::{Publish, Writer, panic_text};
+use crate::protocol::Diagnostic;
+use crate::settings::Effective;
+use crate::text::{Encoding, SourceText};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::time::{Duration, Instant};
+use tower_lsp::jsonrpc;
+
+/// Messages that may wait; who sends more waits itself.
+const QUEUE: usize = 1024;
+/// A flood of messages is interrupted after this long to publish what is known.
+const TURN: Duration = Duration::from_millis(50);
+/// A turn longer than this is logged.
+const LONG_TURN: Duration = Duration::from_millis(100);
+
+/// Where the answer to a request goes. Dropped unanswered, it becomes an internal error.
+pub(super) type Reply<T> = tokio::sync::oneshot::Sender<jsonrpc::Result<T>>;
+
+struct Message {
+    name: &'static str,
+    /// The document that the message is about.
+    about: Option<Arc<str>>,
+    act: Box<dyn FnOnce(&mut State) + Send>,
+}
+
+/// The way to the state thread.
+#[derive(Clone)]
+pub(super) struct Mailbox {
+    sender: SyncSender<Message>,
+}
+
+impl Mailbox {
+    /// Hands `act` to the state thread. Nothing happens once that has ended.
+    pub fn tell(&self, name: &'static str, about: Option<Arc<str>>, act: impl FnOnce(&mut State) + Send + 'static) {
+        let _ = self.sender.send(Message { name, about, act: Box::new(act) });
+    }
+}
+
+pub(super) struct State {
+    pub client: Client,
+    pub config: Config,
+    pub encoding: Encoding,
+    pub workers: Workers,
+    pub documents: FxHashMap<Arc<str>, Open>,
+    /// Drawings that the client has been asked to send again.
+    pub resending: FxHashSet<Arc<str>>,
+    /// Documents that have to be published, in the order in which they changed.
+    dirty: Vec<Arc<str>>,
+    /// Files on disk whose errors the client is shown.
+    shown_files: FxHashSet<PathBuf>,
+    stamp: u64,
+    stopped: Option<std::sync::mpsc::Sender<()>>,
+}
+
+/// Starts the state thread.
+pub(super) fn start(writer: Writer) -> std::io::Result<Mailbox> {
+    let (sender, receiver) = sync_channel(QUEUE);
+    let mailbox = Mailbox { sender };
+    let workers = Workers::start(mailbox.clone(), writer.clone())?;
+    let state = State {
+        client: Client::new(writer),
+        config: Config::default(),
+        encoding: Encoding::default(),
+        workers,
+        documents: FxHashMap::default(),
+        resending: FxHashSet::default(),
+        dirty: Vec::new(),
+        shown_files: FxHashSet::default(),
+        stamp: 0,
+        stopped: None,
+    };
+    std::thread::Builder::new().name("wedm-state".into()).spawn(move || state.run(&receiver))?;
+    Ok(mailbox)
+}
+
+impl State {
+    fn run(mut self, inbox: &Receiver<Message>) {
+        loop {
+            let first = match self.client.next_deadline() {
+                None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some(deadline) => inbox.recv_timeout(deadline.saturating_duration_since(Instant::now())),
+            };
+            let began = Instant::now();
+            let mut name = "time-out";
+            match first {
+                Ok(message) => {
+                    name = message.name;
+                    self.handle(message);
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+            while began.elapsed() < TURN
+                && let Ok(message) = inbox.try_recv()
+            {
+                self.handle(message);
+            }
+            client::expire(&mut self);
+            self.publish_dirty();
+            if began.elapsed() > LONG_TURN {
+                tracing::info!("a turn that began with {name} took {} ms", began.elapsed().as_millis());
+            }
+            if let Some(done) = self.stopped.take() {
+                let _ = done.send(());
+            }
+        }
+    }
+
+    fn handle(&mut self, message: Message) {
+        let Message { name, about, act } = message;
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(|| act(self))) {
+            tracing::error!("{name} panicked: {}", panic_text(&*panic));
+            self.client.log(Weight::Warning, format!("internal error in {name}: {}", panic_text(&*panic)));
+            if let Some(uri) = about {
+                self.rebuild(&uri);
+            }
+        }
+    }
+
+    /// Answers when everything before has been handled and published.
+    pub fn stop(&mut self, done: std::sync::mpsc::Sender<()>) {
+        self.stopped = Some(done);
+    }
+
+    pub fn next_stamp(&mut self) -> u64 {
+        self.stamp += 1;
+        self.stamp
+    }
+
+    /// Drops what was derived from a document, never its text, and derives it again.
+    pub fn rebuild(&mut self, uri: &Arc<str>) {
+        let settings = self.settings_for(uri);
+        if let Some(open) = self.documents.get_mut(uri) {
+            open.rebuild(&settings);
+            self.mark_dirty(uri);
+        }
+    }
+
+    pub fn mark_dirty(&mut self, uri: &Arc<str>) {
+        let stamp = self.next_stamp();
+        if let Some(open) = self.documents.get_mut(uri) {
+            open.stamp = stamp;
+            open.dirty = true;
+            // Ours is the document's own copy of the name: one allocation for each document.
+            let uri = open.uri.clone();
+            if !self.dirty.contains(&uri) {
+                self.dirty.push(uri);
+            }
+        }
+    }
+
+    /// Puts a document in its place; what stood there is told of for the last time.
+    pub fn insert(&mut self, open: Open) {
+        let uri = open.uri.clone();
+        self.publish(&uri);
+        self.documents.insert(uri.clone(), open);
+        self.mark_dirty(&uri);
+    }
+
+    pub fn log_if_open(&self, uri: &Arc<str>) {
+        if self.documents.contains_key(uri) {
+            self.client.log(Weight::Info, format!("{uri} was open already: the new text or drawing takes its place"));
+        }
+    }
+
+    /// Closes a document; false when it is not open.
+    pub fn close(&mut self, uri: &Arc<str>) -> bool {
+        self.publish(uri);
+        if self.documents.remove(uri).is_none() {
+            return false;
+        }
+        self.dirty.retain(|other| other != uri);
+        self.client.writer().publish(Publish { uri: uri.clone(), version: None, diagnostics: Vec::new(), owed: true });
+        true
+    }
+
+    fn publish_dirty(&mut self) {
+        for uri in std::mem::take(&mut self.dirty) {
+            self.publish(&uri);
+        }
+    }
+
+    /// Publishes a document that has changed since it was published last.
+    fn publish(&mut self, uri: &Arc<str>) {
+        let encoding = self.encoding;
+        let Some(open) = self.documents.get_mut(uri).filter(|open| open.dirty) else { return };
+        open.dirty = false;
+        let owed = !std::mem::replace(&mut open.published, true);
+        let publish = Publish { uri: open.uri.clone(), version: Some(open.version), diagnostics: open.diagnostics(encoding), owed };
+        self.client.writer().publish(publish);
+    }
+
+    /// The settings that hold for a document, its project's file read anew.
+    pub fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
+        let file = self.file_for(uri);
+        self.config.effective_for(file.as_deref())
+    }
+
+    pub fn file_for(&mut self, uri: &str) -> Option<PathBuf> {
+        let documents = &self.documents;
+        let opened = |file: &Path| opened_text(documents, file);
+        let file = self.config.file_for(uri, &opened)?;
+        self.show_file(&file);
+        Some(file)
+    }
+
+    /// Shows the errors of a file that the client does not hold open itself.
+    fn show_file(&mut self, file: &Path) {
+        if opened_text(&self.documents, file).is_some() {
+            self.shown_files.remove(file);
+            return;
+        }
+        let errors = match self.config.project_file(file) {
+            Some(project) => super::convert::settings_diagnostics(&project.text, &project.errors, self.encoding),
+            None => Vec::new(),
+        };
+        let was_shown = self.shown_files.contains(file);
+        if errors.is_empty() && !was_shown {
+            return;
+        }
+        if errors.is_empty() {
+            self.shown_files.remove(file);
+        } else {
+            self.shown_files.insert(file.to_path_buf());
+        }
+        self.publish_file(file, errors);
+    }
+
+    fn publish_file(&self, file: &Path, diagnostics: Vec<Diagnostic>) {
+        if let Some(uri) = config::uri_of(file) {
+            self.client.writer().publish(Publish { uri: uri.into(), version: None, diagnostics, owed: false });
+        }
+    }
+
+    /// Settings of any level may have changed: every open document is looked at under what holds for it now.
+    pub fn settings_changed(&mut self) {
+        for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
+            let documents = &self.documents;
+            let opened = |file: &Path| opened_text(documents, file);
+            self.config.read(&file, &opened);
+            self.show_file(&file);
+        }
+        let uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
+        for uri in uris {
+            let settings = self.settings_for(&uri);
+            let Some(open) = self.documents.get_mut(&uri) else { continue };
+            let was_dirty = std::mem::take(&mut open.dirty);
+            open.set_settings(&settings);
+            let changed = open.dirty;
+            open.dirty |= was_dirty;
+            if changed {
+                self.mark_dirty(&uri);
+            }
+        }
+    }
+
+    /// The open document, or the error that says there is none.
+    pub fn document(&mut self, uri: &str) -> jsonrpc::Result<&mut Open> {
+        self.documents.get_mut(uri).ok_or_else(|| jsonrpc::Error::invalid_params(format!("{uri} is not open")))
+    }
+
+    pub fn set_abilities(&mut self, abilities: Abilities) {
+        self.client.abilities = abilities;
+    }
+}
+
+/// The text of a project's file that the client holds open.
+fn opened_text(documents: &FxHashMap<Arc<str>, Open>, file: &Path) -> Option<SourceText> {
+    let mut settings = documents.values().filter(|open| matches!(open.content, super::open::Content::Settings(_)));
+    let open = settings.find(|open| config::path_of(&open.uri).as_deref() == Some(file))?;
+    open.source_text().cloned()
+}

@@ -1,0 +1,309 @@
+//! Frames of the base protocol out of a stream of bytes, and the way back into step after a broken one.
+//!
+//! Knows nothing of JSON. Never allocates by `Content-Length` alone: memory grows with the bytes that came.
+
+use memchr::memmem;
+use std::io::Read;
+
+/// A body longer than this is skipped.
+pub(super) const BODY_CAP: u64 = 256 * 1024 * 1024;
+/// A header block longer than this is none.
+const HEADER_CAP: usize = 8 * 1024;
+const CHUNK: usize = 64 * 1024;
+/// More than the longest `Content-Length: …` line that is looked for.
+const MARKER_CAP: usize = 64;
+
+/// What came next in the stream.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Frame {
+    Body(Vec<u8>),
+    /// A frame that is none, and why; the stream stands before the next one.
+    Broken(String),
+    End,
+}
+
+pub(super) struct Frames<R> {
+    input: R,
+    buffer: Vec<u8>,
+    /// Bytes of `buffer` that are used up.
+    start: usize,
+    ended: bool,
+    /// The last body was broken: what follows it may be its rest.
+    out_of_step: bool,
+}
+
+impl<R: Read> Frames<R> {
+    pub fn new(input: R) -> Frames<R> {
+        Frames { input, buffer: Vec::new(), start: 0, ended: false, out_of_step: false }
+    }
+
+    /// Reads until a frame is whole, broken, or the stream ends.
+    pub fn next(&mut self) -> Frame {
+        if std::mem::take(&mut self.out_of_step) {
+            self.skip_to_header(0);
+        }
+        match self.header() {
+            Ok(None) => Frame::End,
+            Ok(Some(length)) if length > BODY_CAP => {
+                self.skip_body(length);
+                Frame::Broken(format!("a body of {length} bytes is over the limit of {BODY_CAP}"))
+            }
+            Ok(Some(length)) => self.body(length as usize),
+            Err(reason) => Frame::Broken(reason),
+        }
+    }
+
+    /// Says that a body was not what it should be: its end, and what follows, are searched for the next header.
+    pub fn was_broken(&mut self, body: &[u8]) {
+        let tail = &body[body.len().saturating_sub(MARKER_CAP)..];
+        self.buffer.splice(..self.start, tail.iter().copied());
+        self.start = 0;
+        self.out_of_step = true;
+    }
+
+    fn rest(&self) -> &[u8] {
+        &self.buffer[self.start..]
+    }
+
+    /// Reads more; false at the end of the stream.
+    fn fill(&mut self) -> bool {
+        if self.ended {
+            return false;
+        }
+        if self.start > CHUNK {
+            self.buffer.drain(..self.start);
+            self.start = 0;
+        }
+        let old = self.buffer.len();
+        self.buffer.resize(old + CHUNK, 0);
+        let count = loop {
+            match self.input.read(&mut self.buffer[old..]) {
+                Ok(count) => break count,
+                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+                Err(_) => break 0,
+            }
+        };
+        self.buffer.truncate(old + count);
+        self.ended = count == 0;
+        !self.ended
+    }
+
+    /// The length that the next header block states; `None` at the end of the stream.
+    fn header(&mut self) -> Result<Option<u64>, String> {
+        let mut length = None;
+        let mut lines = 0;
+        let mut used = 0;
+        loop {
+            let Some(end) = memchr::memchr(b'\n', &self.rest()[used..]).map(|at| used + at) else {
+                if self.rest().len() > HEADER_CAP {
+                    self.skip_to_header(1);
+                    return Err(format!("no header within {HEADER_CAP} bytes, expected Content-Length"));
+                }
+                if !self.fill() {
+                    return match self.rest().iter().all(u8::is_ascii_whitespace) {
+                        true => Ok(None),
+                        false => {
+                            self.start = self.buffer.len();
+                            Err("the stream ends within a header".into())
+                        }
+                    };
+                }
+                continue;
+            };
+            let line = self.rest()[used..end].trim_ascii();
+            used = end + 1;
+            if line.is_empty() {
+                // Blank lines between frames harm nobody.
+                if lines == 0 {
+                    self.start += used;
+                    used = 0;
+                    continue;
+                }
+                self.start += used;
+                if length.is_none() {
+                    self.skip_to_header(0);
+                    return Err("a header without Content-Length".into());
+                }
+                return Ok(length);
+            }
+            lines += 1;
+            match field(line) {
+                Some((name, value)) if name.eq_ignore_ascii_case(b"content-length") => {
+                    length = std::str::from_utf8(value).ok().and_then(|digits| digits.parse().ok());
+                    if length.is_none() {
+                        let value = String::from_utf8_lossy(value).into_owned();
+                        self.skip_to_header(1);
+                        return Err(format!("Content-Length is \"{value}\", expected a number"));
+                    }
+                }
+                Some(_) => {}
+                None => {
+                    self.skip_to_header(0);
+                    return Err("a line that is no header, expected Content-Length".into());
+                }
+            }
+        }
+    }
+
+    fn body(&mut self, length: usize) -> Frame {
+        let mut searched: usize = 0;
+        loop {
+            let have = self.rest().len().min(length);
+            // No JSON holds a header line: where one stands, the length was wrong and the next frame begins.
+            let from = searched.saturating_sub(MARKER_CAP);
+            if let Some(at) = marker(&self.rest()[from..have]) {
+                self.start += from + at;
+                return Frame::Broken(format!("the next frame begins before {length} bytes of body came"));
+            }
+            searched = have;
+            if have == length {
+                break;
+            }
+            if !self.fill() {
+                self.start = self.buffer.len();
+                return Frame::Broken(format!("the stream ends within a body of {length} bytes"));
+            }
+        }
+        let end = self.start + length;
+        let body = if self.start == 0 && length > CHUNK {
+            let rest = self.buffer.split_off(end);
+            std::mem::replace(&mut self.buffer, rest)
+        } else {
+            let body = self.buffer[self.start..end].to_vec();
+            self.start = end;
+            if self.start == self.buffer.len() {
+                self.buffer.clear();
+                self.start = 0;
+            }
+            body
+        };
+        Frame::Body(body)
+    }
+
+    /// Drops `length` bytes, or fewer when the next header comes before.
+    fn skip_body(&mut self, length: u64) {
+        let mut left = length;
+        loop {
+            let have = usize::try_from(left).unwrap_or(usize::MAX).min(self.rest().len());
+            if let Some(at) = marker(&self.rest()[..have]) {
+                self.start += at;
+                return;
+            }
+            let drop = if have as u64 == left { have } else { have.saturating_sub(MARKER_CAP) };
+            self.start += drop;
+            left -= drop as u64;
+            if left == 0 || !self.fill() {
+                return;
+            }
+        }
+    }
+
+    /// Drops everything before the next header line, which is looked for from `from` bytes ahead on.
+    fn skip_to_header(&mut self, from: usize) {
+        self.start = (self.start + from).min(self.buffer.len());
+        loop {
+            if let Some(at) = marker(self.rest()) {
+                self.start += at;
+                return;
+            }
+            self.start = self.buffer.len() - self.rest().len().min(MARKER_CAP);
+            if !self.fill() {
+                self.start = self.buffer.len();
+                return;
+            }
+        }
+    }
+}
+
+/// Name and value of a header line.
+fn field(line: &[u8]) -> Option<(&[u8], &[u8])> {
+    let colon = memchr::memchr(b':', line)?;
+    let (name, value) = (&line[..colon], &line[colon + 1..]);
+    let is_token = !name.is_empty() && name.iter().all(|&byte| byte.is_ascii_alphanumeric() || byte == b'-');
+    is_token.then(|| (name, value.trim_ascii()))
+}
+
+/// Where a whole `Content-Length: <digits>` line begins.
+fn marker(bytes: &[u8]) -> Option<usize> {
+    const NAME: &[u8] = b"Content-Length:";
+    const TAIL: &[u8] = b"ength:";
+    memmem::find_iter(bytes, TAIL).find_map(|at| {
+        let end = at + TAIL.len();
+        let begin = end.checked_sub(NAME.len())?;
+        let value = &bytes[end..];
+        let line = &value[..memchr::memchr(b'\n', &value[..value.len().min(MARKER_CAP)])?];
+        let digits = line.trim_ascii();
+        let whole = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) && bytes[begin..end].eq_ignore_ascii_case(NAME);
+        whole.then_some(begin)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bytes that come a few at a time, as from a pipe.
+    struct Trickle<'a>(&'a [u8], usize);
+
+    impl Read for Trickle<'_> {
+        fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+            let count = self.1.min(self.0.len()).min(into.len());
+            into[..count].copy_from_slice(&self.0[..count]);
+            self.0 = &self.0[count..];
+            Ok(count)
+        }
+    }
+
+    fn frames(input: &str, broken_bodies: &[&str]) -> Vec<String> {
+        let run = |step: usize| {
+            let mut frames = Frames::new(Trickle(input.as_bytes(), step));
+            let mut seen = Vec::new();
+            loop {
+                match frames.next() {
+                    Frame::Body(body) => {
+                        let text = String::from_utf8_lossy(&body).into_owned();
+                        if broken_bodies.contains(&text.as_str()) {
+                            frames.was_broken(&body);
+                            seen.push("!".into());
+                        } else {
+                            seen.push(text);
+                        }
+                    }
+                    Frame::Broken(_) => seen.push("?".into()),
+                    Frame::End => return seen,
+                }
+            }
+        };
+        let seen = run(usize::MAX);
+        for step in [1, 2, 7] {
+            assert_eq!(run(step), seen, "{input:?} in steps of {step}");
+        }
+        seen
+    }
+
+    #[test]
+    fn a_broken_frame_costs_itself_alone() {
+        let check = |input: &str, broken: &[&str], expected: &[&str]| assert_eq!(frames(input, broken), expected, "{input:?}");
+        let good = "Content-Length: 2\r\n\r\n{}";
+        check("", &[], &[]);
+        check(&format!("{good}{good}"), &[], &["{}", "{}"]);
+        check("content-length:2\n\n{}", &[], &["{}"]);
+        check("Content-Type: a; charset=utf-8\r\nContent-Length: 2\r\n\r\n{}", &[], &["{}"]);
+        check(&format!("\r\n\r\n{good}\r\n{good}"), &[], &["{}", "{}"]);
+        check(&format!("Content-Length: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Length: -5\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Type: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("what is this\r\n{good}"), &[], &["?", "{}"]);
+        check(&format!("what is this{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Length: 1\r\n\r\n{{}}{good}"), &["{"], &["!", "{}"]);
+        check(&format!("Content-Length: 8\r\n\r\n{{}}{good}"), &["{}Conten"], &["!", "{}"]);
+        check(&format!("Content-Length: 100\r\n\r\n{{}}{good}{good}"), &[], &["?", "{}", "{}"]);
+        check(&format!("Content-Length: 99999999999\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Length: 99999999999999999999999\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check("Content-Length: 10\r\n\r\n{}", &[], &["?"]);
+        check("Content-Length: 10", &[], &["?"]);
+        check(&format!("{}{good}", "\0".repeat(100_000)), &[], &["?", "{}"]);
+        let long = "7".repeat(200_000);
+        check(&format!("Content-Length: 200000\r\n\r\n{long}{good}"), &[], &[&long, "{}"]);
+    }
+}

@@ -1,0 +1,229 @@
+//! The wire: bytes in, messages to the service in order, replies out.
+//!
+//! One blocking thread reads; it polls each message's handler once, at once, so that what a handler does before its first
+//! wait happens in the order of the messages. A handler that waits is spawned: no number of them holds up the next
+//! message or a cancellation. Knows JSON-RPC, and of LSP only `initialize` and `exit`.
+
+mod frame;
+mod message;
+mod prepared;
+mod stdio;
+mod writer;
+
+pub(crate) use prepared::Prepared;
+pub(crate) use writer::{Publish, Writer};
+
+use frame::{Frame, Frames};
+use message::Incoming;
+use serde_json::Value;
+use std::any::Any;
+use std::fs::File;
+use std::future::Future;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::pin::Pin;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::task::{Context, Poll, Waker};
+use std::time::{Duration, Instant};
+use tower::Service;
+use tower_lsp::jsonrpc::{Error, ErrorCode, Id, Request, Response};
+use tower_lsp::{ExitedError, LanguageServer, LspService};
+
+pub(crate) use stdio::pipes;
+
+/// What the transport tells and asks the server beside the messages themselves.
+pub(crate) trait Inbox {
+    /// The client answered a request of ours.
+    fn reply(&self, id: String, result: Result<Value, Value>);
+    /// Something about the connection that the log should say.
+    fn note(&self, text: String);
+    /// Number of notifications that a handler has taken so far.
+    fn taken(&self) -> usize;
+}
+
+type Answer = Pin<Box<dyn Future<Output = Result<Option<Response>, ExitedError>> + Send>>;
+
+pub(crate) struct Transport<S, I> {
+    service: LspService<S>,
+    inbox: I,
+    writer: Writer,
+    prepared: Prepared,
+    runtime: tokio::runtime::Runtime,
+    /// Handlers that still wait.
+    waiting: Arc<AtomicUsize>,
+}
+
+impl<S: LanguageServer, I: Inbox> Transport<S, I> {
+    pub fn new(service: LspService<S>, inbox: I, writer: Writer, prepared: Prepared) -> std::io::Result<Self> {
+        let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_time().thread_name("wedm-replies").build()?;
+        Ok(Transport { service, inbox, writer, prepared, runtime, waiting: Arc::default() })
+    }
+
+    /// Serves until `exit` or the end of the input; true when the client said `exit`.
+    pub fn serve(&mut self, input: File) -> bool {
+        let mut frames = Frames::new(input);
+        loop {
+            if !self.wait_for_reader() {
+                return false;
+            }
+            match frames.next() {
+                Frame::End => return false,
+                Frame::Broken(reason) => self.answer_broken(Error { code: ErrorCode::ParseError, message: reason.into(), data: None }),
+                Frame::Body(body) => match message::parse(&body) {
+                    Err(error) => {
+                        frames.was_broken(&body);
+                        self.answer_broken(error);
+                    }
+                    Ok(Incoming::Invalid { id, error }) => self.send(Response::from_error(id, error)),
+                    Ok(Incoming::Reply { id, result }) => self.inbox.reply(id, result),
+                    Ok(Incoming::Request(request)) => {
+                        drop(body);
+                        let exit = request.method() == "exit" && request.id().is_none();
+                        self.dispatch(request);
+                        if exit {
+                            return true;
+                        }
+                    }
+                },
+            }
+        }
+    }
+
+    /// Waits for the handlers that still wait, at most `limit`.
+    pub fn drain(&self, limit: Duration) {
+        let deadline = Instant::now() + limit;
+        while self.waiting.load(Ordering::Acquire) > 0 && Instant::now() < deadline {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// Takes no more messages while the client does not read; false when it has gone.
+    fn wait_for_reader(&self) -> bool {
+        while self.writer.is_congested() {
+            if self.writer.wait_for_room(Duration::from_millis(200)) {
+                break;
+            }
+            if stdio::is_hung_up() {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn dispatch(&mut self, request: Request) {
+        let (id, method) = (request.id().cloned(), request.method().to_owned());
+        let inline = method == "initialize";
+        let taken = self.inbox.taken();
+        let guard = self.runtime.enter();
+        let answer = match catch_unwind(AssertUnwindSafe(|| self.service.call(request))) {
+            Ok(answer) => Guarded { answer },
+            Err(panic) => {
+                drop(guard);
+                return self.finish(id, Err(panic));
+            }
+        };
+        drop(guard);
+        // `initialize` ends before the next message: a client that sends `didOpen` right behind it loses nothing.
+        if inline {
+            let outcome = self.runtime.block_on(answer);
+            return self.finish(id, outcome);
+        }
+        let mut answer = answer;
+        let first = {
+            let _guard = self.runtime.enter();
+            Pin::new(&mut answer).poll(&mut Context::from_waker(Waker::noop()))
+        };
+        match first {
+            Poll::Ready(outcome) => {
+                let unread = id.is_none() && self.inbox.taken() == taken && is_ours(&method) && matches!(outcome, Ok(Ok(None)));
+                if unread {
+                    self.inbox.note(format!("{method} was ignored: its params are malformed, or it came before initialize"));
+                }
+                self.finish(id, outcome);
+            }
+            Poll::Pending => {
+                self.waiting.fetch_add(1, Ordering::AcqRel);
+                let (writer, prepared, waiting) = (self.writer.clone(), self.prepared.clone(), self.waiting.clone());
+                self.runtime.spawn(async move {
+                    let outcome = answer.await;
+                    finish(&writer, &prepared, id, outcome);
+                    waiting.fetch_sub(1, Ordering::AcqRel);
+                });
+            }
+        }
+    }
+
+    fn finish(&mut self, id: Option<Id>, outcome: Outcome) {
+        if outcome.is_err()
+            && let Some(id) = &id
+        {
+            // The framework remembers the id of a request whose handler never ended; forget it.
+            let id = serde_json::to_value(id).unwrap_or_default();
+            let cancel = Request::build("$/cancelRequest").params(serde_json::json!({ "id": id })).finish();
+            let mut answer = self.service.call(cancel);
+            let _ = answer.as_mut().poll(&mut Context::from_waker(Waker::noop()));
+        }
+        finish(&self.writer, &self.prepared, id, outcome);
+    }
+
+    fn answer_broken(&self, error: Error) {
+        self.inbox.note(format!("a broken message was skipped: {}", error.message));
+        self.send(Response::from_error(Id::Null, error));
+    }
+
+    fn send(&self, response: Response) {
+        self.writer.send_json(&response);
+    }
+}
+
+/// What came of a handler: its answer, or the panic that ended it.
+type Outcome = Result<Result<Option<Response>, ExitedError>, Box<dyn Any + Send>>;
+
+fn finish(writer: &Writer, prepared: &Prepared, id: Option<Id>, outcome: Outcome) {
+    let response = match outcome {
+        Ok(Ok(response)) => response,
+        Ok(Err(_exited)) => None,
+        Err(panic) => {
+            let text = panic_text(&*panic);
+            tracing::error!("a handler panicked: {text}");
+            let message = format!("internal error: {text}").into();
+            id.map(|id| Response::from_error(id, Error { code: ErrorCode::InternalError, message, data: None }))
+        }
+    };
+    let Some(response) = response else { return };
+    match prepared.body(response) {
+        Ok(body) => writer.send(body),
+        Err(error) => tracing::error!("a reply cannot be written: {error}"),
+    }
+}
+
+/// What a panic said.
+pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> &str {
+    match (panic.downcast_ref::<&str>(), panic.downcast_ref::<String>()) {
+        (Some(text), _) => text,
+        (_, Some(text)) => text,
+        _ => "no reason given",
+    }
+}
+
+/// Notifications that must not be lost without a word.
+fn is_ours(method: &str) -> bool {
+    method.starts_with("wedm/") || matches!(method, "textDocument/didOpen" | "textDocument/didChange" | "textDocument/didClose")
+}
+
+/// A handler's future that turns a panic into a value.
+struct Guarded {
+    answer: Answer,
+}
+
+impl Future for Guarded {
+    type Output = Outcome;
+
+    fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Outcome> {
+        match catch_unwind(AssertUnwindSafe(|| self.answer.as_mut().poll(context))) {
+            Ok(Poll::Pending) => Poll::Pending,
+            Ok(Poll::Ready(answer)) => Poll::Ready(Ok(answer)),
+            Err(panic) => Poll::Ready(Err(panic)),
+        }
+    }
+}

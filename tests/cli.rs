@@ -1,0 +1,399 @@
+//! The command line as a user meets it: the real binary, small files, what it prints and how it ends.
+
+use serde_json::Value;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A folder of its own with all files of `tests/data`.
+struct Desk(tempfile::TempDir);
+
+impl Desk {
+    fn new() -> Desk {
+        let folder = tempfile::tempdir().unwrap();
+        for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")).unwrap() {
+            let entry = entry.unwrap();
+            if entry.file_type().unwrap().is_file() {
+                std::fs::copy(entry.path(), folder.path().join(entry.file_name())).unwrap();
+            }
+        }
+        Desk(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        std::fs::create_dir_all(self.path(name).parent().unwrap()).unwrap();
+        std::fs::write(self.path(name), content).unwrap();
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.path(name)).unwrap()
+    }
+
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_wedm"));
+        command.args(arguments.split_whitespace()).current_dir(self.0.path()).stdin(Stdio::null());
+        command
+    }
+
+    fn run(&self, arguments: &str) -> Ended {
+        Ended::of(self.command(arguments).output().unwrap())
+    }
+}
+
+#[derive(Debug)]
+struct Ended {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+}
+
+impl Ended {
+    fn of(output: Output) -> Ended {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Ended { code: output.status.code(), stdout: text(&output.stdout), stderr: text(&output.stderr) }
+    }
+
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {self:?}"))
+    }
+}
+
+/// Runs `arguments` and looks for texts, those that begin with `!` in stderr, the others in stdout.
+#[track_caller]
+fn check(desk: &Desk, arguments: &str, code: i32, texts: &[&str]) {
+    let ended = desk.run(arguments);
+    assert_eq!(ended.code, Some(code), "wedm {arguments}: {ended:?}");
+    for text in texts {
+        let (stream, text) = match text.strip_prefix('!') {
+            Some(text) => (&ended.stderr, text),
+            None => (&ended.stdout, *text),
+        };
+        assert!(stream.contains(text), "wedm {arguments}: no {text:?} in {ended:?}");
+    }
+    assert!(!ended.stdout.contains('\x1b') && !ended.stderr.contains('\x1b'), "colours without a terminal: {ended:?}");
+}
+
+#[test]
+fn commands_print_and_end_as_they_say() {
+    let desk = Desk::new();
+    let cases: &[(&str, i32, &[&str])] = &[
+        ("check clean.dxf", 0, &["1 file checked: nothing found"]),
+        ("check hole.3b", 0, &["1 file checked: nothing found"]),
+        (
+            "check tight.dxf",
+            1,
+            &[
+                "error[small-radius]: arc R 0.080 mm is below the correction 0.100 mm",
+                "--> tight.dxf:34:1",
+                "33 |  42",
+                "34 | 0.414213562373",
+                "^^^^^^^^^^^^^^ 2A, segment 1",
+                "1 file checked: 1 error",
+                "wedm fix tight.dxf --in-place",
+            ],
+        ),
+        ("check tight.dxf --correction 0.07", 0, &["nothing found"]),
+        ("check clean.dxf --correction 0.6", 1, &["arc R 0.500 mm is below the correction 0.600 mm"]),
+        ("check tight.dxf --side punch", 0, &["nothing found"]),
+        ("check chain.dxf", 1, &["--> chain.dxf:40:1", "^^^^ 32, segment 0"]),
+        ("check inch.dxf", 1, &["arc R 0.080 mm"]),
+        ("check narrow.dxf", 1, &["narrow-slot", "2 errors\n"]),
+        ("check no_unit.dxf", 0, &["warning[units]", "1 warning"]),
+        ("check no_unit.dxf --deny warning", 1, &["1 warning"]),
+        ("check clean.dxf --deny warning", 0, &[]),
+        ("check garbage.dxf", 1, &["1 error\n"]),
+        ("check missing.dxf", 2, &["!error: missing.dxf: no such file"]),
+        ("check tight.dxf missing.dxf clean.dxf", 2, &["2 files checked: 1 error", "!missing.dxf"]),
+        ("check", 2, &["!PATH"]),
+        ("check clean.dxf --correction -1", 2, &["!above 0"]),
+        ("check clean.dxf --correction NaN", 2, &["!above 0"]),
+        ("check clean.dxf --side left", 2, &["!both, auto, opening, punch"]),
+        ("check clean.dxf --config missing.toml", 2, &["!missing.toml: no such file"]),
+        ("fix tight.dxf", 2, &["!--output", "!--in-place", "!--diff"]),
+        ("fix tight.dxf --in-place --diff", 2, &["!cannot be used with"]),
+        ("fix tight.dxf -o tight.dxf", 2, &["!is the input"]),
+        ("fix tight.dxf -o ./tight.dxf", 2, &["!is the input"]),
+        ("fix hole.3b --diff", 2, &["!expected a drawing"]),
+        ("fix tight.dxf --diff", 0, &["--- tight.dxf", "@@ -", "-19.92", "+19.899", "!1 arc repaired"]),
+        ("fix clean.dxf --diff", 0, &["!nothing to repair"]),
+        ("fix narrow.dxf --diff", 1, &["!nothing could be repaired", "!left: narrow.dxf:34:1", "!narrow-slot"]),
+        ("generate tight.dxf --side opening", 1, &["!error[small-radius]", "!no program is written, the drawing has 1 error"]),
+        ("generate clean.dxf", 1, &["!side of contour 2A is not known"]),
+        ("generate clean.dxf --side opening", 0, &["DD\n", "!written stdout", "!decoded again: at most"]),
+        ("generate clean.dxf --side opening --format 4b", 2, &["!there is: 3b"]),
+        ("generate clean.dxf --side opening --format iso", 2, &["!there is: 3b"]),
+        ("generate clean.dxf --side punch --thread -3,-2 --layout checking", 0, &["Start Point = -3", "DD"]),
+        ("generate clean.dxf --side punch --thread=-3,-2 --entry -0.0,5", 0, &["DD"]),
+        ("generate clean.dxf --side punch --thread 3", 2, &["!such as -115,-10"]),
+        ("generate clean.dxf --side punch --handle 99", 1, &["!99"]),
+        ("generate clean.dxf --side opening -o clean.dxf", 2, &["!is the input"]),
+        ("inspect tight.dxf", 1, &["LWPOLYLINE 2A on layer DIE, closed", "0.080", "small-radius", "1 not ok"]),
+        ("inspect clean.dxf", 0, &["all of them can be cut"]),
+        ("inspect missing.dxf", 2, &["!missing.dxf"]),
+        ("contours chain.dxf", 0, &["contour 0: closed, counter-clockwise, both sides, 5 segments", "1 contour\n"]),
+        ("draw tight.dxf", 0, &["<svg", "R 0.080 mm, the correction is 0.100 mm", "</svg>"]),
+        ("draw tight.dxf -o tight.png", 2, &["!.png is not written, expected .svg"]),
+        ("completions bash", 0, &["_wedm"]),
+        ("completions zsh", 0, &["#compdef wedm"]),
+        ("convert hole.3b -o hole.dxf", 2, &["!unrecognized subcommand"]),
+        ("simulate hole.3b", 2, &["!unrecognized subcommand"]),
+        ("--version", 0, &["wedm "]),
+        ("--help", 0, &["check", "generate", "Exit codes"]),
+    ];
+    for (arguments, code, texts) in cases {
+        check(&desk, arguments, *code, texts);
+    }
+}
+
+#[test]
+fn formats_that_are_not_read_are_named_and_not_skipped() {
+    let desk = Desk::new();
+    for (name, reason) in [
+        ("a.nc", "ISO programs are not read yet"),
+        ("a.iso", "ISO"),
+        ("a.dxb", "binary DXB"),
+        ("a.dwg", "DWG"),
+        ("a.txt", ".txt"),
+        ("a", "no ending"),
+    ] {
+        desk.write(&format!("strange/{name}"), "x");
+        check(&desk, &format!("check strange/{name}"), 2, &[&format!("!{name}: "), &format!("!{reason}")]);
+    }
+    // In a folder the strange ones are left, but those that a wire machine reads are named.
+    check(&desk, "check strange", 2, &["0 files checked", "!a.nc", "!a.iso", "!a.dxb"]);
+    assert!(!desk.run("check strange").stderr.contains("a.txt"));
+}
+
+#[test]
+fn json_holds_each_finding_with_its_place_and_its_numbers() {
+    let desk = Desk::new();
+    let ended = desk.run("check tight.dxf chain.dxf clean.dxf --output json");
+    assert_eq!(ended.code, Some(1));
+    let json = ended.json();
+    let rows = json["diagnostics"].as_array().unwrap();
+    let places: Vec<_> = rows.iter().map(|row| (row["path"].as_str().unwrap(), row["line"].as_u64().unwrap())).collect();
+    assert_eq!(places, [("tight.dxf", 34), ("chain.dxf", 40)]);
+    let row = &rows[0];
+    let keys: Vec<&String> = row.as_object().unwrap().keys().collect();
+    assert_eq!(keys.len(), 9, "{keys:?}");
+    assert_eq!((row["column"].as_u64(), row["endLine"].as_u64(), row["endColumn"].as_u64()), (Some(1), Some(34), Some(15)));
+    assert_eq!((row["rule"].as_str(), row["severity"].as_str()), (Some("small-radius"), Some("error")));
+    assert_eq!((row["data"]["handle"].as_str(), row["data"]["segment"].as_u64()), (Some("2A"), Some(1)));
+    assert!((row["data"]["radius"].as_f64().unwrap() - 0.08).abs() < 1e-9);
+    assert_eq!(row["data"]["required"].as_f64(), Some(0.1));
+}
+
+#[test]
+fn json_is_printed_also_when_the_command_fails() {
+    let desk = Desk::new();
+    for (arguments, code) in
+        [("inspect tight.dxf --output json", 1), ("inspect missing.dxf --output json", 2), ("inspect hole.3b --output json", 2)]
+    {
+        let ended = desk.run(arguments);
+        assert_eq!(ended.code, Some(code), "{ended:?}");
+        assert!(ended.json()["entities"].is_array() && ended.json()["diagnostics"].is_array() && ended.json()["unitsToMm"].is_number());
+    }
+    assert_eq!(desk.run("check missing.dxf --output json").json()["diagnostics"], serde_json::json!([]));
+}
+
+#[test]
+fn the_radius_list_names_vertex_radius_and_verdict() {
+    let desk = Desk::new();
+    let json = desk.run("inspect tight.dxf --output json").json();
+    let segments = json["entities"][0]["segments"].as_array().unwrap();
+    let verdicts: Vec<_> = segments.iter().map(|segment| segment["verdict"].as_str().unwrap()).collect();
+    assert_eq!(verdicts, ["ok", "small-radius", "ok", "ok", "ok"]);
+    assert_eq!(segments[1]["kind"], "arc");
+    assert_eq!(json["diagnostics"].as_array().unwrap().len(), 1);
+    assert_eq!(desk.run("inspect inch.dxf --output json").json()["unitsToMm"], 25.4);
+}
+
+#[test]
+fn sarif_names_rules_places_and_what_could_not_be_read() {
+    let desk = Desk::new();
+    desk.write("sub folder/tight.dxf", desk.read("tight.dxf"));
+    let mut command = desk.command("check --output sarif missing.dxf");
+    let log = Ended::of(command.arg("sub folder").output().unwrap()).json();
+    assert_eq!(log["version"], "2.1.0");
+    let run = &log["runs"][0];
+    let result = &run["results"][0];
+    let index = result["ruleIndex"].as_u64().unwrap() as usize;
+    assert_eq!(run["tool"]["driver"]["rules"][index]["id"], result["ruleId"]);
+    let place = &result["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], "sub%20folder/tight.dxf");
+    assert_eq!(place["region"]["startLine"], 34);
+    assert_eq!(result["level"], "error");
+    assert_eq!(run["invocations"][0]["executionSuccessful"], false);
+    assert!(run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"].as_str().unwrap().contains("missing.dxf"));
+}
+
+#[test]
+fn a_folder_is_searched_in_all_its_depth_and_every_file_stands_once() {
+    let desk = Desk::new();
+    desk.write("parts/a.DXF", desk.read("tight.dxf"));
+    desk.write("parts/deep/er/b.dxf", desk.read("clean.dxf"));
+    desk.write("parts/notes.txt", "nothing");
+    check(&desk, "check parts parts/a.DXF", 1, &["2 files checked: 1 error"]);
+    desk.write("empty/notes.txt", "nothing");
+    check(&desk, "check empty", 0, &["0 files checked"]);
+}
+
+/// Fifty tight arcs a file: `check` knows no limit of findings.
+#[test]
+fn check_sees_all_findings() {
+    let desk = Desk::new();
+    let circle = |index: usize| format!("  0\nCIRCLE\n  5\n{:X}\n  8\nDIE\n 10\n{index}\n 20\n0\n 40\n0.05\n", 256 + index);
+    let circles: String = (0..700).map(circle).collect();
+    let text = format!(
+        "  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n{circles}  0\nENDSEC\n  0\nEOF\n"
+    );
+    desk.write("many.dxf", text);
+    let rows = desk.run("check many.dxf --output json").json();
+    assert_eq!(rows["diagnostics"].as_array().unwrap().len(), 700);
+}
+
+#[test]
+fn a_fix_changes_its_numbers_and_no_other_byte() {
+    let desk = Desk::new();
+    for (name, lines) in [("tight.dxf", 3), ("chain.dxf", 5), ("code_page.dxf", 3), ("inch.dxf", 3)] {
+        let before = desk.read(name);
+        let ended = desk.run(&format!("fix {name} -o fixed.dxf"));
+        assert_eq!(ended.code, Some(0), "{ended:?}");
+        assert_eq!(desk.read(name), before, "{name} has been changed");
+        let after = desk.read("fixed.dxf");
+        let (old, new): (Vec<_>, Vec<_>) = (before.split(|&byte| byte == b'\n').collect(), after.split(|&byte| byte == b'\n').collect());
+        assert_eq!(old.len(), new.len(), "{name}");
+        let changed: Vec<_> = old.iter().zip(&new).filter(|(a, b)| a != b).collect();
+        assert_eq!(changed.len(), lines, "{name}: {changed:?}");
+        assert!(changed.iter().all(|(a, b)| a.ends_with(b"\r") == b.ends_with(b"\r")), "{name}");
+        check(&desk, "check fixed.dxf", 0, &["nothing found"]);
+    }
+}
+
+#[test]
+fn a_fix_in_place_writes_what_a_fix_beside_writes() {
+    let desk = Desk::new();
+    check(&desk, "fix code_page.dxf -o beside.dxf", 0, &["!1 arc repaired"]);
+    let printed = desk.command("fix code_page.dxf -o -").output().unwrap().stdout;
+    check(&desk, "fix code_page.dxf --in-place", 0, &["!1 arc repaired"]);
+    assert_eq!(desk.read("code_page.dxf"), desk.read("beside.dxf"));
+    assert_eq!(printed, desk.read("beside.dxf"));
+    let names: Vec<_> = std::fs::read_dir(desk.0.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert!(names.iter().all(|name| !name.to_string_lossy().starts_with(".wedm")), "{names:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_fix_in_place_keeps_permissions_and_links() {
+    use std::os::unix::fs::PermissionsExt;
+    let desk = Desk::new();
+    std::fs::set_permissions(desk.path("tight.dxf"), std::fs::Permissions::from_mode(0o640)).unwrap();
+    std::os::unix::fs::symlink("tight.dxf", desk.path("link.dxf")).unwrap();
+    check(&desk, "fix link.dxf --in-place", 0, &["!1 arc repaired"]);
+    assert!(std::fs::symlink_metadata(desk.path("link.dxf")).unwrap().is_symlink());
+    assert_eq!(std::fs::metadata(desk.path("tight.dxf")).unwrap().permissions().mode() & 0o777, 0o640);
+    check(&desk, "check tight.dxf", 0, &[]);
+}
+
+#[test]
+fn a_program_decodes_to_where_it_began_and_lands_in_its_file() {
+    let desk = Desk::new();
+    check(&desk, "generate clean.dxf --side opening -o clean.3b", 0, &["!written clean.3b", "!1 contour"]);
+    let program = String::from_utf8(desk.read("clean.3b")).unwrap();
+    assert!(program.lines().all(|line| line == "DD" || line.starts_with('B')), "{program}");
+    check(&desk, "check clean.3b", 0, &["nothing found"]);
+    check(&desk, "generate tight.dxf --side opening --correction 0.07", 0, &["DD"]);
+    check(&desk, "generate tight.dxf --side opening --force", 0, &["DD"]);
+}
+
+#[test]
+fn settings_come_from_the_project_then_the_option_file_then_the_options() {
+    let desk = Desk::new();
+    desk.write("job/deep/tight.dxf", desk.read("tight.dxf"));
+    desk.write("job/wedm.toml", "correction = 0.05\n");
+    desk.write("fine.toml", "correction = 0.2\n");
+    check(&desk, "check job/deep/tight.dxf", 0, &["nothing found"]);
+    check(&desk, "check job/deep/tight.dxf --config fine.toml", 1, &["the correction 0.200 mm"]);
+    check(&desk, "check job/deep/tight.dxf --config fine.toml --correction 0.3", 1, &["the correction 0.300 mm"]);
+}
+
+#[test]
+fn a_fault_in_the_settings_is_a_finding_in_them() {
+    let desk = Desk::new();
+    for (toml, line) in [("side = \"both\"\ncorrection = \"thick\"\n", 2), ("correction = \n", 1), ("corection = 0.1\n", 1)] {
+        desk.write("job/wedm.toml", toml);
+        desk.write("job/clean.dxf", desk.read("clean.dxf"));
+        desk.write("job/again.dxf", desk.read("clean.dxf"));
+        check(&desk, "check job", 1, &["error[settings]", "wedm.toml:", "2 files checked: 1 error"]);
+        let json = desk.run("check job/clean.dxf --output json").json();
+        assert_eq!(json["diagnostics"][0]["line"], line, "{json}");
+        assert!(json["diagnostics"][0]["path"].as_str().unwrap().ends_with("wedm.toml"));
+        // Nothing is made with settings that may not be those that were meant.
+        check(&desk, "generate job/clean.dxf --side opening", 2, &["!error[settings]", "!settings that do not fit"]);
+        check(&desk, "fix job/clean.dxf --diff", 2, &["!settings that do not fit"]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_that_cannot_be_read_is_named() {
+    use std::os::unix::fs::PermissionsExt;
+    let desk = Desk::new();
+    desk.write("closed/a.dxf", desk.read("clean.dxf"));
+    std::fs::set_permissions(desk.path("closed"), std::fs::Permissions::from_mode(0o000)).unwrap();
+    let readable_anyway = std::fs::read_dir(desk.path("closed")).is_ok();
+    if readable_anyway {
+        eprintln!("skipped: this user may read every folder");
+    } else {
+        check(&desk, "check closed", 2, &["!closed: permission denied"]);
+    }
+    std::fs::set_permissions(desk.path("closed"), std::fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+#[test]
+fn a_target_that_cannot_be_written_is_named_and_nothing_is_left_behind() {
+    let desk = Desk::new();
+    check(&desk, "fix tight.dxf -o no/such/folder/out.dxf", 2, &["!no/such/folder/out.dxf could not be written"]);
+    desk.write("folder/x", "");
+    check(&desk, "fix tight.dxf -o folder", 2, &["!folder could not be written"]);
+}
+
+/// A reader that goes away is no reason to panic.
+#[test]
+fn stdout_may_close_early() {
+    let desk = Desk::new();
+    for arguments in ["check tight.dxf --output sarif", "inspect tight.dxf", "draw tight.dxf", "completions bash", "fix tight.dxf -o -"] {
+        let mut child = desk.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let mut stderr = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+        let status = child.wait().unwrap();
+        assert!(matches!(status.code(), Some(0 | 1)), "wedm {arguments}: {status}");
+        assert!(!stderr.contains("panicked") && !stderr.contains("pipe"), "wedm {arguments}: {stderr}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let desk = Desk::new();
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let ended = Ended::of(desk.command("draw tight.dxf").stdout(full).output().unwrap());
+    assert_eq!(ended.code, Some(2), "{ended:?}");
+    assert!(ended.stderr.contains("stdout could not be written"), "{ended:?}");
+}
+
+#[test]
+fn a_picture_is_well_formed_enough_to_be_shown() {
+    let desk = Desk::new();
+    check(&desk, "draw narrow.dxf -o narrow.svg", 0, &["!drawn without the path of the wire"]);
+    let picture = String::from_utf8(desk.read("narrow.svg")).unwrap();
+    assert!(picture.starts_with("<svg xmlns=") && picture.ends_with("</svg>\n"));
+    assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    check(&desk, "draw clean.dxf --side opening -o clean.svg", 0, &[]);
+    assert!(String::from_utf8(desk.read("clean.svg")).unwrap().contains("class=\"wire\""));
+}
