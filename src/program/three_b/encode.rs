@@ -8,6 +8,9 @@ use std::f64::consts::{PI, TAU};
 /// How far a decoded block may end from its node, µm.
 pub(super) const END_TOLERANCE: f64 = 1.5;
 
+/// How far the middle of a decoded block may lie from that of its piece of the path, µm.
+pub(super) const MIDDLE_TOLERANCE: f64 = 2.5;
+
 /// The largest sagitta of a chord that stands for a piece of an arc too large for the format, µm.
 const CHORD_SAGITTA: f64 = 0.5;
 
@@ -153,8 +156,20 @@ enum Attempt {
     Misses,
 }
 
+/// The block about the best centre; where it leads too far from the arc, as a grid centre two µm off can past a half turn, about the
+/// next best one.
 fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
-    let center = best_center(arc, from, to);
+    match block_about(best_center(arc, from, to), arc, from, to, full_turn) {
+        Attempt::Misses => {}
+        block => return block,
+    }
+    let mut centers = grid_centers(arc, from, to);
+    centers.sort_by(|a, b| a.difference.total_cmp(&b.difference).then(a.away.total_cmp(&b.away)));
+    let attempts = centers.iter().map(|center| block_about(center.node, arc, from, to, full_turn));
+    attempts.into_iter().find(|attempt| matches!(attempt, Attempt::Block(_))).unwrap_or(Attempt::Misses)
+}
+
+fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
     let (start_x, start_y) = (from.x - center.x, from.y - center.y);
     let (end_x, end_y) = (to.x - center.x, to.y - center.y);
     if (start_x, start_y) == (0, 0) || (end_x, end_y) == (0, 0) {
@@ -185,7 +200,11 @@ fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
     };
     let block = Block { x: start_x.abs(), y: start_y.abs(), j: j.round() as i64, axis, motion };
     match decode(&block, point_of(from)) {
-        Ok(Segment::Arc(decoded)) if decoded.is_full_turn() == full_turn && (decoded.end - point_of(to)).norm() <= END_TOLERANCE => {
+        Ok(Segment::Arc(decoded))
+            if decoded.is_full_turn() == full_turn
+                && (decoded.end - point_of(to)).norm() <= END_TOLERANCE
+                && (decoded.point_at(0.5) - arc.point_at(0.5)).norm() <= MIDDLE_TOLERANCE =>
+        {
             Attempt::Block(block)
         }
         _ => Attempt::Misses,
@@ -205,23 +224,35 @@ fn projections(first: f64, last: f64, radius: f64, phase: f64, sweep: f64) -> f6
     (extreme(half_turn) - first).abs() + 2.0 * radius * (crossings - 1.0) + (last - extreme(half_turn + crossings - 1.0)).abs()
 }
 
-/// Among the nine grid points around the true centre the one that is most nearly as far from the start as from the end; the nearest one
-/// where they are equally good.
-fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
+#[derive(Clone, Copy)]
+struct GridCenter {
+    node: Node,
+    /// By how much it is further from the arc's start than from its end, or nearer.
+    difference: f64,
+    /// From the true centre.
+    away: f64,
+}
+
+/// The nine grid points around the true centre.
+fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
     let nearest = Node { x: arc.center.x.round() as i64, y: arc.center.y.round() as i64 };
-    let mut best = (nearest, f64::INFINITY, f64::INFINITY);
-    for dx in -1..=1 {
-        for dy in -1..=1 {
-            let center = Node { x: nearest.x + dx, y: nearest.y + dy };
-            let difference = (distance(from, center) - distance(to, center)).abs();
-            let away = (point_of(center) - arc.center).norm();
-            let better = difference < best.1 - 1e-9 || (difference < best.1 + 1e-9 && away < best.2);
-            if better {
-                best = (center, difference, away);
-            }
+    std::array::from_fn(|index| {
+        let node = Node { x: nearest.x + index as i64 / 3 - 1, y: nearest.y + index as i64 % 3 - 1 };
+        let difference = (distance(from, node) - distance(to, node)).abs();
+        GridCenter { node, difference, away: (point_of(node) - arc.center).norm() }
+    })
+}
+
+/// The grid centre that is most nearly as far from the start as from the end; the nearest one where they are equally good.
+fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
+    let [mut best, others @ ..] = grid_centers(arc, from, to);
+    for center in others {
+        let nearer = center.difference < best.difference + 1e-9 && center.away < best.away;
+        if center.difference < best.difference - 1e-9 || nearer {
+            best = center;
         }
     }
-    best.0
+    best.node
 }
 
 fn distance(a: Node, b: Node) -> f64 {

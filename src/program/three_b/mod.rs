@@ -9,6 +9,8 @@ mod encode;
 mod layout;
 mod parse;
 mod proof;
+#[cfg(test)]
+mod tests;
 mod write;
 
 pub use block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};

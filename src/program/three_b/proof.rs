@@ -2,12 +2,9 @@
 
 use super::block::{Block, Node};
 use super::decode::decode;
-use super::encode::{END_TOLERANCE, Encoded, point_of};
+use super::encode::{END_TOLERANCE, Encoded, MIDDLE_TOLERANCE, point_of};
 use super::parse::{Item, Words, read_line};
 use crate::geometry::Vector;
-
-/// How far the middle of a decoded block may lie from that of the path, µm: the grid centre of an arc is up to 2.1 µm from the true one.
-const MIDDLE_TOLERANCE: f64 = 3.5;
 
 /// What the blocks of one program have shown so far.
 #[derive(Clone, Debug, Default)]
