@@ -20,6 +20,9 @@ mod reader;
 mod table;
 #[cfg(test)]
 mod tests;
+mod write;
+
+pub use write::write;
 
 use crate::drawing::{Drawing, Entity, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};

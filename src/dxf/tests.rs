@@ -1,4 +1,6 @@
 //! Tests of the module as a whole.
 
 mod editing;
+mod faults;
 mod reading;
+mod writing;

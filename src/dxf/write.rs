@@ -1,0 +1,65 @@
+//! New drawings as DXF text, by the `dxf` crate: a text that nobody wrote by hand needs no places.
+
+use crate::drawing::{Drawing, Geometry, Unit};
+use crate::geometry::{Point, positive_angle};
+use ::dxf as crate_dxf;
+use crate_dxf::entities::{self, Entity, EntityCommon, EntityType};
+use crate_dxf::enums::{AcadVersion, Units};
+use crate_dxf::{LwPolylineVertex, Point as Point3};
+
+/// Height of texts, in millimetres: a start mark has no height of its own.
+const TEXT_HEIGHT_MM: f64 = 1.0;
+
+/// The drawing as an ASCII DXF file of release 2004: LWPOLYLINE, LINE, ARC, CIRCLE and TEXT on their layers.
+///
+/// Numbers have 12 decimals, bulges too; angles are degrees in [0°, 360°). Handles are given anew, entities keep their
+/// order. The unit is written where it is millimetre, inch, centimetre or metre, else the file is without one.
+/// An error is the sentence of the crate that writes.
+pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
+    let mut file = crate_dxf::Drawing::new();
+    file.header.version = AcadVersion::R2004;
+    file.header.default_drawing_units = match drawing.unit {
+        Some(unit) if unit == Unit::MILLIMETRE => Units::Millimeters,
+        Some(unit) if unit == Unit::INCH => Units::Inches,
+        Some(Unit { mm: 10.0 }) => Units::Centimeters,
+        Some(Unit { mm: 1000.0 }) => Units::Meters,
+        _ => Units::Unitless,
+    };
+    let text_height = TEXT_HEIGHT_MM / drawing.unit.unwrap_or(Unit::MILLIMETRE).mm;
+    for (_, entity) in drawing.entities() {
+        let specific = match &entity.geometry {
+            Geometry::Polyline { closed, vertices } => {
+                let vertices = vertices
+                    .iter()
+                    .map(|vertex| LwPolylineVertex {
+                        x: vertex.point.x,
+                        y: vertex.point.y,
+                        bulge: vertex.bulge,
+                        ..LwPolylineVertex::default()
+                    })
+                    .collect();
+                let mut polyline = entities::LwPolyline { vertices, ..entities::LwPolyline::default() };
+                polyline.set_is_closed(*closed);
+                EntityType::LwPolyline(polyline)
+            }
+            Geometry::Line { start, end } => EntityType::Line(entities::Line::new(in_space(*start), in_space(*end))),
+            Geometry::Arc { center, radius, start_angle, end_angle } => {
+                let (start, end) = (positive_angle(*start_angle).to_degrees(), positive_angle(*end_angle).to_degrees());
+                EntityType::Arc(entities::Arc::new(in_space(*center), *radius, start, end))
+            }
+            Geometry::Circle { center, radius } => EntityType::Circle(entities::Circle::new(in_space(*center), *radius)),
+            Geometry::Text { at, text } => {
+                EntityType::Text(entities::Text { location: in_space(*at), value: text.clone(), text_height, ..entities::Text::default() })
+            }
+        };
+        let common = EntityCommon { layer: entity.layer.to_string(), ..EntityCommon::default() };
+        file.add_entity(Entity { common, specific });
+    }
+    let mut bytes = Vec::new();
+    file.save(&mut bytes).map_err(|error| format!("the DXF file cannot be written: {error}"))?;
+    Ok(bytes)
+}
+
+fn in_space(point: Point) -> Point3 {
+    Point3::new(point.x, point.y, 0.0)
+}
