@@ -192,7 +192,7 @@ fn summarise(path: &Path, repair: &Repair) {
     }
     for row in repair.after.iter().filter(|row| row.severity <= Severity::Warning) {
         let reason = match &row.data.no_fix {
-            None if row.rule == Rule::SmallRadius => " (its fix moves the contour far: choose it in the editor)",
+            None if row.rule == Rule::SmallRadius => " (its fix moves the contour by more than the correction: choose it in the editor)",
             _ => "",
         };
         let place = format!("{name}:{}:{}", row.line, row.column);

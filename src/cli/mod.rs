@@ -25,13 +25,12 @@ use std::process::ExitCode;
 /// Finds every arc that is tighter than the wire's correction, repairs it, and writes proved 3B programs.
 /// Without a command it is the language server on stdin and stdout.
 #[derive(Debug, Parser)]
-#[command(name = "wedm", version, max_term_width = 100, after_help = EXAMPLES)]
-struct Arguments {
+#[command(name = "wedm", version, max_term_width = 100, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Speak the language server protocol on stdin and stdout (what happens without a command)
-    #[arg(long)]
-    stdio: bool,
+    #[command(flatten)]
+    server: serve::Arguments,
 }
 
 const EXAMPLES: &str = "\
@@ -84,10 +83,10 @@ struct Failure(String);
 
 /// Does what the process was called for.
 pub fn run() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = CommandLine::parse();
     let outcome = match arguments.command {
-        None => serve::run(),
-        Some(Command::Serve(_)) => serve::run(),
+        None => return serve::run(&arguments.server),
+        Some(Command::Serve(arguments)) => return serve::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::Fix(arguments)) => fix::run(&arguments),
         Some(Command::Generate(arguments)) => generate::run(&arguments),
@@ -95,7 +94,7 @@ pub fn run() -> ExitCode {
         Some(Command::Draw(arguments)) => draw::run(&arguments),
         Some(Command::Contours(arguments)) => contours::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
-        Some(Command::Completions(arguments)) => completions::run(&arguments, &mut Arguments::command()),
+        Some(Command::Completions(arguments)) => completions::run(&arguments, &mut CommandLine::command()),
     };
     let verdict = outcome.unwrap_or_else(|Failure(sentence)| {
         output::complain(&sentence);
@@ -110,6 +109,6 @@ mod tests {
 
     #[test]
     fn the_commands_are_declared_without_contradiction() {
-        Arguments::command().debug_assert();
+        CommandLine::command().debug_assert();
     }
 }

@@ -8,9 +8,14 @@ use super::{Contour, Drawing, EntityId, Role};
 use crate::geometry::Point;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+/// Side of a cell of the plane in join tolerances: end points that meet lie in one cell, or in two when a border runs
+/// between them.
+const CELL: f64 = 8.0;
+
 /// One free end of an open entity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct End {
+    cell: u64,
     point: Point,
     entity: EntityId,
     /// The entity's own start, not its end.
@@ -24,7 +29,7 @@ pub type Key = u32;
 #[derive(Clone, Debug)]
 pub struct Chains {
     join: f64,
-    /// All free ends, sorted by x, then y, then entity.
+    /// All free ends, sorted by cell, then point, then entity.
     ends: Vec<End>,
     /// The free ends of each open entity as they stand in `ends`, by entity id.
     ends_of: Vec<Option<(Point, Point)>>,
@@ -62,7 +67,7 @@ impl Chains {
         for &id in &entities {
             if let Some(pair) = free_ends(drawing, id) {
                 chains.ends_of[id.0 as usize] = Some(pair);
-                chains.ends.extend(ends_of(id, pair));
+                chains.ends.extend(chains.ends_at(id, pair));
             }
         }
         chains.ends.sort_unstable_by(compare);
@@ -110,12 +115,12 @@ impl Chains {
             affected.extend(self.group_of[id.0 as usize]);
             let old = self.ends_of[id.0 as usize];
             let new = if is_cut(id) { free_ends(drawing, id) } else { None };
-            for end in old.iter().flat_map(|&pair| ends_of(id, pair)) {
+            for end in old.map(|pair| self.ends_at(id, pair)).into_iter().flatten() {
                 if let Ok(at) = self.ends.binary_search_by(|other| compare(other, &end)) {
                     self.ends.remove(at);
                 }
             }
-            for end in new.iter().flat_map(|&pair| ends_of(id, pair)) {
+            for end in new.map(|pair| self.ends_at(id, pair)).into_iter().flatten() {
                 let at = self.ends.partition_point(|other| compare(other, &end).is_lt());
                 affected.extend(self.near(end.point).filter_map(|other| self.group_of[other.entity.0 as usize]));
                 self.ends.insert(at, end);
@@ -158,57 +163,73 @@ impl Chains {
         self.next_key
     }
 
+    /// The cell that holds a point, as a key that sorts by column and row. Coordinates beyond its range share cells.
+    fn cell(&self, x: f64, y: f64) -> u64 {
+        let number = |coordinate: f64| (coordinate / (CELL * self.join)).floor() as i32;
+        let ordered = |number: i32| u64::from(number as u32 ^ 0x8000_0000);
+        ordered(number(x)) << 32 | ordered(number(y))
+    }
+
+    fn ends_at(&self, entity: EntityId, (start, end): (Point, Point)) -> [End; 2] {
+        let at = |point: Point, is_start| End { cell: self.cell(point.x, point.y), point, entity, is_start };
+        [at(start, true), at(end, false)]
+    }
+
     /// Free ends within the join tolerance of `point`.
     fn near(&self, point: Point) -> impl Iterator<Item = &End> + '_ {
-        let first = self.ends.partition_point(|end| end.point.x < point.x - self.join);
-        self.ends[first..]
-            .iter()
-            .take_while(move |end| end.point.x <= point.x + self.join)
-            .filter(move |end| (end.point - point).norm() <= self.join)
+        let (left, right) = (point.x - self.join, point.x + self.join);
+        let (below, above) = (point.y - self.join, point.y + self.join);
+        let mut cells = [self.cell(left, below), self.cell(left, above), self.cell(right, below), self.cell(right, above)];
+        // Sorted, so that equal ones stand side by side.
+        cells.sort_unstable();
+        let distinct = (0..4).filter(move |&i| i == 0 || cells[i] != cells[i - 1]).map(move |i| cells[i]);
+        let of_cell = |cell: u64| {
+            let first = self.ends.partition_point(|end| end.cell < cell);
+            self.ends[first..].iter().take_while(move |end| end.cell == cell)
+        };
+        distinct.flat_map(of_cell).filter(move |end| (end.point - point).norm() <= self.join)
     }
 
     /// Groups and chains `entities`, which come in machining order and hold whole groups. Returns the new contours.
     fn chain(&mut self, drawing: &Drawing, entities: &[EntityId]) -> Vec<Key> {
         let mut new = Vec::new();
-        let mut rank = FxHashMap::default();
+        let mut rank = vec![UNRANKED; drawing.id_bound()];
         for (position, &id) in entities.iter().enumerate() {
-            rank.insert(id, position);
+            rank[id.0 as usize] = position as u32;
         }
-        let mut used = FxHashSet::default();
+        let mut open = Open { rank, touching: Vec::new() };
         for &first in entities {
-            if used.contains(&first) {
+            if !open.has(first) {
                 continue;
             }
             let Some(geometry) = drawing.get(first).map(|entity| &entity.geometry) else { continue };
             if geometry.segment_count() == 0 {
                 continue;
             }
+            open.touching.clear();
             let (pieces, closed) = match self.ends_of[first.0 as usize] {
-                None => (vec![(first, false)], true),
-                Some(_) => self.walk(drawing, first, &rank, &mut used),
+                None => {
+                    open.take(first);
+                    (vec![(first, false)], true)
+                }
+                Some(_) => self.walk(drawing, first, &mut open),
             };
-            used.extend(pieces.iter().map(|&(entity, _)| entity));
             let contour = Contour::new(drawing, pieces, closed);
             let key = self.fresh_key();
-            self.enter(key, &contour);
+            self.enter(key, &contour, &open.touching);
             self.contours.insert(key, contour);
             new.push(key);
         }
         new
     }
 
-    /// Enters a new contour into the group that its ends belong to, merging groups that it connects.
-    fn enter(&mut self, key: Key, contour: &Contour) {
-        let mut groups = FxHashSet::default();
-        for piece in &contour.pieces {
-            self.contour_of[piece.entity.0 as usize] = Some(key);
-            if let Some((start, end)) = self.ends_of[piece.entity.0 as usize] {
-                let found: Vec<Key> =
-                    self.near(start).chain(self.near(end)).filter_map(|end| self.group_of[end.entity.0 as usize]).collect();
-                groups.extend(found);
-            }
-        }
+    /// Enters a new contour into the groups of the entities that it touches, which become one.
+    fn enter(&mut self, key: Key, contour: &Contour, touching: &[EntityId]) {
+        let groups: FxHashSet<Key> = touching.iter().filter_map(|id| self.group_of[id.0 as usize]).collect();
         let mut members: Vec<EntityId> = contour.pieces.iter().map(|piece| piece.entity).collect();
+        for member in &members {
+            self.contour_of[member.0 as usize] = Some(key);
+        }
         let mut contours = vec![key];
         for group in groups {
             members.extend(self.groups.remove(&group).unwrap_or_default());
@@ -223,36 +244,32 @@ impl Chains {
     }
 
     /// The chain through `first`, in its direction: forward to a free end or back to its start, else backward too.
-    fn walk(
-        &self,
-        drawing: &Drawing,
-        first: EntityId,
-        rank: &FxHashMap<EntityId, usize>,
-        used: &mut FxHashSet<EntityId>,
-    ) -> (Vec<(EntityId, bool)>, bool) {
+    fn walk(&self, drawing: &Drawing, first: EntityId, open: &mut Open) -> (Vec<(EntityId, bool)>, bool) {
         let mut forward = vec![(first, false)];
-        used.insert(first);
+        let mut here = open.take(first);
         let Some((start, mut tip)) = self.ends_of[first.0 as usize] else { return (forward, true) };
-        loop {
+        let closed = loop {
             let home = (tip - start).norm();
-            let next = self.next(tip, forward[forward.len() - 1].0, rank, used);
+            let next = self.next(tip, here, open);
             let closes = home <= self.join && next.as_ref().is_none_or(|(_, distance)| home <= *distance);
             if closes && (forward.len() > 1 || comes_back(drawing, first)) {
-                return (forward, true);
+                break true;
             }
-            let Some((end, _)) = next else { break };
+            let Some((end, _)) = next else { break false };
             forward.push((end.entity, !end.is_start));
-            used.insert(end.entity);
+            here = open.take(end.entity);
             tip = self.other_end(&end);
+        };
+        if closed {
+            return (forward, true);
         }
         let mut backward = Vec::new();
         let mut tail = start;
-        let mut last = first;
-        while let Some((end, _)) = self.next(tail, last, rank, used) {
+        here = open.taken_rank(first);
+        while let Some((end, _)) = self.next(tail, here, open) {
             // Travelled towards the chain: its own end meets the tail when it is not reversed.
             backward.push((end.entity, end.is_start));
-            used.insert(end.entity);
-            last = end.entity;
+            here = open.take(end.entity);
             tail = self.other_end(&end);
         }
         backward.reverse();
@@ -268,19 +285,55 @@ impl Chains {
         }
     }
 
-    /// The unused end that continues the chain at `tip`: the nearest; of equally near ones the entity that follows `last`
-    /// in machining order.
-    fn next(&self, tip: Point, last: EntityId, rank: &FxHashMap<EntityId, usize>, used: &FxHashSet<EntityId>) -> Option<(End, f64)> {
-        let here = rank.get(&last).copied().unwrap_or(0);
-        let after = |end: &End| {
-            let position = rank.get(&end.entity).copied().unwrap_or(usize::MAX);
-            if position > here { position - here } else { usize::MAX / 2 + position }
-        };
-        self.near(tip).filter(|end| !used.contains(&end.entity)).map(|end| (*end, (end.point - tip).norm())).min_by(
-            |(a, near_a), (b, near_b)| {
-                near_a.total_cmp(near_b).then_with(|| after(a).cmp(&after(b))).then_with(|| b.is_start.cmp(&a.is_start))
-            },
-        )
+    /// The open end that continues the chain at `tip`: the nearest; of equally near ones that of the entity that follows in
+    /// machining order the one of rank `here`. Everything else that ends there is noted as touching.
+    fn next(&self, tip: Point, here: u32, open: &mut Open) -> Option<(End, f64)> {
+        let mut best: Option<(End, f64, u32)> = None;
+        for end in self.near(tip) {
+            if !open.has(end.entity) {
+                open.touching.push(end.entity);
+                continue;
+            }
+            let distance = (end.point - tip).norm();
+            // Those before `here` come after all that follow it.
+            let after = open.rank[end.entity.0 as usize].wrapping_sub(here);
+            let better = |(other, near, later): &(End, f64, u32)| {
+                distance.total_cmp(near).then(after.cmp(later)).then(other.is_start.cmp(&end.is_start)).is_lt()
+            };
+            if best.as_ref().is_none_or(better) {
+                best = Some((*end, distance, after));
+            }
+        }
+        best.map(|(end, distance, _)| (end, distance))
+    }
+}
+
+const UNRANKED: u32 = u32::MAX;
+const TAKEN: u32 = 1 << 31;
+
+/// The entities that are still to be chained, by their rank in machining order, and what the chain at hand has touched.
+struct Open {
+    /// By entity id: the rank, with the top bit set once the entity is taken.
+    rank: Vec<u32>,
+    touching: Vec<EntityId>,
+}
+
+impl Open {
+    fn has(&self, id: EntityId) -> bool {
+        self.rank.get(id.0 as usize).is_some_and(|rank| rank & TAKEN == 0)
+    }
+
+    /// Takes the entity and gives back its rank.
+    fn take(&mut self, id: EntityId) -> u32 {
+        let rank = self.taken_rank(id);
+        if let Some(entry) = self.rank.get_mut(id.0 as usize) {
+            *entry |= TAKEN;
+        }
+        rank
+    }
+
+    fn taken_rank(&self, id: EntityId) -> u32 {
+        self.rank.get(id.0 as usize).map_or(0, |rank| rank & !TAKEN)
     }
 }
 
@@ -308,13 +361,13 @@ fn free_ends(drawing: &Drawing, id: EntityId) -> Option<(Point, Point)> {
     drawing.get(id)?.geometry.ends()
 }
 
-fn ends_of(entity: EntityId, (start, end): (Point, Point)) -> [End; 2] {
-    [End { point: start, entity, is_start: true }, End { point: end, entity, is_start: false }]
-}
-
 fn compare(a: &End, b: &End) -> std::cmp::Ordering {
     let key = |end: &End| (end.entity, end.is_start);
-    a.point.x.total_cmp(&b.point.x).then_with(|| a.point.y.total_cmp(&b.point.y)).then_with(|| key(a).cmp(&key(b)))
+    a.cell
+        .cmp(&b.cell)
+        .then_with(|| a.point.x.total_cmp(&b.point.x))
+        .then_with(|| a.point.y.total_cmp(&b.point.y))
+        .then_with(|| key(a).cmp(&key(b)))
 }
 
 #[cfg(test)]

@@ -107,7 +107,7 @@ fn marks(sheet: &mut String, fault: &Fault, disc: Point, frame: &Frame) {
 
 fn caption(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, left: f64, top: f64) {
     let detail = fault.detail;
-    let place = format!("{} · segment {}", fault.handle, fault.segment);
+    let place = format!("{} segment {}", fault.handle, fault.segment);
     let figures = format!("R {:.3} < {:.3} mm", picture.mm(detail.radius), picture.mm(detail.required));
     let overcut = format!("overcut {:.3}", picture.mm(detail.overcut));
     let _ = writeln!(sheet, r#"<circle class="badge" cx="{}" cy="{}" r="9"/>"#, number(left + 10.0), number(top + 20.0));
@@ -122,7 +122,7 @@ fn caption(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, l
         escaped(&figures),
         number(left + 26.0),
         number(top + 34.0),
-        escaped(&format!("{place} · {overcut}"))
+        escaped(&format!("{place}, {overcut}"))
     );
 }
 

@@ -8,6 +8,12 @@ use std::time::Duration;
 const COLUMNS: usize = 80;
 const INDENT: usize = 4;
 
+/// What stands behind a drawing: a diagnostic in text has a line.
+pub enum Behind {
+    Text,
+    Nothing,
+}
+
 #[derive(Default)]
 pub struct Narrator {
     steps: usize,
@@ -38,13 +44,15 @@ impl Narrator {
     }
 
     /// A diagnostic as it arrived: its place, then its sentence.
-    pub fn diagnostic(&mut self, diagnostic: &Value) {
-        let data = &diagnostic["data"];
+    pub fn diagnostic(&mut self, diagnostic: &Value, behind: Behind) {
         let (handle, segment) = super::segment_of(diagnostic);
-        let line = diagnostic["range"]["start"]["line"].as_u64().unwrap_or_default() + 1;
-        let at = &data["start"];
+        let line = match behind {
+            Behind::Text => format!("line {}, ", diagnostic["range"]["start"]["line"].as_u64().unwrap_or_default() + 1),
+            Behind::Nothing => String::new(),
+        };
+        let at = &diagnostic["data"]["start"];
         let place = format!(
-            "{} line {line}, {handle} segment {segment}, at {:.3}, {:.3}",
+            "{} {line}{handle} segment {segment}, at {:.3}, {:.3}",
             diagnostic["code"].as_str().unwrap_or_default(),
             at[0].as_f64().unwrap_or(f64::NAN),
             at[1].as_f64().unwrap_or(f64::NAN)

@@ -2,7 +2,7 @@
 
 use super::client::Client;
 use super::copy::Copy;
-use super::narrator::{Narrator, duration};
+use super::narrator::{Behind, Narrator, duration};
 use super::{Failure, holds, preferred, proof, segment_of};
 use crate::cli::output::counted;
 use serde_json::{Value, json};
@@ -92,7 +92,7 @@ impl Session<'_> {
         let count = counted(diagnostics.len(), "diagnostic");
         self.narrator.say(&format!("version {}: {count}, {elapsed} after it was sent", self.copy.version));
         for diagnostic in diagnostics.iter().filter(|diagnostic| !before.contains(&segment_of(diagnostic))) {
-            self.narrator.diagnostic(diagnostic);
+            self.narrator.diagnostic(diagnostic, Behind::Text);
         }
         for (handle, segment) in before.difference(&after) {
             self.narrator.good(&format!("gone: {handle} segment {segment}"));
@@ -166,13 +166,15 @@ impl Session<'_> {
         let mut result = self.client.request("wedm/generate", json!({ "uri": URI, "format": "3b" }))?;
         let elapsed = duration(begun.elapsed());
         let Value::String(program) = result["program"].take() else { return Err(Failure("the server sent no program".into())) };
+        // A drift that rounds to zero has no sign.
         let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+        let drift = |axis: &str| (number(&result["closure"][axis]) * 100.0).round() / 100.0 + 0.0;
         self.narrator.say(&format!(
-            "{} blocks, {:.3} mm of wire path, after {elapsed}; closes within {:.2}, {:.2} µm",
+            "{} blocks, {:.3} mm, after {elapsed}; closes within {:.2}, {:.2} µm",
             result["blocks"],
             number(&result["length"]),
-            number(&result["closure"]["x"]),
-            number(&result["closure"]["y"])
+            drift("x"),
+            drift("y")
         ));
         let lines: Vec<&str> = program.lines().collect();
         for line in lines.iter().take(3) {
@@ -188,7 +190,7 @@ impl Session<'_> {
         let toolpath = self.client.request("wedm/toolpath", json!({ "uri": URI }))?;
         let proof = proof::of(faulty, &self.copy.text, program, &toolpath, correction)?;
         self.narrator.say(&format!(
-            "{} decoded one from the end of the other: at most {:.2} µm from the path, {:.2} µm from its start at the end.",
+            "{} decoded one from the end of the other: at most {:.2} µm from the path, and back in the last thread hole within {:.2} µm.",
             counted(proof.blocks, "block"),
             proof.from_path_um,
             proof.open_um

@@ -16,7 +16,7 @@ pub struct Proof {
     pub blocks: usize,
     /// Largest distance of a decoded block from the path, µm.
     pub from_path_um: f64,
-    /// Distance between the program's start and its end, each block decoded from the end of the last, µm.
+    /// Distance of the program's end from the last thread hole, each block decoded from the end of the one before, µm.
     pub open_um: f64,
     /// Smallest and largest distance in mm from the contours to where the wire cuts along them.
     pub least_distance: f64,
@@ -46,9 +46,8 @@ pub fn of(faulty: &str, fixed: &str, program: &str, path: &Value, correction: f6
         snapshot.outlines.iter().flat_map(|outline| outline.contour.segments(&snapshot.drawing).map(|segment| segment.geometry)).collect();
     let mut proof = measured(&motions, &pieces, &contours);
     let arcs = motions.iter().filter(|motion| motion.segment.as_arc().is_some()).count();
-    let (start, end) = (motions.first().map(|motion| motion.segment.start()), motions.last().map(|motion| motion.segment.end()));
-    if let (Some(start), Some(end), true) = (start, end, path.paths.len() == 1) {
-        proof.open_um = (end - start).norm() * 1e3;
+    if let (Some(motion), Some(path)) = (motions.last(), path.paths.last()) {
+        proof.open_um = (motion.segment.end() - Point::from(path.thread_hole)).norm() * 1e3;
     }
     // A controller that counts J may drift by 2 µm and 1 µm for each arc on the way round.
     let allowed_um = 2.0 + arcs as f64;

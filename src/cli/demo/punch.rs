@@ -1,7 +1,7 @@
 //! The session of a CAD program: a drawing without text, splices, and an edit that the server asks for.
 
 use super::client::Client;
-use super::narrator::{Narrator, duration};
+use super::narrator::{Behind, Narrator, duration};
 use super::{Failure, holds, preferred};
 use crate::cli::output::counted;
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ pub fn session(narrator: &mut Narrator, client: &mut Client, correction: f64) ->
     narrator.say(&format!("version 2: {}, {} after the splice", counted(diagnostics.len(), "diagnostic"), duration(begun.elapsed())));
     let found = diagnostics.iter().find(|diagnostic| diagnostic["data"]["segment"] == 4);
     let Some(diagnostic) = found else { return Err(Failure("the splice gets no diagnostic".into())) };
-    narrator.diagnostic(diagnostic);
+    narrator.diagnostic(diagnostic, Behind::Nothing);
 
     let edit = ask_for_edit(narrator, client, diagnostic)?;
     change(client, 3, edit["changes"].clone())?;
