@@ -12,7 +12,7 @@ use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};
 use crate::finding::{Detail, Finding, Place, SmallRadius};
 use crate::geometry::{Bounds, Segment};
 use crate::toolpath::{Source, WirePath};
-use figure::{Frame, escaped, path_data};
+use figure::{Frame, escaped, number, path_data};
 
 use rustc_hash::FxHashSet;
 use std::fmt::Write;
@@ -20,9 +20,12 @@ use std::fmt::Write;
 /// Width of the sheet and of the margin round it, in the picture's own units.
 const SHEET_WIDTH: f64 = 960.0;
 const MARGIN: f64 = 40.0;
-const FIGURE_WIDTH: f64 = SHEET_WIDTH - 2.0 * MARGIN;
+/// The drawing keeps room at its sides for the numbers beside its faults.
+const FIGURE_WIDTH: f64 = SHEET_WIDTH - 5.5 * MARGIN;
 const FIGURE_HEIGHT: f64 = 560.0;
-const FIGURE_TOP: f64 = 84.0;
+const FIGURE_TOP: f64 = 96.0;
+/// How far the material reaches beyond an opening that no outline holds.
+const GROUND: f64 = 22.0;
 /// Up to this many segments each one is an element of its own, with a tooltip; beyond it each entity is.
 const TOOLTIP_SEGMENTS: usize = 4000;
 
@@ -38,9 +41,9 @@ pub fn svg(drawing: &Drawing, outlines: &[Outline], findings: &[Finding], paths:
     let height = (bounds.height() * scale).max(24.0);
     let faults = tight_arcs(drawing, findings);
     let cut = outlines.iter().flat_map(|outline| outline.contour.pieces.iter().map(|piece| piece.entity)).collect();
-    let picture = Picture { drawing, outlines, cut, findings, faults, paths, unit_mm };
-    let inset = (FIGURE_WIDTH - bounds.width() * scale) / 2.0;
-    let frame = Frame { origin: bounds.min, scale, left: MARGIN + inset, bottom: FIGURE_TOP + height };
+    let picture = Picture { drawing, bounds, outlines, cut, findings, faults, paths, unit_mm };
+    let left = (SHEET_WIDTH - bounds.width() * scale) / 2.0;
+    let frame = Frame { origin: bounds.min, scale, left, bottom: FIGURE_TOP + height };
 
     let details_top = frame.bottom + 48.0;
     let details_height = lens::height_of(picture.faults.len());
@@ -59,6 +62,8 @@ pub fn svg(drawing: &Drawing, outlines: &[Outline], findings: &[Finding], paths:
 /// All that is shown.
 struct Picture<'a> {
     drawing: &'a Drawing,
+    /// The box of all of it, drawing units.
+    bounds: Bounds,
     outlines: &'a [Outline],
     /// The entities of the outlines.
     cut: FxHashSet<EntityId>,
@@ -198,6 +203,15 @@ impl Picture<'_> {
             areas.push((outline.twice_area.abs(), class, path_data(frame, segments, true)));
         }
         areas.sort_by(|a, b| b.0.total_cmp(&a.0));
+        if areas.first().is_some_and(|(_, class, _)| *class == "void") {
+            let (width, height) = (self.bounds.width() * frame.scale, self.bounds.height() * frame.scale);
+            let _ = writeln!(
+                sheet,
+                r#"<rect class="part" x="-{GROUND}" y="-{GROUND}" width="{}" height="{}" rx="8"/>"#,
+                number(width + 2.0 * GROUND),
+                number(height + 2.0 * GROUND)
+            );
+        }
         for (_, class, data) in areas {
             let _ = writeln!(sheet, r#"<path class="{class}" d="{data}"/>"#);
         }

@@ -397,3 +397,17 @@ fn a_picture_is_well_formed_enough_to_be_shown() {
     check(&desk, "draw clean.dxf --side opening -o clean.svg", 0, &[]);
     assert!(String::from_utf8(desk.read("clean.svg")).unwrap().contains("class=\"wire\""));
 }
+
+/// `UPDATE_EXPECT=1 cargo test --test cli` makes the pictures anew.
+#[test]
+fn the_pictures_of_the_documentation_are_current() {
+    let desk = Desk::new();
+    let drawing = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures/small-radius.dxf");
+    desk.write("small-radius.dxf", std::fs::read(drawing).unwrap());
+    check(&desk, "check small-radius.dxf --side opening", 1, &["3 errors"]);
+    let faulty = desk.run("draw small-radius.dxf --side opening").stdout;
+    check(&desk, "fix small-radius.dxf --side opening --in-place", 0, &["!3 arcs repaired"]);
+    let fixed = desk.run("draw small-radius.dxf --side opening").stdout;
+    expect_test::expect_file!["../docs/pictures/small-radius.svg"].assert_eq(&faulty);
+    expect_test::expect_file!["../docs/pictures/small-radius-fixed.svg"].assert_eq(&fixed);
+}

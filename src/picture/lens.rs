@@ -1,14 +1,14 @@
 //! The first faults enlarged, each with the circle of the correction beside the arc that is too tight for it.
 
 use super::figure::{Frame, escaped, number, path_data};
-use super::{FIGURE_WIDTH, Fault, MARGIN, Picture};
+use super::{Fault, MARGIN, Picture, SHEET_WIDTH};
 use crate::drawing::{Outline, Role};
 use crate::geometry::{Bounds, Point, Segment};
 use std::fmt::Write;
 
 const COLUMNS: usize = 4;
 const GAP: f64 = 16.0;
-const WIDTH: f64 = (FIGURE_WIDTH - GAP * (COLUMNS as f64 - 1.0)) / COLUMNS as f64;
+const WIDTH: f64 = (SHEET_WIDTH - 2.0 * MARGIN - GAP * (COLUMNS as f64 - 1.0)) / COLUMNS as f64;
 const WINDOW: f64 = 168.0;
 const CAPTION: f64 = 52.0;
 /// More than this many faults are marked in the figure, and not enlarged.
@@ -113,7 +113,7 @@ fn caption(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, l
     let _ = writeln!(sheet, r#"<circle class="badge" cx="{}" cy="{}" r="9"/>"#, number(left + 10.0), number(top + 20.0));
     let _ = writeln!(
         sheet,
-        r#"<text class="count" x="{}" y="{}">{}</text><text class="figures" x="{}" y="{}">{}</text><text class="note" x="{}" y="{}">{}</text>"#,
+        r#"<text class="count" x="{}" y="{}">{}</text><text class="figures" x="{}" y="{}">{}</text><text class="place" x="{}" y="{}">{}</text>"#,
         number(left + 10.0),
         number(top + 24.0),
         index + 1,

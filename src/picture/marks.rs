@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write;
 
 /// More faults than this are only coloured: numbers would cover the drawing.
-const MOST: usize = 60;
+const MOST: usize = 24;
 /// Up to this many faults the number carries the radius beside it.
 const WITH_RADIUS: usize = 16;
 
@@ -74,10 +74,11 @@ impl Label {
 fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], top: f64) -> Label {
     let turns = [0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0];
     let candidates = [26.0, 44.0, 66.0, 96.0].into_iter().flat_map(|distance| {
-        turns.into_iter().map(move |turn| {
+        turns.into_iter().flat_map(move |turn| {
             let along = direction(outward + turn * FRAC_PI_4);
             let badge = (at.0 + along.x * distance, at.1 + along.y * distance);
-            Label::new(badge, with_text, along.x < -1e-9)
+            let away = along.x < -1e-9;
+            [away, !away].map(|to_the_left| Label::new(badge, with_text, to_the_left))
         })
     });
     let fits = |label: &Label| label.from.0 > MARGIN / 4.0 && label.to.0 < SHEET_WIDTH - MARGIN / 4.0 && label.from.1 > top;

@@ -7,7 +7,8 @@ use std::fmt::Write;
 const STYLE: &str = "\
 text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;font-size:12px;fill:#24292f}
 .heading{font-size:17px;font-weight:600}
-.note{fill:#57606a}
+.note,.place{fill:#57606a}
+.place{font-size:11px}
 .figures{font-size:13px;font-weight:600}
 .radius{font-weight:600;fill:#b3261e}
 .count{font-size:11px;font-weight:700;fill:#fff;text-anchor:middle}
@@ -33,7 +34,7 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .bar{fill:none;stroke:#57606a;stroke-width:1.4}
 @media (prefers-color-scheme:dark){
 text{fill:#e6edf3}
-.note{fill:#9da7b3}
+.note,.place{fill:#9da7b3}
 .radius{fill:#ff8a82}
 .count{fill:#1a0806}
 .annotation{fill:#768390}

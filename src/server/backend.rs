@@ -49,6 +49,7 @@ pub(super) fn service(mailbox: Mailbox, prepared: Prepared, flags: Arc<Flags>, o
         .custom_method(method::TOOLPATH, Backend::toolpath)
         .custom_method(method::PICTURE, Backend::picture)
         .custom_method(method::GENERATE, Backend::generate)
+        .custom_method("wedm/simulate", Backend::not_there_yet)
         .custom_method("wedm/test/panic", Backend::test_panic)
         .custom_method("wedm/test/ask", Backend::test_ask)
         .finish();
@@ -146,6 +147,12 @@ impl Backend {
         let about = params.get("uri").and_then(Value::as_str).unwrap_or_default().to_owned();
         let (params, token) = read::<generate::Params>(params)?;
         self.errand(method::GENERATE, &about, token, move |state, errand| generate::generate(state, params, errand)).await
+    }
+
+    /// Methods that the protocol names and this version does not have.
+    async fn not_there_yet(&self, _: Value) -> Result<Value> {
+        let there = [method::INSPECT, method::CONTOURS, method::TOOLPATH, method::PICTURE, method::GENERATE];
+        Err(Error::invalid_params(format!("wedm/simulate is not there yet, expected {}", there.join(", "))))
     }
 
     async fn test_panic(&self, params: probe::Panic) -> Result<Value> {
@@ -314,8 +321,12 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
         resend_drawing: ours("/wedm/resendDrawing"),
         document_changes: workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes) == Some(true),
         configuration: workspace.and_then(|workspace| workspace.configuration) == Some(true),
-        register_configuration: registers(workspace.and_then(|workspace| workspace.did_change_configuration.as_ref()?.dynamic_registration)),
-        register_watched_files: registers(workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)),
+        register_configuration: registers(
+            workspace.and_then(|workspace| workspace.did_change_configuration.as_ref()?.dynamic_registration),
+        ),
+        register_watched_files: registers(
+            workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration),
+        ),
     }
 }
 

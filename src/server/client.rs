@@ -62,7 +62,12 @@ impl Client {
     }
 
     /// Sends a request; `then` runs on the state thread when the answer, an error or the time-out comes.
-    pub fn ask(&mut self, method: &'static str, params: impl Serialize, then: impl FnOnce(&mut State, Result<Value, String>) + Send + 'static) {
+    pub fn ask(
+        &mut self,
+        method: &'static str,
+        params: impl Serialize,
+        then: impl FnOnce(&mut State, Result<Value, String>) + Send + 'static,
+    ) {
         self.next_id += 1;
         let id = format!("wedm-{}", self.next_id);
         self.writer.send_json(&Request { jsonrpc: "2.0", id: &id, method, params });

@@ -179,7 +179,10 @@ mod tests {
     fn a_misfit_is_told_once() {
         let mut config = Config::default();
         let bad = json!({ "correction": -1 });
-        assert_eq!(config.set_level(Level::Pushed, &bad), ["settings in workspace/didChangeConfiguration: correction is -1, expected a number above 0"]);
+        assert_eq!(
+            config.set_level(Level::Pushed, &bad),
+            ["settings in workspace/didChangeConfiguration: correction is -1, expected a number above 0"]
+        );
         assert!(config.set_level(Level::Pushed, &bad).is_empty());
         assert!(config.set_level(Level::Pushed, &json!({})).is_empty());
         assert_eq!(config.set_level(Level::Pushed, &bad).len(), 1);

@@ -10,8 +10,8 @@ use crate::server::jobs::Progress;
 use crate::server::state::{Reply, State};
 use crate::text::Encoding;
 use ls_types::{
-    CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, DocumentChanges, OneOf,
-    OptionalVersionedTextDocumentIdentifier, Range, TextDocumentEdit, TextEdit, Uri, WorkspaceEdit,
+    CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, DocumentChanges,
+    OneOf, OptionalVersionedTextDocumentIdentifier, Range, TextDocumentEdit, TextEdit, Uri, WorkspaceEdit,
 };
 use rustc_hash::FxHashSet;
 use tower_lsp::jsonrpc::Result;
@@ -80,9 +80,9 @@ fn chosen(document: &mut Document, params: &CodeActionParams, encoding: Encoding
     let in_range = in_range(document, params.range, encoding);
     let is_chosen = |finding: &Finding| match (named.is_empty(), &finding.place) {
         (true, _) => in_range(document, finding),
-        (false, Place::Segment { entity, segment }) => drawing.get(*entity).is_some_and(|entity| {
-            named.contains(&(finding.rule.name().to_owned(), entity.handle.to_string(), *segment))
-        }),
+        (false, Place::Segment { entity, segment }) => drawing
+            .get(*entity)
+            .is_some_and(|entity| named.contains(&(finding.rule.name().to_owned(), entity.handle.to_string(), *segment))),
         (false, _) => false,
     };
     let chosen: Vec<Finding> = findings.iter().filter(|finding| is_chosen(finding)).take(LISTED).cloned().collect();
@@ -120,7 +120,14 @@ fn in_range(document: &Document, range: Range, encoding: Encoding) -> impl Fn(&D
     }
 }
 
-fn quick_fix(document: &Document, target: &Target<'_>, diagnostic: &Diagnostic, fix: &Fix, first: bool, unit_mm: f64) -> Option<CodeAction> {
+fn quick_fix(
+    document: &Document,
+    target: &Target<'_>,
+    diagnostic: &Diagnostic,
+    fix: &Fix,
+    first: bool,
+    unit_mm: f64,
+) -> Option<CodeAction> {
     let action = CodeAction {
         title: en::title(&fix.kind, unit_mm),
         kind: Some(CodeActionKind::QUICKFIX),
@@ -148,7 +155,8 @@ fn with_edit(document: &Document, target: &Target<'_>, action: CodeAction, edit:
             let changes = protocol::changes_of(drawing, edit);
             let argument = protocol::DrawingEdit { uri: target.uri.as_str().into(), version: target.version, changes };
             let arguments = vec![serde_json::to_value(argument).ok()?];
-            let command = Command { title: action.title.clone(), command: method::APPLY_DRAWING_EDIT_COMMAND.into(), arguments: Some(arguments) };
+            let command =
+                Command { title: action.title.clone(), command: method::APPLY_DRAWING_EDIT_COMMAND.into(), arguments: Some(arguments) };
             Some(CodeAction { command: Some(command), ..action })
         }
         Source::ThreeB(_) => None,

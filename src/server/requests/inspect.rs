@@ -15,7 +15,6 @@ pub(in crate::server) fn inspect(state: &mut State, params: Inspect, errand: Err
 }
 
 /// The findings are taken on the state thread, which keeps them; the list is made from a snapshot.
-#[expect(clippy::type_complexity, reason = "the closure has no other name")]
 fn prepare(state: &mut State, params: &Inspect) -> Result<((u64, bool), impl FnOnce() -> Inspection + Send + use<>)> {
     let uri = &params.uri;
     let open = state.document(uri)?;

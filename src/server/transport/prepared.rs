@@ -11,17 +11,23 @@ use tower_lsp::jsonrpc::{Id, Response};
 /// Text by token, from the moment a handler ends until its reply is written.
 #[derive(Clone, Default)]
 pub(crate) struct Prepared {
-    waiting: Arc<Mutex<(u64, FxHashMap<String, Vec<u8>>)>>,
+    waiting: Arc<Mutex<Waiting>>,
+}
+
+#[derive(Default)]
+struct Waiting {
+    tokens: u64,
+    texts: FxHashMap<String, Vec<u8>>,
 }
 
 impl Prepared {
     /// The token that stands for `json` in a reply.
     pub fn token(&self, json: Vec<u8>) -> Value {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-        waiting.0 += 1;
+        waiting.tokens += 1;
         // No method of ours answers with a control character.
-        let token = format!("\u{1}prepared {}", waiting.0);
-        waiting.1.insert(token.clone(), json);
+        let token = format!("\u{1}prepared {}", waiting.tokens);
+        waiting.texts.insert(token.clone(), json);
         Value::String(token)
     }
 
@@ -29,7 +35,7 @@ impl Prepared {
     pub fn body(&self, response: Response) -> serde_json::Result<Vec<u8>> {
         let prepared = response.result().and_then(Value::as_str).filter(|token| token.starts_with('\u{1}')).and_then(|token| {
             let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-            waiting.1.remove(token)
+            waiting.texts.remove(token)
         });
         match prepared {
             None => serde_json::to_vec(&response),

@@ -243,9 +243,10 @@ mod tests {
         let (open, gate) = mpsc::channel();
         let (seen, written) = mpsc::channel();
         let writer = Writer::start(Gate { open: gate, seen }, || {}).unwrap();
-        let publish = |uri: &str, version: i64, owed: bool| Publish { uri: uri.into(), version: Some(version), diagnostics: Vec::new(), owed };
+        let publish =
+            |uri: &str, version: i64, owed: bool| Publish { uri: uri.into(), version: Some(version), diagnostics: Vec::new(), owed };
         writer.send(b"first".to_vec());
-        while writer.shared.queue().waiting.iter().count() > 0 {
+        while !writer.shared.queue().waiting.is_empty() {
             std::thread::yield_now();
         }
         writer.publish(publish("a", 1, true));

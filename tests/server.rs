@@ -1,0 +1,25 @@
+//! The real server over its pipes: everything that a client may do to it, and what it must survive.
+
+#[path = "support/mod.rs"]
+mod support;
+
+#[path = "server/actions.rs"]
+mod actions;
+#[path = "server/drawings.rs"]
+mod drawings;
+#[path = "server/end.rs"]
+mod end;
+#[path = "server/flood.rs"]
+mod flood;
+#[path = "server/handshake.rs"]
+mod handshake;
+#[path = "server/panics.rs"]
+mod panics;
+#[path = "server/programs.rs"]
+mod programs;
+#[path = "server/settings.rs"]
+mod settings;
+#[path = "server/texts.rs"]
+mod texts;
+#[path = "server/wire.rs"]
+mod wire;

@@ -1,0 +1,177 @@
+//! Lists, contours, paths, pictures and programs of a drawing.
+
+use crate::support::{Client, tight_square, wide_square};
+use serde_json::{Value, json};
+
+const URI: &str = "cad:///1";
+
+#[test]
+fn a_drawing_with_errors_is_refused_with_the_list_unless_forced() {
+    let mut client = Client::start_with(crate::support::capabilities(), json!({ "side": "punch" }));
+    // Concave to the wire outside: a dent in the square's side.
+    let dent = json!({ "handle": "2A", "type": "polyline", "closed": true,
+        "vertices": [[0, 0], [10, 0], [10, 10], [5.05, 10, -1], [4.95, 10], [0, 10]] });
+    assert_eq!(client.open_drawing(URI, json!([dent])).len(), 1);
+    let error = client.request("wedm/generate", json!({ "uri": URI, "format": "3b" })).unwrap_err();
+    assert_eq!(error["code"], -32803);
+    assert_eq!(error["data"]["diagnostics"][0]["data"]["handle"], "2A");
+    client.shut_down();
+}
+
+#[test]
+fn a_program_is_handed_out_with_its_proof() {
+    let mut client = Client::start();
+    client.open_drawing(URI, json!([wide_square("2A")]));
+    let options = json!({ "side": "opening" });
+    let program = client.request("wedm/generate", json!({ "uri": URI, "format": "3b", "options": options })).unwrap();
+    let text = program["program"].as_str().unwrap();
+    assert!(text.trim_end().ends_with("DD"), "{text}");
+    assert_eq!(program["blocks"].as_u64().unwrap() as usize, text.lines().filter(|line| line.starts_with('B')).count());
+    assert!(program["length"].as_f64().unwrap() > 30.0);
+    for axis in ["x", "y"] {
+        assert!(program["closure"][axis].as_f64().unwrap().abs() < 10.0);
+    }
+    assert_eq!(program["warnings"], json!([]));
+    client.shut_down();
+}
+
+#[test]
+fn what_cannot_be_asked_for_is_refused_and_what_can_is_named() {
+    let mut client = Client::start();
+    client.open_drawing(URI, json!([wide_square("2A")]));
+    let mut check = |params: Value, code: i64, message: &str| {
+        let error = client.request("wedm/generate", params).unwrap_err();
+        assert_eq!(error["code"], code, "{error}");
+        assert!(error["message"].as_str().unwrap().contains(message), "{error}");
+    };
+    check(json!({ "uri": URI, "format": "iso" }), -32602, "expected \"3b\"");
+    check(json!({ "uri": URI, "format": "4b" }), -32602, "expected \"3b\"");
+    check(json!({ "uri": URI }), -32602, "format");
+    check(json!({ "uri": "cad:///none", "format": "3b" }), -32602, "is not open");
+    check(json!({ "uri": URI, "format": "3b" }), -32803, "side of contour 2A is not known");
+    check(json!({ "uri": URI, "format": "3b", "handles": ["ZZ"] }), -32602, "there is no entity ZZ");
+    check(json!({ "uri": URI, "format": "3b", "options": { "correction": -1 } }), -32602, "correction is -1");
+    check(json!({ "uri": URI, "format": "3b", "options": { "colour": 1 } }), -32602, "colour is not known");
+    let error = client.request("wedm/simulate", json!({ "uri": URI })).unwrap_err();
+    assert_eq!(error["code"], -32602);
+    assert!(error["message"].as_str().unwrap().contains("wedm/generate"), "{error}");
+    client.open_drawing("cad:///empty", json!([]));
+    assert_eq!(client.code("wedm/generate", json!({ "uri": "cad:///empty", "format": "3b" })), -32803);
+    client.shut_down();
+}
+
+#[test]
+fn options_hold_for_their_request_alone() {
+    let mut client = Client::start();
+    client.open_drawing(URI, json!([wide_square("2A")]));
+    let path = |client: &mut Client, options: Value| client.request("wedm/toolpath", json!({ "uri": URI, "options": options }));
+    let narrow = path(&mut client, json!({ "side": "opening" })).unwrap();
+    let wide = path(&mut client, json!({ "side": "opening", "correction": 0.3 })).unwrap();
+    assert_eq!((&narrow["paths"][0]["correction"], &wide["paths"][0]["correction"]), (&json!(0.1), &json!(0.3)));
+    assert_eq!(narrow["paths"][0]["segments"][0]["source"], "lead-in");
+    // A correction that puts the arc at fault refuses the program, and the drawing stays without faults.
+    let error = client
+        .request("wedm/generate", json!({ "uri": URI, "format": "3b", "options": { "side": "opening", "correction": 0.6 } }))
+        .unwrap_err();
+    assert_eq!(error["data"]["diagnostics"][0]["data"]["required"], 0.6);
+    assert_eq!(path(&mut client, Value::Null).unwrap_err()["code"], -32803);
+    client.shut_down();
+}
+
+#[test]
+fn contours_tell_what_is_chained_to_what() {
+    let mut client = Client::start();
+    let line = |handle: &str, start: [f64; 2], end: [f64; 2]| json!({ "handle": handle, "type": "line", "start": start, "end": end });
+    client.open_drawing(
+        URI,
+        json!([
+            line("1", [0.0, 0.0], [10.0, 0.0]),
+            line("2", [10.0, 5.0], [10.0, 0.005]),
+            line("3", [10.0, 5.0], [0.0, 0.0]),
+            { "handle": "4", "type": "circle", "center": [50, 0], "radius": 2 },
+        ]),
+    );
+    let contours = client.request("wedm/contours", json!({ "uri": URI })).unwrap();
+    assert_eq!(contours["unitsToMm"], 1.0);
+    let [triangle, circle] = contours["contours"].as_array().unwrap().as_slice() else { panic!("{contours}") };
+    assert_eq!((&triangle["closed"], &triangle["direction"], &triangle["role"]), (&json!(true), &json!("ccw"), &json!("both")));
+    let reversed: Vec<&Value> = triangle["segments"].as_array().unwrap().iter().map(|segment| &segment["reversed"]).collect();
+    assert_eq!(reversed, [false, true, false]);
+    assert_eq!(triangle["gaps"].as_array().unwrap().len(), 1);
+    assert!((triangle["gaps"][0]["distance"].as_f64().unwrap() - 0.005).abs() < 1e-12);
+    assert!((circle["area"].as_f64().unwrap() - 4.0 * std::f64::consts::PI).abs() < 1e-9);
+    assert_eq!(circle["segments"][0]["kind"], "circle");
+    client.shut_down();
+}
+
+#[test]
+fn the_list_may_be_of_one_entity() {
+    let mut client = Client::start();
+    client.open_drawing(URI, json!([tight_square("2A"), wide_square("2B")]));
+    let list = client.request("wedm/inspect", json!({ "uri": URI, "handle": "2B" })).unwrap();
+    assert_eq!((list["entities"].as_array().unwrap().len(), &list["entities"][0]["handle"]), (1, &json!("2B")));
+    assert_eq!(client.code("wedm/inspect", json!({ "uri": URI, "handle": "nobody" })), -32602);
+    client.shut_down();
+}
+
+#[test]
+fn a_picture_is_svg_whether_a_path_can_be_made_or_not() {
+    let mut client = Client::start();
+    client.open_drawing(URI, json!([tight_square("2A")]));
+    for options in [Value::Null, json!({ "side": "opening" })] {
+        let picture = client.request("wedm/picture", json!({ "uri": URI, "options": options })).unwrap();
+        assert!(picture["svg"].as_str().unwrap().starts_with("<svg"));
+    }
+    client.shut_down();
+}
+
+/// A comb of `teeth` rounded teeth: four arcs and four lines each.
+fn comb(teeth: u32) -> Value {
+    let mut vertices = vec![json!([0, -5])];
+    let bulge = 0.41421356237309503;
+    vertices.push(json!([f64::from(teeth) * 2.0, -5]));
+    for tooth in (0..teeth).rev() {
+        let x = f64::from(tooth) * 2.0;
+        for [dx, dy, b] in [
+            [2.0, 0.2, bulge],
+            [1.8, 0.4, 0.0],
+            [1.4, 0.4, bulge],
+            [1.2, 0.2, 0.0],
+            [1.2, -0.2, -bulge],
+            [1.0, -0.4, 0.0],
+            [0.4, -0.4, -bulge],
+            [0.2, -0.2, 0.0],
+        ] {
+            vertices.push(json!([x + dx, dy, b]));
+        }
+    }
+    json!({ "handle": "C", "role": "punch", "type": "polyline", "closed": true, "vertices": vertices })
+}
+
+#[test]
+fn a_long_request_reports_progress_may_be_cancelled_and_ends_when_the_drawing_moves_on() {
+    let mut client = Client::start();
+    assert_eq!(client.open_drawing(URI, json!([comb(4000)])).len(), 0);
+    let generate =
+        |client: &mut Client, token: &str| client.ask("wedm/generate", json!({ "uri": URI, "format": "3b", "workDoneToken": token }));
+    // Whole.
+    let whole = generate(&mut client, "whole");
+    assert!(client.answer(whole).unwrap()["blocks"].as_u64().unwrap() > 30_000);
+    let mut kinds = Vec::new();
+    while kinds.last() != Some(&json!("end")) {
+        let told = client.told("$/progress");
+        assert_eq!(told["token"], "whole");
+        kinds.push(told["value"]["kind"].clone());
+    }
+    assert_eq!(kinds[0], "begin");
+    assert!(kinds.contains(&json!("report")));
+    // Cancelled: answered at once, whatever the worker still does.
+    let cancelled = generate(&mut client, "cancelled");
+    client.notify("$/cancelRequest", json!({ "id": cancelled }));
+    assert_eq!(client.answer(cancelled).unwrap_err()["code"], -32800);
+    // Changed meanwhile.
+    let outdated = generate(&mut client, "outdated");
+    client.change_drawing(URI, 2, json!([{ "handle": "C", "vertices": { "start": 0, "deleteCount": 1, "insert": [[0, -6]] } }]));
+    assert_eq!(client.answer(outdated).unwrap_err()["code"], -32801);
+    client.shut_down();
+}
