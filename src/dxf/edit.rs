@@ -1,6 +1,6 @@
 //! An edit of the text: what it touched is read again, and nothing else.
 //!
-//! A number within a vertex of a LWPOLYLINE costs that vertex; other edits cost the items around them. Where an edit
+//! A number within a vertex of a polyline costs that vertex; other edits cost the items around them. Where an edit
 //! reaches further (sections, doubled handles, ordinals as names), everything is read.
 
 use super::Document;
@@ -24,13 +24,17 @@ const HEAD: usize = 1024;
 /// Each entity that comes or goes costs the length of the drawing; of more than these, all are read again.
 const FEW: usize = 64;
 
-/// A vertex of a LWPOLYLINE that an edit lies in: its lines before the edit.
+/// A vertex that an edit lies in: its lines before the edit, and what must stay as it is.
 struct VertexZone {
     entity: EntityId,
     item: usize,
     index: usize,
     lines: Range<usize>,
+    others: Others,
 }
+
+/// What of a vertex's lines is no part of its vertex, but decides what it is: whether it is a record of its own, z, flags.
+type Others = (bool, [Option<f64>; 2]);
 
 /// What was known before the edit, of all that it can have touched.
 struct ItemZone {
@@ -65,6 +69,7 @@ impl Document {
     }
 
     /// The vertex that the edit lies in, when it leaves the first and the last byte of the vertex alone.
+    /// The last vertex of a POLYLINE is none: SEQEND follows in the same lines.
     fn vertex_zone(&self, range: &Range<usize>) -> Option<VertexZone> {
         let line = self.text.line_of(range.start);
         let item = self.table.item_at(line)?;
@@ -75,25 +80,32 @@ impl Document {
         let relative = line.checked_sub(start)?;
         let index = vertices.lines.partition_point(|&vertex| vertex as usize <= relative).checked_sub(1)?;
         let zone = self.vertex_lines(entity, index)?;
-        let inside = range.start > self.text.line_start(zone.start)
-            && range.end < self.text.line_start(zone.end)
-            && zone.end < lines.count()
-            && lines.trimmed(start + 1) == b"LWPOLYLINE";
+        let inside =
+            range.start > self.text.line_start(zone.start) && range.end < self.text.line_start(zone.end) && zone.end < lines.count();
         // A fault near by was judged by what follows it.
         let near = self.text.line_start(zone.start.saturating_sub(LOOKBACK));
         let behind = self.findings.partition_point(|finding| range_key(finding).0 < self.text.line_start(zone.end));
         let faults = self.findings[behind.saturating_sub(3)..behind]
             .iter()
             .any(|finding| matches!(&finding.place, Place::Text { range } if range.end >= near) && finding.rule == Rule::Syntax);
-        let plain = inside && !faults && plain_vertex(lines, zone.clone()).is_some();
-        plain.then_some(VertexZone { entity, item, index, lines: zone })
+        if !inside || faults {
+            return None;
+        }
+        let (_, others) = plain_vertex(lines, zone.clone())?;
+        Some(VertexZone { entity, item, index, lines: zone, others })
     }
 
     fn reread_vertex(&mut self, zone: VertexZone, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
-        let VertexZone { entity, item, index, lines: old } = zone;
+        let VertexZone { entity, item, index, lines: old, others } = zone;
         let end = old.end.checked_add_signed(lines as isize)?;
-        let mut vertex = plain_vertex(Lines::new(&self.text), old.start..end)?;
+        let (mut vertex, others_now) = plain_vertex(Lines::new(&self.text), old.start..end)?;
+        if others_now != others {
+            return None;
+        }
         let table = self.table.vertices.get_mut(&entity)?;
+        if table.in_space {
+            vertex.bulge = 0.0;
+        }
         if table.mirrored {
             mirror(&mut vertex);
         }
@@ -305,30 +317,41 @@ fn put(drawing: &mut Drawing, id: Option<EntityId>, position: usize, entity: Ent
     id
 }
 
-/// A vertex of a LWPOLYLINE that holds nothing but its own, sound tags.
-fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<Vertex> {
+/// A vertex whose lines hold nothing but its own, sound tags: as it stands in the text, and what else is there.
+///
+/// It is a VERTEX record or a part of a LWPOLYLINE that begins with its x.
+fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
     if !range.len().is_multiple_of(2) || range.end > lines.count() {
         return None;
     }
-    let mut vertex = Vertex::new(0.0, 0.0, 0.0);
-    let mut has_y = false;
+    let first = match number::code(lines.content(range.start)) {
+        Code::Known(0) if lines.trimmed(range.start + 1) == b"VERTEX" => 0,
+        Code::Known(10) => 10,
+        _ => return None,
+    };
+    let [mut x, mut y, mut bulge, mut z, mut flags] = [None; 5];
     for line in range.clone().step_by(2) {
         let Code::Known(code) = number::code(lines.content(line)) else { return None };
-        if (code == 10) != (line == range.start) || !matches!(code, 10 | 20 | 40 | 41 | 42 | 91) {
+        let value = match code {
+            10 => &mut x,
+            20 => &mut y,
+            42 => &mut bulge,
+            30 if first == 0 => &mut z,
+            70 if first == 0 => &mut flags,
+            0 if first == 0 && line == range.start => continue,
+            40 | 41 | 91 => continue,
+            5 | 6 | 8 | 50 | 62 | 100 | 330 if first == 0 => continue,
+            _ => return None,
+        };
+        // A second x begins another vertex.
+        let another = code == 10 && value.is_some();
+        if another || (code == 70 && !lines.trimmed(line + 1).iter().all(u8::is_ascii_digit)) {
             return None;
         }
-        if !matches!(code, 10 | 20 | 42) {
-            continue;
-        }
-        let Number::Exact(value) = number::number(lines.content(line + 1)) else { return None };
-        match code {
-            10 => vertex.point.x = value,
-            20 => vertex.point.y = value,
-            _ => vertex.bulge = value,
-        }
-        has_y |= code == 20;
+        let Number::Exact(number) = number::number(lines.content(line + 1)) else { return None };
+        *value = Some(number);
     }
-    has_y.then_some(vertex)
+    Some((Vertex::new(x?, y?, bulge.unwrap_or(0.0)), (first == 0, [z, flags])))
 }
 
 fn shift(lines: &mut [u32], by: i64) {

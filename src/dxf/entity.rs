@@ -7,6 +7,7 @@ use super::fault::{damage, meaning, oddity, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
+use super::strings::{decoded, words_of_mtext};
 use crate::drawing::{Geometry, Vertex};
 use crate::finding::Finding;
 use crate::geometry::Point;
@@ -30,6 +31,8 @@ pub(super) struct VertexLines {
     pub(super) lines: Vec<u32>,
     /// True where the entity's plane has the extrusion (0, 0, -1).
     pub(super) mirrored: bool,
+    /// True for a 3D polyline, whose bulges mean nothing.
+    pub(super) in_space: bool,
 }
 
 #[derive(Debug)]
@@ -392,7 +395,9 @@ fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, 
         Plane::Mirrored if kind == "TEXT" => 0.0 - x,
         _ => x,
     };
-    let geometry = Geometry::Text { at: Point::new(x, y), text: String::from_utf8_lossy(&content).trim().to_owned() };
+    let content = decoded(&content);
+    let words = if kind == "MTEXT" { words_of_mtext(&content) } else { content };
+    let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
     common.finish(lexer, layers, kind, geometry, None, findings)
 }
 
@@ -416,7 +421,19 @@ fn value_line_of(start: Tag, lexer: &Lexer, code: i16) -> usize {
 struct Vertices {
     vertices: Vec<Vertex>,
     lines: Vec<u32>,
+    /// The last vertex has no y yet.
     lacks_y: bool,
+    /// The first vertex that got none. Said at the end: lines that are out of step may be the cause.
+    without_y: Option<usize>,
+}
+
+impl Vertices {
+    fn close(&mut self) {
+        if self.lacks_y {
+            self.without_y = self.without_y.or(self.vertices.len().checked_sub(1));
+        }
+        self.lacks_y = false;
+    }
 }
 
 fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
@@ -430,9 +447,7 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
                 let value = common.coordinate(lexer, tag, findings).unwrap_or_default();
                 match (tag.code, read.vertices.last_mut()) {
                     (10, _) => {
-                        if read.lacks_y {
-                            lacks_y(&mut common, &read, start, lexer, findings);
-                        }
+                        read.close();
                         read.vertices.push(Vertex::new(value, 0.0, 0.0));
                         read.lines.push((tag.line - start.line) as u32);
                         read.lacks_y = true;
@@ -457,10 +472,14 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
             _ => {}
         }
     }
-    if read.lacks_y {
-        lacks_y(&mut common, &read, start, lexer, findings);
-    }
+    read.close();
     if common.bad || lexer.out_of_step {
+        return Outcome::Damaged;
+    }
+    if let Some(index) = read.without_y {
+        let line = start.line + read.lines.get(index).map_or(0, |&line| line as usize);
+        let sentence = format!("vertex {} lacks group code 20 (y)", index + 1);
+        damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
         return Outcome::Damaged;
     }
     let mirrored = match common.plane() {
@@ -477,16 +496,7 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
         let sentence = format!("group code 90 (number of vertices) is {stated}, but {found} vertices are there");
         oddity(findings, lexer.lines.range(tag.value_line()), sentence);
     }
-    polyline_of("LWPOLYLINE", start, common, closed, read, mirrored, lexer, layers, findings)
-}
-
-fn lacks_y(common: &mut Common, read: &Vertices, start: Tag, lexer: &Lexer, findings: &mut Vec<Finding>) {
-    if !common.bad && !lexer.out_of_step {
-        let line = start.line + read.lines.last().map_or(0, |&line| line as usize);
-        let sentence = format!("vertex {} lacks group code 20 (y)", read.vertices.len());
-        damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
-    }
-    common.bad = true;
+    polyline_of("LWPOLYLINE", start, common, closed, read, (mirrored, false), lexer, layers, findings)
 }
 
 #[expect(clippy::too_many_arguments, reason = "what a polyline is made of, in one call from each of its two kinds")]
@@ -496,7 +506,7 @@ fn polyline_of(
     common: Common,
     closed: bool,
     mut read: Vertices,
-    mirrored: bool,
+    (mirrored, in_space): (bool, bool),
     lexer: &Lexer,
     layers: &mut Layers,
     findings: &mut Vec<Finding>,
@@ -512,7 +522,7 @@ fn polyline_of(
     read.vertices.shrink_to_fit();
     read.lines.shrink_to_fit();
     let geometry = Geometry::Polyline { closed, vertices: read.vertices };
-    common.finish(lexer, layers, kind, geometry, Some(VertexLines { lines: read.lines, mirrored }), findings)
+    common.finish(lexer, layers, kind, geometry, Some(VertexLines { lines: read.lines, mirrored, in_space }), findings)
 }
 
 /// A vertex once x runs the other way. Its own inverse.
@@ -596,5 +606,5 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
         Plane::Tilted => return Outcome::Unsupported("POLYLINE".into(), TILTED),
         plane => plane == Plane::Mirrored,
     };
-    polyline_of("POLYLINE", start, common, flags & CLOSED != 0, read, mirrored, lexer, layers, findings)
+    polyline_of("POLYLINE", start, common, flags & CLOSED != 0, read, (mirrored, in_space), lexer, layers, findings)
 }

@@ -1,5 +1,6 @@
 //! Layer names, each kept once.
 
+use super::strings::decoded;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
@@ -20,7 +21,7 @@ impl Layers {
         let name = match self.by_bytes.get(bytes) {
             Some(name) => name.clone(),
             None => {
-                let name: Arc<str> = String::from_utf8_lossy(bytes).into();
+                let name: Arc<str> = decoded(bytes).into();
                 self.by_bytes.insert(bytes.into(), name.clone());
                 name
             }

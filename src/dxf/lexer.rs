@@ -8,9 +8,11 @@ use super::number::{self, Code, Number};
 use crate::finding::Finding;
 
 /// No decision of the lexer looks further ahead than this many lines.
-pub(super) const LOOKAHEAD: usize = 2 * WINDOW + 4;
+pub(super) const LOOKAHEAD: usize = 2 * (WINDOW + SETTLING) + 4;
 /// Tags that are looked at to tell codes from values.
 const WINDOW: usize = 8;
+/// Tags that are passed over, once the text is in step, to reach a sound one.
+const SETTLING: usize = 2;
 
 /// A group code and the line it stands on; the value stands on the next line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,9 +111,16 @@ impl<'a> Lexer<'a> {
             return false;
         }
         self.out_of_step = true;
-        self.lost_value(tag.line, findings);
-        self.at = line;
-        self.consumed = line;
+        self.at = self.settled(line);
+        self.consumed = self.at;
+        if self.at == line {
+            self.lost_value(tag.line, findings);
+        } else {
+            let found = quoted(self.lines.trimmed(line));
+            let sentence =
+                format!("{found} stands where the value of group code {} is expected: a line is missing or one too many", tag.code);
+            damage(findings, self.lines.range(line), sentence);
+        }
         true
     }
 
@@ -141,6 +150,9 @@ impl<'a> Lexer<'a> {
             return self.lost_value(line - 2, findings);
         }
         let found = quoted(self.lines.trimmed(line));
+        if next == line + 1 {
+            self.at = self.settled(next);
+        }
         let sentence = if next == line + 2 && number::code(self.lines.content(line)) == Code::Known(0) {
             format!("group code 0 is followed by {}, expected the name of a record", quoted(self.lines.trimmed(line + 1)))
         } else if next == line + 2 {
@@ -162,6 +174,16 @@ impl<'a> Lexer<'a> {
         let code = quoted(self.lines.trimmed(code_line));
         let sentence = format!("group code {code} is not followed by its value: a line is missing or one too many");
         damage(findings, self.lines.range(code_line), sentence);
+    }
+
+    /// The first sound tag from `line` on, which is in step.
+    fn settled(&self, line: usize) -> usize {
+        let sound = |at: usize| match number::code(self.lines.content(at)) {
+            Code::Known(code) => fits(code, self.lines.content(at + 1)),
+            _ => false,
+        };
+        let end = self.lines.count();
+        (line..).step_by(2).take(SETTLING + 1).find(|&at| at + 1 >= end || sound(at)).unwrap_or(line).min(end)
     }
 
     fn end_of_garbage(&self, from: usize) -> usize {

@@ -57,7 +57,7 @@ fn edit(document: &mut Document, range: std::ops::Range<usize>, replacement: &st
     delta.touched
 }
 
-const DRAWINGS: [&str; 4] = [
+const DRAWINGS: [&str; 5] = [
     "0 LINE 5 A1 8 DIE 10 1 20 2 11 3 21 4 0 ARC 5 A2 8 DIE 10 1 20 2 40 3 50 30 51 90 0 HATCH 5 A3 8 X 10 1 20 1 \
      0 LWPOLYLINE 5 A4 8 P 90 4 70 1 10 0 20 0 10 10 20 0 42 0.5 10 10 20 10 40 0 41 0 10 0 20 10 42 -0.25 210 0 220 0 230 -1 \
      0 CIRCLE 5 A5 10 0 20 0 40 5 0 INSERT 5 A6 2 B 66 1 0 ATTRIB 5 A7 1 X 0 SEQEND 0 TEXT 5 A8 10 1 20 1 1 O",
@@ -67,6 +67,9 @@ const DRAWINGS: [&str; 4] = [
      0 LINE 5 C 10 1,5 20 2 11 3 21 4 0 LINE 5 D 10 1 20 11 3 21 4 8 X 6 Y 0 ARC 5 E 10 1 20 1 40 -1 50 0 51 90",
     "0 LWPOLYLINE 5 A 8 Q 90 9 10 0.5 20 1 10 1.5 20 2 42 1 10 2.5 20 3 10 3.5 20 4 10 4.5 20 5 42 -1 10 5.5 20 6 10 6.5 20 7 10 7.5 20 8 10 8.5 20 9 \
      0 LINE 5 B 10 1 20 2 11 3 21 4",
+    "0 POLYLINE 5 A 66 1 70 1 230 -1 0 VERTEX 8 X 10 0.5 20 1 70 0 0 VERTEX 10 1.5 20 2 42 1 0 VERTEX 10 1.5 20 3 30 0 0 VERTEX 10 4.5 20 3 70 16 \
+     0 VERTEX 10 5.5 20 3 0 VERTEX 10 5.5 20 2 0 SEQEND \
+     0 POLYLINE 5 B 66 1 70 8 0 VERTEX 10 1.5 20 2 30 1 70 32 0 VERTEX 10 1.5 20 3 30 1 42 0 0 VERTEX 10 4.5 20 3 30 1 0 SEQEND",
 ];
 
 /// An edit as shares of the text, so that it fits every text.
@@ -123,4 +126,22 @@ fn an_edit_touches_no_more_than_it_must() {
     assert_eq!(replace(&mut document, "A2\n", "40\n4", "40\n"), [Touched::Removed { entity: arc }]);
     let arc = EntityId(document.drawing().id_bound() as u32);
     assert_eq!(replace(&mut document, "A2\n", "40\n", "40\n4"), [Touched::Entity { entity: arc }]);
+    let mut document = Document::read(dxf(DRAWINGS[4]).into_bytes());
+    let polyline = document.drawing().find("A").unwrap();
+    let vertex = Touched::Vertices { entity: polyline, start: 1, removed: 1, inserted: 1 };
+    assert_eq!(replace(&mut document, "VERTEX\n10\n1.5\n20\n", "42\n1", "42\n1.5"), [vertex]);
+}
+
+#[test]
+fn edits_that_once_went_wrong() {
+    for (drawing, after, what, by) in [
+        (0, "A6\n", "B\n66\n1\n0\nATTRIB\n5\nA7\n1", "-"),
+        (0, "41\n0\n10\n", "", "-"),
+        (1, "20\n0\n0", "\nVERTEX\n", ""),
+        (1, "VERTEX\n10\n0\n20\n0", "\n0\nVERTEX", ""),
+        (4, "70\n32", "", "."),
+        (4, "70\n16", "", "."),
+    ] {
+        replace(&mut Document::read(dxf(DRAWINGS[drawing]).into_bytes()), after, what, by);
+    }
 }

@@ -63,3 +63,32 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_line_too_few_or_too_many_is_one_finding_and_costs_its_own_entity() {
+    let tags = "0 LINE 5 A1 8 DIE 10 1.5 20 2.0 30 0.0 11 3 21 4 31 0.0 0 ARC 5 A2 8 DIE 10 1.0 20 2.25 40 3 50 30 51 90 \
+         0 LWPOLYLINE 5 A3 8 P 90 3 70 1 43 0.0 10 0.5 20 0.5 42 0.25 10 10.5 20 0.0 10 10 20 10.25 0 CIRCLE 5 A4 8 P 10 1.5 20 1.5 40 2 \
+         0 LINE 5 A5 8 DIE 10 1.5 20 2.0 30 0.0 11 3 21 4 31 0.0";
+    let text = dxf(tags);
+    let lines: Vec<&str> = text.lines().collect();
+    let first = lines.iter().position(|line| *line == "ENTITIES").unwrap() + 1;
+    let mut report = String::new();
+    let mut look = |what: String, lines: &[&str]| {
+        let document = Document::read((lines.join("\n") + "\n").into_bytes());
+        let syntax = document.findings().iter().filter(|finding| matches!(finding.detail, Detail::Syntax(_))).count();
+        let kept = ["A1", "A2", "A3", "A4", "A5"].iter().filter(|handle| document.drawing().find(handle).is_some()).count();
+        if syntax != 1 || kept < 3 {
+            let sentences: Vec<_> = document.findings().iter().map(|finding| format!("{:?}", finding.detail)).collect();
+            report += &format!("{what}: {syntax} findings, {kept} entities kept {sentences:?}\n");
+        }
+    };
+    for at in first..lines.len() - 4 {
+        let without: Vec<&str> = lines.iter().enumerate().filter(|(line, _)| *line != at).map(|(_, line)| *line).collect();
+        look(format!("without {at} {:?} before {:?}", lines[at], lines[at + 1]), &without);
+        for extra in ["", "xyz", "7.5"] {
+            let with: Vec<&str> = lines[..at].iter().copied().chain([extra]).chain(lines[at..].iter().copied()).collect();
+            look(format!("{extra:?} before {at} {:?}", lines[at]), &with);
+        }
+    }
+    assert!(report.is_empty(), "{report}");
+}

@@ -78,6 +78,7 @@ fn each_kind_of_entity() {
         ("0 ARC 5 B 10 1 20 2 40 3 50 30 51 90 210 0 220 0 230 -1", "ARC B on 0: -1 2 R3 90 150"),
         ("0 CIRCLE 5 B 10 1 20 2 40 3 230 -1", "CIRCLE B on 0: -1 2 R3"),
         ("0 TEXT 5 B 10 1 20 2 40 3 1 O", "TEXT B on 0: 1 2 O"),
+        ("0 MTEXT 5 B 8 m\\U+00E4rks 10 1 20 2 40 3 3 {\\fArial; 1 O} 230 -1", "MTEXT B on märks: 1 2 O"),
         ("0 LWPOLYLINE 5 B 90 2 70 1 43 0 10 1 20 2 42 0.5 10 3 20 4", "LWPOLYLINE B on 0: 1 2 0.5, 3 4 0 closed"),
         ("0 LWPOLYLINE 5 B 90 2 10 1 20 2 42 0.5 10 3 20 4 230 -1.0 1001 X 1010 7 1020 8", "LWPOLYLINE B on 0: -1 2 -0.5, -3 4 0"),
         (

@@ -116,7 +116,7 @@ proptest! {
             ("LINE", "PUNCH", Geometry::Line { start: Point::new(x, y), end: Point::new(z, u) }),
             ("ARC", "0", Geometry::Arc { center: Point::new(x, y), radius: z.abs() + 0.01, start_angle: u, end_angle: v }),
             ("CIRCLE", "0", Geometry::Circle { center: Point::new(x, y), radius: z.abs() + 0.01 }),
-            ("TEXT", "marks", Geometry::Text { at: Point::new(x, y), text: "O".into() }),
+            ("TEXT", "märks", Geometry::Text { at: Point::new(x, y), text: "O".into() }),
         ] {
             drawing.push(Entity { handle: kind.into(), layer: layer.into(), role: None, kind, geometry });
         }
