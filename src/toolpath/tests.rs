@@ -5,6 +5,7 @@ use crate::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Ve
 use crate::finding::{Detail, Place, Rule};
 use crate::geometry::{Arc, Point, Segment, direction};
 use crate::settings::{Compensation, Corner, Direction, Effective, PointSetting};
+use cavalier_contours::polyline::internal::pline_intersects::all_self_intersects_as_basic;
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, PlineVertex, Polyline};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -223,6 +224,7 @@ fn a_lead_that_would_cut_the_part_is_a_finding() {
         (Role::Punch, at(5.0, 5.0), 3.0, "crosses the contour"),
         (Role::Opening, at(0.05, 5.0), 3.0, "crosses the contour"),
         (Role::Opening, None, 0.05, "no lead-in from 0.050 mm down"),
+        (Role::Opening, None, f64::INFINITY, "no lead-in from inf mm down"),
     ];
     for (role, thread, lead_in, sentence) in cases {
         let (drawing, outlines) = drawing(&[(SQUARE, Some(role))]);
@@ -350,7 +352,11 @@ fn gaps_within_the_join_tolerance_are_closed_half_way() {
 
 /// A closed outline about the origin with filleted or sharp corners and now and then a bowed side.
 fn random_outline() -> impl Strategy<Value = Vec<[f64; 3]>> {
-    let corner = (2.0_f64..12.0, prop_oneof![Just(0.0), 0.1_f64..0.12, 0.1_f64..3.0], prop_oneof![3 => Just(0.0), 1 => -0.5_f64..0.5]);
+    let corner = (
+        2.0_f64..12.0,
+        prop_oneof![Just(0.0), 0.01_f64..0.0999, 0.1001_f64..0.12, 0.1001_f64..3.0],
+        prop_oneof![3 => Just(0.0), 1 => -0.5_f64..0.5],
+    );
     (prop::collection::vec(corner, 3..14), 0.0_f64..TAU).prop_map(|(corners, turned)| {
         let count = corners.len();
         let point =
@@ -390,9 +396,14 @@ fn furthest(points: &[Point], segments: &[Segment]) -> f64 {
     points.iter().map(away).fold(0.0, f64::max)
 }
 
-fn judged(outline: &[[f64; 3]], offset: f64) -> Vec<Vec<Segment>> {
+/// What the other library offsets; `None` where the outline crosses itself.
+fn judged(outline: &[[f64; 3]], offset: f64) -> Option<Vec<Vec<Segment>>> {
     let mut polyline = Polyline::new_closed();
     outline.iter().for_each(|&[x, y, bulge]| polyline.add(x, y, bulge));
+    let index = polyline.create_approx_aabb_index();
+    if !all_self_intersects_as_basic(&polyline, &index, false, 1e-7).is_empty() {
+        return None;
+    }
     let segments = |pline: &Polyline| {
         let vertices: Vec<PlineVertex> = pline.iter_vertexes().collect();
         let next = |index: usize| vertices[(index + 1) % vertices.len()];
@@ -400,7 +411,7 @@ fn judged(outline: &[[f64; 3]], offset: f64) -> Vec<Vec<Segment>> {
             |(index, v): (usize, &PlineVertex)| Segment::from_bulge([v.x, v.y].into(), [next(index).x, next(index).y].into(), v.bulge);
         vertices.iter().enumerate().map(segment).collect()
     };
-    polyline.parallel_offset(offset).iter().map(segments).collect()
+    Some(polyline.parallel_offset(offset).iter().map(segments).collect())
 }
 
 proptest! {
@@ -413,7 +424,9 @@ proptest! {
         let side = outlines[0].wire_side().map_or(0.0, |side| side.sign());
         let settings = Effective { direction: if clockwise { Direction::Cw } else { Direction::Ccw }, lead_in: 0.0, ..defaults() };
         let settings = Effective { thread: at(outline[0][0], outline[0][1]), ..settings };
-        let expected = judged(&outline, 0.1 * side);
+        let judged = judged(&outline, 0.1 * side);
+        prop_assume!(judged.is_some());
+        let expected = judged.unwrap_or_default();
         match plan(&drawing, &outlines, &settings, None) {
             Err(Refusal::Sentence(sentence)) => {
                 prop_assert!(sentence.contains("does not fit"), "{}", sentence);
@@ -427,8 +440,14 @@ proptest! {
             Ok(paths) => {
                 let path: Vec<Segment> = paths[0].segments.iter().map(|piece| piece.geometry).collect();
                 prop_assert_eq!(expected.len(), 1);
-                prop_assert!(furthest(&samples(&path, 0.25), &expected[0]) < 1e-6);
-                prop_assert!(furthest(&samples(&expected[0], 0.25), &path) < 1e-6);
+                // The other library takes points 1e-5 apart for one; how exact the offset is, the walls say.
+                let points = samples(&path, 0.25);
+                prop_assert!(furthest(&points, &expected[0]) < 2e-5);
+                prop_assert!(furthest(&samples(&expected[0], 0.25), &path) < 2e-5);
+                let walls: Vec<Segment> = outlines[0].contour.segments(&drawing).map(|s| s.geometry).collect();
+                for point in points {
+                    prop_assert!((furthest(&[point], &walls) - 0.1).abs() < 1e-6);
+                }
                 for pair in path.windows(2) {
                     prop_assert_eq!(pair[0].end(), pair[1].start());
                 }

@@ -49,7 +49,7 @@ pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Result<P
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
-/// As [`write`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
+/// As [`write()`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
 pub fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
