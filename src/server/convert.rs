@@ -1,6 +1,7 @@
 //! The one place where the core's findings, places and edits become the protocol's, and back.
 
-use crate::document::Document;
+use crate::document::{Document, Source};
+use crate::dxf;
 use crate::finding::{Detail, Finding, Place, Rule};
 use crate::message::en;
 use crate::protocol::{CodeDescription, Diagnostic, FindingData, Position, Range, severity_number};
@@ -33,16 +34,49 @@ pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: E
 
 /// A finding of `document` as the client is shown it.
 pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
-    diagnostic_at(document, document.text(), finding, encoding)
+    let bytes = document.range_of(&finding.place);
+    diagnostic_at(document, document.text().zip(bytes), finding, encoding)
 }
 
-/// A finding whose bytes are counted in `text`: for a document that was made of a text's drawing alone.
-pub(super) fn diagnostic_at(document: &Document, text: Option<&SourceText>, finding: &Finding, encoding: Encoding) -> Diagnostic {
+/// Where the findings of a drawing stand in the text that it was read from.
+pub(super) struct Places {
+    dxf: Option<dxf::Document>,
+    encoding: Encoding,
+}
+
+impl Places {
+    /// The places of an open document as it is now; those of a drawing without text are its segments.
+    pub fn of(document: &Document, encoding: Encoding) -> Places {
+        let dxf = match document.source() {
+            Source::Dxf(dxf) => Some(dxf.clone()),
+            Source::Cad(_) | Source::ThreeB(_) => None,
+        };
+        Places { dxf, encoding }
+    }
+
+    /// What the reader of the text found.
+    pub fn findings(&self) -> &[Finding] {
+        self.dxf.as_ref().map_or(&[], |dxf| dxf.findings())
+    }
+
+    /// A finding of `document`, which was made of the drawing alone.
+    pub fn diagnostic(&self, document: &Document, finding: &Finding) -> Diagnostic {
+        let place = self.dxf.as_ref().map(|dxf| (dxf.text(), dxf.range_of(&finding.place)));
+        diagnostic_at(document, place, finding, self.encoding)
+    }
+}
+
+fn diagnostic_at(
+    document: &Document,
+    place: Option<(&SourceText, std::ops::Range<usize>)>,
+    finding: &Finding,
+    encoding: Encoding,
+) -> Diagnostic {
     let drawing = document.drawing().map(|drawing| &**drawing);
     let unit_mm = drawing.map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
-    let range = match (text, document.range_of(&finding.place)) {
+    let range = match place {
         _ if finding.rule == Rule::More => Range::default(),
-        (Some(text), Some(bytes)) => range_of(text, bytes, encoding),
+        Some((text, bytes)) => range_of(text, bytes, encoding),
         _ => match finding.place {
             Place::Segment { segment, .. } => Range::of_segment(segment),
             _ => Range::default(),

@@ -1,13 +1,12 @@
 //! `wedm/generate`: a proved program, or the reason why there is none.
 
-use super::{Errand, Task, internal, refusal, refused, refused_with, run, snapshot_of, with_options, written};
+use super::{Errand, Task, internal, places_of, refusal, refused, refused_with, run, snapshot_of, with_options, written};
 use crate::finding::{Finding, Severity};
 use crate::program::three_b::{self, ProofError};
 use crate::protocol::Program;
 use crate::server::convert;
 use crate::server::jobs::{Cancel, Progress};
 use crate::server::state::State;
-use crate::text::Encoding;
 use crate::toolpath::plan;
 use serde::Deserialize;
 use serde_json::Value;
@@ -42,13 +41,10 @@ struct Job {
     snapshot: crate::document::Snapshot,
     stamp: u64,
     options: Option<std::sync::Arc<crate::settings::Effective>>,
-    /// What the reader of the text found; the rules' findings depend on the options.
-    of_source: Vec<Finding>,
     handles: Option<Vec<String>>,
     force: bool,
-    encoding: Encoding,
-    /// The text, for the places of its findings.
-    text: Option<crate::text::SourceText>,
+    /// Holds what the reader of the text found as well; the rules' findings depend on the options.
+    places: convert::Places,
 }
 
 fn prepare(state: &mut State, params: &Params) -> Result<Job> {
@@ -64,14 +60,9 @@ fn prepare(state: &mut State, params: &Params) -> Result<Job> {
             return Err(Error::invalid_params(format!("there is no entity {handle}")));
         }
     }
-    let encoding = state.encoding;
-    let open = state.document(uri)?;
-    let (of_source, text) = match open.document().map(|document| document.source()) {
-        Some(crate::document::Source::Dxf(dxf)) => (dxf.findings().to_vec(), Some(dxf.text().clone())),
-        _ => (Vec::new(), None),
-    };
+    let places = places_of(state, uri)?;
     let force = params.force.unwrap_or(false);
-    Ok(Job { snapshot, stamp, options, of_source, handles: params.handles.clone(), force, encoding, text })
+    Ok(Job { snapshot, stamp, options, handles: params.handles.clone(), force, places })
 }
 
 impl Job {
@@ -79,14 +70,14 @@ impl Job {
         let task = Task::new(self.snapshot, self.options);
         let mut document = task.document();
         let (of_rules, _) = document.findings(usize::MAX);
-        let of_source = self.of_source.iter().filter_map(|finding| {
-            let severity = task.settings.severity(finding.rule)?;
+        let of_source = self.places.findings().iter().filter_map(|finding| {
+            let severity = task.settings.severity_of(finding)?;
             Some(Finding { severity, ..finding.clone() })
         });
         let findings: Vec<Finding> = of_source.chain(of_rules).collect();
         let diagnostics = |wanted: &dyn Fn(Severity) -> bool| -> Vec<_> {
             let wanted = findings.iter().filter(|finding| wanted(finding.severity)).take(convert::PUBLISH_LIMIT);
-            wanted.map(|finding| convert::diagnostic_at(&document, self.text.as_ref(), finding, self.encoding)).collect()
+            wanted.map(|finding| self.places.diagnostic(&document, finding)).collect()
         };
         let errors = findings.iter().filter(|finding| finding.severity == Severity::Error).count();
         if errors > 0 && !self.force {
@@ -99,7 +90,7 @@ impl Job {
         stop_if(cancel)?;
         progress.report("laying the wire's path");
         let handles = self.handles.as_deref();
-        let paths = plan(&task.drawing, &task.outlines, &task.settings, handles).map_err(|reason| refusal(&task, reason))?;
+        let paths = plan(&task.drawing, &task.outlines, &task.settings, handles).map_err(|reason| refusal(&task, reason, &self.places))?;
         if paths.is_empty() {
             return Err(refused("the drawing holds no contour to cut"));
         }

@@ -9,7 +9,7 @@ pub(super) mod picture;
 pub(super) mod probe;
 pub(super) mod toolpath;
 
-use super::convert;
+use super::convert::Places;
 use super::jobs::{Cancel, Progress};
 use super::state::{Reply, State};
 use crate::document::{Document, Snapshot, Source};
@@ -75,6 +75,13 @@ pub(super) fn is_small(drawing: &Drawing) -> bool {
     })
 }
 
+/// Where the findings of an open document's drawing stand.
+pub(super) fn places_of(state: &mut State, uri: &str) -> Result<Places> {
+    let encoding = state.encoding;
+    let document = state.document(uri)?.document().ok_or_else(|| refused(format!("{uri} holds no drawing")))?;
+    Ok(Places::of(document, encoding))
+}
+
 /// The request's own settings over those of the document, where it brings any.
 pub(super) fn with_options(state: &mut State, uri: &str, options: Option<&Value>) -> Result<Option<Arc<Effective>>> {
     let Some(options) = options.filter(|options| !options.is_null()) else { return Ok(None) };
@@ -113,12 +120,12 @@ impl Task {
 }
 
 /// What `toolpath` refused, for the client.
-pub(super) fn refusal(task: &Task, refusal: Refusal) -> Error {
+pub(super) fn refusal(task: &Task, refusal: Refusal, places: &Places) -> Error {
     match refusal {
         Refusal::Sentence(sentence) => refused(sentence),
         Refusal::Findings(findings) => {
             let document = task.document();
-            let diagnostics = convert::diagnostics(&document, &findings, Default::default());
+            let diagnostics: Vec<_> = findings.iter().map(|finding| places.diagnostic(&document, finding)).collect();
             let first = diagnostics.first().map_or_else(|| "no path can be made".into(), |first| first.message.clone());
             refused_with(first, diagnostics)
         }
