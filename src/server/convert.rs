@@ -14,8 +14,9 @@ pub(super) const PUBLISH_LIMIT: usize = 500;
 /// Where the pages of the rules stand.
 const RULES: &str = "https://github.com/wedm/wedm/blob/main/docs/rules/";
 
-/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others.
-pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Diagnostic> {
+/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
+/// there are in all.
+pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> (Vec<Diagnostic>, usize) {
     let (findings, count) = document.findings(PUBLISH_LIMIT);
     let mut diagnostics = diagnostics(document, &findings, encoding);
     if count > findings.len()
@@ -24,7 +25,7 @@ pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Dia
         let detail = Detail::More { count: count - findings.len() };
         diagnostics.push(diagnostic(document, &Finding { rule: Rule::More, severity, place: Place::Document, detail }, encoding));
     }
-    diagnostics
+    (diagnostics, count)
 }
 
 pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: Encoding) -> Vec<Diagnostic> {
