@@ -157,7 +157,7 @@ fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Find
     let (mut findings, mut count) = of_rules;
     for finding in of_source {
         // The reader knows no settings: severities are laid over its findings here.
-        if let Some(severity) = settings.severity(finding.rule) {
+        if let Some(severity) = settings.severity_of(finding) {
             findings.push(Finding { severity, ..finding.clone() });
             count += 1;
         }
@@ -172,5 +172,29 @@ fn judged(source: &Source, settings: Arc<Effective>) -> Analysis {
         Source::Dxf(text) => Analysis::new(text.drawing(), settings),
         Source::Cad(drawing) => Analysis::new(drawing, settings),
         Source::ThreeB(_) => Analysis::new(&Drawing::default(), settings),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::{Settings, from_toml};
+
+    /// Severities of what the reader finds in a sound drawing behind a byte-order mark.
+    fn check(settings: &str, expected: &[Severity]) {
+        let text = "\u{feff}0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nEOF\n";
+        let (settings, errors): (Settings, _) = from_toml(settings);
+        assert!(errors.is_empty(), "{errors:?}");
+        let source = Source::Dxf(dxf::Document::read(text.into()));
+        let (findings, _) = Document::new(source, Arc::new(Effective::of(&settings))).findings(usize::MAX);
+        let severities: Vec<Severity> = findings.iter().map(|finding| finding.severity).collect();
+        assert_eq!(severities, expected, "{settings:?}");
+    }
+
+    #[test]
+    fn an_oddity_keeps_its_own_severity_where_none_is_set() {
+        check("", &[Severity::Hint]);
+        check("[rules]\nsyntax = \"warning\"", &[Severity::Warning]);
+        check("[rules]\nsyntax = \"off\"", &[]);
     }
 }

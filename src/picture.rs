@@ -121,8 +121,9 @@ fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
         bounds.include(path.thread_hole);
         path.segments.iter().for_each(|segment| bounds.merge(&segment.geometry.bounds()));
     }
-    let corners = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
-    corners.iter().all(|corner| corner.is_finite()).then_some(bounds)
+    // Nothing gives an endless box, and so do coordinates whose difference is beyond all numbers.
+    let lengths = [bounds.min.x, bounds.min.y, bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y];
+    lengths.iter().all(|length| length.is_finite()).then_some(bounds)
 }
 
 fn scale_to_fit(bounds: &Bounds) -> f64 {

@@ -242,7 +242,17 @@ fn a_folder_is_searched_in_all_its_depth_and_every_file_stands_once() {
     check(&desk, "check empty", 0, &["0 files checked"]);
 }
 
-/// Fifty tight arcs a file: `check` knows no limit of findings.
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_file_is_checked_and_a_circle_of_folders_ends() {
+    let desk = Desk::new();
+    desk.write("parts/notes.txt", "nothing");
+    std::os::unix::fs::symlink("../tight.dxf", desk.path("parts/link.dxf")).unwrap();
+    std::os::unix::fs::symlink("..", desk.path("parts/up")).unwrap();
+    check(&desk, "check parts", 1, &["--> parts/link.dxf", "1 file checked: 1 error"]);
+}
+
+/// `check` knows no limit of findings.
 #[test]
 fn check_sees_all_findings() {
     let desk = Desk::new();

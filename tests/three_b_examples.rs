@@ -110,6 +110,9 @@ fn program(drawing: &Drawing, outline: &Outline, settings: &Effective) -> String
     write(&paths, 1.0, settings).expect("a program").text
 }
 
+/// One way to put a path into a drawing.
+type Drawer = fn(&[Segment]) -> (Drawing, Outline);
+
 #[test]
 fn wire_paths_give_the_published_blocks() {
     let mut compared = 0;
@@ -119,7 +122,7 @@ fn wire_paths_give_the_published_blocks() {
         let lines: Vec<&str> = example["program"].as_array().expect("blocks").iter().filter_map(Value::as_str).collect();
         let expected = blocks(&lines.join("\n"));
         let circle = path.iter().any(|s| s.as_arc().is_some_and(Arc::is_full_turn));
-        let drawn: &[fn(&[Segment]) -> (Drawing, Outline)] = if circle { &[as_entities] } else { &[as_entities, as_polyline] };
+        let drawn: &[Drawer] = if circle { &[as_entities] } else { &[as_entities, as_polyline] };
         for draw in drawn {
             let (drawing, outline) = draw(&path);
             let clockwise = matches!(path[..], [Segment::Arc(arc)] if arc.sweep < 0.0);

@@ -35,8 +35,18 @@ enum Kind {
 pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let kind = kind_of(path)?;
     let (settings, settings_rows) = settings_for(path, common, last)?;
-    let bytes = std::fs::read(path).map_err(|error| Failure(format!("{}: {}", path.display(), plain(&error))))?;
+    let bytes = read(path)?;
     Ok(Opened { path: path.to_path_buf(), document: document(&kind, bytes, Arc::new(settings)), settings_rows })
+}
+
+/// A text that cannot be held whole is refused: what is written from it would lack its end.
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let failure = |reason: String| Failure(format!("{}: {reason}", path.display()));
+    let length = std::fs::metadata(path).map_err(|error| failure(plain(&error)))?.len();
+    if length >= u64::from(u32::MAX) {
+        return Err(failure(format!("it has {length} bytes, expected less than 4 GiB")));
+    }
+    std::fs::read(path).map_err(|error| failure(plain(&error)))
 }
 
 /// The same for a command that needs a drawing, and settings without a fault: it makes something of them.
@@ -136,7 +146,8 @@ pub fn search(paths: &[PathBuf]) -> Found {
             match entry {
                 Ok(entry) => {
                     let named = entry.depth() == 0 && !entry.path().is_dir();
-                    let found_inside = entry.file_type().is_file() && has_known_ending(entry.path());
+                    // A link to a file counts; a link to a folder may lead back to where it stands.
+                    let found_inside = has_known_ending(entry.path()) && entry.path().is_file();
                     if (named || found_inside) && seen.insert(entry.path().to_path_buf()) {
                         found.files.push(entry.into_path());
                     }

@@ -124,5 +124,11 @@ fn round_length(length: f64) -> Option<f64> {
 }
 
 fn plain(length: f64) -> String {
-    if length >= 1.0 { format!("{length:.0}") } else { format!("{length:.6}").trim_end_matches('0').into() }
+    if length >= 1e6 {
+        format!("{length:e}")
+    } else if length >= 1.0 {
+        format!("{length:.0}")
+    } else {
+        format!("{length:.6}").trim_end_matches('0').into()
+    }
 }

@@ -106,3 +106,13 @@ fn nothing_and_a_single_point_are_pictures_too() {
     let picture = svg(&drawing, &[], &[], &[], 1.0);
     assert!(picture.contains(">O</text>") && !picture.contains("NaN") && !picture.contains("inf"));
 }
+
+#[test]
+fn coordinates_beyond_all_measure_are_no_picture() {
+    for (far, texts) in [(1e308, ["no lines, arcs", ""]), (1e150, ["class=\"aside\"", "e149 mm"])] {
+        let mut drawing = Drawing::default();
+        drawing.push(entity("1", "0", "LINE", Geometry::Line { start: Point::new(-far, -far), end: Point::new(far, far) }));
+        let picture = svg(&drawing, &[], &[], &[], 1.0);
+        assert!(texts.iter().all(|text| picture.contains(text)) && picture.len() < 5000, "{far}: {picture}");
+    }
+}

@@ -34,14 +34,9 @@ pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: E
 
 /// A finding of `document` as the client is shown it.
 pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
-    diagnostic_at(document, document.text(), finding, encoding)
-}
-
-/// A finding whose bytes are counted in `text`: for a document that was made of a text's drawing alone.
-pub(super) fn diagnostic_at(document: &Document, text: Option<&SourceText>, finding: &Finding, encoding: Encoding) -> Diagnostic {
     let drawing = document.drawing().map(|drawing| &**drawing);
     let unit_mm = drawing.map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
-    let range = match (text, document.range_of(&finding.place)) {
+    let range = match (document.text(), document.range_of(&finding.place)) {
         _ if finding.rule == Rule::More => Range::default(),
         (Some(text), Some(bytes)) => range_of(text, bytes, encoding),
         _ => match finding.place {
@@ -67,7 +62,7 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
         range: error.range.clone().map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
         severity: severity_number(Rule::Settings.default_severity()),
         code: Rule::Settings.name().into(),
-        code_description: None,
+        code_description: code_description(Rule::Settings),
         source: "wedm".into(),
         message: error.message.clone(),
         data: None,
@@ -76,7 +71,7 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
 }
 
 fn code_description(rule: Rule) -> Option<CodeDescription> {
-    (rule != Rule::More).then(|| CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
+    Some(CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
 }
 
 pub(super) fn range_of(text: &SourceText, bytes: std::ops::Range<usize>, encoding: Encoding) -> Range {

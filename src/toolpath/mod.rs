@@ -8,6 +8,8 @@ mod corners;
 mod leads;
 mod offset;
 mod order;
+#[cfg(test)]
+mod tests;
 
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Finding, Rule, Severity};

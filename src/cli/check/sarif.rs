@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn paths_become_uri_references() {
-        let expected = [("a b/ä.dxf", "a%20b/%C3%A4.dxf"), ("/tmp/x#1.dxf", "file:///tmp/x%231.dxf"), ("./p.3b", "./p.3b")];
+        let expected = [("a b/ä.dxf", "a%20b/%C3%A4.dxf"), ("/parts/x#1.dxf", "file:///parts/x%231.dxf"), ("./p.3b", "./p.3b")];
         for (path, expected) in expected {
             assert_eq!(uri(path), expected);
         }

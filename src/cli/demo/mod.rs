@@ -27,7 +27,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   wedm demo
-  wedm demo --correction 0.12 /tmp/plate")]
+  wedm demo --correction 0.12 plate")]
 pub struct Arguments {
     /// Folder that the files are written to
     #[arg(value_name = "DIR", default_value = "wedm-demo")]

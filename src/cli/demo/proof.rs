@@ -14,7 +14,7 @@ use std::sync::Arc as Shared;
 
 pub struct Proof {
     pub blocks: usize,
-    /// Largest distance of a decoded block from the path, µm.
+    /// Largest distance of a decoded block from the path, or of the path from the blocks, µm.
     pub from_path_um: f64,
     /// Distance of the program's end from the last thread hole, each block decoded from the end of the one before, µm.
     pub open_um: f64,
@@ -141,5 +141,64 @@ fn measured(motions: &[Motion], pieces: &[(PathSource, Segment)], contours: &[Se
             }
         }
     }
+    // The other way as well: no piece of the path may be left out.
+    for (_, piece) in pieces {
+        for sample in 0..=SAMPLES {
+            let point = piece.point_at(f64::from(sample) / f64::from(SAMPLES));
+            let nearest = motions.iter().map(|motion| motion.segment.distance_to(point)).fold(f64::INFINITY, f64::min);
+            proof.from_path_um = proof.from_path_um.max(nearest * 1e3);
+        }
+    }
     proof
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLATE: &str = include_str!("plate.dxf");
+
+    /// The repaired plate, its program and the reply of `wedm/toolpath`, all made without a server.
+    fn made(correction: f64) -> (String, String, Value) {
+        let settings = settings(correction);
+        let mut fixed = document(PLATE, &settings);
+        let Source::Dxf(text) = fixed.source() else { unreachable!() };
+        let edits = text.text_edits(&fixed.fix_all().unwrap()).unwrap();
+        let mut bytes = PLATE.to_string();
+        edits.iter().rev().for_each(|edit| bytes.replace_range(edit.range.clone(), &edit.text));
+        fixed = document(&bytes, &settings);
+        let snapshot = fixed.snapshot().unwrap();
+        let paths = toolpath::plan(&snapshot.drawing, &snapshot.outlines, &settings, None).unwrap();
+        let program = three_b::write(&paths, 1.0, &settings).unwrap();
+        (bytes, program.text, serde_json::to_value(Toolpath::new(&snapshot.drawing, &paths, 1.0)).unwrap())
+    }
+
+    #[test]
+    fn what_is_right_is_proved() {
+        for correction in [0.1, 0.12] {
+            let (fixed, program, path) = made(correction);
+            let proof = of(PLATE, &fixed, &program, &path, correction).unwrap();
+            assert!(proof.blocks > 30 && proof.from_path_um < 3.0 && proof.open_um < 3.0);
+            assert!((proof.least_distance - correction).abs() < 2e-3 && (proof.largest_distance - correction).abs() < 2e-3);
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_found() {
+        let (fixed, program, path) = made(0.1);
+        let tampered = [
+            ("about another centre", program.replacen("NR1", "NR3", 1)),
+            ("a contour left out", program.lines().skip_while(|line| *line != "D").collect::<Vec<_>>().join("\n")),
+            ("a tenth too long", program.replacen("B2900B0B2900GXL1", "B3000B0B3000GXL1", 1)),
+            ("no end", program.replace("DD", "")),
+            ("a block lost", program.lines().filter(|line| !line.contains("NR2")).collect::<Vec<_>>().join("\n")),
+            ("no program", "hello".into()),
+        ];
+        for (what, program) in &tampered {
+            assert!(*program != made(0.1).1, "{what} is the same program");
+            assert!(of(PLATE, &fixed, program, &path, 0.1).is_err(), "{what} is proved");
+        }
+        assert!(of(PLATE, PLATE, &program, &path, 0.1).is_err(), "the faulty drawing is proved");
+        assert!(of(PLATE, &fixed, &program, &path, 0.15).is_err(), "another correction is proved");
+    }
 }

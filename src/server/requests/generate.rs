@@ -112,7 +112,7 @@ impl Job {
         }
         let Source::Dxf(dxf) = self.document.source() else { return of_rules };
         let of_source = dxf.findings().iter().filter_map(|finding| {
-            let severity = task.settings.severity(finding.rule)?;
+            let severity = task.settings.severity_of(finding)?;
             Some(Finding { severity, ..finding.clone() })
         });
         of_source.chain(of_rules).collect()

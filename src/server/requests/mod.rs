@@ -97,6 +97,9 @@ pub(super) fn with_options(state: &mut State, uri: &str, options: Option<&Value>
 
 /// A document as one request looks at it: under its own options, where it brings any.
 pub(super) struct Task {
+    /// As it is open: findings have their places here.
+    pub subject: Arc<Document>,
+    /// Under the options.
     pub document: Arc<Document>,
     pub drawing: Arc<Drawing>,
     pub outlines: Arc<Vec<Outline>>,
@@ -105,15 +108,15 @@ pub(super) struct Task {
 
 impl Task {
     /// Errors: the document is a program.
-    pub fn new(document: Arc<Document>, options: Option<Arc<Effective>>) -> Result<Task> {
-        let under_options = options.filter(|options| options != document.settings()).and_then(|options| {
-            let drawing = document.drawing()?.clone();
+    pub fn new(subject: Arc<Document>, options: Option<Arc<Effective>>) -> Result<Task> {
+        let under_options = options.filter(|options| options != subject.settings()).and_then(|options| {
+            let drawing = subject.drawing()?.clone();
             Some(Arc::new(Document::new(Source::Cad(drawing), options)))
         });
-        let document = under_options.unwrap_or(document);
+        let document = under_options.unwrap_or_else(|| subject.clone());
         let Snapshot { drawing, outlines, settings } =
             document.snapshot().ok_or_else(|| refused("the document is a program, expected a drawing"))?;
-        Ok(Task { document, drawing, outlines, settings })
+        Ok(Task { subject, document, drawing, outlines, settings })
     }
 
     pub fn unit_mm(&self) -> f64 {
@@ -131,7 +134,7 @@ pub(super) fn refusal(task: &Task, refusal: Refusal, encoding: Encoding) -> Erro
     match refusal {
         Refusal::Sentence(sentence) => refused(sentence),
         Refusal::Findings(findings) => {
-            let diagnostics = convert::diagnostics(&task.document, &findings, encoding);
+            let diagnostics = convert::diagnostics(&task.subject, &findings, encoding);
             let first = diagnostics.first().map_or_else(|| "no path can be made".into(), |first| first.message.clone());
             refused_with(first, diagnostics)
         }
