@@ -18,6 +18,7 @@ use pairs::{Pairs, RunId};
 use report::Report;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
+use std::iter::once;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -439,15 +440,16 @@ fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
 
 /// The segments of an entity that a splice of its vertices changed, in one or two ranges.
 fn segments_of(vertices: Option<(usize, usize, usize)>, count: usize, closed: bool) -> Vec<Range<usize>> {
-    let Some((start, removed, inserted)) = vertices else { return vec![0..count] };
+    let Some((start, removed, inserted)) = vertices else { return once(0..count).collect() };
     if removed != inserted {
         // What lies behind the splice has other indices now; the segment before it has another end.
-        let first = start.saturating_sub(1).min(count);
-        return if closed && start == 0 { vec![0..count] } else { vec![first..count] };
+        let first = if closed && start == 0 { 0 } else { start.saturating_sub(1).min(count) };
+        return once(first..count).collect();
     }
     let end = (start + inserted).min(count);
     let own = start.saturating_sub(1).min(end)..end;
-    if closed && start == 0 && count > 0 { vec![own, count - 1..count] } else { vec![own] }
+    let closing = (closed && start == 0 && count > 0).then(|| count - 1..count);
+    once(own).chain(closing).collect()
 }
 
 /// What a replacement takes of a contour, in the contour's own direction: from one place to another, in segments.

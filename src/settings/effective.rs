@@ -2,7 +2,7 @@
 
 use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, RuleSeverity, Settings, SideSetting, UnitSetting};
 use crate::drawing::{Role, Unit};
-use crate::finding::{Rule, Severity};
+use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
 use std::collections::BTreeMap;
 
@@ -86,6 +86,14 @@ impl Effective {
     /// Severity of a rule, `None` when it is switched off.
     pub fn severity(&self, rule: Rule) -> Option<Severity> {
         self.severities.get(&rule).copied().unwrap_or(Some(rule.default_severity()))
+    }
+
+    /// Severity of a reader's finding: what is set for its rule, else what the reader gave it. `None` when it is switched off.
+    pub fn severity_of(&self, finding: &Finding) -> Option<Severity> {
+        match self.severity(finding.rule) {
+            Some(severity) if severity == finding.rule.default_severity() => Some(finding.severity),
+            set => set,
+        }
     }
 
     /// The unit of a drawing: its own, else that of the settings.

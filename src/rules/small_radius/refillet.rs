@@ -203,7 +203,7 @@ impl Search<'_> {
                     .then(|| Locus::Line { point: line.start + left_normal(direction) * radius, direction })
             }
             (Hold::Neighbour, Segment::Arc(arc)) if arc.sweep > 0.0 => {
-                (arc.radius > radius).then(|| Locus::Circle { center: arc.center, radius: arc.radius - radius })
+                (arc.radius > radius).then_some(Locus::Circle { center: arc.center, radius: arc.radius - radius })
             }
             (Hold::Neighbour, Segment::Arc(arc)) => Some(Locus::Circle { center: arc.center, radius: arc.radius + radius }),
         }
