@@ -117,8 +117,8 @@ impl Document {
         let settings = self.analysis.settings();
         let (mut findings, mut count) = of_rules;
         for finding in of_source {
-            // The reader knows no settings: severities are laid over its findings here.
-            if let Some(severity) = settings.severity(finding.rule) {
+            // The reader knows no settings: severities that somebody has set are laid over its findings here.
+            if let Some(severity) = settings.severity_over(finding.rule, finding.severity) {
                 findings.push(Finding { severity, ..finding.clone() });
                 count += 1;
             }

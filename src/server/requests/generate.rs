@@ -80,7 +80,7 @@ impl Job {
         let mut document = task.document();
         let (of_rules, _) = document.findings(usize::MAX);
         let of_source = self.of_source.iter().filter_map(|finding| {
-            let severity = task.settings.severity(finding.rule)?;
+            let severity = task.settings.severity_over(finding.rule, finding.severity)?;
             Some(Finding { severity, ..finding.clone() })
         });
         let findings: Vec<Finding> = of_source.chain(of_rules).collect();
