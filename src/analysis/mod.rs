@@ -2,6 +2,7 @@
 
 mod known;
 mod pairs;
+mod repair;
 mod report;
 
 use crate::drawing::{
@@ -11,11 +12,11 @@ use crate::drawing::{
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::Bounds;
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
-use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook, PAIR_RULES};
+use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, Outlook, PAIR_RULES};
 use crate::settings::{Effective, SideSetting};
 use known::Known;
 use pairs::{Pairs, RunId};
-use report::Report;
+use report::{Report, Tally};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 use std::iter::once;
@@ -117,6 +118,15 @@ impl Analysis {
 
     /// At most `limit` findings, errors first, then in machining order; and how many there are in all.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
+        self.report(drawing, limit).finish()
+    }
+
+    /// How many findings of which kind there are.
+    fn tally(&mut self, drawing: &Drawing) -> Tally {
+        self.report(drawing, 0).tally()
+    }
+
+    fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
         let mut report = Report::new(self.settings.clone(), limit);
         let ordered = self.in_machining_order(drawing).to_vec();
         let roles = self.roles(drawing, &ordered);
@@ -129,9 +139,28 @@ impl Analysis {
                 known.report(&outlook, wire_side, &mut report);
             }
         }
+        self.report_contours(drawing, &ordered, &mut report);
         let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.into_iter().zip(sides).collect();
         self.pairs.report(&|key| self.outlook(drawing, key), &side_of, &mut report);
-        report.finish()
+        report
+    }
+
+    /// What the rules on whole contours see.
+    fn report_contours(&self, drawing: &Drawing, keys: &[ContourKey], report: &mut Report) {
+        let outlook = |key| self.outlook(drawing, key);
+        let doubled = self.pairs.doubled(&outlook);
+        for rule in CONTOUR_RULES {
+            let mildest = (rule.mildest)(&self.settings);
+            for outlook in keys.iter().filter_map(|&key| outlook(key)).filter(|outlook| (rule.holds)(outlook)) {
+                // What lies there twice is reported as that.
+                if !outlook.contour.pieces.iter().all(|piece| doubled.contains(&piece.entity))
+                    && report.counts(rule.rule, mildest)
+                    && let (Some((place, related)), Some(detail)) = ((rule.places)(&outlook), (rule.detail)(&outlook))
+                {
+                    report.add(rule.rule, mildest, place, detail, related);
+                }
+            }
+        }
     }
 
     /// Arcs below the correction in one contour.
@@ -151,8 +180,7 @@ impl Analysis {
     pub fn fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
         let Place::Segment { entity, segment } = &finding.place else { return Vec::new() };
         if finding.rule != Rule::SmallRadius {
-            let fixes = self.other_fixes(drawing, finding, (*entity, *segment)).unwrap_or_default();
-            return fixes.into_iter().filter(|fix| self.keeps_radii(drawing, &fix.edit)).collect();
+            return self.checked(drawing, finding.rule, self.other_fixes(drawing, finding, (*entity, *segment)).unwrap_or_default());
         }
         let Some(key) = self.chains.contour_of(*entity) else { return Vec::new() };
         let Some(index) = self.chains.get(key).and_then(|contour| contour.index_of(*entity, *segment)) else { return Vec::new() };
@@ -190,9 +218,14 @@ impl Analysis {
         let (key, index) = self.locate(at)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
-            let is_hint = rule.one_hint_when_side_unknown && matches!(finding.detail, Detail::SharpCorner { count, .. } if count > 1);
-            let side = if is_hint { return None } else { None };
-            return Some((rule.fixes)(&outlook, Fact { index: index as u32, side }));
+            // A hint that stands for many corners is no place to mend one of them.
+            if matches!(finding.detail, Detail::SharpCorner { count, .. } if count > 1) {
+                return None;
+            }
+            return Some((rule.fixes)(&outlook, Fact { index: index as u32, side: None, needs_side: false }));
+        }
+        if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == finding.rule) {
+            return Some((rule.fixes)(&outlook));
         }
         let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
         let Place::Segment { entity, segment } = finding.related.first()? else { return None };
@@ -212,7 +245,14 @@ impl Analysis {
     }
 
     /// One edit that makes every safe fix; `None` where there is none.
+    ///
+    /// Arcs first; where there are none to be mended, what the other rules can mend safely, one rule at a time: call again
+    /// until nothing is left.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
+        self.fix_all_arcs(drawing).or_else(|| self.fix_all_else(drawing))
+    }
+
+    fn fix_all_arcs(&self, drawing: &Drawing) -> Option<DrawingEdit> {
         self.settings.severity(Rule::SmallRadius)?;
         let mut replacements = Vec::new();
         for (key, wire_side) in self.with_tight_arcs(drawing) {
@@ -292,21 +332,6 @@ impl Analysis {
         let touched: FxHashSet<EntityId> = edit.changes.iter().map(crate::drawing::Change::entity).collect();
         let mut after = drawing.clone();
         after.apply(edit).is_ok() && self.tight(&after, &touched) < self.tight(drawing, &touched)
-    }
-
-    /// True when an edit can be made and leaves no more tight arcs than there were.
-    fn keeps_radii(&self, drawing: &Drawing, edit: &DrawingEdit) -> bool {
-        let mut after = drawing.clone();
-        let Ok(delta) = after.apply(edit) else { return false };
-        let touched: FxHashSet<EntityId> = delta
-            .touched
-            .iter()
-            .filter_map(|touched| match touched {
-                Touched::Vertices { entity, .. } | Touched::Entity { entity } | Touched::Removed { entity } => Some(*entity),
-                Touched::All => None,
-            })
-            .collect();
-        self.tight(&after, &touched) <= self.tight(drawing, &touched)
     }
 
     /// Number of arcs below the correction in some entities.

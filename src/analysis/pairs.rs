@@ -1,8 +1,8 @@
 //! What the rules on pairs of segments have seen, by the runs of segments that the two lie in.
 
 use super::report::Report;
-use crate::drawing::{ContourIndex, ContourKey, ContourSegment};
-use crate::finding::Side;
+use crate::drawing::{ContourIndex, ContourKey, ContourSegment, EntityId};
+use crate::finding::{Rule, Side};
 use crate::geometry::{Bounds, Grid};
 use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule};
 use crate::settings::Effective;
@@ -88,6 +88,17 @@ impl Pairs {
                 }
             }
         }
+    }
+
+    /// Entities that lie in the same place as another.
+    pub fn doubled(&self, outlook: Outlooks) -> FxHashSet<EntityId> {
+        let mut doubled = FxHashSet::default();
+        for seen in self.seen.values().flatten().filter(|seen| PAIR_RULES[seen.rule].rule == Rule::DuplicateEntity) {
+            for (key, index) in [seen.one, seen.other] {
+                doubled.extend(outlook(key).and_then(|outlook| outlook.segment(index as isize)).map(|segment| segment.entity));
+            }
+        }
+        doubled
     }
 
     /// Adds the findings, in the order of their entities.

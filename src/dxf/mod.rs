@@ -17,6 +17,7 @@ mod lines;
 mod number;
 mod place;
 mod reader;
+mod record;
 mod strings;
 mod table;
 #[cfg(test)]

@@ -3,13 +3,19 @@
 //! A rule speaks geometry: it sees contours and gives back findings on segments and fixes as drawing edits.
 //! It knows nothing of text, of protocols, or of how a sentence about it reads.
 
+mod arc_as_chords;
 mod duplicate_entity;
+mod ends;
+mod gap;
+mod near_tangent;
+mod open_contour;
+mod sharp_corner;
 mod short_segment;
 pub mod small_radius;
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
-use crate::finding::{Detail, Fix, Place, Rule, Side};
-use crate::geometry::Tolerances;
+use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
+use crate::geometry::{Tolerances, turn};
 use crate::settings::Effective;
 use std::ops::Range;
 
@@ -64,6 +70,15 @@ impl Outlook<'_> {
         let segment = self.segment(index as isize)?;
         Some(Place::Segment { entity: segment.entity, segment: segment.segment })
     }
+
+    /// The angle (radians, positive to the left) by which the contour turns where the segment at `index` begins.
+    /// `None` at the start of an open contour, and beside a segment too short to have a direction that counts.
+    pub fn turn_at(&self, index: usize) -> Option<f64> {
+        let (before, behind) = (self.segment(index as isize - 1)?.geometry, self.segment(index as isize)?.geometry);
+        let least = self.limits.tolerances.short;
+        let long_enough = before.length() >= least && behind.length() >= least;
+        long_enough.then(|| turn(before.end_tangent(), behind.start_tangent()))
+    }
 }
 
 /// Something that a rule has seen at one segment of a contour. Small, since a contour may have one at every segment;
@@ -74,6 +89,8 @@ pub struct Fact {
     pub index: u32,
     /// The side of travel that it concerns, `None` where it holds whichever side the wire runs on.
     pub side: Option<Side>,
+    /// Says nothing where the wire side is not known.
+    pub needs_side: bool,
 }
 
 /// A rule on a segment and its near neighbours. All of them stand in [`LOCAL_RULES`].
@@ -84,6 +101,10 @@ pub struct LocalRule {
     pub look: fn(&Outlook, Range<usize>, &mut Vec<Fact>),
     /// How many segments before and behind a changed one must be looked at again.
     pub reach: fn(&Outlook, Range<usize>) -> (usize, usize),
+    /// Whether what was seen at the first segment of a closed contour stands, where that depends on the whole round.
+    pub holds: fn(&Outlook, Fact) -> bool,
+    /// The other places that are concerned.
+    pub related: fn(&Outlook, Fact) -> Vec<Place>,
     /// The numbers of a fact. `count` is 1, or the number of facts that one finding stands for.
     pub detail: fn(&Outlook, Fact, usize) -> Option<Detail>,
     /// Repairs, the preferred one first.
@@ -93,7 +114,23 @@ pub struct LocalRule {
 }
 
 /// Every rule on single segments and their neighbours.
-pub const LOCAL_RULES: &[LocalRule] = &[short_segment::RULE];
+pub const LOCAL_RULES: &[LocalRule] = &[sharp_corner::RULE, gap::RULE, short_segment::RULE, near_tangent::RULE, arc_as_chords::RULE];
+
+/// A rule on a contour as a whole, cheap enough to be asked at every report. All of them stand in [`CONTOUR_RULES`].
+pub struct ContourRule {
+    pub rule: Rule,
+    pub holds: fn(&Outlook) -> bool,
+    /// The severity that it has at most under some settings, unless the user has set the rule.
+    pub mildest: fn(&Effective) -> Option<Severity>,
+    /// The place, and the other places that are concerned.
+    pub places: fn(&Outlook) -> Option<(Place, Vec<Place>)>,
+    pub detail: fn(&Outlook) -> Option<Detail>,
+    /// Repairs, the preferred one first.
+    pub fixes: fn(&Outlook) -> Vec<Fix>,
+}
+
+/// Every rule on whole contours.
+pub const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
 
 /// Something that a rule has seen between two segments, of one contour or of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
