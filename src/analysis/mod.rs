@@ -11,7 +11,7 @@ use crate::drawing::{
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::Bounds;
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
-use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook, PAIR_RULES};
+use crate::rules::{Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall};
 use crate::settings::{Effective, SideSetting};
 use known::Known;
 use pairs::{Pairs, RunId};
@@ -196,7 +196,8 @@ impl Analysis {
         let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
         let Place::Segment { entity, segment } = finding.related.first()? else { return None };
         let (other_key, other_index) = self.locate((*entity, *segment))?;
-        Some((rule.fixes)(&outlook, index, &self.outlook(drawing, other_key)?, other_index))
+        let theirs = self.outlook(drawing, other_key)?;
+        Some((rule.fixes)(&Wall::new(&outlook, index)?, &Wall::new(&theirs, other_index)?))
     }
 
     /// The contour that holds a segment, and its index in there.
@@ -360,27 +361,43 @@ impl Analysis {
         if piece.count > 0 {
             own.extend([0..1, piece.count - 1..piece.count]);
         }
-        let mut runs = BTreeSet::new();
-        for range in own {
-            let range = match piece.reversed {
+        let ranges: Vec<Range<usize>> = own
+            .into_iter()
+            .map(|range| match piece.reversed {
                 true => piece.first + piece.count - range.end..piece.first + piece.count - range.start,
                 false => piece.first + range.start..piece.first + range.end,
-            };
-            // Neighbours across a joint belong to what is looked at together.
-            let runs_before = known.index.run_count();
-            let first_run = range.start / RUN;
-            let last_run = if recounted { runs_before } else { range.end.div_ceil(RUN).max(first_run + 1) };
-            let mut changed = known.index.bounds_about(range.clone());
-            for run in first_run..last_run {
+            })
+            .collect();
+        // What a pair rule sees at a segment depends on its neighbours, too. Runs behind a segment that came or went
+        // have other segments.
+        let mut runs = BTreeSet::new();
+        for range in &ranges {
+            let count = if recounted { known.index.len().max(contour.len()) } else { contour.len() };
+            let behind = if recounted { count } else { (range.end + NEIGHBOURS).min(count) };
+            runs.extend(range.start.saturating_sub(NEIGHBOURS) / RUN..behind.div_ceil(RUN));
+            if contour.closed && range.start < NEIGHBOURS {
+                runs.extend(count.saturating_sub(NEIGHBOURS) / RUN..count.div_ceil(RUN));
+            }
+            if contour.closed && (recounted || range.end + NEIGHBOURS > count) {
+                runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
+            }
+        }
+        let mut forgotten = FxHashSet::default();
+        for &run in &runs {
+            if run < known.index.run_count() && forgotten.insert(run) {
                 self.pairs.forget_run((key, run as u32), &known.index.bounds_of_run(run));
             }
+        }
+        for range in ranges {
+            let mut changed = known.index.bounds_about(range.clone());
             known.index.update(drawing, contour, range.clone());
             changed.merge(&known.index.bounds_about(range.clone()));
             known.look(drawing, contour, &self.limits, &self.settings, range.clone());
-            let last_run = if recounted { known.index.run_count() } else { last_run.min(known.index.run_count()) };
-            runs.extend((first_run..last_run).map(|run| (key, run as u32)));
             self.answers.retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
         }
+        let count = known.index.run_count();
+        let runs = runs.into_iter().filter(|&run| run < count).map(|run| (key, run as u32));
+        let runs: BTreeSet<RunId> = runs.collect();
         self.known.insert(key, known);
         let runs: Vec<RunId> = runs.into_iter().collect();
         self.look_at_pairs(drawing, &runs);
