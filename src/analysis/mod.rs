@@ -10,6 +10,7 @@ use crate::drawing::{
 };
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::Bounds;
+use crate::rules::lost_pocket::{self, Lost};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
 use crate::rules::{Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall};
 use crate::settings::{Effective, SideSetting};
@@ -31,6 +32,8 @@ pub struct Analysis {
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region that the answer depends on.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
+    /// What the offset of a contour loses, for a side and with or without a neck.
+    lost: FxHashMap<ContourKey, ((Side, bool), Vec<Lost>)>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
 }
@@ -46,6 +49,7 @@ impl Analysis {
             known: FxHashMap::default(),
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
+            lost: FxHashMap::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
         };
@@ -86,6 +90,7 @@ impl Analysis {
         let settings = self.settings.clone();
         let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
         for key in &rechained.gone {
+            self.lost.remove(key);
             if let Some(known) = self.known.remove(key) {
                 self.pairs.forget(*key, &known.index);
             }
@@ -128,9 +133,42 @@ impl Analysis {
                 known.report(&outlook, wire_side, &mut report);
             }
         }
-        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.into_iter().zip(sides).collect();
+        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.iter().copied().zip(sides.iter().copied()).collect();
         self.pairs.report(&|key| self.outlook(drawing, key), &side_of, &mut report);
+        self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
         report.finish()
+    }
+
+    /// What the offsets of contours with a known wire side lose.
+    fn report_lost_pockets(&mut self, drawing: &Drawing, ordered: &[ContourKey], sides: &[Option<Side>], report: &mut Report) {
+        let is_on = |rule| self.settings.severity(rule).is_some();
+        if !(is_on(Rule::LostPocket) || is_on(Rule::OffsetCollapse)) || sides.iter().all(Option::is_none) {
+            return;
+        }
+        // Without the rules that see them, a neck is taken for granted, and a crossing for none.
+        let necks = is_on(Rule::NarrowSlot).then(|| self.pairs.contours_with(Rule::NarrowSlot));
+        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
+        for (&key, &side) in ordered.iter().zip(sides) {
+            let Some(side) = side.filter(|_| !crossed.contains(&key)) else { continue };
+            let asked = (side, necks.as_ref().is_none_or(|necks| necks.contains(&key)));
+            if self.lost.get(&key).is_none_or(|(answered, _)| *answered != asked) {
+                let Some(outlook) = self.outlook(drawing, key) else { continue };
+                let lost = lost_pocket::look(&outlook, side, asked.1);
+                self.lost.insert(key, (asked, lost));
+            }
+            let (Some((_, lost)), Some(outlook)) = (self.lost.get(&key), self.outlook(drawing, key)) else { continue };
+            for lost in lost {
+                let (rule, index, detail) = match *lost {
+                    Lost::All => (Rule::OffsetCollapse, 0, Detail::OffsetCollapse { required: self.limits.correction }),
+                    Lost::Pocket { near, index } => (Rule::LostPocket, index, Detail::LostPocket { near }),
+                };
+                if report.counts(rule, None)
+                    && let Some(place) = outlook.place(index)
+                {
+                    report.add(rule, None, place, detail, Vec::new());
+                }
+            }
+        }
     }
 
     /// Arcs below the correction in one contour.
@@ -351,6 +389,7 @@ impl Analysis {
             self.chains.recount(drawing, entity);
             self.answers.retain(|(other, _), _| *other != key);
         }
+        self.lost.remove(&key);
         let (Some(piece), Some(mut known)) = (piece_of(&self.chains), self.known.remove(&key)) else { return false };
         let Some(contour) = self.chains.get(key) else { return false };
         if vertices.is_none() {

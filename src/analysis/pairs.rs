@@ -152,6 +152,12 @@ impl Pairs {
         })
     }
 
+    /// Contours that have something of `rule` between two of their own segments.
+    pub fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
+        let own = |each: &&Seen| PAIR_RULES[each.rule].rule == rule && each.one.0 == each.other.0 && !each.blocked;
+        self.seen.values().flatten().filter(own).map(|each| each.one.0).collect()
+    }
+
     /// Adds the findings, in the order of their entities.
     pub fn report(&self, outlook: Outlooks, wire_sides: &FxHashMap<ContourKey, Option<Side>>, report: &mut Report) {
         type Ends = ((EntityId, usize), (EntityId, usize));

@@ -4,6 +4,7 @@
 //! It knows nothing of text, of protocols, or of how a sentence about it reads.
 
 mod duplicate_entity;
+pub mod lost_pocket;
 mod narrow_slot;
 mod overlap;
 mod self_intersection;

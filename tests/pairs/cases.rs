@@ -228,3 +228,64 @@ fn walls_leave_too_little_room() {
     let saw: Vec<[f64; 2]> = (0..20).flat_map(|k| [[f64::from(k) * 0.1, 0.], [f64::from(k) * 0.1 + 0.05, 0.05]]).collect();
     check_slots("a saw has no slots", &[ring(&[&saw[..], &[[2., 3.], [0., 3.]]].concat())], Both, &[]);
 }
+
+fn check_lost(name: &str, entities: &[Geometry], role: Role, rule: Rule, expected: &[[f64; 2]]) {
+    let (_, _, findings) = found(entities, role, rule);
+    let told = |finding: &Finding| match finding.detail {
+        Detail::LostPocket { near } => [near.x.round(), near.y.round()],
+        Detail::OffsetCollapse { required } => [required, required],
+        _ => panic!("{finding:?}"),
+    };
+    assert_eq!(findings.iter().map(told).collect::<Vec<_>>(), expected, "{name} as {role:?}");
+}
+
+#[test]
+fn offsets_lose_pockets_or_all() {
+    use Role::{Both, Opening, Punch};
+    // A chamber of 6 × 4 and one of 3 × 3 behind a neck of 0.15.
+    let bottle = |neck: f64| {
+        let (left, right) = (3.0 - neck / 2.0, 3.0 + neck / 2.0);
+        ring(&[
+            [0., 0.],
+            [6., 0.],
+            [6., 4.],
+            [right, 4.],
+            [right, 5.],
+            [4.5, 5.],
+            [4.5, 8.],
+            [1.5, 8.],
+            [1.5, 5.],
+            [left, 5.],
+            [left, 4.],
+            [0., 4.],
+        ])
+    };
+    let pocket = |role, neck: f64| found(&[bottle(neck)], role, Rule::LostPocket).2.len();
+    assert_eq!([pocket(Opening, 0.15), pocket(Opening, 0.25), pocket(Punch, 0.15), pocket(Both, 0.15)], [1, 0, 0, 0]);
+    let (_, _, findings) = found(&[bottle(0.15)], Opening, Rule::LostPocket);
+    assert!(matches!(findings[0].detail, Detail::LostPocket { near } if near.y > 5.0 && near.y < 8.0), "{findings:?}");
+    // A punch with a bay behind a narrow mouth.
+    let bay = ring(&[
+        [0., 0.],
+        [6., 0.],
+        [6., 6.],
+        [3.1, 6.],
+        [3.1, 5.],
+        [5., 5.],
+        [5., 1.],
+        [1., 1.],
+        [1., 5.],
+        [2.95, 5.],
+        [2.95, 6.],
+        [0., 6.],
+    ]);
+    assert_eq!(found(&[bay], Punch, Rule::LostPocket).2.len(), 1);
+    let collapse = Rule::OffsetCollapse;
+    check_lost("a hole for a needle", &[ring(&[[0., 0.], [0.3, 0.], [0.15, 0.26]])], Opening, collapse, &[[0.1, 0.1]]);
+    check_lost("a slit", &[ring(&[[0., 0.], [5., 0.], [5., 0.15], [0., 0.15]])], Opening, collapse, &[[0.1, 0.1]]);
+    check_lost("a slit", &[ring(&[[0., 0.], [5., 0.], [5., 0.15], [0., 0.15]])], Punch, collapse, &[]);
+    check_lost("a slit the wire fits in", &[ring(&[[0., 0.], [5., 0.], [5., 0.25], [0., 0.25]])], Opening, collapse, &[]);
+    check_lost("a tight circle is small-radius", &[circle([0., 0.], 0.08)], Opening, collapse, &[]);
+    check_lost("a square", &[square(0., 0., 4.)], Opening, collapse, &[]);
+    check_lost("far from the origin", &[ring(&[[1e6, 0.], [1e6 + 0.3, 0.], [1e6 + 0.15, 0.26]])], Opening, collapse, &[[0.1, 0.1]]);
+}

@@ -144,6 +144,8 @@ proptest! {
             let inward = if star.clockwise { -correction } else { correction };
             if pline(&vertices).parallel_offset(inward).len() > 1 {
                 prop_assert!(tight || !slots.is_empty(), "the offset falls apart");
+                let lost = found.iter().any(|finding| finding.rule == Rule::LostPocket);
+                prop_assert!(tight || lost, "the pocket is not said to be lost");
             }
         }
     }
