@@ -11,8 +11,9 @@ use crate::drawing::{
 };
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::Bounds;
+use crate::rules::lost_pocket::{self, Lost};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
-use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, Outlook, PAIR_RULES};
+use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall};
 use crate::settings::{Effective, SideSetting};
 use known::Known;
 use pairs::{Pairs, RunId};
@@ -33,6 +34,8 @@ pub struct Analysis {
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region that the answer depends on.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
+    /// What the offset of a contour loses, for a side and with or without a neck.
+    lost: FxHashMap<ContourKey, ((Side, bool), Vec<Lost>)>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
 }
@@ -48,6 +51,7 @@ impl Analysis {
             known: FxHashMap::default(),
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
+            lost: FxHashMap::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
         };
@@ -88,6 +92,7 @@ impl Analysis {
         let settings = self.settings.clone();
         let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
         for key in &rechained.gone {
+            self.lost.remove(key);
             if let Some(known) = self.known.remove(key) {
                 self.pairs.forget(*key, &known.index);
             }
@@ -140,8 +145,9 @@ impl Analysis {
             }
         }
         self.report_contours(drawing, &ordered, &mut report);
-        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.into_iter().zip(sides).collect();
+        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.iter().copied().zip(sides.iter().copied()).collect();
         self.pairs.report(&|key| self.outlook(drawing, key), &side_of, &mut report);
+        self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
         report
     }
 
@@ -158,6 +164,38 @@ impl Analysis {
                     && let (Some((place, related)), Some(detail)) = ((rule.places)(&outlook), (rule.detail)(&outlook))
                 {
                     report.add(rule.rule, mildest, place, detail, related);
+                }
+            }
+        }
+    }
+
+    /// What the offsets of contours with a known wire side lose.
+    fn report_lost_pockets(&mut self, drawing: &Drawing, ordered: &[ContourKey], sides: &[Option<Side>], report: &mut Report) {
+        let is_on = |rule| self.settings.severity(rule).is_some();
+        if !(is_on(Rule::LostPocket) || is_on(Rule::OffsetCollapse)) || sides.iter().all(Option::is_none) {
+            return;
+        }
+        // Without the rules that see them, a neck is taken for granted, and a crossing for none.
+        let necks = is_on(Rule::NarrowSlot).then(|| self.pairs.contours_with(Rule::NarrowSlot));
+        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
+        for (&key, &side) in ordered.iter().zip(sides) {
+            let Some(side) = side.filter(|_| !crossed.contains(&key)) else { continue };
+            let asked = (side, necks.as_ref().is_none_or(|necks| necks.contains(&key)));
+            if self.lost.get(&key).is_none_or(|(answered, _)| *answered != asked) {
+                let Some(outlook) = self.outlook(drawing, key) else { continue };
+                let lost = lost_pocket::look(&outlook, side, asked.1);
+                self.lost.insert(key, (asked, lost));
+            }
+            let (Some((_, lost)), Some(outlook)) = (self.lost.get(&key), self.outlook(drawing, key)) else { continue };
+            for lost in lost {
+                let (rule, index, detail) = match *lost {
+                    Lost::All => (Rule::OffsetCollapse, 0, Detail::OffsetCollapse { required: self.limits.correction }),
+                    Lost::Pocket { near, index } => (Rule::LostPocket, index, Detail::LostPocket { near }),
+                };
+                if report.counts(rule, None)
+                    && let Some(place) = outlook.place(index)
+                {
+                    report.add(rule, None, place, detail, Vec::new());
                 }
             }
         }
@@ -230,7 +268,8 @@ impl Analysis {
         let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
         let Place::Segment { entity, segment } = finding.related.first()? else { return None };
         let (other_key, other_index) = self.locate((*entity, *segment))?;
-        Some((rule.fixes)(&outlook, index, &self.outlook(drawing, other_key)?, other_index))
+        let theirs = self.outlook(drawing, other_key)?;
+        Some((rule.fixes)(&Wall::new(&outlook, index)?, &Wall::new(&theirs, other_index)?))
     }
 
     /// The contour that holds a segment, and its index in there.
@@ -376,6 +415,7 @@ impl Analysis {
             self.chains.recount(drawing, entity);
             self.answers.retain(|(other, _), _| *other != key);
         }
+        self.lost.remove(&key);
         let (Some(piece), Some(mut known)) = (piece_of(&self.chains), self.known.remove(&key)) else { return false };
         let Some(contour) = self.chains.get(key) else { return false };
         if vertices.is_none() {
@@ -386,27 +426,43 @@ impl Analysis {
         if piece.count > 0 {
             own.extend([0..1, piece.count - 1..piece.count]);
         }
-        let mut runs = BTreeSet::new();
-        for range in own {
-            let range = match piece.reversed {
+        let ranges: Vec<Range<usize>> = own
+            .into_iter()
+            .map(|range| match piece.reversed {
                 true => piece.first + piece.count - range.end..piece.first + piece.count - range.start,
                 false => piece.first + range.start..piece.first + range.end,
-            };
-            // Neighbours across a joint belong to what is looked at together.
-            let runs_before = known.index.run_count();
-            let first_run = range.start / RUN;
-            let last_run = if recounted { runs_before } else { range.end.div_ceil(RUN).max(first_run + 1) };
-            let mut changed = known.index.bounds_about(range.clone());
-            for run in first_run..last_run {
+            })
+            .collect();
+        // What a pair rule sees at a segment depends on its neighbours, too. Runs behind a segment that came or went
+        // have other segments.
+        let mut runs = BTreeSet::new();
+        for range in &ranges {
+            let count = if recounted { known.index.len().max(contour.len()) } else { contour.len() };
+            let behind = if recounted { count } else { (range.end + NEIGHBOURS).min(count) };
+            runs.extend(range.start.saturating_sub(NEIGHBOURS) / RUN..behind.div_ceil(RUN));
+            if contour.closed && range.start < NEIGHBOURS {
+                runs.extend(count.saturating_sub(NEIGHBOURS) / RUN..count.div_ceil(RUN));
+            }
+            if contour.closed && (recounted || range.end + NEIGHBOURS > count) {
+                runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
+            }
+        }
+        let mut forgotten = FxHashSet::default();
+        for &run in &runs {
+            if run < known.index.run_count() && forgotten.insert(run) {
                 self.pairs.forget_run((key, run as u32), &known.index.bounds_of_run(run));
             }
+        }
+        for range in ranges {
+            let mut changed = known.index.bounds_about(range.clone());
             known.index.update(drawing, contour, range.clone());
             changed.merge(&known.index.bounds_about(range.clone()));
             known.look(drawing, contour, &self.limits, &self.settings, range.clone());
-            let last_run = if recounted { known.index.run_count() } else { last_run.min(known.index.run_count()) };
-            runs.extend((first_run..last_run).map(|run| (key, run as u32)));
             self.answers.retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
         }
+        let count = known.index.run_count();
+        let runs = runs.into_iter().filter(|&run| run < count).map(|run| (key, run as u32));
+        let runs: BTreeSet<RunId> = runs.collect();
         self.known.insert(key, known);
         let runs: Vec<RunId> = runs.into_iter().collect();
         self.look_at_pairs(drawing, &runs);

@@ -11,6 +11,8 @@ pub struct Tolerances {
     pub arc_fit: f64,
     /// Two entities within this of each other lie in the same place.
     pub same_place: f64,
+    /// Two outlines this near each other touch.
+    pub touch: f64,
     /// A segment shorter than this is one that controllers stumble over.
     pub short: f64,
     /// Chords whose corners lie this near to one circle stand for an arc.
@@ -30,6 +32,7 @@ impl Default for Tolerances {
             same_place: 0.005,
             short: 0.005,
             chords: 0.002,
+            touch: 1e-3,
             zero_length: 1e-9,
             clearance: 1e-7,
         }
@@ -44,6 +47,7 @@ impl Tolerances {
             report: self.report / unit_mm,
             arc_fit: self.arc_fit / unit_mm,
             same_place: self.same_place / unit_mm,
+            touch: self.touch / unit_mm,
             short: self.short / unit_mm,
             chords: self.chords / unit_mm,
             zero_length: self.zero_length / unit_mm,

@@ -7,15 +7,22 @@ mod arc_as_chords;
 mod duplicate_entity;
 mod ends;
 mod gap;
+pub mod lost_pocket;
+mod narrow_slot;
 mod near_tangent;
 mod open_contour;
+mod overlap;
+mod self_intersection;
 mod sharp_corner;
 mod short_segment;
 pub mod small_radius;
+mod wall;
+
+pub use wall::Wall;
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
 use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
-use crate::geometry::{Tolerances, turn};
+use crate::geometry::{Point, Tolerances, turn};
 use crate::settings::Effective;
 use std::ops::Range;
 
@@ -132,28 +139,37 @@ pub struct ContourRule {
 /// Every rule on whole contours.
 pub const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
 
-/// Something that a rule has seen between two segments, of one contour or of two.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairFact {
-    pub rule: Rule,
-    /// Indices within the first and the second contour.
-    pub one: u32,
-    pub other: u32,
+/// What a pair rule has seen between two segments.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sight {
     /// Sides of travel that it concerns, of the first and of the second segment; `None` where any.
     pub sides: (Option<Side>, Option<Side>),
+    /// A disc (centre, radius) that no segment of the drawing may reach into, else there is nothing to see.
+    pub disc: Option<(Point, f64)>,
+    /// Where the case is milder than the rule.
+    pub mildest: Option<Severity>,
 }
 
 /// A rule on segments that come near each other. All of them stand in [`PAIR_RULES`].
 pub struct PairRule {
     pub rule: Rule,
-    /// How near two segments must come to be looked at together.
+    /// How near two segments must come to be looked at together. A disc that must be empty lies within this of both.
     pub reach: fn(&Limits) -> f64,
-    /// Looks at two segments, `one` before `other` in (contour, index); says what it sees, with the sides it concerns.
-    /// What it sees may depend only on the two and on those that follow and precede them in their contours.
-    pub look: fn(&Outlook, usize, &Outlook, usize, bool) -> Option<(Option<Side>, Option<Side>)>,
-    pub detail: fn(&Outlook, usize, &Outlook, usize) -> Option<Detail>,
-    pub fixes: fn(&Outlook, usize, &Outlook, usize) -> Vec<Fix>,
+    /// Looks at two segments, the one of the earlier entity first; the flag tells that they are of one contour.
+    /// What it sees may depend only on the two and on the [`NEIGHBOURS`] that follow and precede each in its contour.
+    pub look: fn(&Wall, &Wall, bool) -> Option<Sight>,
+    pub detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
+    pub fixes: fn(&Wall, &Wall) -> Vec<Fix>,
+    /// What neighbouring pairs see is one thing: the narrowest stands for all.
+    pub one_per_place: bool,
+    /// Not said of two entities that are doubles of each other as a whole.
+    pub silent_for_doubles: bool,
+    /// At most a warning where the wire side is not known.
+    pub warning_when_side_unknown: bool,
 }
 
-/// Every rule on pairs of segments.
-pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE];
+/// How many segments before and behind a segment a pair rule may look at.
+pub const NEIGHBOURS: usize = 4;
+
+/// Every rule on pairs of segments; [`duplicate_entity`] first, which others are silent for.
+pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE, overlap::RULE, self_intersection::RULE, narrow_slot::RULE];
