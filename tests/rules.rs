@@ -134,9 +134,10 @@ fn corners_are_sharp_where_the_wire_runs_inside() {
     check(&l, Some(Role::Punch), Rule::SharpCorner, 1, true);
     // A hint that stands for all of them.
     check(&l, None, Rule::SharpCorner, 1, false);
-    // A line into an arc that turns away at 90°.
+    // A corner between a line and an arc; at its other end the arc meets a line from outside.
     let step = closed(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 5.0, 0.4), (7.0, 5.0, 0.0), (0.0, 5.0, 0.0)]);
-    check(&step, Some(Role::Opening), Rule::SharpCorner, 5, true);
+    check(&step, Some(Role::Opening), Rule::SharpCorner, 4, true);
+    check(&step, Some(Role::Punch), Rule::SharpCorner, 1, true);
 }
 
 #[test]
