@@ -169,9 +169,10 @@ impl Open {
     }
 
     /// What the client is shown now.
-    pub fn diagnostics(&mut self, encoding: Encoding) -> Vec<Diagnostic> {
+    pub fn diagnostics(&mut self, encoding: Encoding, shows_related: bool) -> Vec<Diagnostic> {
+        let uri = shows_related.then_some(&*self.uri);
         match &mut self.content {
-            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(document, encoding))) {
+            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(document, encoding, uri))) {
                 Ok(diagnostics) => diagnostics,
                 Err(panic) => {
                     report(&*panic);
@@ -237,6 +238,7 @@ fn internal_error() -> Diagnostic {
         code_description: None,
         source: "wedm".into(),
         message: "internal error: the document could not be judged; its text is kept and is tried again with the next change".into(),
+        related_information: None,
         data: None,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Refusal;
 use super::corners::{Element, between};
-use crate::drawing::{Contour, Drawing, Outline};
+use crate::drawing::{Contour, ContourIndex, Drawing, Outline, nesting_depths, winding};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::Direction;
 
@@ -21,7 +21,8 @@ pub(super) fn outline_of(drawing: &Drawing, outlines: &[Outline], handle: &str) 
     found.ok_or_else(|| Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut")))
 }
 
-/// Indices of the outlines to cut, in machining order: all, or those that hold one of `handles`.
+/// Indices of the outlines to cut: all, or those that hold one of `handles`; in machining order, but what lies within an outline
+/// before that outline, which drops the piece it stands in.
 pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>) -> Result<Vec<usize>, Refusal> {
     let mut chosen: Vec<usize> = match handles {
         None => (0..outlines.len()).collect(),
@@ -33,7 +34,40 @@ pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[
     if chosen.is_empty() {
         return Err(Refusal::Sentence("there is no contour to cut".into()));
     }
-    Ok(chosen)
+    Ok(inner_first(drawing, outlines, chosen))
+}
+
+/// The same outlines in the same order, each preceded by those that lie within it.
+fn inner_first(drawing: &Drawing, outlines: &[Outline], chosen: Vec<usize>) -> Vec<usize> {
+    let indices: Vec<ContourIndex> = chosen.iter().map(|&at| ContourIndex::new(drawing, &outlines[at].contour, 0.0)).collect();
+    let contours: Vec<(&Contour, &ContourIndex)> = chosen.iter().map(|&at| &outlines[at].contour).zip(&indices).collect();
+    let depths = nesting_depths(drawing, &contours);
+    // Where each outline lies within, by rank: deeper ones are asked of before what holds them.
+    let mut by_depth: Vec<usize> = (0..chosen.len()).filter(|&rank| depths[rank] > 0).collect();
+    by_depth.sort_by_key(|&rank| std::cmp::Reverse(depths[rank]));
+    let mut ordered = Vec::with_capacity(chosen.len());
+    let mut taken = vec![false; chosen.len()];
+    for rank in 0..chosen.len() {
+        let (contour, index) = contours[rank];
+        let bounds = index.bounds();
+        let mut inner: Vec<usize> = Vec::new();
+        if contour.closed {
+            inner.extend(by_depth.iter().take_while(|&&other| depths[other] > depths[rank]).filter(|&&other| {
+                let first = contours[other].0.segment(drawing, 0).map(|segment| segment.geometry.point_at(0.5));
+                !taken[other]
+                    && bounds.touches(&contours[other].1.bounds())
+                    && first.is_some_and(|point| winding(drawing, contour, point) != 0)
+            }));
+            // Equally deep ones keep their order; the sort is stable.
+            inner.sort_by_key(|&other| (std::cmp::Reverse(depths[other]), other));
+        }
+        for next in inner.into_iter().chain([rank]) {
+            if !std::mem::replace(&mut taken[next], true) {
+                ordered.push(chosen[next]);
+            }
+        }
+    }
+    ordered
 }
 
 /// The contour in the direction of the cut, and whether that is against its own. An open contour is cut as drawn.
@@ -69,4 +103,35 @@ pub(super) fn begin_at(path: Vec<Element>, index: usize, point: Point) -> Vec<El
         turned.push(Element { geometry: between(&element.geometry, element.geometry.start(), point), ..element });
     }
     turned
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Analysis;
+    use crate::drawing::{Entity, Geometry};
+    use crate::settings::Effective;
+    use std::sync::Arc as Shared;
+
+    /// Circles by centre on the x axis and radius: the order in which they are cut.
+    fn check(circles: &[(f64, f64)], expected: &[usize]) {
+        let mut drawing = Drawing::new(None);
+        for &(x, radius) in circles {
+            let geometry = Geometry::Circle { center: Point::new(x, 0.0), radius };
+            drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: "CIRCLE", geometry });
+        }
+        let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
+        assert_eq!(chosen(&drawing, &outlines, None), Ok(expected.to_vec()), "{circles:?}");
+    }
+
+    #[test]
+    fn holes_come_before_what_drops_them() {
+        check(&[(0.0, 1.0), (5.0, 1.0), (10.0, 1.0)], &[0, 1, 2]);
+        check(&[(0.0, 5.0), (2.0, 1.0), (-2.0, 1.0)], &[1, 2, 0]);
+        check(&[(2.0, 1.0), (0.0, 5.0), (-2.0, 1.0)], &[0, 2, 1]);
+        // A second part and its hole stay where they are.
+        check(&[(0.0, 5.0), (20.0, 5.0), (20.0, 1.0), (0.0, 1.0)], &[3, 0, 2, 1]);
+        // A punch in a hole of a punch.
+        check(&[(0.0, 9.0), (0.0, 6.0), (0.0, 3.0), (1.0, 1.0)], &[3, 2, 1, 0]);
+    }
 }

@@ -41,6 +41,7 @@ fn actions(state: &mut State, params: &CodeActionParams) -> Result<CodeActionRes
     let uri = &params.text_document.uri;
     let encoding = state.encoding;
     let document_changes = state.client.abilities.document_changes;
+    let related_of = state.client.abilities.related_information.then_some(uri.as_str());
     let open = state.document(uri.as_str())?;
     let target = Target { uri, version: open.version, encoding, document_changes };
     let Some(document) = open.document().filter(|document| document.drawing().is_some()) else { return Ok(Vec::new()) };
@@ -48,7 +49,7 @@ fn actions(state: &mut State, params: &CodeActionParams) -> Result<CodeActionRes
     let mut actions = Vec::new();
     if wants(&params.context, CodeActionKind::QUICKFIX.as_str()) {
         for finding in chosen(document, params, encoding) {
-            let diagnostic = convert::diagnostic(document, &finding, encoding);
+            let diagnostic = convert::diagnostic(document, &finding, encoding, related_of);
             for (index, fix) in document.fixes(&finding).iter().enumerate() {
                 actions.extend(quick_fix(document, &target, &diagnostic, fix, index == 0, unit_mm));
             }
