@@ -2,7 +2,7 @@
 
 use crate::document::Document;
 use crate::drawing::Unit;
-use crate::finding::{Finding, Rule, Severity};
+use crate::finding::{Finding, Place, Rule, Severity};
 use crate::message::en;
 use crate::protocol::FindingData;
 use crate::text::SourceText;
@@ -25,8 +25,22 @@ pub struct Row {
     pub severity: Severity,
     pub message: String,
     pub data: FindingData,
+    /// The other places that the finding concerns.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub related: Vec<RelatedRow>,
     #[serde(skip)]
     excerpt: Option<Excerpt>,
+}
+
+/// Another place of a finding, in the same file.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct RelatedRow {
+    pub line: usize,
+    pub column: usize,
+    pub end_line: usize,
+    pub end_column: usize,
+    pub message: String,
 }
 
 /// The lines that a reader needs to see the fault in its place.
@@ -58,7 +72,21 @@ pub fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
     let range = document.range_of(&finding.place).unwrap_or(0..0);
     let message = en::sentence(finding, unit.mm);
-    Row::new(path, document.text(), range, (finding.rule, finding.severity), message, data)
+    let mut row = Row::new(path, document.text(), range, (finding.rule, finding.severity), message, data);
+    row.related = finding.related.iter().filter_map(|place| related(document, finding, place)).collect();
+    row
+}
+
+fn related(document: &Document, finding: &Finding, other: &Place) -> Option<RelatedRow> {
+    let (text, range) = (document.text()?, document.range_of(other)?);
+    let (entity, segment) = match *other {
+        Place::Segment { entity, segment } => (entity, Some(segment)),
+        Place::Entity { entity } => (entity, None),
+        Place::Text { .. } | Place::Document => return None,
+    };
+    let message = en::related(finding, &document.drawing()?.get(entity)?.handle, segment);
+    let ((line, column), (end_line, end_column)) = (place(text, range.start), place(text, range.end));
+    Some(RelatedRow { line, column, end_line, end_column, message })
 }
 
 impl Row {
@@ -85,6 +113,7 @@ impl Row {
             severity,
             message,
             data,
+            related: Vec::new(),
             excerpt: text.and_then(|text| excerpt(text, &range)),
         }
     }

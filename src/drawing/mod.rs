@@ -9,6 +9,7 @@ mod edit;
 mod entity;
 mod index;
 mod nesting;
+mod orientation;
 mod outline;
 
 pub use chain::{Chains, Key as ContourKey, Rechained, stated_role};
@@ -17,6 +18,7 @@ pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, Geometry, Role, Vertex};
 pub use index::{ContourIndex, RUN};
 pub use nesting::{nesting_depths, winding};
+pub use orientation::{Orientation, orientation, orientation_by_extreme_point, orientation_by_turns};
 pub use outline::{Outline, wire_side};
 
 use rustc_hash::FxHashMap;

@@ -1,33 +1,30 @@
 //! Which closed contours lie within which.
 
 use super::{Contour, ContourIndex, Drawing};
-use crate::geometry::{Bounds, Point, Segment, cross, turn};
+use crate::geometry::{Bounds, Grid, Point, Segment, cross, turn};
 use std::f64::consts::TAU;
 
 /// For each closed contour, how many of the others hold it: 0 for the outermost. Open contours have depth 0 and hold nothing.
 ///
 /// A contour lies within another when its first point does; where the two touch in just that point either answer may come.
-/// Costs a box comparison for each pair whose boxes overlap in x, and the segments of the outer one where the boxes nest.
+/// Costs what the boxes about each first point hold, and the segments of those contours.
 pub fn nesting_depths(drawing: &Drawing, contours: &[(&Contour, &ContourIndex)]) -> Vec<usize> {
-    let boxes: Vec<Bounds> = contours.iter().map(|(_, index)| index.bounds()).collect();
-    let mut by_left: Vec<usize> = (0..contours.len()).filter(|&i| contours[i].0.closed && !boxes[i].is_empty()).collect();
-    by_left.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
-    let mut depths = vec![0; contours.len()];
-    for (rank, &inner) in by_left.iter().enumerate() {
-        let Some(first) = contours[inner].0.segment(drawing, 0) else { continue };
+    let boxes: Vec<Bounds> = contours.iter().map(|(contour, index)| if contour.closed { index.bounds() } else { Bounds::EMPTY }).collect();
+    let mut grid = Grid::default();
+    boxes.iter().enumerate().for_each(|(position, &bounds)| grid.insert(position, bounds));
+    let depth = |inner: usize| {
+        let (contour, own) = (contours[inner].0, &boxes[inner]);
+        let Some(first) = contour.segment(drawing, 0).filter(|_| contour.closed) else { return 0 };
         let point = first.geometry.point_at(0.5);
-        let holds = |&&outer: &&usize| {
-            outer != inner
-                && boxes[outer].max.x >= boxes[inner].max.x
-                && boxes[outer].min.y <= boxes[inner].min.y
-                && boxes[outer].max.y >= boxes[inner].max.y
-                && boxes[outer] != boxes[inner]
-                && winding(drawing, contours[outer].0, point) != 0
-        };
-        let reach = by_left.partition_point(|&other| boxes[other].min.x <= boxes[inner].min.x).max(rank);
-        depths[inner] = by_left[..reach].iter().filter(holds).count();
-    }
-    depths
+        let mut depth = 0;
+        grid.near(&Bounds::of_points(&[point]), |outer| {
+            let theirs = &boxes[outer];
+            let holds_box = theirs.merged(own) == *theirs && theirs != own;
+            depth += usize::from(holds_box && winding(drawing, contours[outer].0, point) != 0);
+        });
+        depth
+    };
+    (0..contours.len()).map(depth).collect()
 }
 
 /// How often a closed contour goes round `point`, positive counter-clockwise; undefined on the contour itself.

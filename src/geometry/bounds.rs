@@ -39,6 +39,11 @@ impl Bounds {
         self.max = self.max.sup(&other.max);
     }
 
+    /// The smallest box that holds both.
+    pub fn merged(&self, other: &Bounds) -> Bounds {
+        Bounds { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
+    }
+
     /// True when the two boxes share a point.
     pub fn touches(&self, other: &Bounds) -> bool {
         self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y

@@ -49,6 +49,19 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
     }
 }
 
+/// What the other place of a finding is, for a person.
+pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> String {
+    let place = segment.map_or_else(|| handle.to_string(), |segment| format!("{handle}, segment {segment}"));
+    match finding.detail {
+        Detail::NarrowSlot { .. } => format!("the facing wall: {place}"),
+        Detail::DuplicateEntity => format!("the same place: {place}"),
+        Detail::Overlap { .. } => format!("runs on this one: {place}"),
+        Detail::SelfIntersection { touches: true, .. } => format!("touches this one: {place}"),
+        Detail::SelfIntersection { .. } => format!("crosses this one: {place}"),
+        _ => format!("the other one: {place}"),
+    }
+}
+
 /// What a fix does, as the title of its code action.
 pub fn title(kind: &FixKind, unit_mm: f64) -> String {
     match kind {

@@ -14,6 +14,16 @@ pub enum SideName {
     Right,
 }
 
+/// Another place that a finding concerns.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct RelatedPlace {
+    pub handle: String,
+    /// Index of the segment within its entity; not there where the entity as a whole is meant.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub segment: Option<usize>,
+}
+
 /// What a finding is about, in drawing units and degrees. Only what the finding has is there.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase", default)]
@@ -71,6 +81,9 @@ pub struct FindingData {
     /// How many the finding stands for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub count: Option<usize>,
+    /// The other segment or entity, where two are concerned.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub related: Vec<RelatedPlace>,
 }
 
 impl FindingData {
@@ -88,6 +101,15 @@ impl FindingData {
                 data.end = geometry.map(|geometry| geometry.end().into());
             }
         }
+        let related = |place: &Place| {
+            let (entity, segment) = match *place {
+                Place::Segment { entity, segment } => (entity, Some(segment)),
+                Place::Entity { entity } => (entity, None),
+                Place::Text { .. } | Place::Document => return None,
+            };
+            Some(RelatedPlace { handle: drawing?.get(entity)?.handle.to_string(), segment })
+        };
+        data.related = finding.related.iter().filter_map(related).collect();
         match &finding.detail {
             Detail::SmallRadius(detail) => data.small_radius(detail),
             Detail::UnsupportedEntity { kind, count, .. } => {

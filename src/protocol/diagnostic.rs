@@ -32,6 +32,19 @@ pub struct CodeDescription {
     pub href: String,
 }
 
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Location {
+    pub uri: String,
+    pub range: Range,
+}
+
+/// Another place that a finding concerns, and what is there.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RelatedInformation {
+    pub location: Location,
+    pub message: String,
+}
+
 /// One finding. In a drawing's diagnostics the line is the segment's index within its entity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
@@ -46,6 +59,9 @@ pub struct Diagnostic {
     /// Always `wedm`.
     pub source: String,
     pub message: String,
+    /// Sent to clients that can show it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub related_information: Option<Vec<RelatedInformation>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub data: Option<FindingData>,
 }

@@ -18,8 +18,8 @@ mod toolpath;
 
 pub use change::{DrawingChange, Splice, apply, changes_of};
 pub use contours::{ContourPiece, Contours, ContoursContour, Direction, Gap};
-pub use data::{FindingData, SideName};
-pub use diagnostic::{CodeDescription, Diagnostic, Position, Range, severity_number};
+pub use data::{FindingData, RelatedPlace, SideName};
+pub use diagnostic::{CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number};
 pub use drawing::{Drawing, Entity, Geometry, Point, Units, Vertex};
 pub use generate::{Closure, Generate, Program, Refused};
 pub use inspection::{InspectedEntity, InspectedSegment, Inspection};

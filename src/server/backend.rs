@@ -326,6 +326,8 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
 fn abilities(capabilities: &ClientCapabilities) -> Abilities {
     let ours = |key: &str| capabilities.experimental.as_ref().and_then(|ours| ours.pointer(key)).and_then(Value::as_bool) == Some(true);
     let workspace = capabilities.workspace.as_ref();
+    let text = capabilities.text_document.as_ref();
+    let related = text.and_then(|text| text.publish_diagnostics.as_ref()?.related_information);
     let registers = |dynamic: Option<bool>| dynamic == Some(true);
     Abilities {
         apply_drawing_edit: ours("/wedm/applyDrawingEdit"),
@@ -338,6 +340,7 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
         register_watched_files: registers(
             workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration),
         ),
+        related_information: related == Some(true),
     }
 }
 

@@ -27,6 +27,7 @@ pub(super) struct Abilities {
     pub configuration: bool,
     pub register_configuration: bool,
     pub register_watched_files: bool,
+    pub related_information: bool,
 }
 
 /// The other end of the wire, as the state thread sees it.

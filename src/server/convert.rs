@@ -3,7 +3,7 @@
 use crate::document::Document;
 use crate::finding::{Detail, Finding, Place, Rule};
 use crate::message::en;
-use crate::protocol::{CodeDescription, Diagnostic, FindingData, Position, Range, severity_number};
+use crate::protocol::{CodeDescription, Diagnostic, FindingData, Location, Position, Range, RelatedInformation, severity_number};
 use crate::settings::SettingsError;
 use crate::text::{Encoding, SourceText, TextEdit};
 use ls_types as lsp;
@@ -16,9 +16,11 @@ const RULES: &str = "https://github.com/wedm/wedm/blob/main/docs/rules/";
 
 /// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
 /// there are in all.
-pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> (Vec<Diagnostic>, usize) {
+///
+/// With the document's `uri`, for a client that shows them, the other places of a finding are told, too.
+pub(super) fn publish_of(document: &mut Document, encoding: Encoding, uri: Option<&str>) -> (Vec<Diagnostic>, usize) {
     let (findings, count) = document.findings(PUBLISH_LIMIT);
-    let mut diagnostics = diagnostics(document, &findings, encoding);
+    let mut diagnostics: Vec<Diagnostic> = findings.iter().map(|finding| diagnostic(document, finding, encoding, uri)).collect();
     if count > findings.len()
         && let Some(severity) = document.settings().severity(Rule::More)
     {
@@ -27,17 +29,44 @@ pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> (Vec<Di
             document,
             &Finding { rule: Rule::More, severity, place: Place::Document, detail, related: Vec::new() },
             encoding,
+            None,
         ));
     }
     (diagnostics, count)
 }
 
 pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: Encoding) -> Vec<Diagnostic> {
-    findings.iter().map(|finding| diagnostic(document, finding, encoding)).collect()
+    findings.iter().map(|finding| diagnostic(document, finding, encoding, None)).collect()
 }
 
 /// A finding of `document` as the client is shown it.
-pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
+pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding, uri: Option<&str>) -> Diagnostic {
+    let related = uri.map(|uri| related_information(document, finding, encoding, uri)).filter(|related| !related.is_empty());
+    Diagnostic { related_information: related, ..diagnostic_at(document, finding, encoding) }
+}
+
+/// The other places of a finding; in a drawing the line is the index of the segment within its entity.
+fn related_information(document: &Document, finding: &Finding, encoding: Encoding, uri: &str) -> Vec<RelatedInformation> {
+    let drawing = document.drawing();
+    let related = |place: &Place| {
+        let range = match (document.text(), document.range_of(place), place) {
+            (Some(text), Some(bytes), _) => range_of(text, bytes, encoding),
+            (_, _, Place::Segment { segment, .. }) => Range::of_segment(*segment),
+            _ => Range::default(),
+        };
+        let (entity, segment) = match *place {
+            Place::Segment { entity, segment } => (entity, Some(segment)),
+            Place::Entity { entity } => (entity, None),
+            Place::Text { .. } | Place::Document => return None,
+        };
+        let message = en::related(finding, &drawing?.get(entity)?.handle, segment);
+        Some(RelatedInformation { location: Location { uri: uri.into(), range }, message })
+    };
+    finding.related.iter().filter_map(related).collect()
+}
+
+/// A finding at its place, without the other places.
+fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
     let drawing = document.drawing().map(|drawing| &**drawing);
     let unit_mm = drawing.map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
     let range = match (document.text(), document.range_of(&finding.place)) {
@@ -56,6 +85,7 @@ pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encod
         code_description: code_description(finding.rule),
         source: "wedm".into(),
         message: en::sentence(finding, unit_mm),
+        related_information: None,
         data: (!data.is_empty()).then_some(data),
     }
 }
@@ -69,6 +99,7 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
         code_description: code_description(Rule::Settings),
         source: "wedm".into(),
         message: error.message.clone(),
+        related_information: None,
         data: None,
     };
     errors.iter().take(PUBLISH_LIMIT).map(diagnostic).collect()

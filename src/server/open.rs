@@ -172,9 +172,11 @@ impl Open {
     }
 
     /// What the client is shown now.
-    pub fn diagnostics(&mut self, encoding: Encoding) -> Vec<Diagnostic> {
+    pub fn diagnostics(&mut self, encoding: Encoding, shows_related: bool) -> Vec<Diagnostic> {
+        let uri = shows_related.then_some(&*self.uri);
         match &mut self.content {
-            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(Arc::make_mut(document), encoding))) {
+            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(Arc::make_mut(document), encoding, uri)))
+            {
                 Ok((diagnostics, count)) => {
                     self.findings = count;
                     diagnostics
@@ -243,6 +245,7 @@ fn internal_error() -> Diagnostic {
         code_description: None,
         source: "wedm".into(),
         message: "internal error: the document could not be judged; its text is kept and is tried again with the next change".into(),
+        related_information: None,
         data: None,
     }
 }

@@ -195,11 +195,12 @@ impl State {
 
     /// Publishes a document that has changed since it was published last.
     fn publish(&mut self, uri: &Arc<str>) {
-        let encoding = self.encoding;
+        let (encoding, shows_related) = (self.encoding, self.client.abilities.related_information);
         let Some(open) = self.documents.get_mut(uri).filter(|open| open.dirty) else { return };
         open.dirty = false;
         let owed = !std::mem::replace(&mut open.published, true);
-        let publish = Publish { uri: open.uri.clone(), version: Some(open.version), diagnostics: open.diagnostics(encoding), owed };
+        let publish =
+            Publish { uri: open.uri.clone(), version: Some(open.version), diagnostics: open.diagnostics(encoding, shows_related), owed };
         self.client.writer().publish(publish);
     }
 

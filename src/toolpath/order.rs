@@ -114,3 +114,34 @@ pub(super) fn begin_at(path: Vec<Element>, index: usize, point: Point) -> Vec<El
     }
     turned
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Analysis;
+    use crate::drawing::{Entity, Geometry};
+    use crate::settings::Effective;
+    use std::sync::Arc as Shared;
+
+    /// Circles by centre on the x axis and radius: the order in which they are cut.
+    fn check(circles: &[(f64, f64)], expected: &[usize]) {
+        let mut drawing = Drawing::new(None);
+        for &(x, radius) in circles {
+            let geometry = Geometry::Circle { center: Point::new(x, 0.0), radius };
+            drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: "CIRCLE", geometry });
+        }
+        let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
+        assert_eq!(chosen(&drawing, &outlines, None), Ok(expected.to_vec()), "{circles:?}");
+    }
+
+    #[test]
+    fn holes_come_before_what_drops_them() {
+        check(&[(0.0, 1.0), (5.0, 1.0), (10.0, 1.0)], &[0, 1, 2]);
+        check(&[(0.0, 5.0), (2.0, 1.0), (-2.0, 1.0)], &[1, 2, 0]);
+        check(&[(2.0, 1.0), (0.0, 5.0), (-2.0, 1.0)], &[0, 2, 1]);
+        // A second part and its hole stay where they are.
+        check(&[(0.0, 5.0), (20.0, 5.0), (20.0, 1.0), (0.0, 1.0)], &[3, 0, 2, 1]);
+        // A punch in a hole of a punch.
+        check(&[(0.0, 9.0), (0.0, 6.0), (0.0, 3.0), (1.0, 1.0)], &[3, 2, 1, 0]);
+    }
+}

@@ -240,3 +240,29 @@ fn inches_and_roles_are_heeded() {
     check(5, 0.003, "ignore", 0);
     client.shut_down();
 }
+
+#[test]
+fn the_other_segment_is_told_to_clients_that_show_it() {
+    let lines = json!([
+        { "handle": "L1", "type": "polyline", "closed": true, "vertices": [[0, 0], [4, 4], [4, 0], [0, 4]] },
+    ]);
+    let crossing = |client: &mut Client| {
+        let found = client.open_drawing(URI, lines.clone());
+        let crossing = found.iter().find(|finding| finding["code"] == "self-intersection").cloned();
+        crossing.unwrap_or_else(|| panic!("{found:?}"))
+    };
+    let mut client = Client::start();
+    let found = crossing(&mut client);
+    assert_eq!(found["relatedInformation"], Value::Null);
+    assert_eq!(found["data"]["related"], json!([{ "handle": "L1", "segment": 2 }]));
+    client.shut_down();
+    let mut able = capabilities();
+    able["textDocument"] = json!({ "publishDiagnostics": { "relatedInformation": true } });
+    let mut client = Client::start_with(able, json!({}));
+    let place = json!({ "line": 2, "character": 0 });
+    assert_eq!(
+        crossing(&mut client)["relatedInformation"],
+        json!([{ "location": { "uri": URI, "range": { "start": place, "end": place } }, "message": "crosses this one: L1, segment 2" }])
+    );
+    client.shut_down();
+}

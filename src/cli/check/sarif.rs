@@ -2,7 +2,7 @@
 
 use super::Survey;
 use crate::cli::Failure;
-use crate::cli::report::Row;
+use crate::cli::report::{RelatedRow, Row};
 use crate::finding::{Rule, Severity};
 use serde_json::{Value, json};
 
@@ -38,7 +38,7 @@ fn described(rule: Rule) -> Value {
 }
 
 fn result(row: &Row) -> Value {
-    json!({
+    let mut result = json!({
         "ruleId": row.rule.name(),
         "ruleIndex": Rule::ALL.iter().position(|&rule| rule == row.rule),
         "level": level(row.severity),
@@ -53,7 +53,25 @@ fn result(row: &Row) -> Value {
             },
         } }],
         "properties": row.data,
-    })
+    });
+    if !row.related.is_empty() {
+        let location = |related: &RelatedRow| {
+            json!({
+                "physicalLocation": {
+                    "artifactLocation": { "uri": uri(&row.path) },
+                    "region": {
+                        "startLine": related.line,
+                        "startColumn": related.column,
+                        "endLine": related.end_line,
+                        "endColumn": related.end_column,
+                    },
+                },
+                "message": { "text": related.message },
+            })
+        };
+        result["relatedLocations"] = row.related.iter().map(location).collect();
+    }
+    result
 }
 
 /// SARIF has no level below `note`.

@@ -43,14 +43,16 @@ struct Target {
     version: i64,
     encoding: Encoding,
     document_changes: bool,
+    shows_related: bool,
 }
 
 fn prepare(state: &mut State, params: &CodeActionParams) -> Result<Option<(Subject, Target)>> {
     let uri = &params.text_document.uri;
     let encoding = state.encoding;
     let document_changes = state.client.abilities.document_changes;
+    let shows_related = state.client.abilities.related_information;
     let open = state.document(uri.as_str())?;
-    let target = Target { uri: uri.clone(), version: open.version, encoding, document_changes };
+    let target = Target { uri: uri.clone(), version: open.version, encoding, document_changes, shows_related };
     match open.document().is_some_and(|document| document.drawing().is_some()) {
         true => Ok(Some((subject_of(state, uri.as_str())?, target))),
         false => Ok(None),
@@ -62,7 +64,8 @@ fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> C
     let mut actions = Vec::new();
     if wants(&params.context, CodeActionKind::QUICKFIX.as_str()) {
         for finding in chosen(document, params, target.encoding) {
-            let diagnostic = convert::diagnostic(document, &finding, target.encoding);
+            let related_of = target.shows_related.then_some(target.uri.as_str());
+            let diagnostic = convert::diagnostic(document, &finding, target.encoding, related_of);
             for (index, fix) in document.fixes(&finding).iter().enumerate() {
                 actions.extend(quick_fix(document, target, &diagnostic, fix, index == 0, unit_mm));
             }

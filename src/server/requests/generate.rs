@@ -73,7 +73,7 @@ impl Job {
         let findings = self.findings(&task);
         let diagnostics = |wanted: &dyn Fn(Severity) -> bool| -> Vec<Diagnostic> {
             let wanted = findings.iter().filter(|finding| wanted(finding.severity)).take(convert::PUBLISH_LIMIT);
-            wanted.map(|finding| convert::diagnostic(&self.document, finding, self.encoding)).collect()
+            wanted.map(|finding| convert::diagnostic(&self.document, finding, self.encoding, None)).collect()
         };
         let errors = findings.iter().filter(|finding| finding.severity == Severity::Error).count();
         if errors > 0 && !self.force {
