@@ -70,11 +70,14 @@ impl Document {
             return Err("the entity is not in the text any more".into());
         };
         let of_entity = self.table.lines_of(item, lines.count());
+        let name = format!("{} {}", entity.kind, entity.handle);
+        if !self.drawing.is_editable(id) {
+            return Err(format!("{name} is a part of a block or fitted to a curve, and has no numbers of its own in the text"));
+        }
         if wanted.removed {
             edits.push(TextEdit { range: self.whole_lines(of_entity), text: String::new() });
             return Ok(());
         }
-        let name = format!("{} {}", entity.kind, entity.handle);
         let tags: Vec<Tag> = match entity.geometry {
             Geometry::Polyline { .. } => Vec::new(),
             _ => own_tags(lines, of_entity.clone()).collect(),
