@@ -33,6 +33,9 @@ impl Document {
     /// Lengths and degrees are written with up to 12 decimals, bulges with 15, a number that stays is not touched. An
     /// angle is written in [0°, 360°).
     pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
+        if self.is_binary {
+            return Err("the file is binary DXF, which is read but not edited: save it as ASCII DXF".into());
+        }
         let mut wanted: BTreeMap<EntityId, Wanted> = BTreeMap::new();
         for change in &edit.changes {
             let of_entity = wanted.entry(change.entity()).or_default();

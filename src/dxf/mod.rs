@@ -6,6 +6,7 @@
 //! Invariant: after any sequence of edits a document equals a fresh reading of its text, the numbers of its
 //! entity ids aside.
 
+mod binary;
 mod blocks;
 mod change;
 mod curve;
@@ -52,11 +53,23 @@ pub struct Document {
     findings: Vec<Finding>,
     table: Box<Table>,
     layers: Box<Layers>,
+    is_binary: bool,
 }
 
 impl Document {
     /// Reads DXF text. Never fails: what is damaged is in [`Document::findings`].
+    ///
+    /// A binary DXF file becomes text that says the same; see [`Document::is_binary`].
     pub fn read(bytes: Vec<u8>) -> Document {
+        if bytes.starts_with(binary::SENTINEL) {
+            let (text, fault) = binary::to_text(&bytes);
+            let mut document = Document { is_binary: true, ..Document::read(text) };
+            if let Some(sentence) = fault {
+                let end = document.text.len();
+                fault::damage(&mut document.findings, end..end, sentence);
+            }
+            return document;
+        }
         let too_long = bytes.len() >= u32::MAX as usize;
         let text = SourceText::new(if too_long { Vec::new() } else { bytes });
         let mut document = Document { text, ..Document::default() };
@@ -69,6 +82,11 @@ impl Document {
 
     pub fn text(&self) -> &SourceText {
         &self.text
+    }
+
+    /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF file says. It cannot be edited.
+    pub fn is_binary(&self) -> bool {
+        self.is_binary
     }
 
     pub fn drawing(&self) -> &Arc<Drawing> {
