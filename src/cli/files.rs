@@ -83,7 +83,7 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
 
 fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
     let source = match kind {
-        Kind::Dxf => Source::Dxf(dxf::Document::read(bytes)),
+        Kind::Dxf => Source::Dxf(dxf::Document::read_file(bytes)),
         Kind::ThreeB => Source::ThreeB(three_b::Document::read(bytes)),
     };
     Document::new(source, settings)

@@ -8,7 +8,7 @@ use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
 use super::shape::Shape;
-use super::strings::{decoded, words_of_mtext};
+use super::strings::words_of_mtext;
 use super::{curve, insert};
 use crate::drawing::{Geometry, Vertex};
 use crate::finding::Finding;
@@ -399,7 +399,7 @@ fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, 
         Plane::Mirrored if kind == "TEXT" => 0.0 - x,
         _ => x,
     };
-    let content = decoded(&content);
+    let content = layers.text(&content);
     let words = if kind == "MTEXT" { words_of_mtext(&content) } else { content };
     let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
     common.finish(lexer, layers, kind, Shape::Plain(geometry), None, findings)

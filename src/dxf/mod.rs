@@ -9,6 +9,7 @@
 mod binary;
 mod blocks;
 mod change;
+mod code_page;
 mod curve;
 mod edit;
 mod entity;
@@ -35,6 +36,7 @@ use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use crate::text::SourceText;
 use blocks::{Blocks, Part};
+use code_page::CodePage;
 use entity::Outcome;
 use insert::Insert;
 use layers::Layers;
@@ -57,27 +59,35 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads DXF text. Never fails: what is damaged is in [`Document::findings`].
-    ///
-    /// A binary DXF file becomes text that says the same; see [`Document::is_binary`].
-    pub fn read(bytes: Vec<u8>) -> Document {
-        if bytes.starts_with(binary::SENTINEL) {
-            let (text, fault) = binary::to_text(&bytes);
-            let mut document = Document { is_binary: true, ..Document::read(text) };
-            if let Some(sentence) = fault {
-                let end = document.text.len();
-                fault::damage(&mut document.findings, end..end, sentence);
-            }
-            return document;
-        }
-        let too_long = bytes.len() >= u32::MAX as usize;
-        let text = SourceText::new(if too_long { Vec::new() } else { bytes });
-        let mut document = Document { text, ..Document::default() };
-        document.read_all();
-        if too_long {
-            document.is_no_dxf("the text is longer than 4 GiB");
+    /// Reads a file: DXF text in the code page that it names, or binary DXF, which becomes text that says the same
+    /// (see [`Document::is_binary`]). Never fails: what is damaged is in [`Document::findings`].
+    pub fn read_file(bytes: Vec<u8>) -> Document {
+        let is_binary = bytes.starts_with(binary::SENTINEL);
+        let (bytes, fault) = if is_binary { binary::to_text(&bytes) } else { (bytes, None) };
+        let layers = Layers::in_code_page(CodePage::of_file(&bytes));
+        let mut document = Document { layers: Box::new(layers), is_binary, ..Document::default() };
+        document.take(bytes);
+        if let Some(sentence) = fault {
+            let end = document.text.len();
+            fault::damage(&mut document.findings, end..end, sentence);
         }
         document
+    }
+
+    /// Reads DXF text, which is UTF-8. Never fails: what is damaged is in [`Document::findings`].
+    pub fn read(bytes: Vec<u8>) -> Document {
+        let mut document = Document::default();
+        document.take(bytes);
+        document
+    }
+
+    fn take(&mut self, bytes: Vec<u8>) {
+        let too_long = bytes.len() >= u32::MAX as usize;
+        self.text = SourceText::new(if too_long { Vec::new() } else { bytes });
+        self.read_all();
+        if too_long {
+            self.is_no_dxf("the text is longer than 4 GiB");
+        }
     }
 
     pub fn text(&self) -> &SourceText {
