@@ -204,10 +204,10 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(12))]
 
         #[test]
-        fn ellipses(center in point(), u in vector(), v in vector(), start in 0.0..6.0f64, sweep in 0.01..6.28f64) {
+        fn ellipses(center in point(), u in vector(), v in vector(), start in 0.0..6.0f64, sweep in 0.01..6.3f64) {
             let turn = super::super::cross(u, v).abs() / (u.norm() * v.norm());
             prop_assume!(turn > 0.1);
-            let fitted = check(&EllipticArc { center, u, v, start, sweep }, 1e-3)?;
+            let fitted = check(&EllipticArc { center, u, v, start, sweep: sweep.min(std::f64::consts::TAU) }, 1e-3)?;
             prop_assert!(fitted.len() < 400, "{}", fitted.len());
             for pair in fitted.windows(2) {
                 prop_assert!(super::super::turn(pair[0].end_tangent(), pair[1].start_tangent()).abs() < 1e-6, "a kink");

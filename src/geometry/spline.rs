@@ -127,17 +127,13 @@ impl Spline {
         for level in 1..=degree {
             if level == degree {
                 let width = self.knots[span + 1] - self.knots[span];
-                for axis in 0..3 {
-                    derivative[axis] = degree as f64 * (points[degree][axis] - points[degree - 1][axis]) / width;
-                }
+                derivative = std::array::from_fn(|axis| degree as f64 * (points[degree][axis] - points[degree - 1][axis]) / width);
             }
             for index in (level..=degree).rev() {
                 let low = self.knots[span - degree + index];
                 let high = self.knots[span + index + 1 - level];
                 let share = if high > low { (t - low) / (high - low) } else { 0.0 };
-                for axis in 0..3 {
-                    points[index][axis] = points[index - 1][axis] * (1.0 - share) + points[index][axis] * share;
-                }
+                points[index] = std::array::from_fn(|axis| points[index - 1][axis] * (1.0 - share) + points[index][axis] * share);
             }
         }
         let [x, y, weight] = points[degree];
