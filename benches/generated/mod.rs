@@ -87,8 +87,8 @@ pub fn long_outline(count: usize) -> Vec<[f64; 3]> {
     let radius = count as f64 * 0.2;
     let vertex = |i: usize| {
         let angle = i as f64 / count as f64 * std::f64::consts::TAU;
-        let r = radius + if i % 2 == 0 { 0.0 } else { 0.4 };
-        [r * angle.cos(), r * angle.sin(), if i % 10 == 0 { 0.1 } else { 0.0 }]
+        let r = radius + if i.is_multiple_of(2) { 0.0 } else { 0.4 };
+        [r * angle.cos(), r * angle.sin(), if i.is_multiple_of(10) { 0.1 } else { 0.0 }]
     };
     (0..count).map(vertex).collect()
 }

@@ -53,7 +53,13 @@ impl Known {
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
     pub fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
         for (rule, facts) in LOCAL_RULES.iter().zip(&self.facts) {
-            let concerned = |fact: &&Fact| fact.side.is_none() || wire_side.is_none() || fact.side == wire_side;
+            let concerned = |fact: &&Fact| {
+                let of_side = match wire_side {
+                    Some(_) => fact.side.is_none() || fact.side == wire_side,
+                    None => !fact.needs_side,
+                };
+                of_side && (fact.index > 0 || !outlook.contour.closed || (rule.holds)(outlook, **fact))
+            };
             let mut facts = facts.iter().flatten().filter(concerned);
             if rule.one_hint_when_side_unknown && wire_side.is_none() {
                 let Some(&first) = facts.next() else { continue };
@@ -62,7 +68,7 @@ impl Known {
                     && let (Some(place), Some(detail)) =
                         (outlook.place(first.index as usize), (rule.detail)(outlook, first, 1 + facts.count()))
                 {
-                    report.add(rule.rule, mildest, place, detail, Vec::new());
+                    report.add(rule.rule, mildest, place, detail, (rule.related)(outlook, first));
                 }
                 continue;
             }
@@ -70,7 +76,7 @@ impl Known {
                 if report.counts(rule.rule, None)
                     && let (Some(place), Some(detail)) = (outlook.place(fact.index as usize), (rule.detail)(outlook, fact, 1))
                 {
-                    report.add(rule.rule, None, place, detail, Vec::new());
+                    report.add(rule.rule, None, place, detail, (rule.related)(outlook, fact));
                 }
             }
         }

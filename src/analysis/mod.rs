@@ -2,6 +2,7 @@
 
 mod known;
 mod pairs;
+mod repair;
 mod report;
 
 use crate::drawing::{
@@ -10,14 +11,16 @@ use crate::drawing::{
 };
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::Bounds;
+use crate::rules::lost_pocket::{self, Lost};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
-use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook, PAIR_RULES};
+use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall};
 use crate::settings::{Effective, SideSetting};
 use known::Known;
 use pairs::{Pairs, RunId};
-use report::Report;
+use report::{Report, Tally};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
+use std::iter::once;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -31,6 +34,8 @@ pub struct Analysis {
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region that the answer depends on.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
+    /// What the offset of a contour loses, for a side and with or without a neck.
+    lost: FxHashMap<ContourKey, ((Side, bool), Vec<Lost>)>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
 }
@@ -46,6 +51,7 @@ impl Analysis {
             known: FxHashMap::default(),
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
+            lost: FxHashMap::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
         };
@@ -86,6 +92,7 @@ impl Analysis {
         let settings = self.settings.clone();
         let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
         for key in &rechained.gone {
+            self.lost.remove(key);
             if let Some(known) = self.known.remove(key) {
                 self.pairs.forget(*key, &known.index);
             }
@@ -116,6 +123,15 @@ impl Analysis {
 
     /// At most `limit` findings, errors first, then in machining order; and how many there are in all.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
+        self.report(drawing, limit).finish()
+    }
+
+    /// How many findings of which kind there are.
+    fn tally(&mut self, drawing: &Drawing) -> Tally {
+        self.report(drawing, 0).tally()
+    }
+
+    fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
         let mut report = Report::new(self.settings.clone(), limit);
         let ordered = self.in_machining_order(drawing).to_vec();
         let roles = self.roles(drawing, &ordered);
@@ -128,9 +144,61 @@ impl Analysis {
                 known.report(&outlook, wire_side, &mut report);
             }
         }
-        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.into_iter().zip(sides).collect();
+        self.report_contours(drawing, &ordered, &mut report);
+        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.iter().copied().zip(sides.iter().copied()).collect();
         self.pairs.report(&|key| self.outlook(drawing, key), &side_of, &mut report);
-        report.finish()
+        self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
+        report
+    }
+
+    /// What the rules on whole contours see.
+    fn report_contours(&self, drawing: &Drawing, keys: &[ContourKey], report: &mut Report) {
+        let outlook = |key| self.outlook(drawing, key);
+        let doubled = self.pairs.doubled(&outlook);
+        for rule in CONTOUR_RULES {
+            let mildest = (rule.mildest)(&self.settings);
+            for outlook in keys.iter().filter_map(|&key| outlook(key)).filter(|outlook| (rule.holds)(outlook)) {
+                // What lies there twice is reported as that.
+                if !outlook.contour.pieces.iter().all(|piece| doubled.contains(&piece.entity))
+                    && report.counts(rule.rule, mildest)
+                    && let (Some((place, related)), Some(detail)) = ((rule.places)(&outlook), (rule.detail)(&outlook))
+                {
+                    report.add(rule.rule, mildest, place, detail, related);
+                }
+            }
+        }
+    }
+
+    /// What the offsets of contours with a known wire side lose.
+    fn report_lost_pockets(&mut self, drawing: &Drawing, ordered: &[ContourKey], sides: &[Option<Side>], report: &mut Report) {
+        let is_on = |rule| self.settings.severity(rule).is_some();
+        if !(is_on(Rule::LostPocket) || is_on(Rule::OffsetCollapse)) || sides.iter().all(Option::is_none) {
+            return;
+        }
+        // Without the rules that see them, a neck is taken for granted, and a crossing for none.
+        let necks = is_on(Rule::NarrowSlot).then(|| self.pairs.contours_with(Rule::NarrowSlot));
+        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
+        for (&key, &side) in ordered.iter().zip(sides) {
+            let Some(side) = side.filter(|_| !crossed.contains(&key)) else { continue };
+            let asked = (side, necks.as_ref().is_none_or(|necks| necks.contains(&key)));
+            if self.lost.get(&key).is_none_or(|(answered, _)| *answered != asked) {
+                let Some(outlook) = self.outlook(drawing, key) else { continue };
+                let lost = lost_pocket::look(&outlook, side, asked.1);
+                self.lost.insert(key, (asked, lost));
+            }
+            let (Some((_, lost)), Some(outlook)) = (self.lost.get(&key), self.outlook(drawing, key)) else { continue };
+            for lost in lost {
+                let (rule, index, detail) = match *lost {
+                    Lost::All => (Rule::OffsetCollapse, 0, Detail::OffsetCollapse { required: self.limits.correction }),
+                    Lost::Pocket { near, index } => (Rule::LostPocket, index, Detail::LostPocket { near }),
+                };
+                if report.counts(rule, None)
+                    && let Some(place) = outlook.place(index)
+                {
+                    report.add(rule, None, place, detail, Vec::new());
+                }
+            }
+        }
     }
 
     /// Arcs below the correction in one contour.
@@ -150,8 +218,7 @@ impl Analysis {
     pub fn fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
         let Place::Segment { entity, segment } = &finding.place else { return Vec::new() };
         if finding.rule != Rule::SmallRadius {
-            let fixes = self.other_fixes(drawing, finding, (*entity, *segment)).unwrap_or_default();
-            return fixes.into_iter().filter(|fix| self.keeps_radii(drawing, &fix.edit)).collect();
+            return self.checked(drawing, finding.rule, self.other_fixes(drawing, finding, (*entity, *segment)).unwrap_or_default());
         }
         let Some(key) = self.chains.contour_of(*entity) else { return Vec::new() };
         let Some(index) = self.chains.get(key).and_then(|contour| contour.index_of(*entity, *segment)) else { return Vec::new() };
@@ -189,14 +256,20 @@ impl Analysis {
         let (key, index) = self.locate(at)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
-            let is_hint = rule.one_hint_when_side_unknown && matches!(finding.detail, Detail::SharpCorner { count, .. } if count > 1);
-            let side = if is_hint { return None } else { None };
-            return Some((rule.fixes)(&outlook, Fact { index: index as u32, side }));
+            // A hint that stands for many corners is no place to mend one of them.
+            if matches!(finding.detail, Detail::SharpCorner { count, .. } if count > 1) {
+                return None;
+            }
+            return Some((rule.fixes)(&outlook, Fact { index: index as u32, side: None, needs_side: false }));
+        }
+        if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == finding.rule) {
+            return Some((rule.fixes)(&outlook));
         }
         let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
         let Place::Segment { entity, segment } = finding.related.first()? else { return None };
         let (other_key, other_index) = self.locate((*entity, *segment))?;
-        Some((rule.fixes)(&outlook, index, &self.outlook(drawing, other_key)?, other_index))
+        let theirs = self.outlook(drawing, other_key)?;
+        Some((rule.fixes)(&Wall::new(&outlook, index)?, &Wall::new(&theirs, other_index)?))
     }
 
     /// The contour that holds a segment, and its index in there.
@@ -211,7 +284,14 @@ impl Analysis {
     }
 
     /// One edit that makes every safe fix; `None` where there is none.
+    ///
+    /// Arcs first; where there are none to be mended, what the other rules can mend safely, one rule at a time: call again
+    /// until nothing is left.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
+        self.fix_all_arcs(drawing).or_else(|| self.fix_all_else(drawing))
+    }
+
+    fn fix_all_arcs(&self, drawing: &Drawing) -> Option<DrawingEdit> {
         self.settings.severity(Rule::SmallRadius)?;
         let mut replacements = Vec::new();
         for (key, wire_side) in self.with_tight_arcs(drawing) {
@@ -300,21 +380,6 @@ impl Analysis {
         after.apply(edit).is_ok() && self.tight(&after, &touched) < self.tight(drawing, &touched)
     }
 
-    /// True when an edit can be made and leaves no more tight arcs than there were.
-    fn keeps_radii(&self, drawing: &Drawing, edit: &DrawingEdit) -> bool {
-        let mut after = drawing.clone();
-        let Ok(delta) = after.apply(edit) else { return false };
-        let touched: FxHashSet<EntityId> = delta
-            .touched
-            .iter()
-            .filter_map(|touched| match touched {
-                Touched::Vertices { entity, .. } | Touched::Entity { entity } | Touched::Removed { entity } => Some(*entity),
-                Touched::All => None,
-            })
-            .collect();
-        self.tight(&after, &touched) <= self.tight(drawing, &touched)
-    }
-
     /// Number of arcs below the correction in some entities.
     fn tight(&self, drawing: &Drawing, entities: &FxHashSet<EntityId>) -> usize {
         let entities = entities.iter().filter_map(|&id| drawing.get(id));
@@ -357,6 +422,7 @@ impl Analysis {
             self.chains.recount(drawing, entity);
             self.answers.retain(|(other, _), _| *other != key);
         }
+        self.lost.remove(&key);
         let (Some(piece), Some(mut known)) = (piece_of(&self.chains), self.known.remove(&key)) else { return false };
         let Some(contour) = self.chains.get(key) else { return false };
         if vertices.is_none() {
@@ -367,27 +433,43 @@ impl Analysis {
         if piece.count > 0 {
             own.extend([0..1, piece.count - 1..piece.count]);
         }
-        let mut runs = BTreeSet::new();
-        for range in own {
-            let range = match piece.reversed {
+        let ranges: Vec<Range<usize>> = own
+            .into_iter()
+            .map(|range| match piece.reversed {
                 true => piece.first + piece.count - range.end..piece.first + piece.count - range.start,
                 false => piece.first + range.start..piece.first + range.end,
-            };
-            // Neighbours across a joint belong to what is looked at together.
-            let runs_before = known.index.run_count();
-            let first_run = range.start / RUN;
-            let last_run = if recounted { runs_before } else { range.end.div_ceil(RUN).max(first_run + 1) };
-            let mut changed = known.index.bounds_about(range.clone());
-            for run in first_run..last_run {
+            })
+            .collect();
+        // What a pair rule sees at a segment depends on its neighbours, too. Runs behind a segment that came or went
+        // have other segments.
+        let mut runs = BTreeSet::new();
+        for range in &ranges {
+            let count = if recounted { known.index.len().max(contour.len()) } else { contour.len() };
+            let behind = if recounted { count } else { (range.end + NEIGHBOURS).min(count) };
+            runs.extend(range.start.saturating_sub(NEIGHBOURS) / RUN..behind.div_ceil(RUN));
+            if contour.closed && range.start < NEIGHBOURS {
+                runs.extend(count.saturating_sub(NEIGHBOURS) / RUN..count.div_ceil(RUN));
+            }
+            if contour.closed && (recounted || range.end + NEIGHBOURS > count) {
+                runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
+            }
+        }
+        let mut forgotten = FxHashSet::default();
+        for &run in &runs {
+            if run < known.index.run_count() && forgotten.insert(run) {
                 self.pairs.forget_run((key, run as u32), &known.index.bounds_of_run(run));
             }
+        }
+        for range in ranges {
+            let mut changed = known.index.bounds_about(range.clone());
             known.index.update(drawing, contour, range.clone());
             changed.merge(&known.index.bounds_about(range.clone()));
             known.look(drawing, contour, &self.limits, &self.settings, range.clone());
-            let last_run = if recounted { known.index.run_count() } else { last_run.min(known.index.run_count()) };
-            runs.extend((first_run..last_run).map(|run| (key, run as u32)));
             self.answers.retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
         }
+        let count = known.index.run_count();
+        let runs = runs.into_iter().filter(|&run| run < count).map(|run| (key, run as u32));
+        let runs: BTreeSet<RunId> = runs.collect();
         self.known.insert(key, known);
         let runs: Vec<RunId> = runs.into_iter().collect();
         self.look_at_pairs(drawing, &runs);
@@ -446,15 +528,16 @@ fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
 
 /// The segments of an entity that a splice of its vertices changed, in one or two ranges.
 fn segments_of(vertices: Option<(usize, usize, usize)>, count: usize, closed: bool) -> Vec<Range<usize>> {
-    let Some((start, removed, inserted)) = vertices else { return vec![0..count] };
+    let Some((start, removed, inserted)) = vertices else { return once(0..count).collect() };
     if removed != inserted {
         // What lies behind the splice has other indices now; the segment before it has another end.
-        let first = start.saturating_sub(1).min(count);
-        return if closed && start == 0 { vec![0..count] } else { vec![first..count] };
+        let first = if closed && start == 0 { 0 } else { start.saturating_sub(1).min(count) };
+        return once(first..count).collect();
     }
     let end = (start + inserted).min(count);
     let own = start.saturating_sub(1).min(end)..end;
-    if closed && start == 0 && count > 0 { vec![own, count - 1..count] } else { vec![own] }
+    let closing = (closed && start == 0 && count > 0).then(|| count - 1..count);
+    once(own).chain(closing).collect()
 }
 
 /// What a replacement takes of a contour, in the contour's own direction: from one place to another, in segments.

@@ -1,15 +1,18 @@
 //! What the rules on pairs of segments have seen, by the runs of segments that the two lie in.
 
 use super::report::Report;
-use crate::drawing::{ContourIndex, ContourKey, ContourSegment};
-use crate::finding::Side;
-use crate::geometry::{Bounds, Grid};
-use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule};
+use crate::drawing::{ContourIndex, ContourKey, EntityId};
+use crate::finding::{Rule, Severity, Side};
+use crate::geometry::{Bounds, Grid, Point};
+use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Wall};
 use crate::settings::Effective;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A run of segments of one contour.
 pub type RunId = (ContourKey, u32);
+
+/// A segment by its contour and its index in there.
+type SegmentId = (ContourKey, usize);
 
 /// A contour's outlook by key.
 type Outlooks<'a, 'b> = &'a dyn Fn(ContourKey) -> Option<Outlook<'b>>;
@@ -19,9 +22,13 @@ type Outlooks<'a, 'b> = &'a dyn Fn(ContourKey) -> Option<Outlook<'b>>;
 struct Seen {
     /// Index into [`PAIR_RULES`].
     rule: usize,
-    one: (ContourKey, usize),
-    other: (ContourKey, usize),
+    one: SegmentId,
+    other: SegmentId,
     sides: (Option<Side>, Option<Side>),
+    mildest: Option<Severity>,
+    /// A disc that must be empty, and whether something reaches into it.
+    disc: Option<(Point, f64)>,
+    blocked: bool,
 }
 
 /// The runs of all contours by place, and what has been seen between them.
@@ -30,6 +37,10 @@ pub struct Pairs {
     grid: Grid<RunId>,
     seen: FxHashMap<(RunId, RunId), Vec<Seen>>,
     partners: FxHashMap<RunId, Vec<RunId>>,
+    /// Runs near which something has come or gone: whether their discs are empty is to be asked again.
+    stale: FxHashSet<RunId>,
+    /// The farthest that a rule reaches.
+    reach: f64,
 }
 
 impl Pairs {
@@ -43,6 +54,7 @@ impl Pairs {
     /// Forgets a run with the box that it was looked at with.
     pub fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
+        self.disturb(bounds);
         for partner in self.partners.remove(&run).unwrap_or_default() {
             self.seen.remove(&ordered(run, partner));
             if let Some(of_partner) = self.partners.get_mut(&partner) {
@@ -51,36 +63,58 @@ impl Pairs {
         }
     }
 
+    /// Something has come or gone within these bounds.
+    fn disturb(&mut self, bounds: &Bounds) {
+        if self.partners.is_empty() {
+            return;
+        }
+        let (partners, stale) = (&self.partners, &mut self.stale);
+        self.grid.near(&bounds.grown(self.reach), |run| {
+            if partners.contains_key(&run) {
+                stale.insert(run);
+            }
+        });
+    }
+
     /// Looks at new runs, with each other and with all that come near them.
     pub fn look(&mut self, outlook: Outlooks, limits: &Limits, settings: &Effective, runs: &[RunId]) {
-        let rules: Vec<usize> = (0..PAIR_RULES.len()).filter(|&rule| settings.severity(PAIR_RULES[rule].rule).is_some()).collect();
-        let reach = rules.iter().map(|&rule| (PAIR_RULES[rule].reach)(limits)).fold(0.0, f64::max);
+        let doubles_matter = PAIR_RULES.iter().any(|rule| rule.silent_for_doubles && settings.severity(rule.rule).is_some());
+        let is_on = |rule: &PairRule| settings.severity(rule.rule).is_some() || (rule.rule == Rule::DuplicateEntity && doubles_matter);
+        let rules: Vec<(usize, f64)> =
+            PAIR_RULES.iter().enumerate().filter(|(_, rule)| is_on(rule)).map(|(at, rule)| (at, (rule.reach)(limits))).collect();
+        self.reach = rules.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
         for &run in runs {
             if let Some(outlook) = outlook(run.0) {
-                self.grid.insert(run, outlook.index.bounds_of_run(run.1 as usize));
+                let bounds = outlook.index.bounds_of_run(run.1 as usize);
+                self.grid.insert(run, bounds);
+                self.disturb(&bounds);
             }
         }
         let new: FxHashSet<RunId> = runs.iter().copied().collect();
+        let (mut near, mut found) = (Vec::new(), Vec::new());
         for &run in runs {
             let Some(own) = outlook(run.0) else { continue };
-            let area = own.index.bounds_of_run(run.1 as usize).grown(reach);
-            let mut near = Vec::new();
+            let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
+            near.clear();
             self.grid.near(&area, |other| {
                 // Two new runs are looked at once.
-                if !new.contains(&other) || run <= other {
+                if run <= other || !new.contains(&other) {
                     near.push(other);
                 }
             });
-            let segments = segments_of(&own, run.1);
-            for other in near {
-                let Some(theirs) = outlook(other.0) else { continue };
-                let found = if other == run {
-                    look_within(&own, run, &segments, &rules, limits)
-                } else {
-                    look_between(&own, run, &segments, &theirs, other, &segments_of(&theirs, other.1), &rules, limits)
-                };
+            let walls = walls_of(&own, run.1);
+            for &other in &near {
+                let look = Look { rules: &rules, reach: self.reach, keys: (run.0, other.0) };
+                if other == run {
+                    look.within(&walls, &mut found);
+                } else if let Some(theirs) = outlook(other.0) {
+                    look.between(&walls, &walls_of(&theirs, other.1), &mut found);
+                }
                 if !found.is_empty() {
-                    self.seen.insert(ordered(run, other), found);
+                    if found.iter().any(|seen: &Seen| seen.disc.is_some()) {
+                        self.stale.insert(run);
+                    }
+                    self.seen.insert(ordered(run, other), std::mem::take(&mut found));
                     self.partners.entry(run).or_default().push(other);
                     if other != run {
                         self.partners.entry(other).or_default().push(run);
@@ -88,34 +122,87 @@ impl Pairs {
                 }
             }
         }
+        self.ask_again(outlook, limits);
+    }
+
+    /// Looks whether the discs of what has been seen at the stale runs are empty.
+    fn ask_again(&mut self, outlook: Outlooks, limits: &Limits) {
+        for run in std::mem::take(&mut self.stale) {
+            for partner in self.partners.get(&run).cloned().unwrap_or_default() {
+                let Some(mut seen) = self.seen.remove(&ordered(run, partner)) else { continue };
+                for each in &mut seen {
+                    each.blocked = each.disc.is_some_and(|disc| self.reaches_into(outlook, limits, disc));
+                }
+                self.seen.insert(ordered(run, partner), seen);
+            }
+        }
+    }
+
+    /// True when some segment reaches into a disc by more than rounding.
+    fn reaches_into(&self, outlook: Outlooks, limits: &Limits, (center, radius): (Point, f64)) -> bool {
+        let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
+        let area = Bounds::of_disc(center, radius);
+        let mut near = Vec::new();
+        self.grid.near(&area, |run| near.push(run));
+        near.into_iter().any(|(key, run)| {
+            outlook(key).is_some_and(|theirs| {
+                let mut segments = theirs.index.range_of(run as usize).filter_map(|index| theirs.segment(index as isize));
+                segments.any(|segment| segment.geometry.bounds().touches(&area) && segment.geometry.distance_to(center) < radius)
+            })
+        })
+    }
+
+    /// Contours that have something of `rule` between two of their own segments.
+    pub fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
+        let own = |each: &&Seen| PAIR_RULES[each.rule].rule == rule && each.one.0 == each.other.0 && !each.blocked;
+        self.seen.values().flatten().filter(own).map(|each| each.one.0).collect()
+    }
+
+    /// Entities that lie in the same place as another.
+    pub fn doubled(&self, outlook: Outlooks) -> FxHashSet<EntityId> {
+        let mut doubled = FxHashSet::default();
+        for seen in self.seen.values().flatten().filter(|seen| PAIR_RULES[seen.rule].rule == Rule::DuplicateEntity) {
+            for (key, index) in [seen.one, seen.other] {
+                doubled.extend(outlook(key).and_then(|outlook| outlook.segment(index as isize)).map(|segment| segment.entity));
+            }
+        }
+        doubled
     }
 
     /// Adds the findings, in the order of their entities.
     pub fn report(&self, outlook: Outlooks, wire_sides: &FxHashMap<ContourKey, Option<Side>>, report: &mut Report) {
-        let mut seen: Vec<(&Seen, Outlook, ContourSegment)> = Vec::new();
+        type Ends = ((EntityId, usize), (EntityId, usize));
+        let wire_side = |key: ContourKey| wire_sides.get(&key).copied().flatten();
+        let concerned = |key: ContourKey, side: Option<Side>| side.is_none() || wire_side(key).is_none() || side == wire_side(key);
+        let mut seen: Vec<(usize, Ends, &Seen)> = Vec::new();
         for each in self.seen.values().flatten() {
-            let concerned = |(key, side): (ContourKey, Option<Side>)| {
-                let wire = wire_sides.get(&key).copied().flatten();
-                side.is_none() || wire.is_none() || side == wire
-            };
-            if concerned((each.one.0, each.sides.0))
-                && concerned((each.other.0, each.sides.1))
-                && let Some(own) = outlook(each.one.0)
-                && let Some(segment) = own.segment(each.one.1 as isize)
+            let ends = |(key, index): SegmentId| outlook(key)?.segment(index as isize).map(|segment| (segment.entity, segment.segment));
+            if !each.blocked
+                && concerned(each.one.0, each.sides.0)
+                && concerned(each.other.0, each.sides.1)
+                && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
             {
-                seen.push((each, own, segment));
+                seen.push((each.rule, (one, other), each));
             }
         }
-        let place_of = |key: ContourKey, index: usize| outlook(key)?.segment(index as isize).map(|s| (s.entity, s.segment));
-        seen.sort_by_cached_key(|(each, _, segment)| (each.rule, segment.entity, segment.segment, place_of(each.other.0, each.other.1)));
-        for (each, own, _) in seen {
-            let rule = &PAIR_RULES[each.rule];
-            if report.counts(rule.rule, None)
-                && let Some(theirs) = outlook(each.other.0)
+        seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, *ends));
+        let is_double = |each: &&(usize, Ends, &Seen)| PAIR_RULES[each.0].rule == Rule::DuplicateEntity;
+        let doubles: FxHashSet<(EntityId, EntityId)> = seen.iter().filter(is_double).map(|(_, ends, _)| (ends.0.0, ends.1.0)).collect();
+        let merged = merged(&seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(), &|key| outlook(key).map(|it| it.contour.len()));
+        for (at, (rule, ends, each)) in seen.iter().enumerate() {
+            let rule = &PAIR_RULES[*rule];
+            if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0)) || merged.contains(&at) {
+                continue;
+            }
+            let unknown = rule.warning_when_side_unknown && (wire_side(each.one.0).is_none() || wire_side(each.other.0).is_none());
+            let mildest = if unknown { Some(Severity::Warning) } else { each.mildest };
+            if report.counts(rule.rule, mildest)
+                && let (Some(own), Some(theirs)) = (outlook(each.one.0), outlook(each.other.0))
+                && let (Some(one), Some(other)) = (Wall::new(&own, each.one.1), Wall::new(&theirs, each.other.1))
                 && let (Some(place), Some(related)) = (own.place(each.one.1), theirs.place(each.other.1))
-                && let Some(detail) = (rule.detail)(&own, each.one.1, &theirs, each.other.1)
+                && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
             {
-                report.add(rule.rule, None, place, detail, vec![related]);
+                report.add(rule.rule, mildest, place, detail, vec![related]);
             }
         }
     }
@@ -125,70 +212,95 @@ fn ordered(one: RunId, other: RunId) -> (RunId, RunId) {
     if one <= other { (one, other) } else { (other, one) }
 }
 
-/// The segments of a run with their indices and boxes.
-fn segments_of(outlook: &Outlook, run: u32) -> Vec<(usize, ContourSegment, Bounds)> {
-    let segments = outlook.index.range_of(run as usize).filter_map(|index| Some((index, outlook.segment(index as isize)?)));
-    segments.map(|(index, segment)| (index, segment, segment.geometry.bounds())).collect()
-}
-
-type Listed = [(usize, ContourSegment, Bounds)];
-
-fn look_within(own: &Outlook, run: RunId, segments: &Listed, rules: &[usize], limits: &Limits) -> Vec<Seen> {
-    let mut found = Vec::new();
-    for (at, one) in segments.iter().enumerate() {
-        for other in &segments[at + 1..] {
-            look_at(own, run.0, one, own, run.0, other, rules, limits, &mut found);
-        }
+/// Which of `seen` another one stands for: of neighbouring pairs that see one thing, all but the one with the smallest disc.
+fn merged(seen: &[&Seen], count_of: &dyn Fn(ContourKey) -> Option<usize>) -> FxHashSet<usize> {
+    let mut at: FxHashMap<(usize, SegmentId, SegmentId), usize> = FxHashMap::default();
+    let pair = |seen: &Seen| if seen.one <= seen.other { (seen.one, seen.other) } else { (seen.other, seen.one) };
+    for (position, each) in seen.iter().enumerate().filter(|(_, each)| PAIR_RULES[each.rule].one_per_place) {
+        let (one, other) = pair(each);
+        at.insert((each.rule, one, other), position);
     }
-    found
-}
-
-#[allow(clippy::too_many_arguments)]
-fn look_between(
-    own: &Outlook,
-    run: RunId,
-    segments: &Listed,
-    theirs: &Outlook,
-    other_run: RunId,
-    others: &Listed,
-    rules: &[usize],
-    limits: &Limits,
-) -> Vec<Seen> {
-    let mut found = Vec::new();
-    for one in segments {
-        for other in others {
-            look_at(own, run.0, one, theirs, other_run.0, other, rules, limits, &mut found);
-        }
-    }
-    found
-}
-
-/// Lets the rules look at two segments whose boxes come near each other. The one of the earlier entity comes first,
-/// so that the answer does not depend on how contours are keyed.
-#[allow(clippy::too_many_arguments)]
-fn look_at(
-    own: &Outlook,
-    key: ContourKey,
-    one: &(usize, ContourSegment, Bounds),
-    theirs: &Outlook,
-    other_key: ContourKey,
-    other: &(usize, ContourSegment, Bounds),
-    rules: &[usize],
-    limits: &Limits,
-    found: &mut Vec<Seen>,
-) {
-    for &rule in rules {
-        let PairRule { reach, look, .. } = &PAIR_RULES[rule];
-        if !one.2.grown(reach(limits)).touches(&other.2) {
+    let mut gone = FxHashSet::default();
+    let mut known = FxHashSet::default();
+    let width = |position: usize| seen[position].disc.map_or(0.0, |(_, radius)| radius);
+    for start in (0..seen.len()).filter(|&position| PAIR_RULES[seen[position].rule].one_per_place) {
+        if !known.insert(start) {
             continue;
         }
-        let first = (one.1.entity, one.1.segment) <= (other.1.entity, other.1.segment);
-        let (a, at, b, there, one, other) = match first {
-            true => (own, one.0, theirs, other.0, (key, one.0), (other_key, other.0)),
-            false => (theirs, other.0, own, one.0, (other_key, other.0), (key, one.0)),
-        };
-        if let Some(sides) = look(a, at, b, there, key == other_key) {
-            found.push(Seen { rule, one, other, sides });
+        let (mut group, mut waiting) = (vec![start], vec![start]);
+        while let Some(position) = waiting.pop() {
+            let (one, other) = pair(seen[position]);
+            let beside = |(key, index): SegmentId| {
+                let count = count_of(key).unwrap_or(1).max(1);
+                [(key, index), (key, (index + 1) % count), (key, (index + count - 1) % count)]
+            };
+            for one in beside(one) {
+                for other in beside(other) {
+                    let (one, other) = if one <= other { (one, other) } else { (other, one) };
+                    if let Some(&met) = at.get(&(seen[position].rule, one, other))
+                        && known.insert(met)
+                    {
+                        group.push(met);
+                        waiting.push(met);
+                    }
+                }
+            }
+        }
+        // Of equally narrow ones the first in the order of entities stays.
+        let narrowest = group.iter().copied().map(width).fold(f64::INFINITY, f64::min);
+        let stays = group.iter().copied().filter(|&position| width(position) <= narrowest + 1e-9).min();
+        gone.extend(group.into_iter().filter(|&position| Some(position) != stays));
+    }
+    gone
+}
+
+/// The segments of a run with their boxes.
+fn walls_of<'a>(outlook: &'a Outlook<'a>, run: u32) -> Vec<(Wall<'a>, Bounds)> {
+    let walls = outlook.index.range_of(run as usize).filter_map(|index| Wall::new(outlook, index));
+    walls.map(|wall| (wall, wall.geometry().bounds())).collect()
+}
+
+/// One look at the pairs that two runs form.
+struct Look<'a> {
+    /// Indices into [`PAIR_RULES`], and how far each reaches.
+    rules: &'a [(usize, f64)],
+    reach: f64,
+    keys: (ContourKey, ContourKey),
+}
+
+impl Look<'_> {
+    fn within(&self, walls: &[(Wall, Bounds)], found: &mut Vec<Seen>) {
+        for (at, one) in walls.iter().enumerate() {
+            let area = one.1.grown(self.reach);
+            walls[at + 1..].iter().filter(|other| area.touches(&other.1)).for_each(|other| self.at(one, other, found));
+        }
+    }
+
+    fn between(&self, walls: &[(Wall, Bounds)], others: &[(Wall, Bounds)], found: &mut Vec<Seen>) {
+        let mut all = Bounds::EMPTY;
+        others.iter().for_each(|(_, bounds)| all.merge(bounds));
+        for one in walls {
+            let area = one.1.grown(self.reach);
+            if area.touches(&all) {
+                others.iter().filter(|other| area.touches(&other.1)).for_each(|other| self.at(one, other, found));
+            }
+        }
+    }
+
+    /// Lets the rules look at two segments whose boxes come near each other. The one of the earlier entity comes first,
+    /// so that the answer does not depend on how contours are keyed.
+    fn at(&self, one: &(Wall, Bounds), other: &(Wall, Bounds), found: &mut Vec<Seen>) {
+        let place = |wall: &Wall| (wall.segment.entity, wall.segment.segment);
+        let (own, theirs) = ((self.keys.0, one.0.index), (self.keys.1, other.0.index));
+        let ((one, own), (other, theirs)) =
+            if place(&one.0) <= place(&other.0) { ((one, own), (other, theirs)) } else { ((other, theirs), (one, own)) };
+        for &(rule, reach) in self.rules {
+            if one.1.grown(reach).touches(&other.1)
+                && let Some(sight) = (PAIR_RULES[rule].look)(&one.0, &other.0, own.0 == theirs.0)
+            {
+                let (sides, mildest, disc) = (sight.sides, sight.mildest, sight.disc);
+                found.push(Seen { rule, one: own, other: theirs, sides, mildest, disc, blocked: false });
+            }
         }
     }
 }

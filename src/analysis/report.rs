@@ -12,24 +12,50 @@ pub struct Report {
     limit: usize,
     kept: BTreeMap<Severity, Vec<Finding>>,
     count: usize,
+    tally: Tally,
+}
+
+/// How many findings there are, by severity and by rule.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    pub errors: usize,
+    pub warnings: usize,
+    pub of_rule: BTreeMap<Rule, usize>,
+}
+
+impl Tally {
+    pub fn of(&self, rule: Rule) -> usize {
+        self.of_rule.get(&rule).copied().unwrap_or(0)
+    }
+
+    /// True when nothing got worse since `before`: no more errors, and no more errors and warnings together.
+    pub fn is_no_worse_than(&self, before: &Tally) -> bool {
+        self.errors <= before.errors && self.errors + self.warnings <= before.errors + before.warnings
+    }
 }
 
 impl Report {
     pub fn new(settings: Arc<Effective>, limit: usize) -> Report {
-        Report { settings, limit, kept: BTreeMap::new(), count: 0 }
+        Report { settings, limit, kept: BTreeMap::new(), count: 0, tally: Tally::default() }
     }
 
-    /// The severity of a rule, `mildest` where the case is milder than the rule; `None` where it is off.
+    /// The severity of a rule, `mildest` where the case is milder than the rule and nobody has set it; `None` where it is off.
     fn severity(&self, rule: Rule, mildest: Option<Severity>) -> Option<Severity> {
         let set = self.settings.severity(rule)?;
-        Some(mildest.map_or(set, |mildest| set.max(mildest)))
+        self.settings.severity_over(rule, mildest.map_or(set, |mildest| set.max(mildest)))
     }
 
     /// Counts a finding. True when it should be worked out and added.
     pub fn counts(&mut self, rule: Rule, mildest: Option<Severity>) -> bool {
         let Some(severity) = self.severity(rule, mildest) else { return false };
         self.count += 1;
-        self.kept.get(&severity).is_none_or(|kept| kept.len() < self.limit)
+        match severity {
+            Severity::Error => self.tally.errors += 1,
+            Severity::Warning => self.tally.warnings += 1,
+            Severity::Information | Severity::Hint => {}
+        }
+        *self.tally.of_rule.entry(rule).or_default() += 1;
+        self.limit > 0 && self.kept.get(&severity).is_none_or(|kept| kept.len() < self.limit)
     }
 
     /// Adds a finding that has been counted.
@@ -37,6 +63,10 @@ impl Report {
         if let Some(severity) = self.severity(rule, mildest) {
             self.kept.entry(severity).or_default().push(Finding { rule, severity, place, detail, related });
         }
+    }
+
+    pub fn tally(self) -> Tally {
+        self.tally
     }
 
     /// The findings, the worst first, and how many there are in all.

@@ -165,7 +165,7 @@ impl Drawing {
         for change in &edit.changes {
             let id = change.entity();
             let old = result.get(id).ok_or(ChangeError::UnknownEntity)?;
-            if !result.is_editable(id) && !matches!(change, Change::AddEntity { .. }) {
+            if !result.is_editable(id) {
                 return Err(ChangeError::NotEditable);
             }
             match *change {

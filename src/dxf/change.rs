@@ -6,6 +6,7 @@ use super::lexer::Tag;
 use super::lines::Lines;
 use super::number::{self, Code, Number, written};
 use super::place::{own_tags, vertex_tags};
+use super::record::{self, Style};
 use crate::drawing::{Change, DrawingEdit, EntityId, Geometry, Vertex};
 use crate::geometry::{Point, positive_angle};
 use crate::text::TextEdit;
@@ -25,6 +26,11 @@ struct Wanted {
     line: Option<(Point, Point)>,
     arc: Option<(Point, f64, f64, f64)>,
     removed: bool,
+    /// Index before the edit and the vertex that comes in there, in the order in which they are to stand.
+    inserted: Vec<(usize, Vertex)>,
+    closed: Option<bool>,
+    /// New entities behind it, in the order in which they are to stand.
+    added: Vec<Geometry>,
 }
 
 impl Document {
@@ -54,14 +60,17 @@ impl Document {
                     of_entity.arc = Some((center, radius, start_angle, end_angle));
                 }
                 Change::RemoveEntity { .. } => of_entity.removed = true,
-                Change::InsertVertex { .. } | Change::SetClosed { .. } | Change::AddEntity { .. } => {
-                    return Err("this edit cannot be made in DXF text".into());
-                }
+                // Of several in one place, the last comes first: each goes in before what stands there.
+                Change::InsertVertex { index, vertex, .. } => of_entity.inserted.insert(0, (index, vertex)),
+                Change::SetClosed { closed, .. } => of_entity.closed = Some(closed),
+                Change::AddEntity { ref geometry, .. } => of_entity.added.insert(0, geometry.clone()),
             }
         }
         let mut edits = Vec::new();
+        let mut free_handle = None;
         for (entity, wanted) in wanted {
             self.edit_entity(entity, &wanted, &mut edits)?;
+            self.add_entities(entity, &wanted.added, &mut free_handle, &mut edits)?;
         }
         edits.sort_by_key(|edit| (edit.range.start, edit.range.end));
         Ok(edits)
@@ -111,8 +120,68 @@ impl Document {
                 self.set_angle(lines, &tags, code, value, &name, edits)?;
             }
         }
-        if !wanted.vertices.is_empty() {
-            self.edit_vertices(id, of_entity, &wanted.vertices, &name, edits)?;
+        if let Some(closed) = wanted.closed {
+            self.set_closed(id, of_entity.clone(), closed, &name, edits)?;
+        }
+        if !wanted.vertices.is_empty() || !wanted.inserted.is_empty() {
+            self.edit_vertices(id, of_entity, wanted, &name, edits)?;
+        }
+        Ok(())
+    }
+
+    /// New records behind an entity. A handle is given where that entity has one.
+    fn add_entities(
+        &self,
+        after: EntityId,
+        added: &[Geometry],
+        free_handle: &mut Option<u64>,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
+        let lines = Lines::new(&self.text);
+        let Some(item) = self.table.item_of(after).filter(|_| !added.is_empty()) else { return Ok(()) };
+        let model = self.table.lines_of(item, lines.count());
+        let tags: Vec<Tag> = own_tags(lines, model.clone()).collect();
+        let mirrored = is_mirrored(lines, &tags);
+        let at = self.text.line_start(model.end);
+        for geometry in added {
+            let handle = match last(&tags, 5) {
+                None => None,
+                Some(_) => {
+                    let free = free_handle.or_else(|| record::free_handle(lines)).ok_or("no handle is left for a new entity")?;
+                    *free_handle = Some(free.checked_add(1).ok_or("no handle is left for a new entity")?);
+                    Some(format!("{free:X}"))
+                }
+            };
+            let record = record::new_entity(&self.text, lines, model.clone(), mirrored, handle.as_deref(), geometry)?;
+            let text = Style::of(&self.text, lines, model.start).inserted(&self.text, at, record);
+            edits.push(TextEdit { range: at..at, text });
+        }
+        Ok(())
+    }
+
+    /// Sets or clears the bit of group code 70 that says that a polyline is closed.
+    fn set_closed(&self, id: EntityId, of_entity: Range<usize>, closed: bool, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+        let lines = Lines::new(&self.text);
+        let Some(table) = self.table.vertices.get(&id) else { return Err(format!("{name} is not a polyline")) };
+        let end_of_head = of_entity.start + table.lines.first().map_or(2, |&line| line as usize);
+        // Of a LWPOLYLINE the flags may also stand behind the vertices.
+        let is_light = lines.trimmed(of_entity.start + 1) == b"LWPOLYLINE";
+        let end = if is_light { of_entity.end } else { end_of_head };
+        if let Some(tag) = own_tags(lines, of_entity.start..end).filter(|tag| tag.code == 70).last() {
+            let range = lines.trimmed_range(tag.value_line());
+            let flags: Option<i64> = std::str::from_utf8(&self.text.bytes()[range.clone()]).ok().and_then(|text| text.parse().ok());
+            let Some(flags) = flags else { return Err(format!("group code 70 of {name} is no whole number")) };
+            let wanted = if closed { flags | 1 } else { flags & !1 };
+            if wanted != flags {
+                edits.push(TextEdit { range, text: wanted.to_string() });
+            }
+        } else if closed {
+            let style = Style::of(&self.text, lines, of_entity.start);
+            let line = own_tags(lines, of_entity.start..end_of_head).last().map_or(of_entity.start, |tag| tag.line) + 2;
+            let at = self.text.line_start(line);
+            let mut tag = Vec::new();
+            style.tag(70, b"1", &mut tag);
+            edits.push(TextEdit { range: at..at, text: style.inserted(&self.text, at, tag) });
         }
         Ok(())
     }
@@ -121,21 +190,23 @@ impl Document {
         &self,
         id: EntityId,
         of_entity: Range<usize>,
-        wanted: &BTreeMap<usize, Option<Vertex>>,
+        wanted: &Wanted,
         name: &str,
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
         let Some(table) = self.table.vertices.get(&id) else { return Err(format!("{name} is not a polyline")) };
         let count = table.lines.len();
-        let removed = wanted.values().filter(|vertex| vertex.is_none()).count();
-        if let Some((&index, _)) = wanted.range(count..).next() {
+        let removed = wanted.vertices.values().filter(|vertex| vertex.is_none()).count();
+        let beyond = wanted.inserted.iter().map(|(index, _)| *index).find(|&index| index > count);
+        if let Some(index) = wanted.vertices.range(count..).next().map(|(&index, _)| index).or(beyond) {
             return Err(format!("vertex {index} of {name} is out of range, the polyline has {count}"));
         }
-        if removed > 0 && count - removed < 2 {
+        let left = count - removed + wanted.inserted.len();
+        if removed > 0 && left < 2 {
             return Err(format!("{name} would be left with less than two vertices"));
         }
-        for (&index, vertex) in wanted {
+        for (&index, vertex) in &wanted.vertices {
             let Some(range) = self.vertex_lines(id, index) else { continue };
             let Some(mut vertex) = *vertex else {
                 self.remove_vertex(lines, range, edits);
@@ -146,12 +217,21 @@ impl Document {
             }
             self.set_vertex(lines, range, vertex, name, edits)?;
         }
+        for &(index, mut vertex) in &wanted.inserted {
+            if table.mirrored {
+                mirror(&mut vertex);
+            }
+            if table.in_space && vertex.bulge != 0.0 {
+                return Err(format!("{name} is a 3D polyline and cannot take the bulge"));
+            }
+            self.insert_vertex(id, index, count, vertex, name, edits)?;
+        }
         // A POLYLINE states no count.
         let is_light = lines.trimmed(of_entity.start + 1) == b"LWPOLYLINE";
-        if removed > 0 && is_light {
+        if left != count && is_light {
             let head = of_entity.start..of_entity.start + table.lines.first().map_or(0, |&line| line as usize);
             if let Some(tag) = own_tags(lines, head).filter(|tag| tag.code == 90).last() {
-                let text = (count - removed).to_string();
+                let text = left.to_string();
                 let range = lines.trimmed_range(tag.value_line());
                 if self.text.bytes()[range.clone()] != *text.as_bytes() {
                     edits.push(TextEdit { range, text });
@@ -190,6 +270,61 @@ impl Document {
         Ok(())
     }
 
+    /// A new vertex before vertex `index`, or behind the last one, in the style of the one beside it.
+    fn insert_vertex(
+        &self,
+        id: EntityId,
+        index: usize,
+        count: usize,
+        vertex: Vertex,
+        name: &str,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
+        let lines = Lines::new(&self.text);
+        if !vertex.is_finite() {
+            return Err(format!("a new vertex of {name} has a number that is not finite"));
+        }
+        let behind = index >= count;
+        let Some(model) = self.vertex_lines(id, index.min(count.saturating_sub(1))) else {
+            return Err(format!("{name} has no vertex that a new one could be modelled on"));
+        };
+        let is_record = number::code(lines.content(model.start)) == Code::Known(0);
+        let tags: Vec<Tag> = vertex_tags(lines, model.clone()).collect();
+        let style = Style::of(&self.text, lines, model.start);
+        let mut text = Vec::new();
+        let coordinates = |text: &mut Vec<u8>| {
+            style.number(10, vertex.point.x, DECIMALS, text);
+            style.number(20, vertex.point.y, DECIMALS, text);
+        };
+        let bulge = |text: &mut Vec<u8>| {
+            if vertex.bulge != 0.0 {
+                style.number(42, vertex.bulge, BULGE_DECIMALS, text);
+            }
+        };
+        let end = if is_record {
+            style.tag(0, b"VERTEX", &mut text);
+            for tag in &tags {
+                match tag.code {
+                    // A handle is one entity's own; the bulge comes behind the point.
+                    5 | 20 | 42 => {}
+                    10 => coordinates(&mut text),
+                    code => style.tag(code, lines.content(tag.value_line()), &mut text),
+                }
+            }
+            bulge(&mut text);
+            let is_next = |line: &usize| number::code(lines.content(*line)) == Code::Known(0);
+            (model.start + 2..model.end).step_by(2).find(is_next).unwrap_or(model.end)
+        } else {
+            coordinates(&mut text);
+            bulge(&mut text);
+            let of_vertex = tags.iter().rfind(|tag| matches!(tag.code, 10 | 20 | 40 | 41 | 42 | 91));
+            of_vertex.map_or(model.end, |tag| tag.line + 2)
+        };
+        let at = self.text.line_start(if behind { end } else { model.start });
+        edits.push(TextEdit { range: at..at, text: style.inserted(&self.text, at, text) });
+        Ok(())
+    }
+
     fn remove_vertex(&self, lines: Lines, range: Range<usize>, edits: &mut Vec<TextEdit>) {
         if number::code(lines.content(range.start)) == Code::Known(0) {
             // A VERTEX record, up to the next one.
@@ -223,6 +358,7 @@ impl Document {
     /// `angle` in radians.
     fn set_angle(&self, lines: Lines, tags: &[Tag], code: i16, angle: f64, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
         let degrees = positive_angle(angle).to_degrees();
+        let written_degrees = record::degrees(angle);
         if let Some(tag) = last(tags, code)
             && let Number::Exact(present) = number::number(lines.content(tag.value_line()))
         {
@@ -231,9 +367,7 @@ impl Document {
                 return Ok(());
             }
         }
-        // 359.9999999999999 would be written as 360.
-        let degrees = if written(degrees, DECIMALS) == "360.0" { 0.0 } else { degrees };
-        self.set(lines, tags, code, degrees, DECIMALS, name, edits)
+        self.set(lines, tags, code, written_degrees, DECIMALS, name, edits)
     }
 
     /// Replaces the number behind `code`, unless it is the same as written.

@@ -22,6 +22,7 @@ mod lines;
 mod number;
 mod place;
 mod reader;
+mod record;
 mod shape;
 mod strings;
 mod table;

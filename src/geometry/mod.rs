@@ -3,6 +3,7 @@
 //! Pure and total: nothing here reads a document, allocates by a number from outside, or panics.
 //! Lengths are in the unit of the drawing that is looked at, angles in radians, counter-clockwise positive.
 
+mod approach;
 mod arc;
 mod biarc;
 mod bounds;
@@ -13,6 +14,7 @@ mod segment;
 mod spline;
 mod tolerances;
 
+pub use approach::{curvature, facing, foot_inside, meetings, shared_length};
 pub use arc::Arc;
 pub use biarc::{Chain, Curve, fit};
 pub use bounds::Bounds;

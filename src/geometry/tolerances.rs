@@ -11,8 +11,12 @@ pub struct Tolerances {
     pub arc_fit: f64,
     /// Two entities within this of each other lie in the same place.
     pub same_place: f64,
+    /// Two outlines this near each other touch.
+    pub touch: f64,
     /// A segment shorter than this is one that controllers stumble over.
     pub short: f64,
+    /// Chords whose corners lie this near to one circle stand for an arc.
+    pub chords: f64,
     /// A segment shorter than this has no direction.
     pub zero_length: f64,
     /// How deep a new arc's disc may dip into a neighbour before the arc counts as cutting it.
@@ -21,7 +25,17 @@ pub struct Tolerances {
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Tolerances { join: 0.01, report: 1e-6, arc_fit: 1e-3, same_place: 0.005, short: 0.005, zero_length: 1e-9, clearance: 1e-7 }
+        Tolerances {
+            join: 0.01,
+            report: 1e-6,
+            arc_fit: 1e-3,
+            same_place: 0.005,
+            short: 0.005,
+            chords: 0.002,
+            touch: 1e-3,
+            zero_length: 1e-9,
+            clearance: 1e-7,
+        }
     }
 }
 
@@ -33,7 +47,9 @@ impl Tolerances {
             report: self.report / unit_mm,
             arc_fit: self.arc_fit / unit_mm,
             same_place: self.same_place / unit_mm,
+            touch: self.touch / unit_mm,
             short: self.short / unit_mm,
+            chords: self.chords / unit_mm,
             zero_length: self.zero_length / unit_mm,
             clearance: self.clearance / unit_mm,
         }

@@ -3,13 +3,26 @@
 //! A rule speaks geometry: it sees contours and gives back findings on segments and fixes as drawing edits.
 //! It knows nothing of text, of protocols, or of how a sentence about it reads.
 
+mod arc_as_chords;
 mod duplicate_entity;
+mod ends;
+mod gap;
+pub mod lost_pocket;
+mod narrow_slot;
+mod near_tangent;
+mod open_contour;
+mod overlap;
+mod self_intersection;
+mod sharp_corner;
 mod short_segment;
 pub mod small_radius;
+mod wall;
+
+pub use wall::Wall;
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
-use crate::finding::{Detail, Fix, Place, Rule, Side};
-use crate::geometry::Tolerances;
+use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
+use crate::geometry::{Point, Tolerances, turn};
 use crate::settings::Effective;
 use std::ops::Range;
 
@@ -64,6 +77,15 @@ impl Outlook<'_> {
         let segment = self.segment(index as isize)?;
         Some(Place::Segment { entity: segment.entity, segment: segment.segment })
     }
+
+    /// The angle (radians, positive to the left) by which the contour turns where the segment at `index` begins.
+    /// `None` at the start of an open contour, and beside a segment too short to have a direction that counts.
+    pub fn turn_at(&self, index: usize) -> Option<f64> {
+        let (before, behind) = (self.segment(index as isize - 1)?.geometry, self.segment(index as isize)?.geometry);
+        let least = self.limits.tolerances.short;
+        let long_enough = before.length() >= least && behind.length() >= least;
+        long_enough.then(|| turn(before.end_tangent(), behind.start_tangent()))
+    }
 }
 
 /// Something that a rule has seen at one segment of a contour. Small, since a contour may have one at every segment;
@@ -74,6 +96,8 @@ pub struct Fact {
     pub index: u32,
     /// The side of travel that it concerns, `None` where it holds whichever side the wire runs on.
     pub side: Option<Side>,
+    /// Says nothing where the wire side is not known.
+    pub needs_side: bool,
 }
 
 /// A rule on a segment and its near neighbours. All of them stand in [`LOCAL_RULES`].
@@ -84,6 +108,10 @@ pub struct LocalRule {
     pub look: fn(&Outlook, Range<usize>, &mut Vec<Fact>),
     /// How many segments before and behind a changed one must be looked at again.
     pub reach: fn(&Outlook, Range<usize>) -> (usize, usize),
+    /// Whether what was seen at the first segment of a closed contour stands, where that depends on the whole round.
+    pub holds: fn(&Outlook, Fact) -> bool,
+    /// The other places that are concerned.
+    pub related: fn(&Outlook, Fact) -> Vec<Place>,
     /// The numbers of a fact. `count` is 1, or the number of facts that one finding stands for.
     pub detail: fn(&Outlook, Fact, usize) -> Option<Detail>,
     /// Repairs, the preferred one first.
@@ -93,30 +121,55 @@ pub struct LocalRule {
 }
 
 /// Every rule on single segments and their neighbours.
-pub const LOCAL_RULES: &[LocalRule] = &[short_segment::RULE];
+pub const LOCAL_RULES: &[LocalRule] = &[sharp_corner::RULE, gap::RULE, short_segment::RULE, near_tangent::RULE, arc_as_chords::RULE];
 
-/// Something that a rule has seen between two segments, of one contour or of two.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairFact {
+/// A rule on a contour as a whole, cheap enough to be asked at every report. All of them stand in [`CONTOUR_RULES`].
+pub struct ContourRule {
     pub rule: Rule,
-    /// Indices within the first and the second contour.
-    pub one: u32,
-    pub other: u32,
+    pub holds: fn(&Outlook) -> bool,
+    /// The severity that it has at most under some settings, unless the user has set the rule.
+    pub mildest: fn(&Effective) -> Option<Severity>,
+    /// The place, and the other places that are concerned.
+    pub places: fn(&Outlook) -> Option<(Place, Vec<Place>)>,
+    pub detail: fn(&Outlook) -> Option<Detail>,
+    /// Repairs, the preferred one first.
+    pub fixes: fn(&Outlook) -> Vec<Fix>,
+}
+
+/// Every rule on whole contours.
+pub const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
+
+/// What a pair rule has seen between two segments.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sight {
     /// Sides of travel that it concerns, of the first and of the second segment; `None` where any.
     pub sides: (Option<Side>, Option<Side>),
+    /// A disc (centre, radius) that no segment of the drawing may reach into, else there is nothing to see.
+    pub disc: Option<(Point, f64)>,
+    /// Where the case is milder than the rule.
+    pub mildest: Option<Severity>,
 }
 
 /// A rule on segments that come near each other. All of them stand in [`PAIR_RULES`].
 pub struct PairRule {
     pub rule: Rule,
-    /// How near two segments must come to be looked at together.
+    /// How near two segments must come to be looked at together. A disc that must be empty lies within this of both.
     pub reach: fn(&Limits) -> f64,
-    /// Looks at two segments, `one` before `other` in (contour, index); says what it sees, with the sides it concerns.
-    /// What it sees may depend only on the two and on those that follow and precede them in their contours.
-    pub look: fn(&Outlook, usize, &Outlook, usize, bool) -> Option<(Option<Side>, Option<Side>)>,
-    pub detail: fn(&Outlook, usize, &Outlook, usize) -> Option<Detail>,
-    pub fixes: fn(&Outlook, usize, &Outlook, usize) -> Vec<Fix>,
+    /// Looks at two segments, the one of the earlier entity first; the flag tells that they are of one contour.
+    /// What it sees may depend only on the two and on the [`NEIGHBOURS`] that follow and precede each in its contour.
+    pub look: fn(&Wall, &Wall, bool) -> Option<Sight>,
+    pub detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
+    pub fixes: fn(&Wall, &Wall) -> Vec<Fix>,
+    /// What neighbouring pairs see is one thing: the narrowest stands for all.
+    pub one_per_place: bool,
+    /// Not said of two entities that are doubles of each other as a whole.
+    pub silent_for_doubles: bool,
+    /// At most a warning where the wire side is not known.
+    pub warning_when_side_unknown: bool,
 }
 
-/// Every rule on pairs of segments.
-pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE];
+/// How many segments before and behind a segment a pair rule may look at.
+pub const NEIGHBOURS: usize = 4;
+
+/// Every rule on pairs of segments; [`duplicate_entity`] first, which others are silent for.
+pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE, overlap::RULE, self_intersection::RULE, narrow_slot::RULE];

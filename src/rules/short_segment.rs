@@ -3,19 +3,28 @@
 //! Controllers compute corners and compensation between neighbours: over a segment of a few microns they jerk, stop, or turn
 //! the offset the wrong way. Fix: the segment goes, its neighbours meet.
 
+use super::ends::joined;
 use super::{Fact, LocalRule, Outlook};
-use crate::drawing::{Change, DrawingEdit, Geometry};
+use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry, Vertex};
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use std::ops::Range;
 
-pub const RULE: LocalRule =
-    LocalRule { rule: Rule::ShortSegment, look, reach: |_, _| (0, 0), detail, fixes, one_hint_when_side_unknown: false };
+pub const RULE: LocalRule = LocalRule {
+    rule: Rule::ShortSegment,
+    look,
+    reach: |_, _| (0, 0),
+    holds: |_, _| true,
+    related: |_, _| Vec::new(),
+    detail,
+    fixes,
+    one_hint_when_side_unknown: false,
+};
 
 fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     for index in range {
         let short = outlook.segment(index as isize).is_some_and(|segment| segment.geometry.length() < outlook.limits.tolerances.short);
         if short {
-            facts.push(Fact { index: index as u32, side: None });
+            facts.push(Fact { index: index as u32, side: None, needs_side: false });
         }
     }
 }
@@ -24,18 +33,35 @@ fn detail(outlook: &Outlook, fact: Fact, _count: usize) -> Option<Detail> {
     Some(Detail::ShortSegment { length: outlook.segment(fact.index as isize)?.geometry.length() })
 }
 
-/// In a polyline the segment's start vertex goes and its own stays the end of what came before.
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     let Some(place) = outlook.segment(fact.index as isize) else { return Vec::new() };
-    let entity = place.entity;
-    let count = outlook.drawing.get(entity).map_or(0, |entity| entity.geometry.segment_count());
-    let changes = match outlook.drawing.get(entity).map(|entity| &entity.geometry) {
-        Some(Geometry::Polyline { closed, .. }) if count > if *closed { 3 } else { 1 } => {
-            // The last segment of an open polyline gives up its end, so that the vertex it starts in stays.
-            let index = if !closed && place.segment + 1 == count { place.segment + 1 } else { place.segment };
-            vec![Change::RemoveVertex { entity, index }]
-        }
-        _ => return Vec::new(),
+    let changes = match outlook.drawing.get(place.entity).map(|entity| &entity.geometry) {
+        Some(Geometry::Polyline { closed, vertices }) => in_polyline(&place, *closed, vertices),
+        Some(Geometry::Line { .. } | Geometry::Arc { .. }) => in_chain(outlook, fact.index as isize, &place),
+        _ => None,
     };
-    vec![Fix { kind: FixKind::Merge, preferred: true, in_fix_all: true, edit: DrawingEdit { changes } }]
+    let fix = |changes| Fix { kind: FixKind::Merge, preferred: true, in_fix_all: true, edit: DrawingEdit { changes } };
+    changes.map(fix).into_iter().collect()
+}
+
+/// The segment's start vertex goes and its end becomes that of what came before. The ends of an open polyline stay.
+fn in_polyline(place: &ContourSegment, closed: bool, vertices: &[Vertex]) -> Option<Vec<Change>> {
+    let (entity, count) = (place.entity, if closed { vertices.len() } else { vertices.len().checked_sub(1)? });
+    if count <= if closed { 3 } else { 1 } {
+        return None;
+    }
+    if !closed && place.segment == 0 {
+        let vertex = Vertex { bulge: vertices.get(1)?.bulge, ..*vertices.first()? };
+        return Some(vec![Change::SetVertex { entity, index: 0, vertex }, Change::RemoveVertex { entity, index: 1 }]);
+    }
+    Some(vec![Change::RemoveVertex { entity, index: place.segment }])
+}
+
+/// The entity goes and a neighbour's end moves to where the other neighbour is; a line's rather than an arc's.
+fn in_chain(outlook: &Outlook, index: isize, place: &ContourSegment) -> Option<Vec<Change>> {
+    let (before, behind) = (outlook.segment(index - 1)?, outlook.segment(index + 1)?);
+    if [before.entity, behind.entity].contains(&place.entity) || before.entity == behind.entity && outlook.contour.len() < 3 {
+        return None;
+    }
+    Some(vec![joined(outlook.drawing, &before, &behind)?, Change::RemoveEntity { entity: place.entity }])
 }

@@ -14,8 +14,9 @@ pub(super) const PUBLISH_LIMIT: usize = 500;
 /// Where the pages of the rules stand.
 const RULES: &str = "https://github.com/wedm/wedm/blob/main/docs/rules/";
 
-/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others.
-pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Diagnostic> {
+/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
+/// there are in all.
+pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> (Vec<Diagnostic>, usize) {
     let (findings, count) = document.findings(PUBLISH_LIMIT);
     let mut diagnostics = diagnostics(document, &findings, encoding);
     if count > findings.len()
@@ -28,7 +29,7 @@ pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Dia
             encoding,
         ));
     }
-    diagnostics
+    (diagnostics, count)
 }
 
 pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: Encoding) -> Vec<Diagnostic> {
@@ -37,14 +38,9 @@ pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: E
 
 /// A finding of `document` as the client is shown it.
 pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
-    diagnostic_at(document, document.text(), finding, encoding)
-}
-
-/// A finding whose bytes are counted in `text`: for a document that was made of a text's drawing alone.
-pub(super) fn diagnostic_at(document: &Document, text: Option<&SourceText>, finding: &Finding, encoding: Encoding) -> Diagnostic {
     let drawing = document.drawing().map(|drawing| &**drawing);
     let unit_mm = drawing.map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
-    let range = match (text, document.range_of(&finding.place)) {
+    let range = match (document.text(), document.range_of(&finding.place)) {
         _ if finding.rule == Rule::More => Range::default(),
         (Some(text), Some(bytes)) => range_of(text, bytes, encoding),
         _ => match finding.place {
@@ -70,7 +66,7 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
         range: error.range.clone().map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
         severity: severity_number(Rule::Settings.default_severity()),
         code: Rule::Settings.name().into(),
-        code_description: None,
+        code_description: code_description(Rule::Settings),
         source: "wedm".into(),
         message: error.message.clone(),
         data: None,
@@ -79,7 +75,7 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
 }
 
 fn code_description(rule: Rule) -> Option<CodeDescription> {
-    (rule != Rule::More).then(|| CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
+    Some(CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
 }
 
 pub(super) fn range_of(text: &SourceText, bytes: std::ops::Range<usize>, encoding: Encoding) -> Range {

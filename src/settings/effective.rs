@@ -2,9 +2,9 @@
 
 use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, RuleSeverity, Settings, SideSetting, UnitSetting};
 use crate::drawing::{Role, Unit};
-use crate::finding::{Rule, Severity};
+use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// All levels laid over each other and the defaults below them. Lengths in mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Effective {
     pub margin: f64,
     pub layers: BTreeMap<String, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,
+    /// The rules whose severity somebody has set.
+    pub stated: BTreeSet<Rule>,
     pub layout: Layout,
     pub direction: Direction,
     pub corner: Corner,
@@ -57,6 +59,7 @@ impl Effective {
             let set: Option<&RuleSeverity> = settings.rules.as_ref().and_then(|rules| rules.get(rule.name()));
             (rule, set.map_or(Some(rule.default_severity()), |severity| severity.severity()))
         });
+        let is_stated = |rule: &Rule| settings.rules.as_ref().is_some_and(|rules| rules.get(rule.name()).is_some());
         Effective {
             correction,
             pass: (corrections.len() > 1).then_some(index + 1),
@@ -69,6 +72,7 @@ impl Effective {
             margin: settings.margin.unwrap_or(0.001),
             layers: settings.layers.clone().unwrap_or_default(),
             severities: severities.into_iter().collect(),
+            stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             layout: program.layout.unwrap_or_default(),
             direction: program.direction.unwrap_or_default(),
             corner: program.corner.unwrap_or_default(),
@@ -86,6 +90,16 @@ impl Effective {
     /// Severity of a rule, `None` when it is switched off.
     pub fn severity(&self, rule: Rule) -> Option<Severity> {
         self.severities.get(&rule).copied().unwrap_or(Some(rule.default_severity()))
+    }
+
+    /// Severity of a reader's finding: what is set for its rule, else what the reader gave it. `None` when it is switched off.
+    pub fn severity_of(&self, finding: &Finding) -> Option<Severity> {
+        self.severity_over(finding.rule, finding.severity)
+    }
+
+    /// Severity of something whose rule has other severities than its default one: `own`, unless somebody has set the rule.
+    pub fn severity_over(&self, rule: Rule, own: Severity) -> Option<Severity> {
+        if self.stated.contains(&rule) { self.severity(rule) } else { Some(own) }
     }
 
     /// The unit of a drawing: its own, else that of the settings.

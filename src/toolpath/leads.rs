@@ -218,7 +218,7 @@ pub(super) fn thread_hole(
     let Some(way) = to_path.try_normalize(0.0) else { return Ok(begin) };
     for walls in [all, own] {
         let mut length = settings.lead_in / unit_mm;
-        while length > nearest + 1e-6 / unit_mm {
+        while length.is_finite() && length > nearest + 1e-6 / unit_mm {
             let thread = entry.point + way * length;
             if walls.too_near(&Segment::line(thread, begin), clearance).is_none() {
                 return Ok(thread);

@@ -2,8 +2,8 @@
 
 use super::Refusal;
 use super::corners::{Element, between};
-use crate::drawing::{Contour, Drawing, Outline};
-use crate::geometry::{Arc, Point, Segment};
+use crate::drawing::{Contour, Drawing, Outline, winding};
+use crate::geometry::{Arc, Bounds, Point, Segment};
 use crate::settings::Direction;
 
 /// The handle of a contour's first entity, which names the contour to the user.
@@ -21,7 +21,8 @@ pub(super) fn outline_of(drawing: &Drawing, outlines: &[Outline], handle: &str) 
     found.ok_or_else(|| Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut")))
 }
 
-/// Indices of the outlines to cut, in machining order: all, or those that hold one of `handles`.
+/// Indices of the outlines to cut, in machining order: all, or those that hold one of `handles`. What lies within a contour that
+/// comes earlier is brought before it, because the part drops when the contour round it is cut.
 pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>) -> Result<Vec<usize>, Refusal> {
     let mut chosen: Vec<usize> = match handles {
         None => (0..outlines.len()).collect(),
@@ -33,7 +34,50 @@ pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[
     if chosen.is_empty() {
         return Err(Refusal::Sentence("there is no contour to cut".into()));
     }
+    inner_first(drawing, outlines, &mut chosen);
     Ok(chosen)
+}
+
+/// Leaves an order alone in which nothing comes before what it holds. Else the contours within one outermost contour follow each
+/// other, the innermost first; which outermost comes first stays as it was.
+fn inner_first(drawing: &Drawing, outlines: &[Outline], chosen: &mut [usize]) {
+    let boxes: Vec<Bounds> = chosen.iter().map(|&index| outlines[index].contour.bounds(drawing)).collect();
+    let mut by_left: Vec<usize> = (0..chosen.len()).filter(|&place| outlines[chosen[place]].contour.closed).collect();
+    by_left.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
+    let mut depths = vec![0_usize; chosen.len()];
+    let mut outermost: Vec<usize> = (0..chosen.len()).collect();
+    let mut out_of_order = false;
+    for &inner in &by_left {
+        let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else { continue };
+        let point = first.geometry.point_at(0.5);
+        let reach = by_left.partition_point(|&other| boxes[other].min.x <= boxes[inner].min.x);
+        for &outer in &by_left[..reach] {
+            let around = boxes[outer];
+            let holds = outer != inner
+                && around != boxes[inner]
+                && around.max.x >= boxes[inner].max.x
+                && around.min.y <= boxes[inner].min.y
+                && around.max.y >= boxes[inner].max.y
+                && winding(drawing, &outlines[chosen[outer]].contour, point) != 0;
+            if holds {
+                depths[inner] += 1;
+                // From left to right, so that the first holder is the outermost.
+                outermost[inner] = if outermost[inner] == inner { outermost[outer] } else { outermost[inner] };
+                out_of_order |= outer < inner;
+            }
+        }
+    }
+    if !out_of_order {
+        return;
+    }
+    let mut group: Vec<usize> = (0..chosen.len()).collect();
+    for place in 0..chosen.len() {
+        group[outermost[place]] = group[outermost[place]].min(place);
+    }
+    let mut order: Vec<usize> = (0..chosen.len()).collect();
+    order.sort_by_key(|&place| (group[outermost[place]], std::cmp::Reverse(depths[place]), place));
+    let sorted: Vec<usize> = order.into_iter().map(|place| chosen[place]).collect();
+    chosen.copy_from_slice(&sorted);
 }
 
 /// The contour in the direction of the cut, and whether that is against its own. An open contour is cut as drawn.

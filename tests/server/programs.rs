@@ -60,6 +60,29 @@ fn what_cannot_be_asked_for_is_refused_and_what_can_is_named() {
     client.shut_down();
 }
 
+/// The finding that refuses a program of DXF text stands where the text has its number.
+#[test]
+fn what_refuses_a_program_of_text_has_its_place_in_the_text() {
+    let mut client = Client::start();
+    let text = crate::support::dxf_of(&[(
+        "2A",
+        &[[1.5, 0.0, 0.0], [9.5, 0.0, 0.414213562373], [10.0, 0.5, 0.0], [10.0, 10.0, 0.0], [1.5, 10.0, 0.0]],
+    )]);
+    assert_eq!(client.open_text("untitled:a.dxf", "dxf", &text), Vec::<Value>::new());
+    let mut check = |method: &str, options: Value, rule: &str, expected: &str| {
+        let error = client.request(method, json!({ "uri": "untitled:a.dxf", "format": "3b", "options": options })).unwrap_err();
+        let diagnostic = &error["data"]["diagnostics"][0];
+        assert_eq!(diagnostic["code"], rule, "{error}");
+        let line = diagnostic["range"]["start"]["line"].as_u64().unwrap() as usize;
+        assert_eq!(text.lines().nth(line).map(str::trim), Some(expected), "{error}");
+    };
+    check("wedm/generate", json!({ "side": "opening", "correction": 0.6 }), "small-radius", "0.414213562373");
+    let outside = json!({ "side": "opening", "program": { "thread": [5, -5] } });
+    check("wedm/generate", outside.clone(), "lead-in", "1.5");
+    check("wedm/toolpath", outside, "lead-in", "1.5");
+    client.shut_down();
+}
+
 #[test]
 fn options_hold_for_their_request_alone() {
     let mut client = Client::start();

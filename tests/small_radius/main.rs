@@ -2,4 +2,6 @@
 
 mod opening;
 mod oracle;
+#[path = "../support/star.rs"]
+mod star;
 mod support;

@@ -25,10 +25,10 @@ pub fn settings(correction: f64) -> Arc<Effective> {
 pub fn faults(drawing: &Drawing, settings: &Arc<Effective>) -> Vec<(usize, f64)> {
     let (findings, _) = Analysis::new(drawing, settings.clone()).findings(drawing, usize::MAX);
     let fault = |finding: wedm::finding::Finding| match (finding.place, finding.detail) {
-        (Place::Segment { segment, .. }, Detail::SmallRadius(numbers)) => (segment, numbers.radius),
-        other => panic!("{other:?}"),
+        (Place::Segment { segment, .. }, Detail::SmallRadius(numbers)) => Some((segment, numbers.radius)),
+        _ => None,
     };
-    findings.into_iter().map(fault).collect()
+    findings.into_iter().filter_map(fault).collect()
 }
 
 /// Fix-all first, then single preferred fixes, until nothing is left to do.

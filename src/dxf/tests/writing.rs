@@ -59,7 +59,7 @@ fn number() -> impl Strategy<Value = f64> {
 }
 
 fn change() -> impl Strategy<Value = (usize, usize, [f64; 5], u8)> {
-    (0..6usize, 0..5usize, [number(), number(), number(), number(), number()], 0..8u8)
+    (0..6usize, 0..5usize, [number(), number(), number(), number(), number()], 0..12u8)
 }
 
 proptest! {
@@ -77,9 +77,24 @@ proptest! {
             let first = seen.insert((which, 99));
             match &drawing.get(entity).unwrap().geometry {
                 _ if kind == 0 && first => edit.changes.push(Change::RemoveEntity { entity }),
+                _ if kind == 2 => {
+                    let geometry = Geometry::Line { start: Point::new(x, y), end: Point::new(z, u) };
+                    edit.changes.push(Change::AddEntity { after: entity, geometry });
+                }
+                _ if kind == 3 => {
+                    let geometry = Geometry::Arc { center: Point::new(x, y), radius: z.abs() + 0.1, start_angle: u, end_angle: v };
+                    edit.changes.push(Change::AddEntity { after: entity, geometry });
+                }
+                Geometry::Polyline { vertices, .. } if kind == 4 || kind == 5 => {
+                    let index = index % (vertices.len() + 1);
+                    if !edit.changes.contains(&Change::RemoveVertex { entity, index }) && seen.insert((which, index)) {
+                        edit.changes.push(Change::InsertVertex { entity, index, vertex: Vertex::new(x, y, z / 100.0) });
+                    }
+                }
+                Geometry::Polyline { .. } if kind == 6 => edit.changes.push(Change::SetClosed { entity, closed: index > 1 }),
                 Geometry::Polyline { vertices, .. } => {
                     let index = index % vertices.len();
-                    let removed = edit.changes.iter().any(|change| change.entity() == entity && !matches!(change, Change::SetVertex { .. }));
+                    let removed = edit.changes.iter().any(|change| change.entity() == entity && matches!(change, Change::RemoveVertex { .. }));
                     if kind == 1 && !removed && seen.insert((which, index)) {
                         edit.changes.push(Change::RemoveVertex { entity, index });
                     } else if seen.insert((which, index)) {
@@ -93,11 +108,16 @@ proptest! {
         let mut expected = Drawing::clone(drawing);
         let gone = |edit: &DrawingEdit, change: &Change| edit.changes.contains(&Change::RemoveEntity { entity: change.entity() });
         let sensible = DrawingEdit {
-            changes: edit.changes.iter().filter(|change| !gone(&edit, change) || matches!(change, Change::RemoveEntity { .. })).cloned().collect(),
+            changes: edit.changes.iter().filter(|change| !gone(&edit, change) || matches!(change, Change::RemoveEntity { .. } | Change::AddEntity { .. })).cloned().collect(),
         };
         expected.apply(&sensible).unwrap();
         let again = Document::read(edited(&document, &edit));
-        assert_same(&expected, again.drawing(), true);
+        assert_same(&expected, again.drawing(), false);
+        let old = |entity: &&Entity| drawing.find(&entity.handle).is_some();
+        let named = |of: &Drawing| of.entities().map(|(_, entity)| (entity.handle.clone(), entity.kind)).collect::<Vec<_>>();
+        let kept = |of: &Drawing| of.entities().map(|(_, entity)| entity).filter(old).map(|entity| (entity.handle.clone(), entity.kind)).collect::<Vec<_>>();
+        prop_assert_eq!(kept(&expected), kept(again.drawing()));
+        prop_assert!(named(again.drawing()).iter().all(|(handle, _)| !handle.contains('#')));
         prop_assert_eq!(again.findings(), document.findings());
     }
 
@@ -125,6 +145,18 @@ proptest! {
         prop_assert_eq!(document.drawing().unit, drawing.unit);
         assert_same(&drawing, document.drawing(), false);
     }
+}
+
+#[test]
+fn what_is_new_looks_like_what_stands_beside_it() {
+    let line = "  0\r\nLINE\r\n  5\r\n2F\r\n330\r\n1F\r\n100\r\nAcDbEntity\r\n  8\r\nDIE\r\n 62\r\n     3\r\n100\r\nAcDbLine\r\n 10\r\n0.0\r\n 20\r\n0.0\r\n 30\r\n0.0\r\n 11\r\n1.0\r\n 21\r\n0.0\r\n 31\r\n0.0\r\n";
+    let text = format!("  0\r\nSECTION\r\n  2\r\nENTITIES\r\n{line}  0\r\nENDSEC\r\n  0\r\nEOF\r\n");
+    let document = Document::read(text.clone().into());
+    let after = document.drawing().order()[0];
+    let geometry = Geometry::Arc { center: Point::new(1.0, 0.5), radius: 0.5, start_angle: -TAU / 4.0, end_angle: 0.0 };
+    let edit = DrawingEdit { changes: vec![Change::AddEntity { after, geometry }] };
+    let arc = "  0\r\nARC\r\n  5\r\n30\r\n330\r\n1F\r\n100\r\nAcDbEntity\r\n  8\r\nDIE\r\n 62\r\n     3\r\n100\r\nAcDbCircle\r\n 10\r\n1.0\r\n 20\r\n0.5\r\n 30\r\n0.0\r\n 40\r\n0.5\r\n100\r\nAcDbArc\r\n 50\r\n270.0\r\n 51\r\n0.0\r\n";
+    assert_eq!(String::from_utf8(edited(&document, &edit)).unwrap(), text.replace(line, &format!("{line}{arc}")));
 }
 
 #[test]

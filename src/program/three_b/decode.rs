@@ -25,7 +25,7 @@ const TOLERANCE: f64 = 2.0;
 /// The line or arc of `block` from `start`, in µm.
 ///
 /// A line's X and Y may be reduced by a common factor where the larger is below J; J then carries the scale. The end of an arc
-/// is where the sum of its projections on the counting axis reaches J, which [`travelled`] gives in closed form; J within
+/// is where the sum of its projections on the counting axis reaches J, which `travelled` gives in closed form; J within
 /// 2 µm of 4R is a full circle.
 pub fn decode(block: &Block, start: Point) -> Result<Segment, DecodeFault> {
     match block.motion {

@@ -1,7 +1,7 @@
 //! Paths to the text of one program that is proved block by block while it is written.
 
 use super::block::Node;
-use super::encode::{Encoded, encode, point_of, snap};
+use super::encode::{END_TOLERANCE, Encoded, encode, point_of, snap};
 use super::layout::{push_block, push_start_point};
 use super::parse::{Item, Word, Words, read_line};
 use super::proof::Proof;
@@ -49,7 +49,7 @@ pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Result<P
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
-/// As [`write`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
+/// As [`write()`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
 pub fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
@@ -118,8 +118,7 @@ impl<'a> Writer<'a> {
             self.done += 1;
             let piece = scaled(&segment.geometry, self.scale);
             let gap = (piece.start() - reached).norm();
-            // Written so that a gap that is not a number is refused as well.
-            if !(gap <= super::encode::END_TOLERANCE) {
+            if gap > END_TOLERANCE || gap.is_nan() {
                 return Err(ProofError::Mismatch(format!("the path has a gap of {gap:.3} µm before segment {}", self.done)));
             }
             reached = piece.end();

@@ -1,5 +1,6 @@
 //! Replacements as edits of the entities that hold the contour.
 
+use super::refillet::corner_arc;
 use super::{Replacement, Travel};
 use crate::drawing::{Change, ContourSegment, Drawing, DrawingEdit, EntityId, Geometry, Vertex};
 use crate::geometry::{Arc, Point, Segment, left_normal, positive_angle};
@@ -50,6 +51,60 @@ pub fn drawing_edit(drawing: &Drawing, replacements: &[(Travel, Replacement)]) -
         }
         changes.extend(entity_changes(drawing, entity, &of_entity)?);
     }
+    Some(DrawingEdit { changes })
+}
+
+/// The edit that rounds the corner between the segments at `before` and behind it, which turns to the left, with the fix
+/// radius. `None` where no such arc fits, or where an entity cannot take it.
+pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<DrawingEdit> {
+    let arc = corner_arc(travel, before, limits)?;
+    let (one, other) = (travel.segment(before)?, travel.segment(before + 1)?);
+    let drawing = travel.drawing;
+    let cut = |place: &ContourSegment, point: Point, at_end: bool| {
+        let own = drawing.get(place.entity)?.geometry.segment(place.segment)?;
+        Some(with_end(own, point, at_end != place.reversed))
+    };
+    let (first, second) = (cut(&one, arc.start, true)?, cut(&other, arc.end, false)?);
+    if one.entity == other.entity
+        && let Geometry::Polyline { closed, vertices } = &drawing.get(one.entity)?.geometry
+        && (vertices.len() > 2 || *closed)
+        && one.segment != other.segment
+    {
+        let entity = one.entity;
+        let ((early, early_cut), (late, late_cut), own_arc) = match one.reversed {
+            false => ((one.segment, first), (other.segment, second), Segment::Arc(arc)),
+            true => ((other.segment, second), (one.segment, first), Segment::Arc(arc.reversed())),
+        };
+        // The two ends of an open polyline may touch in a corner: that joint is no vertex of its own.
+        if (early + 1) % vertices.len() == late {
+            let bulge_of = |segment: Segment, old: Vertex| if segment.as_arc().is_some() { segment.bulge() } else { old.bulge };
+            let mut changes = Vec::new();
+            let start = *vertices.get(early)?;
+            let bulge = bulge_of(early_cut, start);
+            if bulge != start.bulge {
+                changes.push(Change::SetVertex { entity, index: early, vertex: Vertex { bulge, ..start } });
+            }
+            changes.push(Change::SetVertex { entity, index: late, vertex: Vertex { point: own_arc.start(), bulge: own_arc.bulge() } });
+            let bulge = bulge_of(late_cut, *vertices.get(late)?);
+            changes.push(Change::InsertVertex { entity, index: late + 1, vertex: Vertex { point: own_arc.end(), bulge } });
+            return Some(DrawingEdit { changes });
+        }
+    }
+    if one.entity == other.entity {
+        return None;
+    }
+    let mut changes = Vec::new();
+    for (place, cut) in [(&one, first), (&other, second)] {
+        changes.extend(entity_changes(drawing, place.entity, &BTreeMap::from([(place.segment, Fate::Kept(cut))]))?);
+    }
+    let after = if travel.side == crate::finding::Side::Left { one.entity } else { other.entity };
+    let geometry = Geometry::Arc {
+        center: arc.center,
+        radius: arc.radius,
+        start_angle: positive_angle(arc.start_angle),
+        end_angle: positive_angle(arc.start_angle + arc.sweep),
+    };
+    changes.push(Change::AddEntity { after, geometry });
     Some(DrawingEdit { changes })
 }
 

@@ -11,8 +11,8 @@ mod refillet;
 mod run;
 mod travel;
 
-pub use edit::{drawing_edit, keep_end_points};
-pub use refillet::{Attempt, Replacement, refillet};
+pub use edit::{drawing_edit, fillet, keep_end_points};
+pub use refillet::{Attempt, Replacement, made_tangent, refillet};
 pub use run::run_of;
 pub use travel::Travel;
 

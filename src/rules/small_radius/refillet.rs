@@ -40,19 +40,47 @@ pub struct Attempt {
 /// by at most a half turn, and its disc keeps clear of the whole contour. Where none fits, short neighbours are swallowed,
 /// as long as that moves the contour by no more than the correction.
 pub fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -> Attempt {
-    let (first, last) = (*run.start(), *run.end());
-    let mut search = Search {
-        travel,
-        limits,
-        run: run.clone(),
-        region: Bounds::EMPTY,
-        would_seal: false,
-        slack: limits.tolerances.clearance,
-        old_center: Point::origin(),
-        arcs: (last - first + 1) as usize,
-    };
+    let mut search = Search::new(travel, limits, run.clone());
     let outcome = search.search();
     Attempt { outcome, region: search.region.grown(limits.tolerances.join) }
+}
+
+/// The arc at `position` with the radius it has, made tangent to its neighbour at its end (or, with `at_end` false, at its
+/// start). At the other end it is tangent too, or keeps the vertex. No promise on how far the contour moves.
+pub fn made_tangent(travel: &Travel, position: isize, at_end: bool, limits: &Limits) -> Vec<Replacement> {
+    let (before, after) = (position - 1, position + 1);
+    let (Some(one), Some(other), Some(Segment::Arc(old))) = (
+        travel.segment(before).map(|place| place.geometry),
+        travel.segment(after).map(|place| place.geometry),
+        travel.segment(position).map(|place| place.geometry),
+    ) else {
+        return Vec::new();
+    };
+    let of_radius = Limits { fix_radius: old.radius, ..*limits };
+    let search = Search::new(travel, &of_radius, position..=position);
+    let mut found = Vec::new();
+    for elsewhere in [Hold::Neighbour, Hold::Vertex] {
+        let (at_start, at_end) = if at_end { (elsewhere, Hold::Neighbour) } else { (Hold::Neighbour, elsewhere) };
+        // Held by a vertex, the arc must end where the neighbour does.
+        for arc in search.arcs(&one, at_start, &other, at_end) {
+            found.push(Replacement { before, after, arc, arcs: 1, moved: search.moved(&arc, before, after) });
+        }
+    }
+    found
+}
+
+/// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and behind it, which turns
+/// to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the contour.
+pub fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {
+    let (one, other) = (travel.segment(before)?.geometry, travel.segment(before + 1)?.geometry);
+    let mut search = Search::new(travel, limits, before..=before);
+    search.old_center = one.end();
+    let mut arcs = search.arcs(&one, Hold::Neighbour, &other, Hold::Neighbour);
+    arcs.sort_by(|a, b| (a.center - one.end()).norm().total_cmp(&(b.center - one.end()).norm()));
+    let least = limits.tolerances.short;
+    let leaves_enough =
+        |arc: &Arc| one.share_of(arc.start) * one.length() >= least && (1.0 - other.share_of(arc.end)) * other.length() >= least;
+    arcs.into_iter().find(|arc| leaves_enough(arc) && search.is_clear(arc, before, before + 1))
 }
 
 /// What the new arc is held by at one end.
@@ -82,7 +110,21 @@ struct Search<'a> {
     arcs: usize,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(travel: &'a Travel<'a>, limits: &'a Limits, run: RangeInclusive<isize>) -> Search<'a> {
+        let arcs = (run.end() - run.start() + 1) as usize;
+        let slack = limits.tolerances.clearance;
+        Search { travel, limits, run, region: Bounds::EMPTY, would_seal: false, slack, old_center: Point::origin(), arcs }
+    }
+
+    /// The arcs that are held so at their two ends.
+    fn arcs(&self, one: &Segment, at_start: Hold, other: &Segment, at_end: Hold) -> Vec<Arc> {
+        let (Some(first), Some(second)) = (self.locus(one, one.end(), at_start), self.locus(other, other.start(), at_end)) else {
+            return Vec::new();
+        };
+        meet(&first, &second).into_iter().filter_map(|center| self.arc_about(center, one, at_start, other, at_end)).collect()
+    }
+
     fn search(&mut self) -> Result<Replacement, NoFix> {
         let (first, last) = (*self.run.start(), *self.run.end());
         let count = self.travel.len() as isize;
@@ -203,7 +245,7 @@ impl Search<'_> {
                     .then(|| Locus::Line { point: line.start + left_normal(direction) * radius, direction })
             }
             (Hold::Neighbour, Segment::Arc(arc)) if arc.sweep > 0.0 => {
-                (arc.radius > radius).then(|| Locus::Circle { center: arc.center, radius: arc.radius - radius })
+                (arc.radius > radius).then_some(Locus::Circle { center: arc.center, radius: arc.radius - radius })
             }
             (Hold::Neighbour, Segment::Arc(arc)) => Some(Locus::Circle { center: arc.center, radius: arc.radius + radius }),
         }

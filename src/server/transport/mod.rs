@@ -5,6 +5,7 @@
 //! message or a cancellation. Knows JSON-RPC, and of LSP only `initialize` and `exit`.
 
 mod frame;
+mod memory;
 mod message;
 mod prepared;
 mod stdio;
@@ -14,6 +15,7 @@ pub(crate) use prepared::Prepared;
 pub(crate) use writer::{Publish, Writer};
 
 use frame::{Frame, Frames};
+use memory::Memory;
 use message::Incoming;
 use serde_json::Value;
 use std::any::Any;
@@ -49,6 +51,7 @@ pub(crate) struct Transport<S, I> {
     writer: Writer,
     prepared: Prepared,
     runtime: tokio::runtime::Runtime,
+    memory: Memory,
     /// Handlers that still wait.
     waiting: Arc<AtomicUsize>,
 }
@@ -56,7 +59,7 @@ pub(crate) struct Transport<S, I> {
 impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     pub fn new(service: LspService<S>, inbox: I, writer: Writer, prepared: Prepared) -> std::io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_time().thread_name("wedm-replies").build()?;
-        Ok(Transport { service, inbox, writer, prepared, runtime, waiting: Arc::default() })
+        Ok(Transport { service, inbox, writer, prepared, runtime, memory: Memory::default(), waiting: Arc::default() })
     }
 
     /// Serves until `exit` or the end of the input; true when the client said `exit`.
@@ -77,9 +80,11 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                     Ok(Incoming::Invalid { id, error }) => self.send(Response::from_error(id, error)),
                     Ok(Incoming::Reply { id, result }) => self.inbox.reply(id, result),
                     Ok(Incoming::Request(request)) => {
+                        let length = body.len();
                         drop(body);
                         let exit = request.method() == "exit" && request.id().is_none();
                         self.dispatch(request);
+                        self.memory.after_message(length, &self.runtime);
                         if exit {
                             return true;
                         }

@@ -15,6 +15,9 @@ use std::time::{Duration, Instant};
 /// While more bytes than this wait, no more messages are taken from the client.
 const BACKLOG: usize = 32 * 1024 * 1024;
 
+/// Bodies up to this length are copied behind their header; longer ones are not held twice.
+const ONE_WRITE: usize = 1024 * 1024;
+
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Publish {
@@ -202,10 +205,17 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
                 serde_json::to_vec(&message).map_err(std::io::Error::other)?
             }
         };
-        // One write for header and body: readers then wake once.
         let mut frame = format!("Content-Length: {}\r\n\r\n", body.len()).into_bytes();
-        frame.extend_from_slice(&body);
-        output.write_all(&frame)?;
+        if body.len() <= ONE_WRITE {
+            // One write for header and body: readers then wake once.
+            frame.extend_from_slice(&body);
+            output.write_all(&frame)?;
+        } else {
+            output.write_all(&frame)?;
+            output.write_all(&body)?;
+            drop(body);
+            super::memory::give_back();
+        }
         output.flush()?;
     }
 }

@@ -1,0 +1,149 @@
+//! Sessions with the real server over its pipes, as an editor or a CAD program sees them: `cargo bench --bench session`.
+//!
+//! Every figure is printed beside its goal; nothing fails on a slow machine. The clock runs from before the message is
+//! written to after the answer has been read and parsed. `-- --quick` makes fewer rounds.
+
+mod generated;
+#[allow(dead_code)]
+#[path = "../tests/support/mod.rs"]
+mod support;
+
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+use support::{Client, capabilities};
+
+fn main() {
+    let quick = std::env::args().any(|argument| argument == "--quick");
+    let rounds = if quick { 40 } else { 400 };
+    println!("{:<58} {:>10} {:>10} {:>10}   goal", "", "p50", "p99", "most");
+    start(if quick { 5 } else { 30 });
+    for (name, text) in [
+        ("5 MB DXF of LWPOLYLINE", generated::polylines(5_000_000)),
+        ("5 MB DXF of LINE and ARC", generated::lines_and_arcs(5_000_000)),
+        ("5 MB DXF, one LWPOLYLINE", generated::one_polyline(140_000)),
+    ] {
+        text_session(name, &text, rounds);
+    }
+    drawing_session(rounds);
+    generate_session(if quick { 200 } else { 1000 });
+}
+
+/// Prints p50, p99 and the largest of some durations.
+fn row(name: &str, mut times: Vec<Duration>, goal: &str) {
+    times.sort();
+    let at = |share: f64| times[((times.len() as f64 * share) as usize).min(times.len() - 1)];
+    let ms = |time: Duration| format!("{:.3} ms", time.as_secs_f64() * 1e3);
+    println!("{name:<58} {:>10} {:>10} {:>10}   {goal}", ms(at(0.5)), ms(at(0.99)), ms(at(1.0)));
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let began = Instant::now();
+    let result = work();
+    (result, began.elapsed())
+}
+
+/// Resident memory of the server in bytes; `None` where the system does not tell.
+fn resident(client: &Client) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
+    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kibibytes| kibibytes * 1024)
+}
+
+fn start(rounds: usize) {
+    let times = (0..rounds).map(|_| timed(|| Client::start_with(capabilities(), json!({}))).1).collect();
+    row("start to initialize answered", times, "20 ms");
+}
+
+fn text_session(name: &str, text: &str, rounds: usize) {
+    let uri = "file:///bench.dxf";
+    let mut client = Client::start();
+    let (found, time) = timed(|| client.open_text(uri, "dxf", text));
+    row(&format!("{name}: open, {} findings", found.len()), vec![time], "250 ms");
+    if let Some(bytes) = resident(&client) {
+        println!("{name}: resident memory {:.1} times the text   goal 10 times", bytes as f64 / text.len() as f64);
+    }
+    // A digit of a coordinate in the middle of the file comes and goes.
+    let middle = text[..text.len() / 2].rfind("\n10\n").map_or(0, |at| at + 4);
+    let line = text[..middle].matches('\n').count();
+    let mut version = 1;
+    let mut change = |client: &mut Client| {
+        version += 1;
+        let (end, new) = if version % 2 == 0 { (0, "1") } else { (1, "") };
+        let range = json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": end } });
+        let changes = json!([{ "range": range, "text": new }]);
+        client.notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
+        version
+    };
+    let edits = (0..rounds).map(|_| {
+        timed(|| {
+            let version = change(&mut client);
+            client.diagnostics(uri, version)
+        })
+        .1
+    });
+    row(&format!("{name}: one character, edit to diagnostics"), edits.collect(), "p50 5 ms, p99 20 ms");
+    let bursts = (0..if rounds > 100 { 5 } else { 1 }).map(|_| {
+        let mut last = 0;
+        for _ in 0..30 {
+            std::thread::sleep(Duration::from_millis(1000 / 15));
+            last = change(&mut client);
+        }
+        timed(|| client.diagnostics(uri, last)).1
+    });
+    row(&format!("{name}: burst of 30 at 15/s, last answer"), bursts.collect(), "50 ms");
+    client.shut_down();
+}
+
+fn drawing_session(rounds: usize) {
+    let uri = "cad:///bench";
+    let mut client = Client::start();
+    let entity = json!({ "handle": "2A", "type": "polyline", "closed": true, "vertices": generated::long_outline(1_000_000) });
+    let (_, time) = timed(|| client.open_drawing(uri, json!([entity])));
+    row("polyline of 1,000,000 vertices: open", vec![time], "");
+    let mut version = 1;
+    let moves = (0..rounds).map(|round| {
+        version += 1;
+        let vertex = json!([if round % 2 == 0 { 1.0 } else { 1.5 }, 2.0]);
+        let splice = json!([{ "handle": "2A", "vertices": { "start": 500_000, "deleteCount": 1, "insert": [vertex] } }]);
+        timed(|| {
+            client.change_drawing(uri, version, splice);
+            client.diagnostics(uri, version)
+        })
+        .1
+    });
+    row("polyline of 1,000,000 vertices: one moves", moves.collect(), "p50 1 ms");
+    client.shut_down();
+}
+
+/// A trivial request while nothing happens, and while a program of 100,000 blocks is written.
+fn generate_session(rounds: usize) {
+    let (uri, small) = ("cad:///large", "cad:///small");
+    let mut client = Client::start_with(capabilities(), json!({ "correction": 0.03, "side": "opening" }));
+    client.open_drawing(small, json!([{ "handle": "1", "type": "line", "start": [0, 0], "end": [1, 0] }]));
+    let ping = |client: &mut Client| timed(|| client.request("wedm/inspect", json!({ "uri": small }))).1;
+    row("a trivial request, nothing else under way", (0..rounds).map(|_| ping(&mut client)).collect(), "p99 1 ms");
+    // 12,500 openings of eight segments each: a block for each of them.
+    let openings: Vec<Value> = (0..12_500)
+        .map(|i| {
+            let vertices = generated::opening((i % 100) as f64 * 8.0, (i / 100) as f64 * 6.0, 0.3);
+            json!({ "handle": format!("{i}"), "type": "polyline", "closed": true, "vertices": vertices })
+        })
+        .collect();
+    client.open_drawing(uri, json!(openings));
+    let mut busy = Vec::new();
+    let mut programs = Vec::new();
+    for _ in 0..if rounds > 500 { 5 } else { 1 } {
+        let began = Instant::now();
+        let id = client.ask("wedm/generate", json!({ "uri": uri, "format": "3b" }));
+        while !client.seen.iter().any(|message| message["id"] == id) {
+            busy.push(ping(&mut client));
+            assert!(began.elapsed() < support::PATIENCE, "the program comes in time");
+        }
+        let program = client.answer(id).unwrap_or_else(|error| panic!("{error}"));
+        programs.push((began.elapsed(), program["blocks"].as_u64().unwrap_or(0)));
+    }
+    row("a trivial request while 3B is generated", busy, "p99 20 ms");
+    let blocks = programs.first().map_or(0, |(_, blocks)| *blocks);
+    row(&format!("3B of {blocks} blocks, proved"), programs.into_iter().map(|(time, _)| time).collect(), "");
+    client.shut_down();
+}

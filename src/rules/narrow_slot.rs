@@ -1,0 +1,130 @@
+//! `narrow-slot`: two facing walls on the wire side, closer together than the wire is wide.
+//!
+//! Seen is each local minimum of the width: a disc of a diameter below twice the correction that touches two walls from
+//! opposite sides, holds no other part of the outlines, and could only grow by moving along the slot. A corner is none: between its
+//! walls the disc can always shrink. The mouth of a run of arcs below the correction is none either: `small-radius` says it.
+
+use super::wall::{Corner, Joints, Wall, parts_for_good, side_of};
+use super::{Limits, NEIGHBOURS, PairRule, Sight, small_radius};
+use crate::finding::{Detail, Rule, Side};
+use crate::geometry::{Point, Segment, curvature, facing, foot_inside};
+
+pub const RULE: PairRule = PairRule {
+    rule: Rule::NarrowSlot,
+    reach: |limits| 2.0 * limits.correction,
+    look: |one, other, same_contour| {
+        let slot = narrowest(one, other, same_contour)?;
+        let center = slot.from + (slot.to - slot.from) * 0.5;
+        Some(Sight { sides: slot.sides, disc: Some((center, slot.width / 2.0)), mildest: None })
+    },
+    detail: |one, other, same_contour| {
+        let Slot { width, .. } = narrowest(one, other, same_contour)?;
+        Some(Detail::NarrowSlot { width, required: 2.0 * one.outlook.limits.correction })
+    },
+    fixes: |_, _| Vec::new(),
+    one_per_place: true,
+    silent_for_doubles: false,
+    warning_when_side_unknown: true,
+};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Slot {
+    from: Point,
+    to: Point,
+    width: f64,
+    sides: (Option<Side>, Option<Side>),
+}
+
+/// The narrowest place between two segments that is a local minimum of the width.
+fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
+    let limits = one.outlook.limits;
+    let tolerances = &limits.tolerances;
+    let joints = Joints::of(one, other, same_contour, tolerances.touch);
+    if joints.neighbours && parts_for_good(one, other) {
+        return None;
+    }
+    let (a, b) = (one.geometry(), other.geometry());
+    let mut best: Option<Slot> = None;
+    let mut consider = |from: Point, to: Point, sides: &dyn Fn(crate::geometry::Vector) -> Option<(Option<Side>, Option<Side>)>| {
+        let width = (to - from).norm();
+        let narrow = width > tolerances.touch && width < 2.0 * limits.correction - tolerances.report;
+        if narrow
+            && best.is_none_or(|best| width < best.width)
+            && !(joints.are_at(from, tolerances.touch) && joints.are_at(to, tolerances.touch))
+            && let Some(sides) = sides((to - from) / width)
+        {
+            best = Some(Slot { from, to, width, sides });
+        }
+    };
+    let wall_side = |segment: &Segment, at: Point, toward| Some(side_of(segment.tangent_at(segment.share_of(at).clamp(0.0, 1.0)), toward));
+    for (from, to) in facing(a, b) {
+        consider(from, to, &|toward| {
+            let width = (to - from).norm();
+            is_minimum(width, curvature(a, from, toward), curvature(b, to, -toward))
+                .then(|| (wall_side(a, from, toward), wall_side(b, to, -toward)))
+        });
+    }
+    let inside = |corner: &Corner, wall: &Segment| foot_inside(wall, corner.at);
+    for corner in one.corners() {
+        if let Some(foot) = inside(&corner, b) {
+            consider(corner.at, foot, &|toward| {
+                (corner.is_nearest(toward) && is_minimum((foot - corner.at).norm(), f64::NEG_INFINITY, curvature(b, foot, -toward)))
+                    .then(|| (corner.side(toward), wall_side(b, foot, -toward)))
+            });
+        }
+        for met in other.corners() {
+            consider(corner.at, met.at, &|toward| {
+                (corner.is_nearest(toward) && met.is_nearest(-toward)).then(|| (corner.side(toward), met.side(-toward)))
+            });
+        }
+    }
+    for corner in other.corners() {
+        if let Some(foot) = inside(&corner, a) {
+            consider(foot, corner.at, &|toward| {
+                (corner.is_nearest(-toward) && is_minimum((foot - corner.at).norm(), curvature(a, foot, toward), f64::NEG_INFINITY))
+                    .then(|| (wall_side(a, foot, toward), corner.side(-toward)))
+            });
+        }
+    }
+    best.filter(|_| !(same_contour && (is_mouth(one, other, limits) || is_mouth(other, one, limits))))
+}
+
+/// True when the distance of two walls has a minimum, or stays as it is, where they are `width` apart and curve toward each
+/// other with these curvatures (the second derivatives of the distance; −∞ for a vertex, which cannot be moved).
+fn is_minimum(width: f64, one: f64, other: f64) -> bool {
+    const ROUNDING: f64 = 1e-6;
+    let (u, v) = (1.0 - width * one, 1.0 - width * other);
+    match (one.is_finite(), other.is_finite()) {
+        (true, true) => u >= 0.0 && v >= 0.0 && u * v >= 1.0 - ROUNDING,
+        (true, false) => u > 0.0,
+        (false, true) => v > 0.0,
+        (false, false) => true,
+    }
+}
+
+/// True when only arcs below the correction, all bent the same way, lead from `one` to `other`.
+fn is_mouth(one: &Wall, other: &Wall, limits: &Limits) -> bool {
+    let mut bend = 0.0;
+    let is_tight = |segment: &Segment, bend: &mut f64| match segment {
+        Segment::Arc(arc) if small_radius::is_too_small(arc.radius, limits) && (*bend == 0.0 || *bend == arc.sweep.signum()) => {
+            *bend = arc.sweep.signum();
+            true
+        }
+        _ => false,
+    };
+    let count = one.outlook.contour.len();
+    let own = is_tight(one.geometry(), &mut bend);
+    for steps in 1..=NEIGHBOURS {
+        let index = one.index + steps;
+        let index = if one.outlook.contour.closed { index % count } else { index };
+        if index == other.index {
+            // Two straight walls with a round end are a slot all the same: that is seen between the walls.
+            return own;
+        }
+        let Some(segment) = one.beside(steps as isize) else { return false };
+        if !is_tight(&segment, &mut bend) {
+            return false;
+        }
+    }
+    false
+}

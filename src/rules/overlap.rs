@@ -1,0 +1,53 @@
+//! `overlap`: two segments on one line or one circle that run on one another over more than 0.005 mm.
+//!
+//! The wire would go twice along the same wall, and which way the contour goes on is anybody's guess. Two entities that are
+//! doubles of each other as a whole are `duplicate-entity`. Fix: an entity that lies wholly within another one goes.
+
+use super::wall::{Joints, Wall};
+use super::{PairRule, Sight};
+use crate::drawing::{Change, DrawingEdit};
+use crate::finding::{Detail, Fix, FixKind, Rule};
+use crate::geometry::shared_length;
+
+pub const RULE: PairRule = PairRule {
+    rule: Rule::Overlap,
+    reach: |limits| limits.tolerances.same_place,
+    look,
+    detail: |one, other, _| Some(Detail::Overlap { length: shared(one, other) }),
+    fixes,
+    one_per_place: false,
+    silent_for_doubles: true,
+    warning_when_side_unknown: false,
+};
+
+fn look(one: &Wall, other: &Wall, same_contour: bool) -> Option<Sight> {
+    let tolerances = &one.outlook.limits.tolerances;
+    let length = shared(one, other);
+    if length <= tolerances.same_place {
+        return None;
+    }
+    // Ends that are joined within the tolerance may reach past each other.
+    let joined = Joints::of(one, other, same_contour, tolerances.touch).neighbours && length <= tolerances.join;
+    (!joined).then(Sight::default)
+}
+
+fn shared(one: &Wall, other: &Wall) -> f64 {
+    shared_length(one.geometry(), other.geometry(), one.outlook.limits.tolerances.same_place)
+}
+
+fn fixes(one: &Wall, other: &Wall) -> Vec<Fix> {
+    let tolerance = one.outlook.limits.tolerances.same_place;
+    let lies_within = |inner: &Wall, outer: &Wall| {
+        let entity = inner.segment.entity;
+        let alone = inner.outlook.drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() == 1);
+        alone && entity != outer.segment.entity && shared(inner, outer) >= inner.geometry().length() - tolerance
+    };
+    let inner = [(other, one), (one, other)].into_iter().find(|(inner, outer)| lies_within(inner, outer));
+    let delete = |(inner, _): (&Wall, &Wall)| Fix {
+        kind: FixKind::DeleteDouble,
+        preferred: true,
+        in_fix_all: true,
+        edit: DrawingEdit { changes: vec![Change::RemoveEntity { entity: inner.segment.entity }] },
+    };
+    inner.map(delete).into_iter().collect()
+}

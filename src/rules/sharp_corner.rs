@@ -1,0 +1,68 @@
+//! `sharp-corner`: a corner that the wire runs inside of.
+//!
+//! A round wire leaves at least its own radius and the spark gap there, whatever was drawn. Fix: a fillet of that radius,
+//! so that the drawing says what comes off the machine.
+
+use super::small_radius::{Travel, fillet};
+use super::{Fact, LocalRule, Outlook};
+use crate::finding::{Detail, Fix, FixKind, Rule, Side};
+use std::ops::Range;
+
+pub const RULE: LocalRule = LocalRule {
+    rule: Rule::SharpCorner,
+    look,
+    reach: |_, _| (0, 1),
+    holds: |_, _| true,
+    related: |_, _| Vec::new(),
+    detail,
+    fixes,
+    one_hint_when_side_unknown: true,
+};
+
+/// Turns (radians) above this are corners.
+const LEAST: f64 = 1.0 * std::f64::consts::PI / 180.0;
+
+/// Below this a joint is one that nearly is tangent, and `near-tangent` speaks of it, unless the wire is known to run inside.
+pub const CLEAR: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
+/// The side on which the wire runs inside a corner that turns by `turn`; `None` for what is no corner.
+pub fn inner_side(turn: f64) -> Option<Side> {
+    (turn.abs() > LEAST).then_some(if turn > 0.0 { Side::Left } else { Side::Right })
+}
+
+fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
+    for index in range {
+        if let Some(turn) = outlook.turn_at(index)
+            && let Some(side) = inner_side(turn)
+        {
+            facts.push(Fact { index: index as u32, side: Some(side), needs_side: turn.abs() < CLEAR });
+        }
+    }
+}
+
+/// Left with R, the last pass's correction; uncut is what stands between the arc and the corner, `R (1 / cos(θ/2) − 1)`,
+/// and no more than the shorter of the two segments.
+fn detail(outlook: &Outlook, fact: Fact, count: usize) -> Option<Detail> {
+    let index = fact.index as isize;
+    let turn = outlook.turn_at(fact.index as usize)?;
+    let (before, behind) = (outlook.segment(index - 1)?, outlook.segment(index)?);
+    let radius = outlook.limits.last_correction;
+    let half = (turn / 2.0).cos();
+    let shorter = before.geometry.length().min(behind.geometry.length());
+    let uncut = if half * (radius + shorter) > radius { radius * (1.0 / half - 1.0) } else { shorter };
+    Some(Detail::SharpCorner { turn: if behind.reversed { -turn } else { turn }, radius, uncut, count })
+}
+
+fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
+    let Some(side) = outlook.turn_at(fact.index as usize).and_then(inner_side) else { return Vec::new() };
+    let travel = Travel { drawing: outlook.drawing, contour: outlook.contour, index: outlook.index, side };
+    let index = fact.index as usize;
+    // The corner lies at the start of the segment at `index`; against the contour's direction, at its end.
+    let before = match side {
+        Side::Left => travel.position_of(index) - 1,
+        Side::Right => travel.position_of(index),
+    };
+    let Some(edit) = fillet(&travel, before, outlook.limits) else { return Vec::new() };
+    let kind = FixKind::Fillet { radius: outlook.limits.fix_radius };
+    vec![Fix { kind, preferred: true, in_fix_all: false, edit }]
+}

@@ -1,0 +1,127 @@
+//! One segment of a contour as the rules on pairs see it, with what lies before and behind it.
+
+use super::{NEIGHBOURS, Outlook};
+use crate::drawing::ContourSegment;
+use crate::finding::Side;
+use crate::geometry::{Point, Segment, Vector, cross, turn};
+use std::f64::consts::PI;
+
+/// A segment of a contour in the contour's direction of travel.
+#[derive(Clone, Copy, Debug)]
+pub struct Wall<'a> {
+    pub outlook: &'a Outlook<'a>,
+    pub index: usize,
+    pub segment: ContourSegment,
+}
+
+/// A vertex of a contour: where one segment ends and the next begins. One of the two is missing at the end of an open contour.
+#[derive(Clone, Copy, Debug)]
+pub struct Corner {
+    pub at: Point,
+    pub incoming: Option<Segment>,
+    pub outgoing: Option<Segment>,
+}
+
+impl<'a> Wall<'a> {
+    pub fn new(outlook: &'a Outlook<'a>, index: usize) -> Option<Wall<'a>> {
+        Some(Wall { outlook, index, segment: outlook.segment(index as isize)? })
+    }
+
+    pub fn geometry(&self) -> &Segment {
+        &self.segment.geometry
+    }
+
+    /// The segment `steps` further in the direction of travel.
+    pub fn beside(&self, steps: isize) -> Option<Segment> {
+        self.outlook.segment(self.index as isize + steps).map(|segment| segment.geometry)
+    }
+
+    /// The vertex that the segment starts in; and the one it ends in where no other segment starts there. So each vertex
+    /// belongs to one segment.
+    pub fn corners(&self) -> impl Iterator<Item = Corner> + use<> {
+        let geometry = *self.geometry();
+        let start = Corner { at: geometry.start(), incoming: self.beside(-1), outgoing: Some(geometry) };
+        let is_last = !self.outlook.contour.closed && self.index + 1 == self.outlook.contour.len();
+        let end = is_last.then(|| Corner { at: geometry.end(), incoming: Some(geometry), outgoing: None });
+        std::iter::once(start).chain(end)
+    }
+
+    /// How many steps forward it is from this segment to `other` of the same contour; up to [`NEIGHBOURS`].
+    fn steps_to(&self, other: &Wall) -> Option<usize> {
+        let count = self.outlook.contour.len();
+        let steps = if self.outlook.contour.closed {
+            (other.index + count - self.index) % count.max(1)
+        } else {
+            other.index.checked_sub(self.index)?
+        };
+        (1..=NEIGHBOURS).contains(&steps).then_some(steps)
+    }
+}
+
+/// How two segments of one contour hang together.
+#[derive(Clone, Debug, Default)]
+pub struct Joints {
+    /// The ends of the two that are one joint, or have only short segments between them.
+    pub points: Vec<Point>,
+    /// One follows the other at once, at one end only.
+    pub neighbours: bool,
+}
+
+impl Joints {
+    /// The joints of two segments; what lies between them counts as part of a joint where it is no longer than `short`.
+    pub fn of(one: &Wall, other: &Wall, same_contour: bool, short: f64) -> Joints {
+        let mut joints = Joints::default();
+        if !same_contour {
+            return joints;
+        }
+        let mut direct = 0;
+        for (from, to) in [(one, other), (other, one)] {
+            let Some(steps) = from.steps_to(to) else { continue };
+            let between: f64 = (1..steps as isize).filter_map(|step| from.beside(step)).map(|segment| segment.length()).sum();
+            if steps == 1 || between <= short {
+                joints.points.extend([from.geometry().end(), to.geometry().start()]);
+                direct += usize::from(steps == 1);
+            }
+        }
+        joints.neighbours = direct == 1;
+        joints
+    }
+
+    /// True when a point lies at a joint.
+    pub fn are_at(&self, point: Point, tolerance: f64) -> bool {
+        self.points.iter().any(|joint| (joint - point).norm() <= tolerance)
+    }
+}
+
+/// True when two neighbours turn so little together that they cannot come near each other again.
+pub fn parts_for_good(one: &Wall, other: &Wall) -> bool {
+    let (a, b) = (one.geometry(), other.geometry());
+    let sweep = |segment: &Segment| segment.as_arc().map_or(0.0, |arc| arc.sweep.abs());
+    let swept = sweep(a) + sweep(b);
+    if swept >= 0.999 * PI {
+        return false;
+    }
+    let forward = one.steps_to(other) == Some(1);
+    let (from, to) = if forward { (a, b) } else { (b, a) };
+    swept + turn(from.end_tangent(), to.start_tangent()).abs() < 0.999 * PI
+}
+
+impl Corner {
+    /// True when no step along the contour brings the vertex nearer to what lies in `direction` (a unit vector) of it.
+    pub fn is_nearest(&self, direction: Vector) -> bool {
+        const ROUNDING: f64 = 1e-6;
+        self.outgoing.is_none_or(|segment| direction.dot(&segment.start_tangent()) <= ROUNDING)
+            && self.incoming.is_none_or(|segment| direction.dot(&segment.end_tangent()) >= -ROUNDING)
+    }
+
+    /// Side of travel on which `direction` leaves the vertex; `None` at an open end and at the tip of a spike.
+    pub fn side(&self, direction: Vector) -> Option<Side> {
+        let along = self.incoming?.end_tangent() + self.outgoing?.start_tangent();
+        (along.norm() > 1e-6).then(|| side_of(along, direction))
+    }
+}
+
+/// Side of `along` on which `direction` lies.
+pub fn side_of(along: Vector, direction: Vector) -> Side {
+    if cross(along, direction) > 0.0 { Side::Left } else { Side::Right }
+}

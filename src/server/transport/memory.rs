@@ -1,0 +1,43 @@
+//! Giving memory back to the system.
+//!
+//! A message of many megabytes becomes millions of small pieces on its way; freed, they stay with the allocator of some
+//! systems for good. What a large message left behind is given back a moment after it.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// Messages shorter than this leave little behind.
+const LARGE: usize = 1024 * 1024;
+/// Long enough for what the message set off to be done with.
+const DELAY: Duration = Duration::from_millis(400);
+
+#[derive(Clone, Default)]
+pub(super) struct Memory {
+    is_due: Arc<AtomicBool>,
+}
+
+impl Memory {
+    /// Gives back what a message of `length` bytes leaves behind.
+    pub fn after_message(&self, length: usize, runtime: &tokio::runtime::Runtime) {
+        if length < LARGE || self.is_due.swap(true, Ordering::AcqRel) {
+            return;
+        }
+        let is_due = self.is_due.clone();
+        runtime.spawn(async move {
+            tokio::time::sleep(DELAY).await;
+            is_due.store(false, Ordering::Release);
+            give_back();
+        });
+    }
+}
+
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub(super) fn give_back() {
+    // SAFETY: the allocator locks what it trims; nothing that is in use is touched.
+    unsafe { libc::malloc_trim(0) };
+}
+
+/// Other allocators give back by themselves.
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+pub(super) fn give_back() {}

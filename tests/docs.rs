@@ -1,0 +1,207 @@
+//! The documentation is true: its links lead somewhere, its commands do what it shows, its pictures are what the program
+//! draws, and every rule has its page.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use wedm::finding::Rule;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn wedm(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_wedm")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// README.md, CHANGELOG.md and every page of `docs`.
+fn pages() -> Vec<PathBuf> {
+    let of_docs = walkdir::WalkDir::new(root().join("docs")).sort_by_file_name().into_iter().map(|entry| entry.unwrap().into_path());
+    let pages = of_docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+    [root().join("README.md"), root().join("CHANGELOG.md")].into_iter().chain(pages).collect()
+}
+
+/// Targets of all links and pictures of a page, what stands in fenced blocks and in code left out.
+fn links(page: &str) -> Vec<String> {
+    let mut fenced = false;
+    let mut links = Vec::new();
+    for line in page.lines() {
+        if line.starts_with("```") {
+            fenced = !fenced;
+            continue;
+        }
+        let text: String = line.split('`').step_by(2).collect();
+        let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        links.extend(targets.filter(|_| !fenced).map(str::to_owned));
+    }
+    links
+}
+
+/// The anchors that headings make: lower case, spaces to hyphens, punctuation dropped.
+fn anchors(page: &str) -> Vec<String> {
+    let headings = page.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim().to_lowercase());
+    let anchor =
+        |heading: String| heading.chars().filter(|c| c.is_alphanumeric() || *c == ' ' || *c == '-').collect::<String>().replace(' ', "-");
+    headings.map(anchor).collect()
+}
+
+#[test]
+fn every_rule_has_its_page() {
+    for rule in Rule::ALL {
+        let page = read(&root().join(format!("docs/rules/{}.md", rule.name())));
+        assert!(page.starts_with(&format!("# {}\n", rule.name())), "{}", rule.name());
+        for heading in ["## What it does", "## Why it matters for the cut", "## Example", "## Settings"] {
+            assert!(page.contains(heading), "{}: no {heading:?}", rule.name());
+        }
+    }
+}
+
+#[test]
+fn every_relative_link_leads_somewhere() {
+    for path in pages() {
+        let page = read(&path);
+        for link in links(&page).iter().filter(|link| !link.contains("://")) {
+            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target = if file.is_empty() { path.clone() } else { path.parent().unwrap().join(file) };
+            assert!(target.exists(), "{}: {link} leads nowhere", path.display());
+            let known = anchor.is_empty() || anchors(&read(&target)).iter().any(|known| known == anchor);
+            assert!(known, "{}: {link} names no heading", path.display());
+        }
+    }
+}
+
+/// One command of a `console` block: what follows `$ `, the lines shown behind it, and the code that `$ echo $?` shows.
+struct Shown {
+    command: String,
+    lines: Vec<String>,
+    code: i32,
+}
+
+fn commands(page: &str) -> Vec<Shown> {
+    let mut commands: Vec<Shown> = Vec::new();
+    let (mut within, mut asks_for_code) = (false, false);
+    for line in page.lines() {
+        if line.starts_with("```") {
+            within = line == "```console";
+        } else if within && line == "$ echo $?" {
+            asks_for_code = true;
+        } else if within && let Some(command) = line.strip_prefix("$ ") {
+            commands.push(Shown { command: command.into(), lines: Vec::new(), code: 0 });
+        } else if within && let Some(last) = commands.last_mut() {
+            match std::mem::take(&mut asks_for_code) {
+                true => last.code = line.parse().unwrap_or_else(|_| panic!("{line:?} is no exit code")),
+                false => last.lines.push(line.to_owned()),
+            }
+        }
+    }
+    commands
+}
+
+/// True when `line` is what is shown, in which `...` stands for anything.
+fn is_shown(shown: &str, line: &str) -> bool {
+    let parts: Vec<&str> = shown.split("...").collect();
+    let (Some(first), Some(last)) = (parts.first(), parts.last()) else { return false };
+    let Some(mut rest) = line.strip_prefix(first) else { return false };
+    if parts.len() == 1 {
+        return rest.is_empty();
+    }
+    for part in &parts[1..parts.len() - 1] {
+        let Some(at) = rest.find(part) else { return false };
+        rest = &rest[at + part.len()..];
+    }
+    rest.ends_with(last)
+}
+
+#[test]
+fn the_commands_of_the_readme_do_what_it_shows() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("tests/data");
+    std::fs::create_dir_all(&data).unwrap();
+    for entry in std::fs::read_dir(root().join("tests/data")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_file() {
+            std::fs::copy(&path, data.join(path.file_name().unwrap())).unwrap();
+        }
+    }
+    let shown = commands(&read(&root().join("README.md")));
+    let ours = shown.iter().filter_map(|shown| {
+        let arguments = shown.command.strip_prefix("wedm ").or_else(|| shown.command.strip_prefix("cargo run --release -- "))?;
+        Some((shown, arguments.split_whitespace().collect::<Vec<_>>()))
+    });
+    let mut count = 0;
+    for (shown, arguments) in ours {
+        let output = wedm(folder.path(), &arguments);
+        let printed = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
+        assert_eq!(output.status.code(), Some(shown.code), "{}: {printed}", shown.command);
+        for line in &shown.lines {
+            assert!(printed.lines().any(|other| is_shown(line, other)), "{}: no line {line:?} in\n{printed}", shown.command);
+        }
+        count += 1;
+    }
+    assert!(count >= 5, "the README shows {count} commands");
+}
+
+/// Holds a picture against the committed one.
+#[track_caller]
+fn check_picture(name: &str, drawn: &str) {
+    let path = root().join("docs/pictures").join(name);
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        std::fs::write(&path, drawn).unwrap();
+    }
+    assert!(read(&path) == drawn, "docs/pictures/{name} is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs");
+}
+
+#[test]
+fn the_pictures_are_what_the_program_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let pictures = root().join("docs/pictures");
+    for entry in std::fs::read_dir(&pictures).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "dxf") {
+            let output = wedm(folder.path(), &["draw", path.to_str().unwrap(), "--side", "opening"]);
+            let name = path.with_extension("svg");
+            check_picture(name.file_name().unwrap().to_str().unwrap(), &String::from_utf8(output.stdout).unwrap());
+        }
+    }
+    assert!(wedm(folder.path(), &["demo", "."]).status.success());
+    check_picture("plate.svg", &read(&folder.path().join("demo.svg")));
+}
+
+#[test]
+fn the_readme_says_what_each_dependency_is_for() {
+    let readme = read(&root().join("README.md"));
+    let (_, table) = readme.split_once("## What each dependency is for").unwrap();
+    let named: Vec<&str> = table.lines().filter_map(|line| line.strip_prefix("| ")?.split(" |").next()).collect();
+    let named: Vec<&str> = named.iter().flat_map(|cell| cell.trim_start_matches("*for tests:* ").split(", ")).collect();
+    let manifest: toml::Table = read(&root().join("Cargo.toml")).parse().unwrap();
+    let of = |table: &toml::Value| table.as_table().unwrap().keys().cloned().collect::<Vec<_>>();
+    let unix = &manifest["target"]["cfg(unix)"]["dependencies"];
+    for name in [&manifest["dependencies"], unix, &manifest["dev-dependencies"]].into_iter().flat_map(of) {
+        assert!(named.contains(&name.as_str()), "{name} is not in the table");
+    }
+}
+
+/// The README's `wedm.toml` is read without a fault, and all but its examples are the defaults.
+#[test]
+fn the_settings_of_the_readme_are_the_defaults() {
+    let readme = read(&root().join("README.md"));
+    let example = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let mut settings = String::new();
+    let mut in_example = false;
+    for line in example.lines() {
+        if line.starts_with('[') {
+            in_example = line.contains("# an example") || line.contains("# examples");
+        }
+        if !in_example && !line.contains("# an example") {
+            settings += &format!("{line}\n");
+        }
+    }
+    let (all, errors) = wedm::settings::from_toml(example);
+    assert!(errors.is_empty(), "{errors:?}");
+    assert!(all.layers.is_some() && all.passes.is_some());
+    let (defaults, _) = wedm::settings::from_toml(&settings);
+    assert_eq!(wedm::settings::Effective::of(&defaults), wedm::settings::Effective::default());
+}

@@ -1,0 +1,6 @@
+//! The rules on pairs of segments.
+
+mod cases;
+mod outlines;
+#[path = "../support/star.rs"]
+mod star;

@@ -1,0 +1,283 @@
+//! The rules on segments and on contours: what they see in a drawing, however it is drawn, and that a fix lets it go.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+use wedm::analysis::Analysis;
+use wedm::drawing::{Drawing, Entity, Geometry, Role, Vertex};
+use wedm::finding::{Finding, Rule, Severity};
+use wedm::geometry::{Point, Segment, positive_angle};
+use wedm::settings::{Effective, Settings};
+
+/// A contour by its vertices.
+#[derive(Clone, Debug)]
+struct Shape {
+    closed: bool,
+    vertices: Vec<(f64, f64, f64)>,
+}
+
+fn closed(vertices: &[(f64, f64, f64)]) -> Shape {
+    Shape { closed: true, vertices: vertices.to_vec() }
+}
+
+fn open(vertices: &[(f64, f64, f64)]) -> Shape {
+    Shape { closed: false, vertices: vertices.to_vec() }
+}
+
+fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
+    Entity { handle: "A".into(), layer: "0".into(), role, kind: "LINE", geometry }
+}
+
+impl Shape {
+    fn geometry(&self) -> Geometry {
+        Geometry::Polyline { closed: self.closed, vertices: self.vertices.iter().map(|&(x, y, bulge)| Vertex::new(x, y, bulge)).collect() }
+    }
+
+    fn as_polyline(&self, role: Option<Role>) -> Drawing {
+        let mut drawing = Drawing::new(None);
+        drawing.push(entity(self.geometry(), role));
+        drawing
+    }
+
+    fn as_chain(&self, role: Option<Role>) -> Drawing {
+        let mut drawing = Drawing::new(None);
+        for segment in self.geometry().segments() {
+            let geometry = match segment {
+                Segment::Line(line) => Geometry::Line { start: line.start, end: line.end },
+                Segment::Arc(arc) => {
+                    let arc = if arc.sweep > 0.0 { arc } else { arc.reversed() };
+                    let (start_angle, end_angle) = (positive_angle(arc.start_angle), positive_angle(arc.start_angle + arc.sweep));
+                    Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle }
+                }
+            };
+            drawing.push(entity(geometry, role));
+        }
+        drawing
+    }
+
+    /// Mirrored at the y axis: what turned left turns right.
+    fn mirrored(&self) -> Shape {
+        Shape { vertices: self.vertices.iter().map(|&(x, y, bulge)| (-x, y, -bulge)).collect(), ..*self }
+    }
+
+    /// The other way round.
+    fn reversed(&self) -> Shape {
+        let count = self.vertices.len();
+        let vertices = (0..count).map(|at| {
+            let (x, y, _) = self.vertices[count - 1 - at];
+            let bulge = match (at + 2).cmp(&(count + 1)) {
+                std::cmp::Ordering::Less => self.vertices[count - 2 - at].2,
+                _ => self.vertices[count - 1].2,
+            };
+            (x, y, -bulge)
+        });
+        Shape { vertices: vertices.collect(), ..*self }
+    }
+
+    fn begun_elsewhere(&self) -> Shape {
+        let mut vertices = self.vertices.clone();
+        if self.closed {
+            vertices.rotate_left(self.vertices.len() / 2);
+        }
+        Shape { vertices, ..*self }
+    }
+}
+
+fn settings() -> Arc<Effective> {
+    Arc::new(Effective::of(&Settings { correction: Some(0.1), ..Settings::default() }))
+}
+
+fn analysed(drawing: &Drawing) -> (Analysis, Vec<Finding>) {
+    let mut analysis = Analysis::new(drawing, settings());
+    let findings = analysis.findings(drawing, usize::MAX).0;
+    (analysis, findings)
+}
+
+fn count(findings: &[Finding], rule: Rule) -> usize {
+    findings.iter().filter(|finding| finding.rule == rule).count()
+}
+
+/// Every way to draw the shape.
+fn drawings(shape: &Shape, role: Option<Role>) -> Vec<Drawing> {
+    let shapes =
+        [shape.clone(), shape.mirrored(), shape.reversed(), shape.begun_elsewhere(), shape.reversed().mirrored().begun_elsewhere()];
+    shapes.iter().flat_map(|shape| [shape.as_polyline(role), shape.as_chain(role)]).collect()
+}
+
+/// Asserts that the rule sees so many places however the shape is drawn, and, one at a time, that its fixes let them go where
+/// `fixable` says so, leaving nothing worse behind.
+fn check(shape: &Shape, role: Option<Role>, rule: Rule, expected: usize, fixable: bool) {
+    for (way, mut drawing) in drawings(shape, role).into_iter().enumerate() {
+        let (mut analysis, mut findings) = analysed(&drawing);
+        assert_eq!(count(&findings, rule), expected, "way {way}: {findings:#?}");
+        let worse = |findings: &[Finding]| findings.iter().filter(|finding| finding.severity <= Severity::Warning).count();
+        let before = worse(&findings);
+        for left in (0..expected).rev().filter(|_| fixable) {
+            let finding = findings.iter().find(|finding| finding.rule == rule).unwrap();
+            let fixes = analysis.fixes(&drawing, finding);
+            let fix = fixes.first().unwrap_or_else(|| panic!("way {way}: no fix for {finding:?}"));
+            drawing.apply(&fix.edit).unwrap();
+            (analysis, findings) = analysed(&drawing);
+            assert_eq!(count(&findings, rule), left, "way {way}: {fix:#?} {findings:#?}");
+        }
+        assert!(worse(&findings) <= before, "way {way}: {findings:#?}");
+    }
+}
+
+const SQUARE: [(f64, f64, f64); 4] = [(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)];
+
+#[test]
+fn corners_are_sharp_where_the_wire_runs_inside() {
+    let l = closed(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 5.0, 0.0), (5.0, 5.0, 0.0), (5.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    check(&closed(&SQUARE), Some(Role::Opening), Rule::SharpCorner, 4, true);
+    check(&closed(&SQUARE), Some(Role::Punch), Rule::SharpCorner, 0, true);
+    check(&l, Some(Role::Opening), Rule::SharpCorner, 5, true);
+    check(&l, Some(Role::Punch), Rule::SharpCorner, 1, true);
+    // A hint that stands for all of them.
+    check(&l, None, Rule::SharpCorner, 1, false);
+    // A line into an arc that turns away at 90°.
+    let step = closed(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 5.0, 0.4), (7.0, 5.0, 0.0), (0.0, 5.0, 0.0)]);
+    check(&step, Some(Role::Opening), Rule::SharpCorner, 5, true);
+}
+
+#[test]
+fn joints_that_are_nearly_tangent() {
+    // Fillets of a quarter turn whose bulge is a little off, and a line with a bend of half a degree.
+    let bulge = (PI / 8.0 + 0.0005f64).tan();
+    let fillet = closed(&[(0.0, 0.0, 0.0), (9.0, 0.0, bulge), (10.0, 1.0, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    for drawing in drawings(&fillet, None) {
+        let (analysis, findings) = analysed(&drawing);
+        let near: Vec<&Finding> = findings.iter().filter(|finding| finding.rule == Rule::NearTangent).collect();
+        assert_eq!(near.len(), 2, "{findings:#?}");
+        let fixes = analysis.fixes(&drawing, near[0]);
+        let mut edited = drawing.clone();
+        edited.apply(&fixes.first().expect("a fix").edit).unwrap();
+        assert_eq!(count(&analysed(&edited).1, Rule::NearTangent), 0);
+    }
+    let bend = closed(&[(0.0, 0.0, 0.0), (0.3, 0.002, 0.0), (10.0, 0.0, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    check(&bend, None, Rule::NearTangent, 1, true);
+    check(&closed(&SQUARE), None, Rule::NearTangent, 0, true);
+}
+
+/// A slot's end of a half turn, as so many chords.
+fn chords(number: usize) -> Shape {
+    let corner = |at: usize| {
+        let angle = PI * at as f64 / number as f64 - PI / 2.0;
+        (10.0 + 5.0 * angle.cos(), 5.0 + 5.0 * angle.sin(), 0.0)
+    };
+    let mut vertices = vec![(0.0, 10.0, 0.0), (0.0, 0.0, 0.0)];
+    vertices.extend((0..=number).map(corner));
+    closed(&vertices)
+}
+
+#[test]
+fn chords_of_an_arc() {
+    check(&chords(12), None, Rule::ArcAsChords, 1, true);
+    check(&chords(200), None, Rule::ArcAsChords, 1, true);
+    check(&chords(4), None, Rule::ArcAsChords, 0, true);
+    check(&closed(&SQUARE), None, Rule::ArcAsChords, 0, true);
+    let round = |number: usize| {
+        let corner = |at: usize| {
+            let angle = 2.0 * PI * at as f64 / number as f64;
+            (5.0 * angle.cos(), 5.0 * angle.sin(), 0.0)
+        };
+        closed(&(0..number).map(corner).collect::<Vec<_>>())
+    };
+    check(&round(6), None, Rule::ArcAsChords, 0, true);
+    check(&round(36), None, Rule::ArcAsChords, 1, true);
+    check(&round(301), None, Rule::ArcAsChords, 1, true);
+}
+
+#[test]
+fn segments_too_short_to_cut() {
+    let mut vertices = SQUARE.to_vec();
+    vertices.insert(1, (9.997, 0.0, 0.0));
+    check(&closed(&vertices), None, Rule::ShortSegment, 1, true);
+    vertices.insert(3, (10.0, 9.998, 0.0));
+    check(&closed(&vertices), None, Rule::ShortSegment, 2, true);
+    check(&open(&[(0.0, 0.0, 0.0), (0.003, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::ShortSegment, 1, false);
+}
+
+#[test]
+fn contours_that_are_open() {
+    check(&open(&SQUARE), None, Rule::OpenContour, 1, true);
+    check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.3), (10.0, 10.0, 0.0), (0.0, 0.5, 0.0)]), None, Rule::OpenContour, 1, true);
+    check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::OpenContour, 1, false);
+    check(&closed(&SQUARE), None, Rule::OpenContour, 0, true);
+}
+
+#[test]
+fn ends_that_do_not_meet() {
+    let (line, arc) = (
+        |x0: f64, y0: f64, x1: f64, y1: f64| Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) },
+        Geometry::Arc { center: Point::new(10.0, 5.0), radius: 5.0, start_angle: -PI / 2.0, end_angle: PI / 2.0 },
+    );
+    let polyline = Geometry::Polyline { closed: false, vertices: vec![Vertex::new(10.0, 10.003, 0.0), Vertex::new(0.0, 10.0, 0.0)] };
+    for (geometries, gaps) in [
+        (vec![line(0.0, 0.0, 10.0, 0.0), line(10.004, 0.0, 10.0, 10.0), line(0.0, 0.003, 10.0, 10.0)], 2),
+        (vec![line(0.0, 0.0, 9.995, 0.0), arc.clone(), line(10.0, 10.0, 0.0, 10.0), line(0.0, 10.004, 0.0, 0.0)], 2),
+        (vec![line(0.0, 0.0, 10.0, 0.0), arc, polyline, line(0.0, 0.0, 0.0, 10.0)], 1),
+        (vec![line(0.0, 0.0, 10.0, 0.0), line(10.0, 0.0, 10.0, 10.0), line(0.0, 0.0, 10.0, 10.0)], 0),
+    ] {
+        let mut drawing = Drawing::new(None);
+        geometries.into_iter().for_each(|geometry| {
+            drawing.push(entity(geometry, None));
+        });
+        let (analysis, findings) = analysed(&drawing);
+        assert_eq!(count(&findings, Rule::Gap), gaps, "{findings:#?}");
+        for finding in findings.iter().filter(|finding| finding.rule == Rule::Gap) {
+            assert_eq!(finding.related.len(), 1);
+            let mut edited = drawing.clone();
+            edited.apply(&analysis.fixes(&drawing, finding).first().expect("a fix").edit).unwrap();
+            assert_eq!(count(&analysed(&edited).1, Rule::Gap), gaps - 1);
+        }
+        let quiet = all_fixed(drawing);
+        assert_eq!(count(&analysed(&quiet).1, Rule::Gap), 0);
+    }
+}
+
+/// The drawing after "fix all", again and again until it has nothing more to offer.
+fn all_fixed(mut drawing: Drawing) -> Drawing {
+    for _ in 0..12 {
+        let Some(edit) = Analysis::new(&drawing, settings()).fix_all(&drawing) else { return drawing };
+        let before = analysed(&drawing).1.len();
+        drawing.apply(&edit).unwrap();
+        assert!(analysed(&drawing).1.len() < before);
+    }
+    panic!("there is no end to the fixes");
+}
+
+#[test]
+fn fix_all_goes_on_until_nothing_safe_is_left() {
+    let mut vertices = chords(150).vertices;
+    vertices.insert(1, (0.0, 9.996, 0.0));
+    vertices.insert(2, (0.0, 5.0, 0.0));
+    vertices.insert(3, (0.0, 4.997, 0.0));
+    for drawing in drawings(&closed(&vertices), None) {
+        let mut doubled = drawing.clone();
+        for (_, each) in drawing.entities() {
+            doubled.push(each.clone());
+        }
+        let quiet = all_fixed(doubled);
+        let findings = analysed(&quiet).1;
+        for rule in [Rule::DuplicateEntity, Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords, Rule::OpenContour] {
+            assert_eq!(count(&findings, rule), 0, "{findings:#?}");
+        }
+        assert_eq!(quiet.entities().map(|(_, entity)| entity.geometry.segment_count()).sum::<usize>(), 5, "{quiet:#?}");
+    }
+}
+
+#[test]
+fn an_open_contour_is_no_error_where_it_is_the_wires_path() {
+    let drawing = open(&SQUARE).as_polyline(None);
+    for (text, expected) in [
+        ("", Severity::Error),
+        ("[program]\ncompensation = \"none\"", Severity::Information),
+        ("[rules]\nopen-contour = \"warning\"", Severity::Warning),
+        ("[program]\ncompensation = \"none\"\n[rules]\nopen-contour = \"error\"", Severity::Error),
+    ] {
+        let settings: Settings = toml::from_str(text).unwrap();
+        let (findings, _) = Analysis::new(&drawing, Arc::new(Effective::of(&settings))).findings(&drawing, 100);
+        let severity = findings.iter().find(|finding| finding.rule == Rule::OpenContour).map(|finding| finding.severity);
+        assert_eq!(severity, Some(expected), "{text}");
+    }
+}
