@@ -352,7 +352,14 @@ impl Analysis {
         let arc = *contour.segment(drawing, index)?.geometry.as_arc()?;
         let travel = Travel { drawing, contour, index: &self.known.get(&key)?.index, side: small_radius::center_side(arc.sweep) };
         let run = small_radius::run_of(&travel, travel.position_of(index), &self.limits)?;
-        Some((travel, small_radius::refillet(&travel, &run, &self.limits)))
+        let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
+        if let Ok(replacement) = &attempt.outcome
+            && !(replacement.before..=replacement.after)
+                .all(|position| travel.segment(position).is_none_or(|segment| drawing.is_editable(segment.entity)))
+        {
+            attempt.outcome = Err(NoFix::NotEditable);
+        }
+        Some((travel, attempt))
     }
 
     /// Why a fault has no fix, `None` where it has one; remembered until something near it changes.

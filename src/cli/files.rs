@@ -70,9 +70,9 @@ pub fn refuse_faulty_settings(opened: &Opened) -> Result<(), Failure> {
 fn kind_of(path: &Path) -> Result<Kind, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     let refusal = match ending.as_str() {
-        "dxf" => return Ok(Kind::Dxf),
+        // What is in the file decides between text and binary DXF.
+        "dxf" | "dxb" | "dxfb" => return Ok(Kind::Dxf),
         "3b" => return Ok(Kind::ThreeB),
-        "dxb" => "binary DXB is not read yet, expected .dxf or .3b".into(),
         "iso" | "nc" => "ISO programs are not read yet, expected .dxf or .3b".into(),
         "dwg" => "DWG is not read, expected .dxf: save the drawing as DXF".into(),
         "" => "its name has no ending, expected .dxf or .3b".into(),
@@ -83,7 +83,7 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
 
 fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
     let source = match kind {
-        Kind::Dxf => Source::Dxf(dxf::Document::read(bytes)),
+        Kind::Dxf => Source::Dxf(dxf::Document::read_file(bytes)),
         Kind::ThreeB => Source::ThreeB(three_b::Document::read(bytes)),
     };
     Document::new(source, settings)

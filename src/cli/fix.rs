@@ -84,6 +84,11 @@ impl Repair {
 
 /// Fixes all, again and again until nothing is left to fix, and proves that the result is no worse.
 fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
+    if let Source::Dxf(text) = document.source()
+        && text.is_binary()
+    {
+        return Err(Failure(format!("{}: it is binary DXF, which is read but not edited: save it as ASCII DXF", path.display())));
+    }
     let before = report::rows(path, &mut document);
     let bytes_before = document.text().map_or_else(Vec::new, |text| text.bytes().to_vec());
     let mut rounds = 0;

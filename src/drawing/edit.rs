@@ -108,14 +108,20 @@ impl Delta {
 pub enum ChangeError {
     UnknownEntity,
     NotAPolyline,
-    OutOfRange { index: usize, count: usize },
+    OutOfRange {
+        index: usize,
+        count: usize,
+    },
     NotFinite,
+    /// A part of a block, or fitted to a curve.
+    NotEditable,
 }
 
 impl std::fmt::Display for ChangeError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             ChangeError::UnknownEntity => write!(f, "there is no such entity"),
+            ChangeError::NotEditable => write!(f, "the entity is a part of a block or fitted to a curve, and cannot be edited"),
             ChangeError::NotAPolyline => write!(f, "the entity is not a polyline and has no vertices"),
             ChangeError::OutOfRange { index, count } => write!(f, "vertex {index} is out of range, the polyline has {count}"),
             ChangeError::NotFinite => write!(f, "a coordinate, radius or bulge is not a finite number, or a radius is not positive"),
@@ -150,7 +156,7 @@ impl Drawing {
         Ok(Touched::Vertices { entity, start, removed: delete_count, inserted: insert.len() })
     }
 
-    /// Applies a whole edit: all of it, or nothing and the first error.
+    /// Applies a whole edit: all of it, or nothing and the first error. What is not editable refuses every change.
     pub fn apply(&mut self, edit: &DrawingEdit) -> Result<Delta, ChangeError> {
         let mut result = self.clone();
         let mut delta = Delta::default();
@@ -159,6 +165,9 @@ impl Drawing {
         for change in &edit.changes {
             let id = change.entity();
             let old = result.get(id).ok_or(ChangeError::UnknownEntity)?;
+            if !result.is_editable(id) {
+                return Err(ChangeError::NotEditable);
+            }
             match *change {
                 Change::SetVertex { entity, index, vertex } => delta.touched.push(result.splice(entity, index, 1, &[vertex])?),
                 Change::RemoveVertex { entity, index } => moving.push((entity, index, None)),

@@ -21,7 +21,7 @@ pub use nesting::{nesting_depths, winding};
 pub use orientation::{Orientation, orientation, orientation_by_extreme_point, orientation_by_turns};
 pub use outline::{Outline, wire_side};
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 
 /// The place of an entity in its drawing: stays the same until the entity is removed, and is not used again.
@@ -48,6 +48,8 @@ pub struct Drawing {
     slots: Vec<Option<Arc<Entity>>>,
     order: Vec<EntityId>,
     by_handle: FxHashMap<Arc<str>, EntityId>,
+    /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
+    fixed: FxHashSet<EntityId>,
 }
 
 impl Drawing {
@@ -108,6 +110,31 @@ impl Drawing {
         id
     }
 
+    /// Adds an entity at the end of the machining order that shares its handle with the entity that [`Drawing::find`]
+    /// gives for it, as the parts of a block do. It is not editable.
+    pub fn push_part(&mut self, entity: Entity) -> EntityId {
+        let id = EntityId(self.slots.len() as u32);
+        self.by_handle.entry(entity.handle.clone()).or_insert(id);
+        self.slots.push(Some(Arc::new(entity)));
+        self.order.push(id);
+        self.fixed.insert(id);
+        id
+    }
+
+    /// Says whether an entity is geometry of the source itself, which an edit can change.
+    pub fn set_editable(&mut self, id: EntityId, editable: bool) {
+        if editable {
+            self.fixed.remove(&id);
+        } else {
+            self.fixed.insert(id);
+        }
+    }
+
+    /// False for a part of a block and for arcs fitted to a curve: the source has no numbers of their own for them.
+    pub fn is_editable(&self, id: EntityId) -> bool {
+        !self.fixed.contains(&id)
+    }
+
     /// Puts another entity in the place of `id`, keeping id, handle and machining order.
     pub fn replace(&mut self, id: EntityId, entity: Entity) {
         if let Some(slot) = self.slots.get_mut(id.0 as usize)
@@ -121,7 +148,10 @@ impl Drawing {
     /// Removes the entity and gives it back. Costs the length of the machining order.
     pub fn remove(&mut self, id: EntityId) -> Option<Arc<Entity>> {
         let entity = self.slots.get_mut(id.0 as usize)?.take()?;
-        self.by_handle.remove(&entity.handle);
+        if self.by_handle.get(&entity.handle) == Some(&id) {
+            self.by_handle.remove(&entity.handle);
+        }
+        self.fixed.remove(&id);
         self.order.retain(|&other| other != id);
         Some(entity)
     }

@@ -39,6 +39,9 @@ impl Document {
     /// Lengths and degrees are written with up to 12 decimals, bulges with 15, a number that stays is not touched. An
     /// angle is written in [0°, 360°).
     pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
+        if self.is_binary {
+            return Err("the file is binary DXF, which is read but not edited: save it as ASCII DXF".into());
+        }
         let mut wanted: BTreeMap<EntityId, Wanted> = BTreeMap::new();
         for change in &edit.changes {
             let of_entity = wanted.entry(change.entity()).or_default();
@@ -79,11 +82,14 @@ impl Document {
             return Err("the entity is not in the text any more".into());
         };
         let of_entity = self.table.lines_of(item, lines.count());
+        let name = format!("{} {}", entity.kind, entity.handle);
+        if !self.drawing.is_editable(id) {
+            return Err(format!("{name} is a part of a block or fitted to a curve, and has no numbers of its own in the text"));
+        }
         if wanted.removed {
             edits.push(TextEdit { range: self.whole_lines(of_entity), text: String::new() });
             return Ok(());
         }
-        let name = format!("{} {}", entity.kind, entity.handle);
         let tags: Vec<Tag> = match entity.geometry {
             Geometry::Polyline { .. } => Vec::new(),
             _ => own_tags(lines, of_entity.clone()).collect(),

@@ -6,10 +6,12 @@
 use super::Document;
 use super::entity::{Outcome, Read, mirror};
 use super::foreign;
+use super::is_fitted;
 use super::lexer::{LOOKAHEAD, Lexer};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
 use super::reader::{ReadItem, Said, range_key, read_item};
+use super::shape::Shape;
 use super::table::{Became, Context, Item, NO_ITEM, Named};
 use crate::drawing::{Delta, Drawing, Entity, EntityId, Touched, Vertex};
 use crate::finding::{Finding, Place, Rule};
@@ -164,7 +166,7 @@ impl Document {
             if known && self.table.items.get(next).is_some_and(|item| item.context == context) {
                 return Some((read, next));
             }
-            let Some(item) = read_item(&mut lexer, context, &mut self.layers, findings) else {
+            let Some(item) = read_item(&mut lexer, context, self.table.fit_tolerance, &mut self.layers, findings) else {
                 return Some((read, self.table.items.len()));
             };
             context = item.after;
@@ -190,6 +192,12 @@ impl Document {
             return None;
         }
         if old.iter().any(|item| item.named == Named::Anew) {
+            return None;
+        }
+        // What a block holds, and what a reference draws, reaches beyond the zone.
+        let of_block = |item: &ReadItem| item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)));
+        let was_of_block = |item: &Item| item.context == Context::Blocks || matches!(item.became, Became::Parts { .. });
+        if read.iter().any(of_block) || old.iter().any(was_of_block) {
             return None;
         }
         let mut ordinal = match unnamed {
@@ -252,7 +260,7 @@ impl Document {
         }
         table.by_ordinal -=
             table.items[old.clone()].iter().filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal).count();
-        let mut position = if plan.come { table.items[..old.start].iter().filter_map(Item::entity).count() } else { 0 };
+        let mut position = if plan.come { table.items[..old.start].iter().map(|item| item.entities().count()).sum() } else { 0 };
         let mut planned = plan.entities.into_iter();
         let (mut starts, mut items) = (Vec::with_capacity(read.len()), Vec::with_capacity(read.len()));
         for ReadItem { line, context, said, .. } in read {
@@ -262,9 +270,10 @@ impl Document {
                     let Some((handle, id)) = planned.next() else { continue };
                     item.named = if read.handle.is_some() { Named::ByText } else { Named::ByOrdinal };
                     table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
-                    let Read { layer, kind, geometry, vertices, .. } = read;
+                    let Read { layer, kind, shape: Shape::Plain(geometry), vertices, .. } = read else { continue };
                     let entity = Entity { handle, layer, role: None, kind, geometry };
                     let id = put(drawing, id, position, entity, &mut delta);
+                    drawing.set_editable(id, !is_fitted(kind));
                     position += 1;
                     item.became = Became::Entity(id);
                     table.set_item_of(id, (old.start + items.len()) as u32);
@@ -287,7 +296,7 @@ impl Document {
         shift(&mut table.lines[end..], lines);
         if grown {
             for index in end..table.items.len() {
-                if let Became::Entity(entity) = table.items[index].became {
+                for entity in table.items[index].entities() {
                     table.set_item_of(entity, index as u32);
                 }
             }

@@ -7,7 +7,9 @@ use super::fault::{damage, meaning, oddity, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
-use super::strings::{decoded, words_of_mtext};
+use super::shape::Shape;
+use super::strings::words_of_mtext;
+use super::{curve, insert};
 use crate::drawing::{Geometry, Vertex};
 use crate::finding::Finding;
 use crate::geometry::Point;
@@ -20,7 +22,7 @@ pub(super) struct Read {
     pub(super) handle: Option<(Arc<str>, usize)>,
     pub(super) layer: Arc<str>,
     pub(super) kind: &'static str,
-    pub(super) geometry: Geometry,
+    pub(super) shape: Shape,
     pub(super) vertices: Option<VertexLines>,
 }
 
@@ -38,6 +40,8 @@ pub(super) struct VertexLines {
 #[derive(Debug)]
 pub(super) enum Outcome {
     Entity(Read),
+    /// A reference to a block.
+    Insert(Box<insert::Insert>),
     /// In the text, but not cut: what it is called, and why.
     Unsupported(String, &'static str),
     /// A finding says what is wrong with it.
@@ -49,12 +53,11 @@ pub(super) const PAPER_SPACE: &str = "it lies in paper space";
 pub(super) const TILTED: &str = "its plane is tilted against the drawing's plane";
 pub(super) const NOT_PLANE: &str = "its points differ in z";
 pub(super) const MESH: &str = "it is a mesh";
-pub(super) const BLOCK: &str = "block references are not resolved";
 pub(super) const OUTSIDE: &str = "it stands outside of the section ENTITIES";
 
 /// Extrusion: the normal of the plane in which an entity's own coordinates lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Plane {
+pub(super) enum Plane {
     Normal,
     /// Seen from below: x runs the other way.
     Mirrored,
@@ -63,13 +66,13 @@ enum Plane {
 
 /// What all kinds of entities state alike.
 #[derive(Default)]
-struct Common {
+pub(super) struct Common {
     handle: Option<Tag>,
     layer: Option<Tag>,
-    paper_space: bool,
+    pub(super) paper_space: bool,
     extrusion: [Option<f64>; 3],
     /// A value was no number, a number was missing or the lines were out of step: there is a finding.
-    bad: bool,
+    pub(super) bad: bool,
     /// Tags of other programs follow, up to the end of the record.
     foreign: bool,
     /// Within a group `{` … `}` of another program.
@@ -79,7 +82,7 @@ struct Common {
 impl Common {
     /// Takes the tags that all entities share, and those that belong to none of its fields. True when taken.
     #[inline]
-    fn take(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> bool {
+    pub(super) fn take(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> bool {
         if self.foreign {
             return true;
         }
@@ -111,7 +114,7 @@ impl Common {
 
     /// The number behind a tag; `None` with a finding where it is none.
     #[inline]
-    fn coordinate(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> Option<f64> {
+    pub(super) fn coordinate(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> Option<f64> {
         match number::number(lexer.lines.content(tag.value_line())) {
             Number::Exact(value) => Some(value),
             other => self.blemished(lexer, tag, other, findings),
@@ -137,12 +140,12 @@ impl Common {
     }
 
     /// A whole number; `None` where it is none.
-    fn whole(lexer: &Lexer, tag: Tag) -> Option<i64> {
+    pub(super) fn whole(lexer: &Lexer, tag: Tag) -> Option<i64> {
         std::str::from_utf8(lexer.lines.trimmed(tag.value_line())).ok()?.parse().ok()
     }
 
     /// Flags; a value that is no whole number is a fault.
-    fn flags(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> i64 {
+    pub(super) fn flags(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> i64 {
         let Some(flags) = Self::whole(lexer, tag) else {
             self.bad = true;
             if !lexer.back_in_step(tag, findings) {
@@ -155,7 +158,7 @@ impl Common {
         flags
     }
 
-    fn plane(&self) -> Plane {
+    pub(super) fn plane(&self) -> Plane {
         let [x, y, z] = [self.extrusion[0].unwrap_or(0.0), self.extrusion[1].unwrap_or(0.0), self.extrusion[2].unwrap_or(1.0)];
         let tilt = 1e-9 * z.abs();
         match () {
@@ -165,7 +168,7 @@ impl Common {
         }
     }
 
-    fn handle(&self, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<(Arc<str>, usize)> {
+    pub(super) fn handle(&self, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<(Arc<str>, usize)> {
         let line = self.handle?.value_line();
         let value = lexer.lines.trimmed(line);
         let hexadecimal = !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
@@ -180,27 +183,27 @@ impl Common {
         Some((String::from_utf8_lossy(value).into(), line))
     }
 
-    fn layer(&self, lexer: &Lexer, layers: &mut Layers) -> Arc<str> {
+    pub(super) fn layer(&self, lexer: &Lexer, layers: &mut Layers) -> Arc<str> {
         layers.name(self.layer.map_or(b"0", |tag| lexer.lines.trimmed(tag.value_line())))
     }
 
     /// Reads the handle and the layer, and puts the parts together.
-    fn finish(
+    pub(super) fn finish(
         self,
         lexer: &Lexer,
         layers: &mut Layers,
         kind: &'static str,
-        geometry: Geometry,
+        shape: Shape,
         vertices: Option<VertexLines>,
         findings: &mut Vec<Finding>,
     ) -> Outcome {
-        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), kind, geometry, vertices })
+        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), kind, shape, vertices })
     }
 }
 
 /// The next tag of the record; the tag that begins the next record is left to the lexer.
 #[inline]
-fn tag_of_record(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> Option<Tag> {
+pub(super) fn tag_of_record(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> Option<Tag> {
     let tag = lexer.next(findings)?;
     if tag.code == 0 {
         lexer.back_to(tag);
@@ -228,25 +231,20 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings:
         b"TEXT" => text("TEXT", start, lexer, layers, findings),
         b"MTEXT" => text("MTEXT", start, lexer, layers, findings),
         b"POLYLINE" => polyline(start, lexer, layers, findings),
+        b"ELLIPSE" => curve::read_ellipse(start, lexer, layers, findings),
+        b"SPLINE" => curve::read_spline(start, lexer, layers, findings),
+        b"INSERT" => insert::read(start, lexer, layers, findings),
+        b"POINT" => point(start, lexer, layers, findings),
         name => {
             let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
-            let reference = kind == "INSERT";
-            let paper_space = pass_over(lexer, findings);
-            if reference {
-                pass_over_followers(lexer, findings, &[b"ATTRIB", b"SEQEND"]);
-            }
-            let why = match (paper_space, reference) {
-                (true, _) => PAPER_SPACE,
-                (_, true) => BLOCK,
-                _ => NOT_CUT,
-            };
+            let why = if pass_over(lexer, findings) { PAPER_SPACE } else { NOT_CUT };
             Outcome::Unsupported(kind, why)
         }
     }
 }
 
 /// Passes over the records behind a record that are a part of it, up to and with its SEQEND.
-fn pass_over_followers(lexer: &mut Lexer, findings: &mut Vec<Finding>, names: &[&[u8]]) {
+pub(super) fn pass_over_followers(lexer: &mut Lexer, findings: &mut Vec<Finding>, names: &[&[u8]]) {
     while let Some(tag) = lexer.peek_record() {
         let name = lexer.lines.trimmed(tag.value_line());
         if !names.contains(&name) {
@@ -260,7 +258,7 @@ fn pass_over_followers(lexer: &mut Lexer, findings: &mut Vec<Finding>, names: &[
     }
 }
 
-fn missing(start: Tag, lexer: &Lexer, codes: &[(i16, bool)], findings: &mut Vec<Finding>) {
+pub(super) fn missing(start: Tag, lexer: &Lexer, codes: &[(i16, bool)], findings: &mut Vec<Finding>) {
     let mut lacking: Vec<String> = codes.iter().filter(|(_, there)| !there).map(|(code, _)| format!("{code}{}", meaning(*code))).collect();
     let kind = String::from_utf8_lossy(lexer.lines.trimmed(start.value_line())).into_owned();
     let last = lacking.pop().unwrap_or_default();
@@ -272,18 +270,18 @@ fn missing(start: Tag, lexer: &Lexer, codes: &[(i16, bool)], findings: &mut Vec<
 }
 
 /// The numbers of an entity that has each of them once.
-struct Numbers<const N: usize> {
+pub(super) struct Numbers<const N: usize> {
     codes: [i16; N],
-    values: [Option<f64>; N],
+    pub(super) values: [Option<f64>; N],
 }
 
 impl<const N: usize> Numbers<N> {
-    fn new(codes: [i16; N]) -> Self {
+    pub(super) fn new(codes: [i16; N]) -> Self {
         Numbers { codes, values: [None; N] }
     }
 
     /// Takes all tags of the record that it holds a place for.
-    fn gather(&mut self, lexer: &mut Lexer, findings: &mut Vec<Finding>, mut other: impl FnMut(&Lexer, Tag)) -> Common {
+    pub(super) fn gather(&mut self, lexer: &mut Lexer, findings: &mut Vec<Finding>, mut other: impl FnMut(&Lexer, Tag)) -> Common {
         let mut common = Common::default();
         while let Some(tag) = tag_of_record(lexer, findings) {
             if common.take(lexer, tag, findings) {
@@ -299,7 +297,13 @@ impl<const N: usize> Numbers<N> {
     }
 
     /// The first `M` numbers, which the entity must have; one finding names those that are missing.
-    fn required<const M: usize>(&self, start: Tag, lexer: &Lexer, common: &Common, findings: &mut Vec<Finding>) -> Option<[f64; M]> {
+    pub(super) fn required<const M: usize>(
+        &self,
+        start: Tag,
+        lexer: &Lexer,
+        common: &Common,
+        findings: &mut Vec<Finding>,
+    ) -> Option<[f64; M]> {
         if common.bad {
             return None;
         }
@@ -326,7 +330,7 @@ fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<F
         oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
     }
     let geometry = Geometry::Line { start: Point::new(x, y), end: Point::new(end_x, end_y) };
-    common.finish(lexer, layers, "LINE", geometry, None, findings)
+    common.finish(lexer, layers, "LINE", Shape::Plain(geometry), None, findings)
 }
 
 /// The radius, when it is positive; else a finding.
@@ -356,7 +360,7 @@ fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Fi
             Geometry::Arc { center: Point::new(0.0 - x, y), radius, start_angle, end_angle }
         }
     };
-    common.finish(lexer, layers, "ARC", geometry, None, findings)
+    common.finish(lexer, layers, "ARC", Shape::Plain(geometry), None, findings)
 }
 
 /// Start and end of an arc, counter-clockwise again, once x runs the other way. Its own inverse.
@@ -376,7 +380,7 @@ fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec
         Plane::Normal => x,
         Plane::Mirrored => 0.0 - x,
     };
-    common.finish(lexer, layers, "CIRCLE", Geometry::Circle { center: Point::new(x, y), radius }, None, findings)
+    common.finish(lexer, layers, "CIRCLE", Shape::Plain(Geometry::Circle { center: Point::new(x, y), radius }), None, findings)
 }
 
 fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
@@ -395,10 +399,22 @@ fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, 
         Plane::Mirrored if kind == "TEXT" => 0.0 - x,
         _ => x,
     };
-    let content = decoded(&content);
+    let content = layers.text(&content);
     let words = if kind == "MTEXT" { words_of_mtext(&content) } else { content };
     let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
-    common.finish(lexer, layers, kind, geometry, None, findings)
+    common.finish(lexer, layers, kind, Shape::Plain(geometry), None, findings)
+}
+
+/// A POINT marks a start as a text "O" does. Its place is in world coordinates.
+fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    let mut numbers = Numbers::new([10, 20]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    if common.paper_space {
+        return Outcome::Unsupported("POINT".into(), PAPER_SPACE);
+    }
+    let geometry = Geometry::Text { at: Point::new(x, y), text: "O".into() };
+    common.finish(lexer, layers, "POINT", Shape::Plain(geometry), None, findings)
 }
 
 /// The line of the last value of `code` among the entity's own tags; the name's line where there is none.
@@ -522,7 +538,7 @@ fn polyline_of(
     read.vertices.shrink_to_fit();
     read.lines.shrink_to_fit();
     let geometry = Geometry::Polyline { closed, vertices: read.vertices };
-    common.finish(lexer, layers, kind, geometry, Some(VertexLines { lines: read.lines, mirrored, in_space }), findings)
+    common.finish(lexer, layers, kind, Shape::Plain(geometry), Some(VertexLines { lines: read.lines, mirrored, in_space }), findings)
 }
 
 /// A vertex once x runs the other way. Its own inverse.

@@ -6,11 +6,16 @@
 //! Invariant: after any sequence of edits a document equals a fresh reading of its text, the numbers of its
 //! entity ids aside.
 
+mod binary;
+mod blocks;
 mod change;
+mod code_page;
+mod curve;
 mod edit;
 mod entity;
 mod fault;
 mod foreign;
+mod insert;
 mod layers;
 mod lexer;
 mod lines;
@@ -18,6 +23,7 @@ mod number;
 mod place;
 mod reader;
 mod record;
+mod shape;
 mod strings;
 mod table;
 #[cfg(test)]
@@ -26,14 +32,19 @@ mod write;
 
 pub use write::write;
 
-use crate::drawing::{Drawing, Entity, Unit};
+use crate::drawing::{Drawing, Entity, EntityId, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::geometry::Tolerances;
 use crate::text::SourceText;
+use blocks::{Blocks, Part};
+use code_page::CodePage;
 use entity::Outcome;
+use insert::Insert;
 use layers::Layers;
 use lexer::Lexer;
 use lines::Lines;
 use reader::{ReadItem, Said, range_key, read_item};
+use shape::Shape;
 use std::sync::Arc;
 use table::{Became, Context, Item, NO_ITEM, Named, Table};
 
@@ -45,23 +56,48 @@ pub struct Document {
     findings: Vec<Finding>,
     table: Box<Table>,
     layers: Box<Layers>,
+    is_binary: bool,
 }
 
 impl Document {
-    /// Reads DXF text. Never fails: what is damaged is in [`Document::findings`].
-    pub fn read(bytes: Vec<u8>) -> Document {
-        let too_long = bytes.len() >= u32::MAX as usize;
-        let text = SourceText::new(if too_long { Vec::new() } else { bytes });
-        let mut document = Document { text, ..Document::default() };
-        document.read_all();
-        if too_long {
-            document.is_no_dxf("the text is longer than 4 GiB");
+    /// Reads a file: DXF text in the code page that it names, or binary DXF, which becomes text that says the same
+    /// (see [`Document::is_binary`]). Never fails: what is damaged is in [`Document::findings`].
+    pub fn read_file(bytes: Vec<u8>) -> Document {
+        let is_binary = bytes.starts_with(binary::SENTINEL);
+        let (bytes, fault) = if is_binary { binary::to_text(&bytes) } else { (bytes, None) };
+        let layers = Layers::in_code_page(CodePage::of_file(&bytes));
+        let mut document = Document { layers: Box::new(layers), is_binary, ..Document::default() };
+        document.take(bytes);
+        if let Some(sentence) = fault {
+            let end = document.text.len();
+            fault::damage(&mut document.findings, end..end, sentence);
         }
         document
     }
 
+    /// Reads DXF text, which is UTF-8. Never fails: what is damaged is in [`Document::findings`].
+    pub fn read(bytes: Vec<u8>) -> Document {
+        let mut document = Document::default();
+        document.take(bytes);
+        document
+    }
+
+    fn take(&mut self, bytes: Vec<u8>) {
+        let too_long = bytes.len() >= u32::MAX as usize;
+        self.text = SourceText::new(if too_long { Vec::new() } else { bytes });
+        self.read_all();
+        if too_long {
+            self.is_no_dxf("the text is longer than 4 GiB");
+        }
+    }
+
     pub fn text(&self) -> &SourceText {
         &self.text
+    }
+
+    /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF file says. It cannot be edited.
+    pub fn is_binary(&self) -> bool {
+        self.is_binary
     }
 
     pub fn drawing(&self) -> &Arc<Drawing> {
@@ -83,64 +119,20 @@ impl Document {
         if self.text.bytes().iter().all(|byte| byte.is_ascii_whitespace()) {
             return self.is_no_dxf("the text is empty, expected DXF");
         }
-        let mut drawing = Drawing::default();
-        let (mut unit, mut ordinal) = (None, 0);
-        let lines = Lines::new(&self.text);
-        let mut lexer = Lexer::new(lines, 0);
-        let mut context = Context::Outside;
-        let mut any_record = false;
-        while let Some(read) = read_item(&mut lexer, context, &mut self.layers, &mut self.findings) {
-            context = read.after;
-            let ReadItem { line, context, said, .. } = read;
-            any_record |= line > 0 || !matches!(said, Said::Nothing) || lines.trimmed(0) == b"0";
-            let item_at = self.table.items.len() as u32;
-            let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
-            match said {
-                Said::Nothing => {}
-                Said::Structure { entities, unit: stated } => {
-                    item.became = Became::Structure { entities, unit: stated };
-                    unit = stated.or(unit);
-                    self.table.sections += usize::from(entities);
-                    if entities && self.table.sections > 1 {
-                        let sentence = "a second section ENTITIES begins here; both are read".to_owned();
-                        fault::oddity(&mut self.findings, lines.trimmed_range(line + 1), sentence);
-                    }
-                }
-                Said::Entity(outcome) => {
-                    ordinal += usize::from(context == Context::Entities);
-                    match outcome {
-                        Outcome::Damaged => item.became = Became::Damaged,
-                        Outcome::Unsupported(kind, why) => item.became = Became::Unsupported(self.table.kinds.index(kind, why)),
-                        Outcome::Entity(read) => {
-                            item.named = if read.handle.is_some() { Named::ByText } else { Named::ByOrdinal };
-                            let asked = read.handle.as_ref().map_or_else(|| format!("#{ordinal}").into(), |(handle, _)| handle.clone());
-                            let handle_line = read.handle.as_ref().map_or(line + 1, |(_, line)| *line);
-                            let entity =
-                                Entity { handle: asked.clone(), layer: read.layer, role: None, kind: read.kind, geometry: read.geometry };
-                            let id = drawing.push(entity);
-                            if let Some(given) = drawing.get(id).map(|entity| &entity.handle).filter(|given| **given != asked) {
-                                let sentence =
-                                    format!("the handle {asked} is taken by an entity before this one, which is called {given} here");
-                                fault::oddity(&mut self.findings, lines.trimmed_range(handle_line), sentence);
-                                item.named = Named::Anew;
-                            }
-                            item.became = Became::Entity(id);
-                            self.table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
-                            self.table.named_anew += usize::from(item.named == Named::Anew);
-                            self.table.set_item_of(id, item_at);
-                            if let Some(vertices) = read.vertices {
-                                self.table.vertices.insert(id, vertices);
-                            }
-                        }
-                    }
-                }
-            }
-            self.table.lines.push(line as u32);
-            self.table.items.push(item);
+        let mut reading = Reading::default();
+        self.read_items(&mut reading);
+        if reading.early && !reading.blocks.is_empty() {
+            // Blocks that stand behind what refers to them.
+            self.findings.clear();
+            *self.table = Table::default();
+            reading = Reading { known: Some(reading.blocks), ..Reading::default() };
+            self.read_items(&mut reading);
         }
+        let Reading { mut drawing, unit, any_record, blocks, known, .. } = reading;
         if !any_record {
             return self.is_no_dxf("the text has no DXF records: expected lines of group codes and values, as 0 and SECTION");
         }
+        self.table.used = known.unwrap_or(blocks).used;
         drawing.unit = unit.and_then(unit_of);
         if let Some(sentence) = about_unit(unit) {
             let finding = Finding {
@@ -156,13 +148,79 @@ impl Document {
         self.name_unsupported();
     }
 
+    fn read_items(&mut self, reading: &mut Reading) {
+        let Document { text, findings, table, layers, .. } = self;
+        let lines = Lines::new(text);
+        let mut lexer = Lexer::new(lines, 0);
+        let mut context = Context::Outside;
+        table.fit_tolerance = fit_tolerance(None);
+        while let Some(read) = read_item(&mut lexer, context, table.fit_tolerance, layers, findings) {
+            context = read.after;
+            let ReadItem { line, context, said, .. } = read;
+            reading.any_record |= line > 0 || !matches!(said, Said::Nothing) || lines.trimmed(0) == b"0";
+            let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
+            match said {
+                Said::Nothing => {}
+                Said::Block => {
+                    item.became = Became::Block;
+                    reading.blocks.begin(&lexer, line);
+                }
+                Said::Structure { entities, unit: stated } => {
+                    item.became = Became::Structure { entities, unit: stated };
+                    reading.unit = stated.or(reading.unit);
+                    // One tolerance for all entities, also for those that are read again.
+                    if table.sections == 0 {
+                        table.fit_tolerance = fit_tolerance(reading.unit.and_then(unit_of));
+                    }
+                    table.sections += usize::from(entities);
+                    if entities && table.sections > 1 {
+                        let sentence = "a second section ENTITIES begins here; both are read".to_owned();
+                        fault::oddity(findings, lines.trimmed_range(line + 1), sentence);
+                    }
+                }
+                Said::Entity(outcome) => {
+                    reading.ordinal += usize::from(context == Context::Entities);
+                    match outcome {
+                        Outcome::Damaged => item.became = Became::Damaged,
+                        Outcome::Unsupported(kind, why) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
+                        outcome if context == Context::Blocks => reading.blocks.add(outcome),
+                        Outcome::Insert(insert) => reading.push_reference(&insert, line, &mut item, table, findings, lines),
+                        Outcome::Entity(read) => {
+                            if let Shape::Plain(geometry) = read.shape {
+                                let entity = Entity { handle: "".into(), layer: read.layer, role: None, kind: read.kind, geometry };
+                                let id = reading.push_entity(entity, read.handle, line, &mut item, table, findings, lines);
+                                if is_fitted(read.kind) {
+                                    reading.drawing.set_editable(id, false);
+                                }
+                                item.became = Became::Entity(id);
+                                if let Some(vertices) = read.vertices {
+                                    table.vertices.insert(id, vertices);
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            table.lines.push(line as u32);
+            table.items.push(item);
+        }
+    }
+
     /// One finding for each kind of entity that is not cut, at the first of it; all findings in the order of the text.
     fn name_unsupported(&mut self) {
         self.findings.retain(|finding| finding.rule != Rule::UnsupportedEntity);
         let mut count = vec![0usize; self.table.kinds.len()];
         let mut first = vec![NO_ITEM; self.table.kinds.len()];
+        // What a block holds counts where the block is drawn.
+        let mut used = self.table.used.iter();
+        let mut is_drawn = false;
         for (index, item) in self.table.items.iter().enumerate() {
-            if let Became::Unsupported(kind) = item.became {
+            if item.became == Became::Block {
+                is_drawn = used.next().copied().unwrap_or(false);
+            }
+            if let Became::Unsupported(kind) = item.became
+                && (item.context != Context::Blocks || is_drawn)
+            {
                 let kind = kind as usize;
                 if count[kind] == 0 {
                     first[kind] = index as u32;
@@ -193,6 +251,97 @@ impl Document {
         let line = self.text.line_range(0);
         fault::damage(&mut self.findings, 0..line.end.min(64), sentence.to_owned());
     }
+}
+
+/// What is gathered while the whole text is read.
+#[derive(Default)]
+struct Reading {
+    drawing: Drawing,
+    unit: Option<i64>,
+    ordinal: usize,
+    any_record: bool,
+    blocks: Blocks,
+    /// The blocks of the file, when they are known from an earlier reading.
+    known: Option<Blocks>,
+    /// A block was asked for before any block was read.
+    early: bool,
+}
+
+impl Reading {
+    /// Adds an entity under the handle that it has, or under its ordinal; a handle that is taken is reported.
+    #[expect(clippy::too_many_arguments, reason = "the entity, and all that takes note of it")]
+    fn push_entity(
+        &mut self,
+        entity: Entity,
+        handle: Option<(Arc<str>, usize)>,
+        line: usize,
+        item: &mut Item,
+        table: &mut Table,
+        findings: &mut Vec<Finding>,
+        lines: Lines,
+    ) -> EntityId {
+        item.named = if handle.is_some() { Named::ByText } else { Named::ByOrdinal };
+        let asked = handle.as_ref().map_or_else(|| format!("#{}", self.ordinal).into(), |(handle, _)| handle.clone());
+        let handle_line = handle.as_ref().map_or(line + 1, |(_, line)| *line);
+        let id = self.drawing.push(Entity { handle: asked.clone(), ..entity });
+        if let Some(given) = self.drawing.get(id).map(|entity| &entity.handle).filter(|given| **given != asked) {
+            let sentence = format!("the handle {asked} is taken by an entity before this one, which is called {given} here");
+            fault::oddity(findings, lines.trimmed_range(handle_line), sentence);
+            item.named = Named::Anew;
+        }
+        table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
+        table.named_anew += usize::from(item.named == Named::Anew);
+        table.set_item_of(id, table.items.len() as u32);
+        id
+    }
+
+    /// Adds what a reference to a block draws; all of it has the handle of the reference.
+    fn push_reference(
+        &mut self,
+        insert: &Insert,
+        line: usize,
+        item: &mut Item,
+        table: &mut Table,
+        findings: &mut Vec<Finding>,
+        lines: Lines,
+    ) {
+        self.early |= self.known.is_none() && self.blocks.is_empty();
+        let blocks = self.known.as_mut().unwrap_or(&mut self.blocks);
+        let parts = match blocks.resolve(insert, table.fit_tolerance) {
+            Ok(parts) => parts,
+            Err(sentence) => {
+                item.became = Became::Damaged;
+                return fault::damage(findings, lines.trimmed_range(insert.name_line), sentence);
+            }
+        };
+        let mut ids = EntityId(0)..EntityId(0);
+        let mut name: Option<Arc<str>> = None;
+        for Part { layer, kind, geometry } in parts {
+            let entity = Entity { handle: "".into(), layer, role: None, kind, geometry };
+            let id = match &name {
+                Some(handle) => self.drawing.push_part(Entity { handle: handle.clone(), ..entity }),
+                None => {
+                    ids.start = self.push_entity(entity, insert.handle.clone(), line, item, table, findings, lines);
+                    self.drawing.set_editable(ids.start, false);
+                    name = self.drawing.get(ids.start).map(|entity| entity.handle.clone());
+                    ids.start
+                }
+            };
+            table.set_item_of(id, table.items.len() as u32);
+            ids.end = EntityId(id.0 + 1);
+        }
+        item.became = Became::Parts { first: ids.start, count: ids.end.0 - ids.start.0 };
+    }
+}
+
+/// Kinds that become arcs within a tolerance.
+fn is_fitted(kind: &str) -> bool {
+    matches!(kind, "ELLIPSE" | "SPLINE")
+}
+
+/// The setting for fitted arcs in drawing units. A drawing that does not say its unit may be taken for inches.
+fn fit_tolerance(unit: Option<Unit>) -> f64 {
+    Tolerances::default().in_units(unit.unwrap_or(Unit::INCH).mm).arc_fit
 }
 
 /// The unit that a value of `$INSUNITS` stands for (DXF reference, HEADER section); `None` where it is no length.

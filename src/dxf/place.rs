@@ -49,6 +49,9 @@ impl Document {
     }
 
     fn number_of(&self, entity: EntityId, segment: usize) -> Option<Range<usize>> {
+        if !self.drawing.is_editable(entity) {
+            return None;
+        }
         let lines = Lines::new(&self.text);
         let wanted = match self.drawing.get(entity)?.geometry {
             Geometry::Arc { .. } | Geometry::Circle { .. } => 40,
@@ -91,12 +94,12 @@ impl Document {
         let last = self.text.line_of(if range.end > range.start { range.end - 1 } else { range.end });
         let mut found = Vec::new();
         let Some(mut item) = self.table.item_at(first) else { return found };
-        while let Some(super::table::Item { became, .. }) = self.table.items.get(item) {
+        while let Some(of_this) = self.table.items.get(item) {
             let of_item = self.table.lines_of(item, lines.count());
             if of_item.start > last {
                 break;
             }
-            if let super::table::Became::Entity(entity) = *became {
+            for entity in of_this.entities() {
                 self.segments_of(entity, of_item.start, first, last, &mut found);
             }
             item += 1;

@@ -6,6 +6,7 @@ use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::lines::BYTE_ORDER_MARK;
 use super::number::{self, Number};
+use super::shape::Shape;
 use super::table::{Became, Context};
 use crate::finding::{Finding, Severity};
 
@@ -20,6 +21,8 @@ pub(super) enum Said {
         unit: Option<i64>,
     },
     Entity(Outcome),
+    /// A block of the drawing begins.
+    Block,
 }
 
 impl Said {
@@ -46,8 +49,15 @@ pub(super) struct ReadItem {
     pub(super) after: Context,
 }
 
-/// Reads the item at which the lexer stands; `None` at the end of the text.
-pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers, findings: &mut Vec<Finding>) -> Option<ReadItem> {
+/// Reads the item at which the lexer stands; `None` at the end of the text. Curves of the modelspace become arcs within
+/// `tolerance`; those of blocks stay curves until they are placed.
+pub(super) fn read_item(
+    lexer: &mut Lexer,
+    context: Context,
+    tolerance: f64,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Option<ReadItem> {
     let line = lexer.at();
     if lexer.at_end() {
         return None;
@@ -85,13 +95,25 @@ pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers
             pass_over_what_follows(lexer, findings);
             item(Said::Structure { entities: false, unit: None }, Context::Outside)
         }
-        (Context::Entities, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
+        (Context::Blocks, b"BLOCK") => {
+            entity::pass_over(lexer, findings);
+            item(Said::Block, context)
+        }
+        (Context::Blocks, b"ENDBLK") => {
+            entity::pass_over(lexer, findings);
+            item(Said::Nothing, context)
+        }
+        (Context::Entities | Context::Blocks, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
             let sentence = format!("{} does not follow an entity that it is a part of", String::from_utf8_lossy(name));
             oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
             entity::pass_over(lexer, findings);
             item(Said::Nothing, context)
         }
-        (Context::Entities, _) => item(Said::Entity(entity::read(start, lexer, layers, findings)), context),
+        (Context::Blocks, _) => item(Said::Entity(entity::read(start, lexer, layers, findings)), context),
+        (Context::Entities, _) => {
+            let outcome = entity::read(start, lexer, layers, findings);
+            item(Said::Entity(drawn(outcome, start, lexer, tolerance, findings)), context)
+        }
         (Context::Other, _) => {
             entity::pass_over(lexer, findings);
             item(Said::Nothing, context)
@@ -107,6 +129,22 @@ pub(super) fn read_item(lexer: &mut Lexer, context: Context, layers: &mut Layers
         read.said = Said::Entity(Outcome::Damaged);
     }
     Some(read)
+}
+
+/// The entity with its geometry; a fault where its curve has none.
+fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: &mut Vec<Finding>) -> Outcome {
+    let Outcome::Entity(read) = outcome else { return outcome };
+    if let Shape::Plain(_) = read.shape {
+        return Outcome::Entity(read);
+    }
+    match read.shape.drawn(tolerance) {
+        Some(geometry) => Outcome::Entity(entity::Read { shape: Shape::Plain(geometry), ..read }),
+        None => {
+            let sentence = format!("{} has no length, or numbers beyond all measure: it is not drawn", read.kind);
+            damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+            Outcome::Damaged
+        }
+    }
 }
 
 /// Behind EOF nothing is read; what is there is named, but for the end mark of old systems (^Z).
@@ -150,7 +188,7 @@ fn close(read: Option<(Tag, &ReadItem)>, already: usize, lexer: &Lexer, after: C
     if lexer.dangling.is_some() {
         let code = quoted(lexer.lines.trimmed(last));
         damage(findings, lexer.lines.range(last), format!("the text ends after group code {code}, expected its value"));
-    } else if matches!(after, Context::Entities | Context::Other) {
+    } else if matches!(after, Context::Entities | Context::Blocks | Context::Other) {
         oddity(findings, lexer.lines.range(last), "the text ends inside a section, expected ENDSEC".into());
     }
     false
@@ -181,6 +219,7 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
     }
     match name {
         Some(b"ENTITIES") => (Said::Structure { entities: true, unit: None }, Context::Entities),
+        Some(b"BLOCKS") => (Said::Structure { entities: false, unit: None }, Context::Blocks),
         Some(_) => (Said::Structure { entities: false, unit }, Context::Other),
         None => {
             let sentence = "SECTION lacks group code 2 (its name)".to_owned();

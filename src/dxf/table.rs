@@ -9,7 +9,9 @@ use rustc_hash::FxHashMap;
 pub(super) enum Context {
     Outside,
     Entities,
-    /// Any section but ENTITIES: kept, not drawn.
+    /// What is drawn where a block is referred to.
+    Blocks,
+    /// Any other section: kept, not drawn.
     Other,
 }
 
@@ -24,6 +26,13 @@ pub(super) enum Became {
         unit: Option<i64>,
     },
     Entity(EntityId),
+    /// A reference to a block: `count` entities with ids in a row, from `first` on.
+    Parts {
+        first: EntityId,
+        count: u32,
+    },
+    /// A block begins.
+    Block,
     /// An entity that is not cut, by its index in [`Kinds`].
     Unsupported(u32),
     /// An entity with a fault.
@@ -56,9 +65,19 @@ impl Item {
         }
     }
 
+    /// All entities that it became.
+    pub(super) fn entities(&self) -> impl Iterator<Item = EntityId> + use<> {
+        let (first, count) = match self.became {
+            Became::Entity(entity) => (entity, 1),
+            Became::Parts { first, count } => (first, count),
+            _ => (EntityId(0), 0),
+        };
+        (first.0..first.0.saturating_add(count)).map(EntityId)
+    }
+
     /// True for what counts as an entity of the file.
     pub(super) fn is_entity(&self) -> bool {
-        matches!(self.became, Became::Entity(_) | Became::Unsupported(_) | Became::Damaged)
+        matches!(self.became, Became::Entity(_) | Became::Parts { .. } | Became::Unsupported(_) | Became::Damaged)
     }
 }
 
@@ -104,6 +123,10 @@ pub(super) struct Table {
     /// Entities that are named by their ordinal, and that were named anew.
     pub(super) by_ordinal: usize,
     pub(super) named_anew: usize,
+    /// Blocks that are drawn somewhere, in the order of the text.
+    pub(super) used: Vec<bool>,
+    /// How near a fitted arc lies to its curve, in drawing units.
+    pub(super) fit_tolerance: f64,
     /// Sections ENTITIES.
     pub(super) sections: usize,
 }

@@ -1,5 +1,6 @@
 //! Tests of the module as a whole.
 
+mod blocks;
 mod editing;
 mod faults;
 mod reading;

@@ -5,18 +5,24 @@
 
 mod approach;
 mod arc;
+mod biarc;
 mod bounds;
+mod ellipse;
 mod grid;
 mod intersection;
 mod segment;
+mod spline;
 mod tolerances;
 
 pub use approach::{curvature, facing, foot_inside, meetings, shared_length};
 pub use arc::Arc;
+pub use biarc::{Chain, Curve, fit};
 pub use bounds::Bounds;
+pub use ellipse::EllipticArc;
 pub use grid::Grid;
 pub use intersection::{circle_circle, line_circle, line_line};
 pub use segment::{Line, Segment};
+pub use spline::{MAX_DEGREE, Spline, SplineCurve};
 pub use tolerances::Tolerances;
 
 /// A point of the plane, in drawing units.

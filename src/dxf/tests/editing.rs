@@ -1,5 +1,6 @@
 //! After any edits a document equals a fresh reading of its text; a drawing's edit does in the text what it does in the drawing.
 
+use super::blocks::with_blocks;
 use super::reading::dxf;
 use crate::drawing::{EntityId, Touched};
 use crate::dxf::Document;
@@ -72,6 +73,14 @@ const DRAWINGS: [&str; 5] = [
      0 POLYLINE 5 B 66 1 70 8 0 VERTEX 10 1.5 20 2 30 1 70 32 0 VERTEX 10 1.5 20 3 30 1 42 0 0 VERTEX 10 4.5 20 3 30 1 0 SEQEND",
 ];
 
+const BLOCKS: &str = "0 BLOCK 2 B 10 1 20 1 0 LINE 8 0 10 1 20 2 11 3 21 4 0 HATCH 8 0 0 ARC 8 C 10 1 20 2 40 3 50 30 51 90 0 ENDBLK \
+     0 BLOCK 2 C 10 0 20 0 0 INSERT 2 B 10 1 20 1 41 -1 70 2 44 5 0 SPLINE 8 S 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 1 20 1 10 2 20 0 0 ENDBLK";
+const REFERENCES: &str = "0 LINE 5 A1 10 1 20 2 11 3 21 4 0 INSERT 5 A2 8 P 2 B 10 1 20 2 50 30 \
+     0 LINE 5 A3 8 X 62 1 370 5 6 CONTINUOUS 48 1.5 39 0 60 0 10 1 20 2 30 0 11 3 21 4 31 0 0 LINE 5 A4 10 1 20 2 11 3 21 4 \
+     0 LINE 5 A5 8 X 62 1 370 5 6 CONTINUOUS 48 1.5 39 0 60 0 10 1 20 2 30 0 11 3 21 4 31 0 0 LINE 5 A6 10 1 20 2 11 3 21 4 \
+     0 ELLIPSE 5 A7 8 X 10 1 20 2 11 3 21 0 40 0.5 41 0 42 3 0 CIRCLE 5 A8 10 1 20 2 40 5 0 INSERT 5 A9 2 C 10 0 20 0 \
+     0 INSERT 2 NONE 10 0 20 0 0 SPLINE 5 AA 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 1 20 1 10 2 20 0 0 POINT 5 AB 10 1 20 2";
+
 /// An edit as shares of the text, so that it fits every text.
 fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
     let replacement = prop_oneof![
@@ -89,13 +98,18 @@ fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
 proptest! {
     #[test]
     fn after_any_edits_a_document_is_as_if_read_afresh(
-        drawing in 0..=DRAWINGS.len(),
+        drawing in 0..DRAWINGS.len() + 2,
         line_end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
         edits in prop::collection::vec(any_edit(), 1..12),
     ) {
         // The last one is longer than what a decision can reach.
         let long = || (0..60).map(|n| format!("0 LINE 5 A{n:02} 8 X 10 {n} 20 2 11 3 21 4 ")).collect::<String>();
-        let text = dxf(&DRAWINGS.get(drawing).map_or_else(long, ToString::to_string)).replace('\n', line_end);
+        let text = match DRAWINGS.get(drawing) {
+            Some(tags) => dxf(tags),
+            None if drawing == DRAWINGS.len() => with_blocks(BLOCKS, REFERENCES),
+            None => dxf(&long()),
+        };
+        let text = text.replace('\n', line_end);
         let mut document = Document::read(text.into_bytes());
         for (share, length, replacement) in edits {
             let start = (share * document.text().len() as f64) as usize;
@@ -130,6 +144,18 @@ fn an_edit_touches_no_more_than_it_must() {
     let polyline = document.drawing().find("A").unwrap();
     let vertex = Touched::Vertices { entity: polyline, start: 1, removed: 1, inserted: 1 };
     assert_eq!(replace(&mut document, "VERTEX\n10\n1.5\n20\n", "42\n1", "42\n1.5"), [vertex]);
+}
+
+#[test]
+fn an_edit_beside_blocks_touches_no_more_than_it_must() {
+    let mut document = Document::read(with_blocks(BLOCKS, REFERENCES).into_bytes());
+    let [line, ellipse] = ["A5", "A7"].map(|handle| document.drawing().find(handle).unwrap());
+    assert_eq!(replace(&mut document, "A5\n", "31\n0", "31\n0.0"), []);
+    assert_eq!(replace(&mut document, "A5\n", "21\n4", "21\n5"), [Touched::Entity { entity: line }]);
+    assert_eq!(replace(&mut document, "A7\n", "40\n0.5", "40\n0.25"), [Touched::Entity { entity: ellipse }]);
+    assert!(!document.drawing().is_editable(ellipse));
+    assert_eq!(replace(&mut document, "A2\n", "50\n30", "50\n60"), [Touched::All]);
+    assert_eq!(replace(&mut document, "BLOCKS\n", "11\n3", "11\n5"), [Touched::All]);
 }
 
 #[test]

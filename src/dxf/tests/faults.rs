@@ -18,7 +18,7 @@ fn what_is_no_dxf_gets_one_finding() {
         (b"AC1015\0\0\0\0\x06\x01", "the file is a DWG drawing, not DXF text: save it as DXF"),
         (b"%PDF-1.7\n", "the file is a PDF, not DXF text"),
         (b"PK\x03\x04\x14\0", "the file is a ZIP archive, not DXF text"),
-        (b"AutoCAD Binary DXF\r\n\x1a\0", "the file is binary DXF, which is not read yet: save it as ASCII DXF"),
+        (b"AutoCAD Binary DXF\r\n\x1a\0", "the text is binary DXF, which an editor cannot keep: save it as ASCII DXF"),
         (&utf16, "the text is UTF-16: save it as UTF-8"),
         (&marked, "the text is UTF-16: save it as UTF-8"),
         (&[0; 5000], "the file is binary, not DXF text"),

@@ -11,7 +11,7 @@ pub(super) fn dxf(entities: &str) -> String {
 }
 
 /// Handle and geometry of each entity, in short.
-fn entities(document: &Document) -> Vec<String> {
+pub(super) fn entities(document: &Document) -> Vec<String> {
     let drawing = document.drawing();
     drawing
         .entities()
@@ -35,7 +35,7 @@ fn entities(document: &Document) -> Vec<String> {
 }
 
 /// Findings in short: what stands at the place, and the sentence.
-fn findings(document: &Document) -> Vec<String> {
+pub(super) fn findings(document: &Document) -> Vec<String> {
     let lossy = |range: &std::ops::Range<usize>| String::from_utf8_lossy(&document.text().bytes()[range.clone()]).into_owned();
     document
         .findings()
@@ -85,6 +85,13 @@ fn each_kind_of_entity() {
             "0 POLYLINE 5 B 66 1 10 0 20 0 30 0 70 1 0 VERTEX 5 C 10 1 20 2 42 1 0 VERTEX 10 3 20 4 0 SEQEND 5 D",
             "POLYLINE B on 0: 1 2 1, 3 4 0 closed",
         ),
+        ("0 POINT 5 B 10 1 20 2", "POINT B on 0: 1 2 O"),
+        ("0 SPLINE 5 B 70 8 71 1 40 0 40 0 40 1 40 1 10 0 20 0 10 3 20 4", "SPLINE B on 0: 0 0 0, 3 4 0"),
+        ("0 SPLINE 5 B 70 8 71 3 11 0 21 0 11 3 21 4", "SPLINE B on 0: 0 0 0, 3 4 0"),
+        (
+            "0 POLYLINE 5 B 66 1 70 4 0 VERTEX 10 1 20 2 70 16 0 VERTEX 10 1 20 3 70 8 0 VERTEX 10 3 20 4 70 8 0 SEQEND",
+            "POLYLINE B on 0: 1 3 0, 3 4 0",
+        ),
         ("0 LINE 5 A 102 {X 10 9 102 } 10 1 20 2 11 3 21 4 101 Embedded 10 8", "LINE A on 0: 1 2 to 3 4"),
     ] {
         check(&dxf(tags), &[expected], &[]);
@@ -103,6 +110,13 @@ fn one_fault_is_one_finding_and_harms_no_neighbour() {
         ("0 ARC 10 1 20 2 40 -5 50 0 51 1", r#"error at "-5": group code 40 (radius) of ARC is "-5", expected a number above 0"#),
         ("0 LWPOLYLINE 90 2 70 1 10 1 10 2 20 3", r#"error at "1": vertex 1 lacks group code 20 (y)"#),
         ("0 LWPOLYLINE 90 1 70 1 10 1 20 3", r#"warning at "LWPOLYLINE": LWPOLYLINE has 1 vertices, expected at least 2"#),
+        ("0 SPLINE 71 3 40 0 10 1 20 1", r#"warning at "SPLINE": SPLINE has 1 control points, expected at least 4: it is not drawn"#),
+        ("0 SPLINE 71 3 10 1 20 1 30 0 10 2 20 2 30 1", r#"information at "SPLINE": 1 SPLINE: its points differ in z"#),
+        ("0 ELLIPSE 10 1 20 1 11 0 21 0 40 0.5", r#"error at "ELLIPSE": ELLIPSE has no width or no length: it is not drawn"#),
+        (
+            "0 ELLIPSE 10 1 20 1 11 1 21 0 31 1 40 0.5",
+            r#"information at "ELLIPSE": 1 ELLIPSE: its plane is tilted against the drawing's plane"#,
+        ),
         ("0 HATCH 10 x 20 3", r#"information at "HATCH": 1 HATCH: this kind of entity is not cut"#),
         ("0 LINE 67 1 10 1 20 2 11 3 21 4", r#"information at "LINE": 1 LINE: it lies in paper space"#),
         (

@@ -1,0 +1,133 @@
+//! Binary DXF to the text that says the same: the one reader reads both.
+//!
+//! Source: DXF reference, "Binary DXF files" and "Group code value types".
+
+/// What a binary file begins with.
+pub(super) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
+
+/// The file as text, one tag on two lines; and what is wrong with it, where the tags break off.
+pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
+    let mut tags = Tags { bytes, at: SENTINEL.len().min(bytes.len()), wide: false };
+    // Since release 13 a code has two bytes. The first one is 0 (a record) or 999 (a comment).
+    tags.wide = matches!(bytes.get(tags.at..tags.at + 2), Some([0, 0] | [0xe7, 0x03]));
+    let mut text = Vec::with_capacity(bytes.len() * 2);
+    loop {
+        let begins_at = tags.at;
+        let Some(code) = tags.code() else {
+            let cut = begins_at < bytes.len();
+            return (text, cut.then(|| format!("byte {begins_at}: the file ends inside a group code")));
+        };
+        let (mark, code_text) = (text.len(), code.to_string());
+        text.extend_from_slice(code_text.as_bytes());
+        text.push(b'\n');
+        if let Err(sentence) = tags.value(code, &mut text) {
+            text.truncate(mark);
+            return (text, Some(format!("byte {begins_at}: {sentence}")));
+        }
+        let is_end = code == 0 && text[mark..].ends_with(b"\nEOF");
+        text.push(b'\n');
+        if is_end {
+            return (text, None);
+        }
+    }
+}
+
+struct Tags<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    wide: bool,
+}
+
+impl<'a> Tags<'a> {
+    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let taken = *self.bytes.get(self.at..)?.first_chunk::<N>()?;
+        self.at += N;
+        Some(taken)
+    }
+
+    fn code(&mut self) -> Option<i16> {
+        if self.wide {
+            return self.take().map(i16::from_le_bytes);
+        }
+        match self.take::<1>()? {
+            // A code of two bytes follows.
+            [255] => self.take().map(i16::from_le_bytes),
+            [code] => Some(i16::from(code)),
+        }
+    }
+
+    /// Writes the value behind `code`; an error says why there is none.
+    fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Result<(), String> {
+        let cut = || format!("the file ends inside the value of group code {code}");
+        let written = match code {
+            -5..=9 | 100..=105 | 300..=309 | 320..=369 | 390..=399 | 410..=419 | 430..=439 | 470..=481 | 999..=1003 | 1005..=1009 => {
+                let rest = self.bytes.get(self.at..).unwrap_or_default();
+                let end = memchr::memchr(0, rest).ok_or_else(cut)?;
+                // A line end within a value would begin another line.
+                text.extend(rest[..end].iter().map(|&byte| if matches!(byte, b'\r' | b'\n') { b' ' } else { byte }));
+                self.at += end + 1;
+                return Ok(());
+            }
+            310..=319 | 1004 => {
+                let [length] = self.take::<1>().ok_or_else(cut)?;
+                let end = self.at + usize::from(length);
+                let chunk = self.bytes.get(self.at..end).ok_or_else(cut)?;
+                self.at = end;
+                text.extend(chunk.iter().flat_map(|byte| format!("{byte:02X}").into_bytes()));
+                return Ok(());
+            }
+            10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
+                self.take().map(|bytes| format!("{:?}", f64::from_le_bytes(bytes)))
+            }
+            60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
+                self.take().map(|bytes| i16::from_le_bytes(bytes).to_string())
+            }
+            90..=99 | 420..=429 | 440..=459 | 1071 => self.take().map(|bytes| i32::from_le_bytes(bytes).to_string()),
+            160..=169 => self.take().map(|bytes| i64::from_le_bytes(bytes).to_string()),
+            290..=299 => self.take::<1>().map(|[byte]| byte.to_string()),
+            _ => return Err(format!("group code {code} is not known, so the length of its value is not")),
+        };
+        text.extend_from_slice(written.ok_or_else(cut)?.as_bytes());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(tags: &[u8]) -> Vec<u8> {
+        [SENTINEL, tags].concat()
+    }
+
+    #[test]
+    fn both_widths_of_codes_and_all_lengths_of_values() {
+        let half = 0.5f64.to_le_bytes();
+        let narrow = [b"\0LINE\0\x0a".as_slice(), &half, b"\x3e\xff\xff\xff\xe8\x03APP\0\0EOF\0"].concat();
+        let wide = [
+            b"\0\0LINE\0\x0a\0".as_slice(),
+            &half,
+            b"\x3e\0\xff\xff\x5a\0\x01\0\0\0\x22\x01\x01\x36\x01\x02\xab\x01\xa0\0\x02\0\0\0\0\0\0\0\0\0EOF\0",
+        ]
+        .concat();
+        for (tags, expected) in [
+            (narrow, "0\nLINE\n10\n0.5\n62\n-1\n1000\nAPP\n0\nEOF\n"),
+            (wide, "0\nLINE\n10\n0.5\n62\n-1\n90\n1\n290\n1\n310\nAB01\n160\n2\n0\nEOF\n"),
+        ] {
+            let (text, fault) = to_text(&file(&tags));
+            assert_eq!((String::from_utf8(text).unwrap().as_str(), fault), (expected, None));
+        }
+    }
+
+    #[test]
+    fn what_breaks_off_is_named() {
+        for (tags, expected) in [
+            (&b"\0\0LINE\0\x0a\0\0\0"[..], "byte 29: the file ends inside the value of group code 10"),
+            (b"\0\0LINE\0\x0a", "byte 29: the file ends inside a group code"),
+            (b"\0\0LINE", "byte 22: the file ends inside the value of group code 0"),
+            (b"\0\0LINE\0\x10\x27", "byte 29: group code 10000 is not known, so the length of its value is not"),
+        ] {
+            assert_eq!(to_text(&file(tags)).1.as_deref(), Some(expected));
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! The blocks of a drawing, and what a reference to one draws.
+//!
+//! Work is bounded before it begins: the size of a block is counted once, without drawing it.
+
+use super::entity::Outcome;
+use super::insert::{Insert, block_key};
+use super::lexer::Lexer;
+use super::number::{self, Number};
+use super::place;
+use super::shape::{Affine, Shape};
+use crate::drawing::Geometry;
+use crate::geometry::Point;
+use rustc_hash::FxHashMap;
+use std::sync::Arc;
+
+/// All block references of a document together draw at most this many segments, and are copied at most this often.
+const MOST_SEGMENTS: u64 = 1_000_000;
+/// Blocks within blocks.
+const DEEPEST: usize = 64;
+const REFERS_TO_A_FILE: i64 = 4 | 8;
+
+#[derive(Clone, Debug)]
+enum Content {
+    Shape { layer: Arc<str>, kind: &'static str, shape: Shape },
+    Reference(Box<Insert>),
+}
+
+#[derive(Clone, Debug)]
+struct Block {
+    /// As the text has it.
+    name: String,
+    base: Point,
+    is_file: bool,
+    contents: Vec<Content>,
+}
+
+/// What a block comes to: copies and segments, and blocks below it.
+#[derive(Clone, Copy, Debug)]
+struct Size {
+    segments: u64,
+    depth: usize,
+}
+
+/// One piece of what a reference draws, in the coordinates around it.
+pub(super) struct Part {
+    pub(super) layer: Arc<str>,
+    pub(super) kind: &'static str,
+    pub(super) geometry: Geometry,
+}
+
+/// Blocks in the order of the text.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Blocks {
+    blocks: Vec<Block>,
+    by_name: FxHashMap<String, usize>,
+    sizes: Vec<Option<Size>>,
+    /// Why a reference to a block draws nothing, for blocks that were asked for.
+    refused: FxHashMap<usize, String>,
+    /// Segments drawn by the references so far.
+    drawn: u64,
+    /// Blocks that a drawn reference uses.
+    pub(super) used: Vec<bool>,
+}
+
+impl Blocks {
+    pub(super) fn is_empty(&self) -> bool {
+        self.blocks.is_empty()
+    }
+
+    /// Begins the block whose record starts at `line` and ends before the lexer's place. A name that is taken stays with
+    /// the block that had it first.
+    pub(super) fn begin(&mut self, lexer: &Lexer, line: usize) {
+        let mut block = Block { name: String::new(), base: Point::origin(), is_file: false, contents: Vec::new() };
+        let number = |line: usize| match number::number(lexer.lines.content(line)) {
+            Number::Exact(value) | Number::Blemished(value, _) => value,
+            Number::Bad => 0.0,
+        };
+        let mut name: &[u8] = b"";
+        for tag in place::own_tags(lexer.lines, line..lexer.at()) {
+            match tag.code {
+                2 => name = lexer.lines.trimmed(tag.value_line()),
+                10 => block.base.x = number(tag.value_line()),
+                20 => block.base.y = number(tag.value_line()),
+                70 => block.is_file = number(tag.value_line()) as i64 & REFERS_TO_A_FILE != 0,
+                _ => {}
+            }
+        }
+        block.name = String::from_utf8_lossy(name).into_owned();
+        self.by_name.entry(block_key(name)).or_insert(self.blocks.len());
+        self.blocks.push(block);
+        self.sizes.push(None);
+        self.used.push(false);
+    }
+
+    /// Adds what was read to the block that was begun last.
+    pub(super) fn add(&mut self, outcome: Outcome) {
+        let Some(block) = self.blocks.last_mut() else { return };
+        match outcome {
+            Outcome::Entity(read) => block.contents.push(Content::Shape { layer: read.layer, kind: read.kind, shape: read.shape }),
+            Outcome::Insert(insert) => block.contents.push(Content::Reference(insert)),
+            Outcome::Unsupported(..) | Outcome::Damaged => {}
+        }
+    }
+
+    /// What a reference in the modelspace draws; curves are fitted within `tolerance`. An error says why it draws nothing.
+    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64) -> Result<Vec<Part>, String> {
+        let Some(&block) = self.by_name.get(&insert.block) else {
+            return Err("the block is not in the file: nothing is drawn for this INSERT".into());
+        };
+        if let Some(why) = self.refused.get(&block) {
+            return Err(why.clone());
+        }
+        let size = match self.size_of(block, &mut Vec::new()) {
+            Ok(size) => size,
+            Err(why) => {
+                self.refused.insert(block, why.clone());
+                return Err(why);
+            }
+        };
+        let all = insert.copies().saturating_mul(size.segments.saturating_add(1));
+        if self.drawn.saturating_add(all) > MOST_SEGMENTS {
+            return Err(format!(
+                "this INSERT draws {} copies, {all} segments in all, more than the {MOST_SEGMENTS} that the references of a file may \
+                 come to: nothing is drawn for it",
+                insert.copies()
+            ));
+        }
+        self.drawn += all;
+        let mut parts = Vec::new();
+        self.draw(insert, block, &Affine::IDENTITY, &insert.layer, tolerance, &mut parts);
+        self.mark_used(block);
+        Ok(parts)
+    }
+
+    /// Counts a block. `path` holds the blocks around it.
+    fn size_of(&mut self, index: usize, path: &mut Vec<usize>) -> Result<Size, String> {
+        if let Some(size) = self.sizes.get(index).copied().flatten() {
+            return if path.len() + size.depth > DEEPEST { Err(too_deep()) } else { Ok(size) };
+        }
+        if path.contains(&index) {
+            let names: Vec<&str> = path.iter().chain([&index]).filter_map(|&at| Some(self.blocks.get(at)?.name.as_str())).collect();
+            let name = |at: usize| super::fault::quoted(names.get(at).copied().unwrap_or_default().as_bytes());
+            return Err(format!("the block {} holds itself: nothing is drawn for this INSERT", name(names.len().saturating_sub(1))));
+        }
+        if path.len() >= DEEPEST {
+            return Err(too_deep());
+        }
+        let Some(block) = self.blocks.get(index) else { return Ok(Size { segments: 0, depth: 0 }) };
+        if block.is_file {
+            return Err("the block stands in another file: nothing is drawn for this INSERT".into());
+        }
+        let mut size = Size { segments: 0, depth: 1 };
+        // The same block is asked for once, however often it is referred to.
+        let mut below: FxHashMap<usize, u64> = FxHashMap::default();
+        for content in &block.contents {
+            match content {
+                Content::Shape { shape, .. } => size.segments = size.segments.saturating_add(shape.cost()),
+                Content::Reference(insert) => {
+                    if let Some(&block) = self.by_name.get(&insert.block) {
+                        let copies = below.entry(block).or_default();
+                        *copies = copies.saturating_add(insert.copies());
+                    }
+                }
+            }
+        }
+        path.push(index);
+        let mut below: Vec<(usize, u64)> = below.into_iter().collect();
+        below.sort_unstable();
+        for (block, copies) in below {
+            let inner = self.size_of(block, path)?;
+            size.segments = size.segments.saturating_add(copies.saturating_mul(inner.segments.saturating_add(1)));
+            size.depth = size.depth.max(inner.depth + 1);
+        }
+        path.pop();
+        if let Some(slot) = self.sizes.get_mut(index) {
+            *slot = Some(size);
+        }
+        Ok(size)
+    }
+
+    fn draw(&self, insert: &Insert, block: usize, around: &Affine, layer: &Arc<str>, tolerance: f64, parts: &mut Vec<Part>) {
+        let Some(block) = self.blocks.get(block) else { return };
+        let base = Affine { origin: Point::from(-block.base.coords), ..Affine::IDENTITY };
+        for row in 0..insert.rows.0 {
+            for column in 0..insert.columns.0 {
+                let offset = insert.columns.1 * column as f64 + insert.rows.1 * row as f64;
+                let placed = Affine { origin: insert.map.origin + offset, ..insert.map };
+                let map = around.after(&placed).after(&base);
+                for content in &block.contents {
+                    let own = match content {
+                        Content::Shape { layer, .. } => layer,
+                        Content::Reference(inner) => &inner.layer,
+                    };
+                    // What lies on layer 0 takes the layer of the reference.
+                    let layer = if **own == *"0" { layer } else { own };
+                    match content {
+                        Content::Shape { kind, shape, .. } => shape.placed(&map, kind, &mut |kind, shape| {
+                            let drawn = shape.drawn(tolerance).filter(Geometry::is_sound);
+                            parts.extend(drawn.map(|geometry| Part { layer: layer.clone(), kind, geometry }));
+                        }),
+                        Content::Reference(inner) => {
+                            if let Some(&block) = self.by_name.get(&inner.block) {
+                                self.draw(inner, block, &map, layer, tolerance, parts);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn mark_used(&mut self, block: usize) {
+        let mut open = vec![block];
+        while let Some(block) = open.pop() {
+            let Some(used) = self.used.get_mut(block).filter(|used| !**used) else { continue };
+            *used = true;
+            let Some(block) = self.blocks.get(block) else { continue };
+            let inner = block.contents.iter().filter_map(|content| match content {
+                Content::Reference(insert) => self.by_name.get(&insert.block).copied(),
+                Content::Shape { .. } => None,
+            });
+            open.extend(inner);
+        }
+    }
+}
+
+fn too_deep() -> String {
+    format!("blocks within blocks are more than {DEEPEST} deep here: nothing is drawn for this INSERT")
+}

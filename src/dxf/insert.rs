@@ -1,0 +1,108 @@
+//! INSERT: which block it draws, where, how often and how it is stretched.
+
+use super::entity::{Common, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers};
+use super::fault::{damage, quoted};
+use super::layers::Layers;
+use super::lexer::{Lexer, Tag};
+use super::shape::Affine;
+use crate::finding::Finding;
+use crate::geometry::{Point, Vector, direction, left_normal};
+use std::sync::Arc;
+
+/// A reference to a block, as it stands in the text.
+#[derive(Clone, Debug)]
+pub(super) struct Insert {
+    /// The handle, and the line it stands on.
+    pub(super) handle: Option<(Arc<str>, usize)>,
+    pub(super) layer: Arc<str>,
+    /// The block's name as [`block_key`] has it.
+    pub(super) block: String,
+    /// The line of the block's name.
+    pub(super) name_line: usize,
+    /// From the block's coordinates, its base point at the origin, to those around the reference.
+    pub(super) map: Affine,
+    /// Columns and rows, at least 1, and the step from one to the next.
+    pub(super) columns: (u64, Vector),
+    pub(super) rows: (u64, Vector),
+}
+
+impl Insert {
+    pub(super) fn copies(&self) -> u64 {
+        self.columns.0.saturating_mul(self.rows.0)
+    }
+}
+
+/// Block names are the same in upper and in lower case.
+pub(super) fn block_key(name: &[u8]) -> String {
+    match std::str::from_utf8(name) {
+        Ok(name) => name.to_lowercase(),
+        Err(_) => name.iter().map(|&byte| char::from(byte.to_ascii_lowercase())).collect(),
+    }
+}
+
+pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 41, 42, 50, 44, 45]);
+    let (mut name, mut columns, mut rows) = (None, None, None);
+    let mut common = numbers.gather(lexer, findings, |_, tag| match tag.code {
+        2 => name = Some(tag),
+        70 => columns = Some(tag),
+        71 => rows = Some(tag),
+        _ => {}
+    });
+    let count = |tag: Option<Tag>, common: &mut Common, lexer: &mut Lexer, findings: &mut Vec<Finding>| match tag {
+        Some(tag) if Common::whole(lexer, tag).is_none() => {
+            common.bad = true;
+            let found = quoted(lexer.lines.trimmed(tag.value_line()));
+            let sentence = format!("group code {} of INSERT is {found}, expected a whole number", tag.code);
+            damage(findings, lexer.lines.trimmed_range(tag.value_line()), sentence);
+            1
+        }
+        Some(tag) => Common::whole(lexer, tag).and_then(|count| u64::try_from(count).ok()).unwrap_or(1).max(1),
+        None => 1,
+    };
+    let columns = if lexer.out_of_step { 1 } else { count(columns, &mut common, lexer, findings) };
+    let rows = if lexer.out_of_step { 1 } else { count(rows, &mut common, lexer, findings) };
+    pass_over_followers(lexer, findings, &[b"ATTRIB", b"SEQEND"]);
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let Some(name) = name else {
+        missing(start, lexer, &[(2, false)], findings);
+        return Outcome::Damaged;
+    };
+    let mirrored = match common.plane() {
+        _ if common.paper_space => return Outcome::Unsupported("INSERT".into(), PAPER_SPACE),
+        Plane::Tilted => return Outcome::Unsupported("INSERT".into(), TILTED),
+        plane => plane == Plane::Mirrored,
+    };
+    let [_, _, x_scale, y_scale, rotation, column_step, row_step] = numbers.values;
+    // A scale of 0 would flatten the block; programs write it where they mean that none is set.
+    let scale = |value: Option<f64>| value.filter(|&value| value != 0.0).unwrap_or(1.0);
+    let along = turned(rotation.unwrap_or(0.0));
+    let across = left_normal(along);
+    let seen = |vector: Vector| if mirrored { Vector::new(-vector.x, vector.y) } else { vector };
+    let map = Affine {
+        x_axis: seen(along * scale(x_scale)),
+        y_axis: seen(across * scale(y_scale)),
+        origin: Point::from(seen(Vector::new(x, y))),
+    };
+    let insert = Insert {
+        block: block_key(lexer.lines.trimmed(name.value_line())),
+        name_line: name.value_line(),
+        map,
+        columns: (columns, seen(along * column_step.unwrap_or(0.0))),
+        rows: (rows, seen(across * row_step.unwrap_or(0.0))),
+        handle: common.handle(lexer, findings),
+        layer: common.layer(lexer, layers),
+    };
+    Outcome::Insert(Box::new(insert))
+}
+
+/// The direction of an angle in degrees, exact at quarter turns.
+fn turned(degrees: f64) -> Vector {
+    match degrees.rem_euclid(360.0) {
+        0.0 => Vector::new(1.0, 0.0),
+        90.0 => Vector::new(0.0, 1.0),
+        180.0 => Vector::new(-1.0, 0.0),
+        270.0 => Vector::new(0.0, -1.0),
+        angle => direction(angle.to_radians()),
+    }
+}

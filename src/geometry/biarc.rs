@@ -1,0 +1,276 @@
+//! A smooth curve as a chain of arcs, two for each piece, that leave each other without a kink.
+//!
+//! Source of the construction: K. M. Bolton, "Biarc curves", Computer-Aided Design 7 (1975), with the two tangent
+//! lengths equal.
+
+use super::{Arc, Point, Segment, Vector, turn};
+
+/// A curve in smooth pieces, each with a parameter of its own.
+pub trait Curve {
+    /// Parameter ranges of the pieces, in the order of travel; the curve is smooth within each.
+    fn pieces(&self) -> Vec<(f64, f64)>;
+
+    /// The point and the derivative at parameter `t` of piece `piece`; at the ends of the piece the limits from within.
+    fn at(&self, piece: usize, t: f64) -> (Point, Vector);
+
+    /// A length that no two points of the curve are much further apart than.
+    fn extent(&self) -> f64;
+}
+
+/// A fitted chain: where each segment starts and its bulge. The last point has the bulge 0.
+pub type Chain = Vec<(Point, f64)>;
+
+/// A piece is halved at most this often.
+const HALVINGS: u32 = 14;
+/// Places of each piece at which its distance from the arcs is measured.
+const SAMPLES: usize = 12;
+/// Share of the tolerance that the measured places may use: the curve may lie a little further off between them.
+const MEASURED: f64 = 0.9;
+/// Two arcs are parts of one circle when their circles agree within this share of the tolerance.
+const SAME_CIRCLE: f64 = 1e-3;
+/// The fit is not finer than this share of the curve's extent: beyond it numbers have no digits left.
+const FINEST: f64 = 1e-9;
+
+/// A chain of arcs and lines that the curve lies within `tolerance` of (or within a billionth of its extent, where that
+/// is more). Parts that are exactly lines or circular arcs become one segment of at most a half turn.
+///
+/// Empty for a curve without length or with numbers that are not finite.
+pub fn fit(curve: &impl Curve, tolerance: f64) -> Chain {
+    let extent = curve.extent();
+    if !extent.is_finite() || extent <= 0.0 {
+        return Vec::new();
+    }
+    let tolerance = tolerance.max(extent * FINEST);
+    let mut chain: Chain = Vec::new();
+    let mut last = None;
+    for (piece, (from, to)) in curve.pieces().into_iter().enumerate() {
+        let mut open = vec![(from, to, 0)];
+        while let Some((from, to, depth)) = open.pop() {
+            let (start, end) = (curve.at(piece, from).0, curve.at(piece, to).0);
+            let sound = [start.x, start.y, end.x, end.y].iter().all(|number| number.is_finite());
+            if !sound {
+                return Vec::new();
+            }
+            match biarc(curve, piece, from, to, tolerance) {
+                Some(arcs) => chain.extend(arcs),
+                None if depth < HALVINGS => {
+                    let middle = from + (to - from) * 0.5;
+                    open.push((middle, to, depth + 1));
+                    open.push((from, middle, depth + 1));
+                    continue;
+                }
+                None if start == end => {}
+                None => chain.push((start, 0.0)),
+            }
+            last = Some(end);
+        }
+    }
+    let Some(last) = last.filter(|_| !chain.is_empty()) else { return Vec::new() };
+    chain.push((last, 0.0));
+    merged(chain, tolerance * SAME_CIRCLE)
+}
+
+/// Two arcs for a part of a piece, `None` where they are not near enough.
+fn biarc(curve: &impl Curve, piece: usize, from: f64, to: f64, tolerance: f64) -> Option<Vec<(Point, f64)>> {
+    let (start, end) = (curve.at(piece, from).0, curve.at(piece, to).0);
+    let chord = end - start;
+    let leaving = tangent(curve, piece, from, to)?;
+    let arriving = tangent(curve, piece, to, from).map(|backwards| -backwards)?;
+    if chord.norm() == 0.0 || leaving.dot(&arriving) < 0.5 || leaving.dot(&chord) <= 0.0 || arriving.dot(&chord) <= 0.0 {
+        return None;
+    }
+    let along = chord.dot(&(leaving + arriving));
+    let length = chord.norm_squared() / (along + (along * along + 2.0 * (1.0 - leaving.dot(&arriving)) * chord.norm_squared()).sqrt());
+    let joint = Point::from((start.coords + end.coords + (leaving - arriving) * length) * 0.5);
+    let first = (turn(leaving, joint - start) / 2.0).tan();
+    let second = (turn(end - joint, arriving) / 2.0).tan();
+    // A bend that cannot be told from a line is one.
+    let straight = |bulge: f64, from: Point, to: Point| (bulge * (to - from).norm()).abs() < tolerance * 1e-6;
+    let first = if straight(first, start, joint) { 0.0 } else { first };
+    let second = if straight(second, joint, end) { 0.0 } else { second };
+    let segments = [Segment::from_bulge(start, joint, first), Segment::from_bulge(joint, end, second)];
+    let near = (1..SAMPLES).all(|sample| {
+        let point = curve.at(piece, from + (to - from) * (sample as f64 / SAMPLES as f64)).0;
+        let distance = segments.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min);
+        distance <= tolerance * MEASURED
+    });
+    near.then(|| vec![(start, first), (joint, second)])
+}
+
+/// The unit direction in which the curve leaves `at` towards `other`. Where it stands still there, that of the chord to
+/// a place near by.
+fn tangent(curve: &impl Curve, piece: usize, at: f64, other: f64) -> Option<Vector> {
+    let (point, derivative) = curve.at(piece, at);
+    let forward = derivative * (other - at).signum();
+    let still = curve.extent() * 1e-12;
+    if (forward * (other - at)).norm() > still {
+        return forward.try_normalize(0.0);
+    }
+    let near = curve.at(piece, at + (other - at) * 1e-3).0;
+    (near - point).try_normalize(0.0)
+}
+
+/// Neighbours on one line or one circle become one segment.
+fn merged(chain: Chain, same: f64) -> Chain {
+    let mut result: Chain = Vec::with_capacity(chain.len());
+    for window in 0..chain.len() {
+        let (point, bulge) = chain[window];
+        let Some(&(next, _)) = chain.get(window + 1) else {
+            result.push((point, bulge));
+            break;
+        };
+        if point == next {
+            continue;
+        }
+        if let Some(&(start, before)) = result.last()
+            && let Some(joined) = joined((start, before), (point, bulge), next, same)
+        {
+            if let Some(last) = result.last_mut() {
+                last.1 = joined;
+            }
+            continue;
+        }
+        result.push((point, bulge));
+    }
+    result
+}
+
+/// The bulge of one segment from `start` to `end` in the place of two, when they are one.
+fn joined((start, before): (Point, f64), (middle, after): (Point, f64), end: Point, same: f64) -> Option<f64> {
+    match (Segment::from_bulge(start, middle, before), Segment::from_bulge(middle, end, after)) {
+        (Segment::Line(one), Segment::Line(other)) => {
+            let whole = Segment::line(start, end);
+            (one.direction().dot(&other.direction()) > 0.0 && whole.distance_to(middle) <= same).then_some(0.0)
+        }
+        (Segment::Arc(one), Segment::Arc(other)) => {
+            let sweep = one.sweep + other.sweep;
+            let alike = before * after > 0.0 && sweep.abs() <= std::f64::consts::PI * (1.0 + 1e-9);
+            if !alike || (one.radius - other.radius).abs() > same || (one.center - other.center).norm() > same {
+                return None;
+            }
+            let bulge = (sweep / 4.0).tan();
+            let whole = Arc::from_bulge(start, end, bulge)?;
+            (whole.distance_to(middle) <= same).then_some(bulge)
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{EllipticArc, Spline, SplineCurve};
+    use super::*;
+    use proptest::prelude::*;
+
+    fn segments(chain: &Chain) -> Vec<Segment> {
+        chain.windows(2).map(|pair| Segment::from_bulge(pair[0].0, pair[1].0, pair[0].1)).collect()
+    }
+
+    /// Dense samples of the curve lie within the tolerance of the chain, and of the chain within it of the samples' lines.
+    fn check(curve: &impl Curve, tolerance: f64) -> Result<Vec<Segment>, TestCaseError> {
+        let chain = fit(curve, tolerance);
+        let fitted = segments(&chain);
+        prop_assert!(!fitted.is_empty());
+        let mut outline = Vec::new();
+        for (piece, (from, to)) in curve.pieces().into_iter().enumerate() {
+            for sample in 0..=100 {
+                let (point, _) = curve.at(piece, from + (to - from) * f64::from(sample) / 100.0);
+                let distance = fitted.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min);
+                prop_assert!(distance <= tolerance, "{distance} at {point}");
+                outline.push(point);
+            }
+        }
+        let longest = outline.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+        for segment in &fitted {
+            let middle = segment.point_at(0.5);
+            let distance = outline.windows(2).map(|pair| Segment::line(pair[0], pair[1]).distance_to(middle)).fold(f64::INFINITY, f64::min);
+            // The lines between samples cut the curve's corners.
+            prop_assert!(distance <= tolerance + longest * 0.2, "{distance} at {middle}");
+        }
+        let ends = curve.pieces();
+        prop_assert_eq!(fitted.first().map(|first| first.start()), Some(curve.at(0, ends[0].0).0));
+        Ok(fitted)
+    }
+
+    fn point() -> impl Strategy<Value = Point> {
+        (-10.0..10.0f64, -10.0..10.0f64).prop_map(|(x, y)| Point::new(x, y))
+    }
+
+    fn vector() -> impl Strategy<Value = Vector> {
+        (0.5..10.0f64, 0.0..std::f64::consts::TAU).prop_map(|(length, angle)| super::super::direction(angle) * length)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+
+        #[test]
+        fn ellipses(center in point(), u in vector(), v in vector(), start in 0.0..6.0f64, sweep in 0.01..6.3f64) {
+            let turn = super::super::cross(u, v).abs() / (u.norm() * v.norm());
+            prop_assume!(turn > 0.1);
+            let fitted = check(&EllipticArc { center, u, v, start, sweep: sweep.min(std::f64::consts::TAU) }, 1e-3)?;
+            prop_assert!(fitted.len() < 400, "{}", fitted.len());
+            for pair in fitted.windows(2) {
+                prop_assert!(super::super::turn(pair[0].end_tangent(), pair[1].start_tangent()).abs() < 1e-6, "a kink");
+            }
+        }
+
+        #[test]
+        fn splines(points in prop::collection::vec(point(), 6..9), degree in 1..=5usize, weights in prop::collection::vec(0.2..3.0f64, 9)) {
+            let count = points.len();
+            let inner = (1..count - degree).map(|knot| knot as f64);
+            let last = (count - degree) as f64;
+            let knots: Vec<f64> = std::iter::repeat_n(0.0, degree + 1).chain(inner).chain(std::iter::repeat_n(last, degree + 1)).collect();
+            let spline = Spline::new(degree, knots, points.clone(), weights[..count].to_vec()).unwrap();
+            check(&SplineCurve::from(&spline), 1e-3)?;
+        }
+
+        #[test]
+        fn splines_through_points(points in prop::collection::vec(point(), 2..8), tangent in prop::option::of(vector())) {
+            let Some(spline) = Spline::through(&points, tangent, None) else { return Ok(()) };
+            let fitted = check(&SplineCurve::from(&spline), 1e-3)?;
+            for point in points {
+                let distance = fitted.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min);
+                prop_assert!(distance <= 1e-3, "{distance} from {point}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_a_circle_or_a_line_becomes_one() {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let circle: Vec<Point> = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)]
+            .map(|(x, y)| Point::new(f64::from(x) * 5.0, f64::from(y) * 5.0))
+            .to_vec();
+        let weights = vec![1.0, half, 1.0, half, 1.0, half, 1.0, half, 1.0];
+        let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
+        let spline = Spline::new(2, knots, circle, weights).unwrap();
+        let arcs = segments(&fit(&SplineCurve::from(&spline), 1e-3));
+        assert_eq!(arcs.len(), 2);
+        assert!(arcs.iter().all(|arc| arc.as_arc().is_some_and(|arc| (arc.radius - 5.0).abs() < 1e-9)));
+        let round = EllipticArc { center: Point::origin(), u: Vector::new(0.0, 2.0), v: Vector::new(-2.0, 0.0), start: 1.0, sweep: 1.0 };
+        assert_eq!(segments(&fit(&round, 1e-3)).len(), 1);
+        let line = vec![Point::new(0.0, 0.0), Point::new(1.0, 1.0), Point::new(2.0, 2.0), Point::new(4.0, 4.0)];
+        let spline = Spline::new(3, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], line, Vec::new()).unwrap();
+        assert_eq!(fit(&SplineCurve::from(&spline), 1e-3), [(Point::new(0.0, 0.0), 0.0), (Point::new(4.0, 4.0), 0.0)]);
+    }
+
+    #[test]
+    fn periodic_knots_close_and_bad_numbers_are_refused() {
+        let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0), (4.0, 0.0), (4.0, 4.0)].map(|(x, y)| Point::new(x, y));
+        let spline = Spline::new(3, (0..11).map(f64::from).collect(), square.to_vec(), Vec::new()).unwrap();
+        let chain = fit(&SplineCurve::from(&spline), 1e-3);
+        assert!((chain[0].0 - chain[chain.len() - 1].0).norm() < 1e-12);
+        for (degree, knots, weights, expected) in [
+            (0, 8, vec![], "has the degree 0, expected 1 to 24"),
+            (7, 15, vec![], "has 7 control points, expected at least 8"),
+            (3, 10, vec![], "has 10 knots, expected 11 for 7 control points of degree 3"),
+            (3, 11, vec![1.0; 3], "has 3 weights for 7 control points"),
+            (3, 11, vec![0.0; 7], "has a weight that is not above 0"),
+        ] {
+            let knots = (0..knots).map(f64::from).collect();
+            assert_eq!(Spline::new(degree, knots, square.to_vec(), weights).unwrap_err(), expected);
+        }
+        let huge = EllipticArc { center: Point::origin(), u: Vector::new(1e308, 0.0), v: Vector::new(0.0, 1e308), start: 0.0, sweep: 6.0 };
+        assert!(fit(&huge, 1e-3).iter().all(|(point, _)| point.x.is_finite()));
+    }
+}
