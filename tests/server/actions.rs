@@ -1,6 +1,6 @@
 //! Code actions and the command behind those of drawings.
 
-use crate::support::{Client, TIGHT, capabilities, dxf_of, tight_square};
+use crate::support::{Client, TIGHT, capabilities, dxf_of, tight_plate};
 use serde_json::{Value, json};
 
 const CAD: &str = "cad:///1";
@@ -38,7 +38,7 @@ fn touched(actions: &[Value]) -> Vec<String> {
 #[test]
 fn a_fix_of_a_drawing_makes_it_clean() {
     let mut client = Client::start();
-    let found = client.open_drawing(CAD, json!([tight_square("2A")]));
+    let found = client.open_drawing(CAD, json!([tight_plate("2A")]));
     let offered = actions(&mut client, CAD, found[0]["range"].clone(), &found, Some("quickfix"));
     let preferred: Vec<bool> = offered.iter().map(|action| action["isPreferred"] == true).collect();
     assert_eq!(preferred, [true, false]);
@@ -57,9 +57,9 @@ fn a_fix_of_a_drawing_makes_it_clean() {
 fn diagnostics_choose_by_handle_and_segment_else_the_range_does() {
     let mut client = Client::start();
     let apart = |handle: &str, by: f64| {
-        let mut square = tight_square(handle);
-        square["vertices"].as_array_mut().unwrap().iter_mut().for_each(|vertex| vertex[0] = json!(vertex[0].as_f64().unwrap() + by));
-        square
+        let mut plate = tight_plate(handle);
+        plate["vertices"].as_array_mut().unwrap().iter_mut().for_each(|vertex| vertex[0] = json!(vertex[0].as_f64().unwrap() + by));
+        plate
     };
     let found = client.open_drawing(CAD, json!([apart("A", 0.0), apart("B", 20.0)]));
     assert_eq!(found.len(), 2);
@@ -84,7 +84,7 @@ fn diagnostics_choose_by_handle_and_segment_else_the_range_does() {
 #[test]
 fn only_what_is_asked_for_is_offered() {
     let mut client = Client::start();
-    client.open_drawing(CAD, json!([tight_square("2A")]));
+    client.open_drawing(CAD, json!([tight_plate("2A")]));
     let mut check = |only: Option<&str>, expected: &[&str]| {
         let offered = actions(&mut client, CAD, everywhere(), &[], only);
         let kinds: Vec<&str> = offered.iter().filter_map(|action| action["kind"].as_str()).collect();
@@ -163,7 +163,7 @@ fn a_client_without_document_changes_gets_plain_ones() {
 #[test]
 fn the_command_goes_to_the_client_and_back() {
     let mut client = Client::start();
-    client.open_drawing(CAD, json!([tight_square("2A")]));
+    client.open_drawing(CAD, json!([tight_plate("2A")]));
     let offered = actions(&mut client, CAD, everywhere(), &[], Some("source.fixAll"));
     let edit = argument(&offered[0]);
     let command = json!({ "command": "wedm.applyDrawingEdit", "arguments": [edit] });
@@ -184,7 +184,7 @@ fn the_command_goes_to_the_client_and_back() {
 #[test]
 fn a_command_that_cannot_be_run_is_refused() {
     let mut client = Client::start();
-    client.open_drawing(CAD, json!([tight_square("2A")]));
+    client.open_drawing(CAD, json!([tight_plate("2A")]));
     client.open_text(DXF, "dxf", "0\nEOF\n");
     let edit = |uri: &str| json!({ "uri": uri, "version": 1, "changes": [] });
     let mut check = |command: &str, arguments: Value, code: i64| {
@@ -203,7 +203,7 @@ fn a_command_that_cannot_be_run_is_refused() {
     client.shut_down();
 
     let mut client = Client::start_with(json!({}), json!({}));
-    client.open_drawing(CAD, json!([tight_square("2A")]));
+    client.open_drawing(CAD, json!([tight_plate("2A")]));
     assert_eq!(client.code("workspace/executeCommand", json!({ "command": "wedm.applyDrawingEdit", "arguments": [edit(CAD)] })), -32803);
     client.shut_down();
 }
@@ -211,7 +211,7 @@ fn a_command_that_cannot_be_run_is_refused() {
 #[test]
 fn looking_for_fixes_reports_progress_where_a_token_is_given() {
     let mut client = Client::start();
-    client.open_drawing(CAD, json!([tight_square("2A")]));
+    client.open_drawing(CAD, json!([tight_plate("2A")]));
     let params = json!({ "textDocument": { "uri": CAD }, "range": everywhere(), "context": { "diagnostics": [] }, "workDoneToken": "t" });
     client.request("textDocument/codeAction", params).unwrap();
     let kinds = [client.told("$/progress"), client.told("$/progress")].map(|told| told["value"]["kind"].clone());

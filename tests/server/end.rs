@@ -1,6 +1,6 @@
 //! How the process ends.
 
-use crate::support::{Client, capabilities, tight_square};
+use crate::support::{Client, capabilities, tight_plate};
 use serde_json::{Value, json};
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ const SOON: Duration = Duration::from_secs(4);
 fn the_exit_code_tells_whether_shutdown_came_before() {
     let check = |what: &str, end: fn(&mut Client), expected: i32| {
         let mut client = Client::start();
-        client.open_drawing("cad:///1", json!([tight_square("2A")]));
+        client.open_drawing("cad:///1", json!([tight_plate("2A")]));
         end(&mut client);
         let (code, time) = client.end();
         assert_eq!(code, Some(expected), "{what}");
@@ -68,7 +68,7 @@ fn a_server_that_was_never_spoken_to_ends_as_well() {
 #[test]
 fn requests_before_the_end_of_stdin_are_answered() {
     let mut client = Client::start();
-    client.open_drawing("cad:///1", json!([tight_square("2A")]));
+    client.open_drawing("cad:///1", json!([tight_plate("2A")]));
     let ids: Vec<i64> = (0..50).map(|_| client.ask("wedm/inspect", json!({ "uri": "cad:///1" }))).collect();
     client.close_stdin();
     for id in ids {

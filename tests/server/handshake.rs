@@ -1,6 +1,6 @@
 //! Lifecycle, and what client and server tell each other first.
 
-use crate::support::{Client, capabilities, frame, tight_square};
+use crate::support::{Client, capabilities, frame, tight_plate};
 use serde_json::json;
 
 #[test]
@@ -54,7 +54,7 @@ fn each_state_of_life_has_its_own_refusal() {
 #[test]
 fn what_is_sent_right_behind_initialize_is_not_lost() {
     let mut client = Client::raw();
-    let drawing = json!({ "uri": "cad:///1", "version": 1, "entities": [tight_square("2A")] });
+    let drawing = json!({ "uri": "cad:///1", "version": 1, "entities": [tight_plate("2A")] });
     let mut bytes = frame(&json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": { "capabilities": {} } }).to_string());
     bytes.extend(frame(&json!({ "jsonrpc": "2.0", "method": "initialized", "params": {} }).to_string()));
     bytes.extend(frame(&json!({ "jsonrpc": "2.0", "method": "wedm/didOpenDrawing", "params": { "drawing": drawing } }).to_string()));

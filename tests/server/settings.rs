@@ -1,6 +1,6 @@
 //! Settings: their levels, their changes at run time, and their faults.
 
-use crate::support::{Client, capabilities, tight_square};
+use crate::support::{Client, capabilities, tight_plate};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -16,14 +16,14 @@ fn with(key: &str, value: Value) -> Value {
     all
 }
 
-/// The correction that the fault of [`tight_square`] is held against.
+/// The correction that the fault of [`tight_plate`] is held against.
 fn required(client: &mut Client, uri: &str, version: i64) -> Value {
     let found = client.diagnostics(uri, version);
     found.first().map_or(Value::Null, |found| found["data"]["required"].clone())
 }
 
 fn open(client: &mut Client, uri: &str) {
-    client.notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": uri, "version": 1, "entities": [tight_square("2A")] } }));
+    client.notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": uri, "version": 1, "entities": [tight_plate("2A")] } }));
 }
 
 #[test]

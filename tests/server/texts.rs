@@ -1,6 +1,6 @@
 //! Text documents: incremental sync, encodings, and clients that do odd things.
 
-use crate::support::{Client, TIGHT, capabilities, codes, dxf_of};
+use crate::support::{Client, TIGHT, capabilities, codes, dxf_of, small};
 use serde_json::{Value, json};
 
 const URI: &str = "file:///plate.dxf";
@@ -11,10 +11,6 @@ fn change(client: &mut Client, version: i64, changes: Value) {
 
 fn replace(from: (u64, u64), to: (u64, u64), text: &str) -> Value {
     json!({ "range": { "start": { "line": from.0, "character": from.1 }, "end": { "line": to.0, "character": to.1 } }, "text": text })
-}
-
-fn small(found: &[Value]) -> usize {
-    codes(found).iter().filter(|code| **code == "small-radius").count()
 }
 
 /// Zero-based line of the bulge that is at fault.

@@ -1,13 +1,13 @@
 //! Broken frames, broken messages, odd ids: each costs itself alone.
 
-use crate::support::{Client, frame, tight_square};
+use crate::support::{Client, frame, tight_plate};
 use serde_json::{Value, json};
 
 #[test]
 fn valid_requests_between_broken_frames_are_all_answered_and_an_open_drawing_stays() {
     const COUNT: usize = 400;
     let mut client = Client::start();
-    assert_eq!(client.open_drawing("cad:///kept", json!([tight_square("2A")])).len(), 1);
+    assert_eq!(client.open_drawing("cad:///kept", json!([tight_plate("2A")])).len(), 1);
     let broken: [&[u8]; 10] = [
         b"Content-Length: 7\r\n\r\n{\"a\": 1",
         b"Content-Length: abc\r\n\r\n{}",
@@ -70,7 +70,7 @@ fn a_message_that_is_none_is_answered_with_its_fault() {
 #[test]
 fn ids_of_every_kind_are_given_back_and_a_doubled_one_harms_nobody() {
     let mut client = Client::start();
-    client.open_drawing("cad:///1", json!([tight_square("2A")]));
+    client.open_drawing("cad:///1", json!([tight_plate("2A")]));
     for id in [json!("a string"), json!(-5), json!(9_007_199_254_740_993_i64), json!(0)] {
         client.send(&json!({ "jsonrpc": "2.0", "id": id, "method": "wedm/inspect", "params": { "uri": "cad:///1" } }));
         let answer = client.wait_for("an answer", |message| message["id"] == id);
@@ -91,7 +91,7 @@ fn ids_of_every_kind_are_given_back_and_a_doubled_one_harms_nobody() {
 #[test]
 fn handlers_that_wait_for_the_client_do_not_stop_the_others() {
     let mut client = Client::start();
-    client.open_drawing("cad:///1", json!([tight_square("2A")]));
+    client.open_drawing("cad:///1", json!([tight_plate("2A")]));
     let waiting: Vec<i64> = (0..40).map(|_| client.ask("wedm/test/ask", json!({}))).collect();
     let fifth = client.request("wedm/inspect", json!({ "uri": "cad:///1" })).unwrap();
     assert_eq!(fifth["entities"].as_array().unwrap().len(), 1);

@@ -263,16 +263,15 @@ fn read_frame(stdout: &mut impl BufRead) -> Option<Value> {
     serde_json::from_slice(&body).ok()
 }
 
-/// A square of 10 mm whose third corner is rounded with R 0.05: one fault, segment 2.
-pub fn tight_square(handle: &str) -> Value {
-    json!({ "handle": handle, "type": "polyline", "closed": true,
-        "vertices": [[0, 0], [10, 0], [10, 9.95, 0.41421356237309503], [9.95, 10], [0, 10]] })
+/// A plate of 10 mm, a half circle below and round at the top, whose top right corner has R 0.05: one fault, segment 2.
+pub fn tight_plate(handle: &str) -> Value {
+    json!({ "handle": handle, "type": "polyline", "closed": true, "vertices": TIGHT })
 }
 
-/// The same square with R 0.5: no fault.
-pub fn wide_square(handle: &str) -> Value {
+/// The same plate 20 mm beside it, with R 0.5: no fault.
+pub fn wide_plate(handle: &str) -> Value {
     json!({ "handle": handle, "type": "polyline", "closed": true,
-        "vertices": [[0, 0], [10, 0], [10, 9.5, 0.41421356237309503], [9.5, 10], [0, 10]] })
+        "vertices": [[20, 5, 1], [30, 5], [30, 9.5, 0.41421356237309503], [29.5, 10], [25, 10, 0.41421356237309503]] })
 }
 
 /// DXF text of closed polylines, each with its handle.
@@ -290,10 +289,21 @@ pub fn dxf_of(polylines: &[(&str, &[[f64; 3]])]) -> String {
     text + "0\nENDSEC\n0\nEOF\n"
 }
 
-pub const TIGHT: [[f64; 3]; 5] =
-    [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 9.95, 0.41421356237309503], [9.95, 10.0, 0.0], [0.0, 10.0, 0.0]];
+/// Its vertices: all corners but the tight one are tangent and wide.
+pub const TIGHT: [[f64; 3]; 5] = [
+    [0.0, 5.0, 1.0],
+    [10.0, 5.0, 0.0],
+    [10.0, 9.95, 0.41421356237309503],
+    [9.95, 10.0, 0.0],
+    [5.0, 10.0, 0.41421356237309503],
+];
 
 /// Rules of diagnostics, in order.
 pub fn codes(diagnostics: &[Value]) -> Vec<&str> {
     diagnostics.iter().map(|diagnostic| diagnostic["code"].as_str().unwrap_or_default()).collect()
+}
+
+/// How many of the diagnostics are of `small-radius`.
+pub fn small(diagnostics: &[Value]) -> usize {
+    codes(diagnostics).iter().filter(|code| **code == "small-radius").count()
 }
