@@ -50,6 +50,11 @@ impl Known {
         }
     }
 
+    /// True when no local rule has seen anything and no arc is tight.
+    pub fn is_quiet(&self) -> bool {
+        self.facts.iter().flatten().all(Vec::is_empty) && self.index.tight().next().is_none()
+    }
+
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
     pub fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
         for (rule, facts) in LOCAL_RULES.iter().zip(&self.facts) {

@@ -136,10 +136,13 @@ impl Analysis {
         let ordered = self.in_machining_order(drawing).to_vec();
         let roles = self.roles(drawing, &ordered);
         let sides: Vec<Option<Side>> = ordered.iter().zip(&roles).map(|(key, role)| self.wire_side(*key, *role)).collect();
-        for (&key, &wire_side) in ordered.iter().zip(&sides) {
+        // Most contours have nothing to tell.
+        let is_loud = |(key, _): &(&ContourKey, &Option<Side>)| self.known.get(*key).is_some_and(|known| !known.is_quiet());
+        let loud: Vec<(ContourKey, Option<Side>)> = ordered.iter().zip(&sides).filter(is_loud).map(|(key, side)| (*key, *side)).collect();
+        for &(key, wire_side) in &loud {
             self.report_small_radii(drawing, key, wire_side, &mut report);
         }
-        for (&key, &wire_side) in ordered.iter().zip(&sides) {
+        for &(key, wire_side) in &loud {
             if let (Some(known), Some(outlook)) = (self.known.get(&key), self.outlook(drawing, key)) {
                 known.report(&outlook, wire_side, &mut report);
             }
@@ -154,10 +157,19 @@ impl Analysis {
     /// What the rules on whole contours see.
     fn report_contours(&self, drawing: &Drawing, keys: &[ContourKey], report: &mut Report) {
         let outlook = |key| self.outlook(drawing, key);
+        let concerned: Vec<Outlook> = keys
+            .iter()
+            .filter_map(|&key| outlook(key))
+            .filter(|outlook| outlook.contour.pieces.len() > 1 || !outlook.contour.closed)
+            .filter(|outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(outlook)))
+            .collect();
+        if concerned.is_empty() {
+            return;
+        }
         let doubled = self.pairs.doubled(&outlook);
         for rule in CONTOUR_RULES {
             let mildest = (rule.mildest)(&self.settings);
-            for outlook in keys.iter().filter_map(|&key| outlook(key)).filter(|outlook| (rule.holds)(outlook)) {
+            for outlook in concerned.iter().copied().filter(|outlook| (rule.holds)(outlook)) {
                 // What lies there twice is reported as that.
                 if !outlook.contour.pieces.iter().all(|piece| doubled.contains(&piece.entity))
                     && report.counts(rule.rule, mildest)
@@ -327,6 +339,9 @@ impl Analysis {
     }
 
     fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {
+        if !matches!(role, Role::Opening | Role::Punch) {
+            return None;
+        }
         let closed = self.chains.get(key)?.closed;
         crate::drawing::wire_side(role, closed, self.known.get(&key)?.index.twice_area())
     }

@@ -216,13 +216,20 @@ impl Pairs {
     }
 }
 
-/// False when a line passes a box at more than `reach`.
+/// False when the line or circle of a segment passes a box at more than `reach`.
 fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
-    let Segment::Line(line) = segment else { return true };
-    let normal = left_normal(line.direction());
     let center = bounds.min + (bounds.max - bounds.min) * 0.5;
-    let half = (bounds.width() * normal.x.abs() + bounds.height() * normal.y.abs()) / 2.0;
-    normal.dot(&(center - line.start)).abs() <= half + reach * 2.0
+    match segment {
+        Segment::Line(line) => {
+            let normal = left_normal(line.direction());
+            let half = (bounds.width() * normal.x.abs() + bounds.height() * normal.y.abs()) / 2.0;
+            normal.dot(&(center - line.start)).abs() <= half + reach * 2.0
+        }
+        Segment::Arc(arc) => {
+            let half_diagonal = bounds.width().hypot(bounds.height()) / 2.0;
+            ((center - arc.center).norm() - arc.radius).abs() <= half_diagonal + reach * 2.0
+        }
+    }
 }
 
 fn ordered(one: RunId, other: RunId) -> (RunId, RunId) {
@@ -298,8 +305,9 @@ impl Look<'_> {
         others.iter().for_each(|(_, bounds)| all.merge(bounds));
         for one in walls {
             let area = one.1.grown(self.reach);
-            if area.touches(&all) {
-                others.iter().filter(|other| area.touches(&other.1)).for_each(|other| self.at(one, other, found));
+            if area.touches(&all) && passes(one.0.geometry(), &all, self.reach) {
+                let near = |other: &&(Wall, Bounds)| area.touches(&other.1) && passes(one.0.geometry(), &other.1, self.reach);
+                others.iter().filter(near).for_each(|other| self.at(one, other, found));
             }
         }
     }
