@@ -101,7 +101,7 @@ fn commands_print_and_end_as_they_say() {
         ("check tight.dxf --side punch", 0, &["nothing found"]),
         ("check chain.dxf", 1, &["--> chain.dxf:40:1", "^^^^ 32, segment 0"]),
         ("check inch.dxf", 1, &["arc R 0.080 mm"]),
-        ("check narrow.dxf", 1, &["narrow-slot", "2 errors\n"]),
+        ("check narrow.dxf", 1, &["narrow-slot", "2 errors, 1 warning"]),
         ("check no_unit.dxf", 0, &["warning[units]", "1 warning"]),
         ("check no_unit.dxf --deny warning", 1, &["1 warning"]),
         ("check clean.dxf --deny warning", 0, &[]),

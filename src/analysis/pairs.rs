@@ -3,7 +3,7 @@
 use super::report::Report;
 use crate::drawing::{ContourIndex, ContourKey, EntityId};
 use crate::finding::{Rule, Severity, Side};
-use crate::geometry::{Bounds, Grid, Point};
+use crate::geometry::{Bounds, Grid, Point, Segment, left_normal};
 use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Wall};
 use crate::settings::Effective;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -103,6 +103,14 @@ impl Pairs {
                 }
             });
             let walls = walls_of(&own, run.1);
+            // A long line may have a box that holds half the drawing, and come near little of it.
+            near.retain(|&other| {
+                let theirs = outlook(other.0).map_or(Bounds::EMPTY, |theirs| theirs.index.bounds_of_run(other.1 as usize));
+                other == run
+                    || walls
+                        .iter()
+                        .any(|(wall, bounds)| bounds.grown(self.reach).touches(&theirs) && passes(wall.geometry(), &theirs, self.reach))
+            });
             for &other in &near {
                 let look = Look { rules: &rules, reach: self.reach, keys: (run.0, other.0) };
                 if other == run {
@@ -206,6 +214,15 @@ impl Pairs {
             }
         }
     }
+}
+
+/// False when a line passes a box at more than `reach`.
+fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
+    let Segment::Line(line) = segment else { return true };
+    let normal = left_normal(line.direction());
+    let center = bounds.min + (bounds.max - bounds.min) * 0.5;
+    let half = (bounds.width() * normal.x.abs() + bounds.height() * normal.y.abs()) / 2.0;
+    normal.dot(&(center - line.start)).abs() <= half + reach * 2.0
 }
 
 fn ordered(one: RunId, other: RunId) -> (RunId, RunId) {
