@@ -66,7 +66,7 @@ impl Known {
                 let mildest = Some(Severity::Hint);
                 if report.counts(rule.rule, mildest)
                     && let (Some(place), Some(detail)) =
-                        (outlook.place(first.index as usize), (rule.detail)(outlook, first, 1 + facts.count()))
+                        (outlook.place(first.index as usize), (rule.detail)(outlook, first, Some(1 + facts.count())))
                 {
                     report.add(rule.rule, mildest, place, detail, (rule.related)(outlook, first));
                 }
@@ -74,7 +74,7 @@ impl Known {
             }
             for &fact in facts {
                 if report.counts(rule.rule, None)
-                    && let (Some(place), Some(detail)) = (outlook.place(fact.index as usize), (rule.detail)(outlook, fact, 1))
+                    && let (Some(place), Some(detail)) = (outlook.place(fact.index as usize), (rule.detail)(outlook, fact, None))
                 {
                     report.add(rule.rule, None, place, detail, (rule.related)(outlook, fact));
                 }

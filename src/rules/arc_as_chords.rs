@@ -152,7 +152,7 @@ fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)>
     Some((fitting, best, points))
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: usize) -> Option<Detail> {
+fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     let (chords, fit, _) = sequence(outlook, fact.index as usize)?;
     Some(Detail::ArcAsChords { chords, center: fit.center, radius: fit.radius, deviation: fit.deviation })
 }

@@ -112,8 +112,8 @@ pub struct LocalRule {
     pub holds: fn(&Outlook, Fact) -> bool,
     /// The other places that are concerned.
     pub related: fn(&Outlook, Fact) -> Vec<Place>,
-    /// The numbers of a fact. `count` is 1, or the number of facts that one finding stands for.
-    pub detail: fn(&Outlook, Fact, usize) -> Option<Detail>,
+    /// The numbers of a fact. With a count, the wire side is not known and one finding stands for so many facts.
+    pub detail: fn(&Outlook, Fact, Option<usize>) -> Option<Detail>,
     /// Repairs, the preferred one first.
     pub fixes: fn(&Outlook, Fact) -> Vec<Fix>,
     /// Where the wire side is not known: one hint for each contour in place of a finding for each fact.

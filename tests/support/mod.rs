@@ -290,13 +290,8 @@ pub fn dxf_of(polylines: &[(&str, &[[f64; 3]])]) -> String {
 }
 
 /// Its vertices: all corners but the tight one are tangent and wide.
-pub const TIGHT: [[f64; 3]; 5] = [
-    [0.0, 5.0, 1.0],
-    [10.0, 5.0, 0.0],
-    [10.0, 9.95, 0.41421356237309503],
-    [9.95, 10.0, 0.0],
-    [5.0, 10.0, 0.41421356237309503],
-];
+pub const TIGHT: [[f64; 3]; 5] =
+    [[0.0, 5.0, 1.0], [10.0, 5.0, 0.0], [10.0, 9.95, 0.41421356237309503], [9.95, 10.0, 0.0], [5.0, 10.0, 0.41421356237309503]];
 
 /// Rules of diagnostics, in order.
 pub fn codes(diagnostics: &[Value]) -> Vec<&str> {
