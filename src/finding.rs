@@ -192,12 +192,13 @@ pub struct SmallRadius {
 pub enum Detail {
     SmallRadius(Box<SmallRadius>),
     /// A corner concave to the wire turns by `turn` (radians): it is left with `radius`, and `uncut` of it stands.
-    /// Where the wire side is not known, one finding stands for the `count` corners of its contour.
+    /// Where the wire side is not known, one finding stands for the `count` corners of its contour, and `uncut` holds for
+    /// those that the wire runs inside of; else `count` is `None`.
     SharpCorner {
         turn: f64,
         radius: f64,
         uncut: f64,
-        count: usize,
+        count: Option<usize>,
     },
     /// Facing walls are `width` apart, the wire needs `required`.
     NarrowSlot {

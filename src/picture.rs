@@ -9,7 +9,7 @@ mod marks;
 mod style;
 
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};
-use crate::finding::{Detail, Finding, Place, SmallRadius};
+use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
 use crate::geometry::{Bounds, Segment};
 use crate::toolpath::{Source, WirePath};
 use figure::{Frame, escaped, number, path_data};
@@ -53,7 +53,9 @@ pub fn svg(drawing: &Drawing, outlines: &[Outline], findings: &[Finding], paths:
     picture.figure(&mut sheet, &frame);
     marks::faults(&mut sheet, &frame, &picture.faults, unit_mm, FIGURE_TOP - 26.0);
     lens::row(&mut sheet, &picture, details_top);
-    style::legend(&mut sheet, legend_top + 12.0, picture.faults.is_empty(), picture.paths.is_empty());
+    let shown =
+        style::Shown { faults: !picture.faults.is_empty(), others: findings.iter().any(is_other), paths: !picture.paths.is_empty() };
+    style::legend(&mut sheet, legend_top + 12.0, shown);
     style::scale_bar(&mut sheet, SHEET_WIDTH - MARGIN, legend_top + 12.0, scale / unit_mm);
     sheet.push_str("</svg>\n");
     sheet
@@ -277,21 +279,35 @@ impl Picture<'_> {
         }
     }
 
-    /// Findings on segments that have no picture of their own: the segment is marked and its rule named.
+    /// Errors and warnings that have no picture of their own: a dot where they are of a point, else the segment is marked.
     fn other_faults(&self, sheet: &mut String, frame: &Frame) {
-        for finding in self.findings.iter().filter(|finding| !matches!(finding.detail, Detail::SmallRadius(_))) {
-            let Place::Segment { entity, segment } = finding.place else { continue };
-            let Some(entity) = self.drawing.get(entity) else { continue };
+        let pieces = self.outlines.iter().flat_map(|outline| &outline.contour.pieces);
+        let reversed: FxHashSet<EntityId> = pieces.filter(|piece| piece.reversed).map(|piece| piece.entity).collect();
+        for finding in self.findings.iter().filter(|finding| is_other(finding)) {
+            let Place::Segment { entity: id, segment } = finding.place else { continue };
+            let Some(entity) = self.drawing.get(id) else { continue };
             let Some(geometry) = entity.geometry.segment(segment) else { continue };
-            let _ = writeln!(
-                sheet,
-                r#"<path class="other" d="{}"><title>{} · segment {segment} · {}</title></path>"#,
-                path_data(frame, [geometry], false),
-                escaped(&entity.handle),
-                finding.rule.name()
-            );
+            let point = match finding.detail {
+                Detail::SelfIntersection { at, .. } | Detail::LostPocket { near: at } => Some(at),
+                // Seen where the segment begins in the direction of travel.
+                Detail::SharpCorner { .. } | Detail::NearTangent { .. } | Detail::Gap { .. } => {
+                    Some(if reversed.contains(&id) { geometry.end() } else { geometry.start() })
+                }
+                _ => None,
+            };
+            let label = format!("<title>{} · segment {segment} · {}</title>", escaped(&entity.handle), finding.rule.name());
+            let _ = match point.map(|point| frame.local(point)) {
+                Some((x, y)) => writeln!(sheet, r#"<circle class="dot" cx="{}" cy="{}" r="4.5">{label}</circle>"#, number(x), number(y)),
+                None => writeln!(sheet, r#"<path class="other" d="{}">{label}</path>"#, path_data(frame, [geometry], false)),
+            };
         }
     }
+}
+
+/// An error or a warning on a segment, of any rule but `small-radius`.
+fn is_other(finding: &Finding) -> bool {
+    let is_of_segment = matches!(finding.place, Place::Segment { .. });
+    is_of_segment && finding.severity <= Severity::Warning && !matches!(finding.detail, Detail::SmallRadius(_))
 }
 
 #[cfg(test)]

@@ -134,7 +134,7 @@ fn commands_print_and_end_as_they_say() {
         ("inspect tight.dxf", 1, &["LWPOLYLINE 2A on layer DIE, closed", "0.080", "small-radius", "1 not ok"]),
         ("inspect clean.dxf", 0, &["all of them can be cut"]),
         ("inspect missing.dxf", 2, &["!missing.dxf"]),
-        ("contours chain.dxf", 0, &["contour 0: closed, counter-clockwise, both sides, 5 segments", "1 contour\n"]),
+        ("contours chain.dxf", 0, &["contour 0: closed, counter-clockwise, both sides, 6 segments", "1 contour\n"]),
         ("draw tight.dxf", 0, &["<svg", "R 0.080 mm, the correction is 0.100 mm", "</svg>"]),
         ("draw tight.dxf -o tight.png", 2, &["!.png is not written, expected .svg"]),
         ("completions bash", 0, &["_wedm"]),
@@ -201,7 +201,7 @@ fn the_radius_list_names_vertex_radius_and_verdict() {
     let json = desk.run("inspect tight.dxf --output json").json();
     let segments = json["entities"][0]["segments"].as_array().unwrap();
     let verdicts: Vec<_> = segments.iter().map(|segment| segment["verdict"].as_str().unwrap()).collect();
-    assert_eq!(verdicts, ["ok", "small-radius", "ok", "ok", "ok"]);
+    assert_eq!(verdicts, ["ok", "small-radius", "ok", "ok", "ok", "ok"]);
     assert_eq!(segments[1]["kind"], "arc");
     assert_eq!(json["diagnostics"].as_array().unwrap().len(), 1);
     assert_eq!(desk.run("inspect inch.dxf --output json").json()["unitsToMm"], 25.4);

@@ -204,4 +204,13 @@ fn the_settings_of_the_readme_are_the_defaults() {
     assert!(all.layers.is_some() && all.passes.is_some());
     let (defaults, _) = wedm::settings::from_toml(&settings);
     assert_eq!(wedm::settings::Effective::of(&defaults), wedm::settings::Effective::default());
+    // A rule that is set is no milder anywhere, so the defaults of the rules stand in comments.
+    let (_, rules) = example.split_once("[rules]").unwrap();
+    let shown: Vec<&str> = rules.lines().filter_map(|line| line.strip_prefix("# ")?.split_once(" =")).map(|(name, _)| name).collect();
+    for rule in Rule::ALL.into_iter().filter(|rule| *rule != Rule::Settings) {
+        let severity = format!("{:?}", rule.default_severity()).to_lowercase();
+        let line = format!("# {} = \"{severity}\"", rule.name());
+        assert!(rules.lines().any(|shown| shown.starts_with(&line)), "no {line:?}");
+        assert_eq!(shown.iter().filter(|name| **name == rule.name()).count(), 1, "{}", rule.name());
+    }
 }

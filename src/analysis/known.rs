@@ -5,6 +5,7 @@ use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
 use crate::finding::{Severity, Side};
 use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook};
 use crate::settings::Effective;
+use std::iter::once;
 use std::ops::Range;
 
 #[derive(Clone, Debug)]
@@ -33,7 +34,7 @@ impl Known {
             let (before, behind) = (rule.reach)(&outlook, changed.clone());
             let recounted = facts.len() != runs;
             let end = if recounted { count } else { (changed.end + behind).min(count) };
-            let mut ranges = vec![changed.start.saturating_sub(before)..end];
+            let mut ranges: Vec<Range<usize>> = once(changed.start.saturating_sub(before)..end).collect();
             if contour.closed && changed.start < before {
                 ranges.push(count.saturating_sub(before - changed.start)..count);
             }
@@ -42,9 +43,10 @@ impl Known {
             }
             facts.resize(runs, Vec::new());
             for range in ranges {
-                for run in range.start / RUN..range.end.div_ceil(RUN).min(runs) {
-                    facts[run].clear();
-                    (rule.look)(&outlook, self.index.range_of(run), &mut facts[run]);
+                let until = range.end.div_ceil(RUN).min(runs);
+                for (run, facts) in facts.iter_mut().enumerate().take(until).skip(range.start / RUN) {
+                    facts.clear();
+                    (rule.look)(&outlook, self.index.range_of(run), facts);
                 }
             }
         }
@@ -71,7 +73,7 @@ impl Known {
                 let mildest = Some(Severity::Hint);
                 if report.counts(rule.rule, mildest)
                     && let (Some(place), Some(detail)) =
-                        (outlook.place(first.index as usize), (rule.detail)(outlook, first, 1 + facts.count()))
+                        (outlook.place(first.index as usize), (rule.detail)(outlook, first, Some(1 + facts.count())))
                 {
                     report.add(rule.rule, mildest, place, detail, (rule.related)(outlook, first));
                 }
@@ -79,7 +81,7 @@ impl Known {
             }
             for &fact in facts {
                 if report.counts(rule.rule, None)
-                    && let (Some(place), Some(detail)) = (outlook.place(fact.index as usize), (rule.detail)(outlook, fact, 1))
+                    && let (Some(place), Some(detail)) = (outlook.place(fact.index as usize), (rule.detail)(outlook, fact, None))
                 {
                     report.add(rule.rule, None, place, detail, (rule.related)(outlook, fact));
                 }

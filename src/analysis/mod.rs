@@ -269,7 +269,7 @@ impl Analysis {
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
             // A hint that stands for many corners is no place to mend one of them.
-            if matches!(finding.detail, Detail::SharpCorner { count, .. } if count > 1) {
+            if matches!(finding.detail, Detail::SharpCorner { count: Some(count), .. } if count > 1) {
                 return None;
             }
             return Some((rule.fixes)(&outlook, Fact { index: index as u32, side: None, needs_side: false }));

@@ -46,6 +46,16 @@ struct Target {
     diff: bool,
 }
 
+/// The rules whose findings are repaired without asking, and what one of them is called.
+const REPAIRED: [(Rule, &str); 6] = [
+    (Rule::SmallRadius, "arc"),
+    (Rule::DuplicateEntity, "double"),
+    (Rule::Overlap, "overlap"),
+    (Rule::ShortSegment, "short segment"),
+    (Rule::Gap, "gap"),
+    (Rule::ArcAsChords, "chorded arc"),
+];
+
 /// A fix may make room for another one; past this many rounds nothing new comes of it.
 const ROUNDS: usize = 12;
 
@@ -182,18 +192,21 @@ fn push_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
 
 /// What was repaired, and what is left and why, to stderr: stdout may be the drawing.
 fn summarise(path: &Path, repair: &Repair) {
-    let tight = |rows: &[Row]| rows.iter().filter(|row| row.rule == Rule::SmallRadius).count();
-    let (before, after) = (tight(&repair.before), tight(&repair.after));
-    let repaired = before.saturating_sub(after);
+    let of_rule = |rows: &[Row], rule: Rule| rows.iter().filter(|row| row.rule == rule).count();
+    let repaired = REPAIRED.iter().filter_map(|&(rule, noun)| {
+        let count = of_rule(&repair.before, rule).saturating_sub(of_rule(&repair.after, rule));
+        (count > 0).then(|| counted(count, noun))
+    });
+    let repaired = repaired.collect::<Vec<_>>().join(", ");
+    let is_sound = REPAIRED.iter().all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
     let name = path.display();
-    match (repaired, before) {
-        (0, 0) => output::say(&format!("{name}: no arc is tighter than the correction, nothing to repair")),
-        (0, _) => output::say(&format!("{name}: nothing could be repaired safely")),
-        _ => {
-            let arcs = counted(repaired, "arc");
-            let rounds = if repair.rounds > 1 { format!(" in {} rounds", repair.rounds) } else { String::new() };
-            output::say(&format!("{name}: {}{rounds}", styled(output::GOOD, format!("{arcs} repaired"))));
-        }
+    if !repaired.is_empty() {
+        let rounds = if repair.rounds > 1 { format!(" in {} rounds", repair.rounds) } else { String::new() };
+        output::say(&format!("{name}: {}{rounds}", styled(output::GOOD, format!("{repaired} repaired"))));
+    } else if is_sound {
+        output::say(&format!("{name}: nothing to repair"));
+    } else {
+        output::say(&format!("{name}: nothing could be repaired safely"));
     }
     for row in repair.after.iter().filter(|row| row.severity <= Severity::Warning) {
         let reason = match &row.data.no_fix {

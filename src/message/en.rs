@@ -8,13 +8,18 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
         Detail::SmallRadius(numbers) => small_radius(numbers, unit_mm),
         Detail::UnsupportedEntity { kind, count: 1, why } => format!("{kind} is not cut: {why}"),
         Detail::UnsupportedEntity { kind, count, why } => format!("{kind} ({count} of them) is not cut: {why}"),
-        Detail::SharpCorner { turn, radius, uncut, count: 1 } => format!(
+        Detail::SharpCorner { turn, radius, uncut, count: None } => format!(
             "corner of {:.1}° is left with R {} mm: {} mm of it stay uncut",
             turn.abs().to_degrees(),
             mm(radius * unit_mm),
             mm(uncut * unit_mm)
         ),
-        Detail::SharpCorner { radius, count, .. } => {
+        Detail::SharpCorner { turn, radius, count: Some(1), .. } => format!(
+            "sharp corner of {:.1}°: where the wire runs inside of it, it is left with R {} mm",
+            turn.abs().to_degrees(),
+            mm(radius * unit_mm)
+        ),
+        Detail::SharpCorner { radius, count: Some(count), .. } => {
             format!("{count} sharp corners: those that the wire runs inside of are left with R {} mm", mm(radius * unit_mm))
         }
         Detail::NarrowSlot { width, required } => {
@@ -87,7 +92,7 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
 
 /// Title of the action that makes every safe fix.
 pub fn fix_all_title() -> &'static str {
-    "Fix all arcs below the correction that can be fixed safely"
+    "Fix all that can be fixed safely"
 }
 
 fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {

@@ -74,8 +74,15 @@ pub(super) fn empty_sheet() -> String {
     sheet
 }
 
+/// What occurs in a picture.
+pub(super) struct Shown {
+    pub faults: bool,
+    pub others: bool,
+    pub paths: bool,
+}
+
 /// What the lines mean, as far as they occur.
-pub(super) fn legend(sheet: &mut String, top: f64, no_faults: bool, no_paths: bool) {
+pub(super) fn legend(sheet: &mut String, top: f64, shown: Shown) {
     let y = top + 8.0;
     let mut x = MARGIN;
     let mut entry = |sample: &str, text: &str| {
@@ -89,14 +96,17 @@ pub(super) fn legend(sheet: &mut String, top: f64, no_faults: bool, no_paths: bo
         x += 32.0 + text.chars().count() as f64 * 6.6 + 22.0;
     };
     entry(r#"<path class="contour" d="M0 0h24"/>"#, "contour");
-    if !no_paths {
+    if shown.paths {
         entry(r#"<path class="wire" d="M0 0h24"/>"#, "wire");
         entry(r#"<path class="lead" d="M0 0h24"/>"#, "lead");
         entry(r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#, "thread hole");
     }
-    if !no_faults {
+    if shown.faults {
         entry(r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#, "too tight");
         entry(r#"<circle class="correction" cx="12" cy="0" r="8"/>"#, "correction");
+    }
+    if shown.others {
+        entry(r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#, "other finding");
     }
 }
 

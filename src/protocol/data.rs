@@ -121,7 +121,7 @@ impl FindingData {
                 data.turn = Some(turn.to_degrees());
                 data.radius = Some(*radius);
                 data.uncut = Some(*uncut);
-                data.count = (*count > 1).then_some(*count);
+                data.count = *count;
             }
             Detail::NarrowSlot { width, required } => {
                 data.distance = Some(*width);

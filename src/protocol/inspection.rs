@@ -3,7 +3,7 @@
 use super::segment::SegmentShape;
 use crate::document::Document;
 use crate::drawing::{Drawing, EntityId};
-use crate::finding::{Finding, Place};
+use crate::finding::{Finding, Place, Severity};
 use rustc_hash::FxHashMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ pub struct InspectedSegment {
     pub index: usize,
     #[serde(flatten)]
     pub shape: SegmentShape,
-    /// `ok`, or the names of the rules at fault with a comma between.
+    /// `ok`, or the names of the rules of which an error or a warning lies here, with a comma between.
     pub verdict: String,
 }
 
@@ -51,7 +51,7 @@ impl Inspection {
     /// than `zero_length` (drawing units) is left out, its neighbours keep their index.
     pub fn new(drawing: &Drawing, unit_mm: f64, zero_length: f64, findings: &[Finding], handle: Option<&str>) -> Inspection {
         let mut rules: FxHashMap<(EntityId, usize), Vec<&'static str>> = FxHashMap::default();
-        for finding in findings {
+        for finding in findings.iter().filter(|finding| finding.severity <= Severity::Warning) {
             if let Place::Segment { entity, segment } = finding.place {
                 let names = rules.entry((entity, segment)).or_default();
                 if !names.contains(&finding.rule.name()) {

@@ -152,7 +152,7 @@ fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)>
     Some((fitting, best, points))
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: usize) -> Option<Detail> {
+fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     let (chords, fit, _) = sequence(outlook, fact.index as usize)?;
     Some(Detail::ArcAsChords { chords, center: fit.center, radius: fit.radius, deviation: fit.deviation })
 }
@@ -162,8 +162,11 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     let Some((chords, fit, points)) = sequence(outlook, first) else { return Vec::new() };
     let places: Vec<ContourSegment> = (first..first + chords).filter_map(|index| outlook.segment(index as isize)).collect();
     // All the way round, it takes two arcs.
-    let halves =
-        if chords == outlook.contour.len() && outlook.contour.closed { vec![0..chords / 2, chords / 2..chords] } else { vec![0..chords] };
+    let halves = if chords == outlook.contour.len() && outlook.contour.closed {
+        vec![0..chords / 2, chords / 2..chords]
+    } else {
+        std::iter::once(0..chords).collect()
+    };
     let arcs: Vec<(Range<usize>, Arc)> = halves
         .into_iter()
         .map(|range| {

@@ -42,7 +42,7 @@ fn related(outlook: &Outlook, fact: Fact) -> Vec<Place> {
     before.map(|before| Place::Segment { entity: before.entity, segment: before.segment }).into_iter().collect()
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: usize) -> Option<Detail> {
+fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     Some(Detail::Gap { distance: distance(outlook, fact.index as usize)? })
 }
 

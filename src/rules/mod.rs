@@ -112,8 +112,8 @@ pub struct LocalRule {
     pub holds: fn(&Outlook, Fact) -> bool,
     /// The other places that are concerned.
     pub related: fn(&Outlook, Fact) -> Vec<Place>,
-    /// The numbers of a fact. `count` is 1, or the number of facts that one finding stands for.
-    pub detail: fn(&Outlook, Fact, usize) -> Option<Detail>,
+    /// The numbers of a fact. With a count, the wire side is not known and one finding stands for so many facts.
+    pub detail: fn(&Outlook, Fact, Option<usize>) -> Option<Detail>,
     /// Repairs, the preferred one first.
     pub fixes: fn(&Outlook, Fact) -> Vec<Fix>,
     /// Where the wire side is not known: one hint for each contour in place of a finding for each fact.
@@ -123,6 +123,9 @@ pub struct LocalRule {
 /// Every rule on single segments and their neighbours.
 pub const LOCAL_RULES: &[LocalRule] = &[sharp_corner::RULE, gap::RULE, short_segment::RULE, near_tangent::RULE, arc_as_chords::RULE];
 
+/// A place, and the other places that are concerned.
+pub type Places = (Place, Vec<Place>);
+
 /// A rule on a contour as a whole, cheap enough to be asked at every report. All of them stand in [`CONTOUR_RULES`].
 pub struct ContourRule {
     pub rule: Rule,
@@ -130,7 +133,7 @@ pub struct ContourRule {
     /// The severity that it has at most under some settings, unless the user has set the rule.
     pub mildest: fn(&Effective) -> Option<Severity>,
     /// The place, and the other places that are concerned.
-    pub places: fn(&Outlook) -> Option<(Place, Vec<Place>)>,
+    pub places: fn(&Outlook) -> Option<Places>,
     pub detail: fn(&Outlook) -> Option<Detail>,
     /// Repairs, the preferred one first.
     pub fixes: fn(&Outlook) -> Vec<Fix>,

@@ -34,7 +34,7 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     }
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: usize) -> Option<Detail> {
+fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     let turn = outlook.turn_at(fact.index as usize)?;
     let reversed = outlook.segment(fact.index as isize)?.reversed;
     Some(Detail::NearTangent { turn: if reversed { -turn } else { turn } })

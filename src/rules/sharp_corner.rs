@@ -42,7 +42,7 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
 
 /// Left with R, the last pass's correction; uncut is what stands between the arc and the corner, `R (1 / cos(θ/2) − 1)`,
 /// and no more than the shorter of the two segments.
-fn detail(outlook: &Outlook, fact: Fact, count: usize) -> Option<Detail> {
+fn detail(outlook: &Outlook, fact: Fact, count: Option<usize>) -> Option<Detail> {
     let index = fact.index as isize;
     let turn = outlook.turn_at(fact.index as usize)?;
     let (before, behind) = (outlook.segment(index - 1)?, outlook.segment(index)?);

@@ -29,7 +29,7 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     }
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: usize) -> Option<Detail> {
+fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     Some(Detail::ShortSegment { length: outlook.segment(fact.index as isize)?.geometry.length() })
 }
 

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Drawing, DrawingEdit, Entity, Geometry, Role, Vertex};
-use wedm::finding::{Detail, Side};
+use wedm::finding::{Detail, Finding, Severity, Side};
 use wedm::geometry::{Point, Segment};
 
 const CORRECTION: f64 = 0.2;
@@ -63,13 +63,19 @@ fn as_chain(vertices: &[Vertex]) -> Drawing {
     drawing
 }
 
+/// Errors and warnings.
+fn grave(findings: &[Finding]) -> usize {
+    findings.iter().filter(|finding| finding.severity <= Severity::Warning).count()
+}
+
 /// Applies the preferred fix of the first finding that has one and holds the new outline against the opening.
 fn check(vertices: &[Vertex], drawing: Drawing, side_setting: wedm::settings::SideSetting) -> Result<bool, TestCaseError> {
     let mut settings = (*settings(CORRECTION)).clone();
     settings.side = side_setting;
     let settings = std::sync::Arc::new(settings);
     let mut analysis = Analysis::new(&drawing, settings.clone());
-    let (findings, before) = analysis.findings(&drawing, usize::MAX);
+    let (findings, _) = analysis.findings(&drawing, usize::MAX);
+    let before = faults(&drawing, &settings).len();
     let old = all_segments(&drawing);
     let outline = Geometry::Polyline { closed: true, vertices: vertices.to_vec() };
     let mut fixed_any = false;
@@ -81,7 +87,10 @@ fn check(vertices: &[Vertex], drawing: Drawing, side_setting: wedm::settings::Si
         fixed_any = true;
         let mut fixed = drawing.clone();
         prop_assert!(fixed.apply(&fix.edit).is_ok());
-        let after = Analysis::new(&fixed, settings.clone()).findings(&fixed, usize::MAX).1;
+        let after = faults(&fixed, &settings).len();
+        // Nor is it paid for with a fault of another rule, but for a kink of the opening that nearly is tangent, a hint.
+        let others = Analysis::new(&fixed, settings.clone()).findings(&fixed, usize::MAX).0;
+        prop_assert!(grave(&others) < grave(&findings), "{findings:#?} before, {others:#?} after");
         prop_assert!(after < before, "{before} faults before, {after} after");
         // The arc's own centre tells on which side of the outline the wire runs here.
         let along = outline.segments().find(|segment| segment.as_arc().is_some_and(|arc| (arc.center - numbers.center).norm() < 1e-6));
@@ -117,7 +126,7 @@ fn check(vertices: &[Vertex], drawing: Drawing, side_setting: wedm::settings::Si
     if let Some(edit) = analysis.fix_all(&drawing) {
         let mut fixed = drawing.clone();
         prop_assert!(fixed.apply(&edit).is_ok());
-        let after = Analysis::new(&fixed, settings).findings(&fixed, usize::MAX).1;
+        let after = faults(&fixed, &settings).len();
         prop_assert!(after < before);
     }
     Ok(fixed_any)

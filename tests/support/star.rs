@@ -63,7 +63,7 @@ impl Star {
         let count = points.len();
         let edge = |i: usize| Segment::from_bulge(points[i], points[(i + 1) % count], self.corners[i].2);
         let mut vertices = Vec::new();
-        for i in 0..count {
+        for (i, &corner_at) in points.iter().enumerate() {
             let (incoming, outgoing) = (edge((i + count - 1) % count), edge(i));
             let share = |segment: &Segment, distance: f64| (distance / segment.length()).min(0.4);
             let next_start = |distance: f64| outgoing.point_at(share(&outgoing, distance));
@@ -71,7 +71,7 @@ impl Star {
             let turned = wedm::geometry::turn(incoming.end_tangent(), outgoing.start_tangent());
             let mut push = |point: Point, bulge: f64| vertices.push(Vertex { point, bulge });
             let leave = match self.corners[i].3 {
-                Corner::Sharp => points[i],
+                Corner::Sharp => corner_at,
                 Corner::Arc { before, after, bulge } => {
                     push(last_end(before), bulge);
                     next_start(after)
