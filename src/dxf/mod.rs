@@ -11,6 +11,7 @@ mod edit;
 mod entity;
 mod fault;
 mod foreign;
+pub mod language;
 mod layers;
 mod lexer;
 mod lines;

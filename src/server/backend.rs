@@ -5,7 +5,7 @@ use super::config::{Level, path_of};
 use super::drawings::{self, Sent, SentChanges};
 use super::jobs::Cancel;
 use super::requests::code_action::FIX_ALL;
-use super::requests::{Errand, code_action, contours, drawing_edit, generate, inspect, internal, picture, probe, toolpath};
+use super::requests::{Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, picture, probe, toolpath};
 use super::state::{Mailbox, Reply, State};
 use super::transport::Prepared;
 use super::{parent, texts};
@@ -263,6 +263,30 @@ impl LanguageServer for Backend {
         self.ask("textDocument/codeAction", Some(about), move |state, reply| code_action::code_action(state, params, reply)).await
     }
 
+    async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
+        let about = shared(&params.text_document_position_params.text_document.uri);
+        self.ask("textDocument/hover", Some(about), move |state, reply| {
+            let _ = reply.send(language::hover::hover(state, &params));
+        })
+        .await
+    }
+
+    async fn document_symbol(&self, params: DocumentSymbolParams) -> Result<Option<DocumentSymbolResponse>> {
+        let uri = params.text_document.uri;
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::symbols::document_symbol(state, uri, errand);
+        let token = self.errand("textDocument/documentSymbol", &about, None, act).await?;
+        Ok(Some(language::symbols::standing_for(token)))
+    }
+
+    async fn folding_range(&self, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>> {
+        let uri = params.text_document.uri;
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::folding::folding_range(state, &uri, errand);
+        let token = self.errand("textDocument/foldingRange", &about, None, act).await?;
+        Ok(Some(language::folding::standing_for(token)))
+    }
+
     async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
         self.ask("workspace/executeCommand", None, move |state, reply| {
             drawing_edit::execute(state, &params.command, params.arguments, reply);
@@ -297,6 +321,9 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
                 commands: vec![method::APPLY_DRAWING_EDIT_COMMAND.into()],
                 ..ExecuteCommandOptions::default()
             }),
+            hover_provider: Some(HoverProviderCapability::Simple(true)),
+            document_symbol_provider: Some(OneOf::Left(true)),
+            folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
             workspace: Some(WorkspaceServerCapabilities {
                 workspace_folders: Some(WorkspaceFoldersServerCapabilities {
                     supported: Some(true),
@@ -316,7 +343,11 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
     let ours = |key: &str| capabilities.experimental.as_ref().and_then(|ours| ours.pointer(key)).and_then(Value::as_bool) == Some(true);
     let workspace = capabilities.workspace.as_ref();
     let registers = |dynamic: Option<bool>| dynamic == Some(true);
+    let text = capabilities.text_document.as_ref();
+    let folding = text.and_then(|text| text.folding_range.as_ref());
     Abilities {
+        hierarchical_symbols: text.and_then(|text| text.document_symbol.as_ref()?.hierarchical_document_symbol_support) == Some(true),
+        folding_limit: folding.and_then(|folding| usize::try_from(folding.range_limit?).ok()),
         apply_drawing_edit: ours("/wedm/applyDrawingEdit"),
         resend_drawing: ours("/wedm/resendDrawing"),
         document_changes: workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes) == Some(true),
