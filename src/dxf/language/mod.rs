@@ -5,13 +5,25 @@
 //! the document, and stops when it is told to.
 
 mod codes;
+mod completion;
 mod folding;
+mod hints;
 mod hover;
+mod names;
 mod outline;
+mod selection;
 mod spot;
 mod symbols;
+#[cfg(test)]
+mod tests;
+mod tokens;
 
+pub use completion::{Completion, CompletionKind, completions};
 pub use folding::{Fold, folds};
+pub use hints::{HINT_LINES, Hint, hints};
 pub use hover::{Hover, hover};
+pub use names::{Name, Names, Occurrence, name_at, occurrences};
 pub use outline::{ContourNote, Node, NodeKind, Stop, outline};
+pub use selection::selections;
 pub use symbols::{GROUPED_ABOVE, symbols};
+pub use tokens::{Token, TokenKind, tokens, tokens_in};

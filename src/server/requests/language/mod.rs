@@ -1,9 +1,14 @@
 //! What editors ask about DXF text. Questions about one place are answered at once; those about the whole text are answered
 //! by a worker from a copy of it, which all that ask between two edits share.
 
+pub(in crate::server) mod completion;
 pub(in crate::server) mod folding;
+pub(in crate::server) mod hints;
 pub(in crate::server) mod hover;
+pub(in crate::server) mod navigate;
+pub(in crate::server) mod selection;
 pub(in crate::server) mod symbols;
+pub(in crate::server) mod tokens;
 
 use super::{Errand, moved_on, run};
 use crate::document::Source;
@@ -17,11 +22,7 @@ use tower_lsp::jsonrpc::Result;
 /// Texts up to this size are looked through at once: a worker costs more.
 const AT_ONCE: usize = 64 * 1024;
 
-/// The DXF document behind a name; `None` where it is something else that is open.
-fn dxf_of<'a>(state: &'a mut State, uri: &str) -> Result<Option<&'a dxf::Document>> {
-    Ok(dxf_in(state.document(uri)?))
-}
-
+/// The DXF document that is open; `None` where it is something else.
 fn dxf_in(open: &Open) -> Option<&dxf::Document> {
     match &open.content {
         Content::Read(document) => match document.source() {
