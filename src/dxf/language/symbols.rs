@@ -91,7 +91,7 @@ fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
             kind: NodeKind::Contour,
             record: "".into(),
             name: format!("contour {}", index + 1).into(),
-            detail: format!("{closed}, {segments}, {}", entities(contour.handles.len(), &first.name)),
+            detail: format!("{closed}, {segments}, {}", entities(&contour.handles)),
             range: start..end,
             selection: first.selection.clone(),
             lines: first.lines.clone(),
@@ -101,6 +101,10 @@ fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
     contours.iter().enumerate().filter_map(node_of).collect()
 }
 
-fn entities(count: usize, first: &str) -> String {
-    if count == 1 { format!("entity {first}") } else { format!("{count} entities from {first} on") }
+fn entities(handles: &[std::sync::Arc<str>]) -> String {
+    match handles {
+        [one] => format!("entity {one}"),
+        [first, ..] => format!("{} entities from {first} on", handles.len()),
+        [] => "no entity".into(),
+    }
 }

@@ -224,7 +224,7 @@ fn contours_are_listed_with_their_entities() {
              contour 1 [open, 2 segments, 2 entities from A on] 4..12
               LINE A [0] 4..12
               LINE B [0] 12..20
-             contour 2 [closed, 1 segment, entity ] 20..26
+             contour 2 [closed, 1 segment, entity #3] 20..26
           LINE A [0] 4..12
           LINE B [0] 12..20
           CIRCLE  [0] 20..26
@@ -255,12 +255,12 @@ fn folds_begin_behind_the_name_and_the_outer_ones_stay_when_there_are_too_many()
         19-25 LAYER DIE …
         31-63 SECTION BLOCKS …
         35-61 BLOCK HOLE …
-        47-57 CIRCLE 21 · die …
+        47-57 CIRCLE 21 die …
         65-147 SECTION ENTITIES …
-        69-89 LWPOLYLINE 2A · DIE, 2 vertices …
-        91-119 POLYLINE 30 · DIE, 2 vertices …
-        121-131 INSERT 40 · 0, block hole …
-        133-145 TEXT  · 0, "O" …"#]]
+        69-89 LWPOLYLINE 2A DIE, 2 vertices …
+        91-119 POLYLINE 30 DIE, 2 vertices …
+        121-131 INSERT 40 0, block hole …
+        133-145 TEXT 0, "O" …"#]]
     .assert_eq(&list(usize::MAX));
     expect![[r#"
         1-9 SECTION HEADER …
@@ -485,7 +485,7 @@ fn completions_are_what_makes_sense_at_the_place() {
 }
 
 #[test]
-fn hints_stand_behind_bulges_and_end_angles() {
+fn hints_stand_behind_bulges_and_radii() {
     let check = |text: &str, unit: Unit, expected: Expect| {
         let document = Document::read(lines(&in_entities(text)).into_bytes());
         let all = hints(&document, 0..document.text.len(), unit);
@@ -558,6 +558,9 @@ fn everything_can_be_asked_of_any_text() {
     ask_everything(all.clone().into_bytes());
     ask_everything(all.replace('\n', "\r\n").into_bytes());
     ask_everything(format!("\u{feff}{all}").into_bytes());
+    // One line is missing, and then the end.
+    let missing: Vec<&str> = all.lines().enumerate().filter(|(line, _)| *line != 25).map(|(_, line)| line).collect();
+    ask_everything(missing.join("\n").as_bytes()[..114].to_vec());
     ask_everything(all.replace("DIE", "D\u{fc}").into_bytes());
 }
 

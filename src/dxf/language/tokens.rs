@@ -97,6 +97,8 @@ fn collect(text: &SourceText, from: usize, record: &[u8], mut take: impl FnMut(T
     let lines = Lines::new(text);
     let (mut lexer, mut unheard) = (Lexer::new(lines, from), Vec::new());
     let mut is_style = record == b"DIMSTYLE";
+    // Where a line is missing the lexer takes a value for the next code: it has been told of by then.
+    let mut told = from;
     while let Some(tag) = lexer.next(&mut unheard) {
         unheard.clear();
         let value = lines.trimmed(tag.value_line());
@@ -105,9 +107,10 @@ fn collect(text: &SourceText, from: usize, record: &[u8], mut take: impl FnMut(T
         }
         for (line, kind) in [(tag.line, code_kind(tag)), (tag.value_line(), value_kind(tag, value, is_style))] {
             let range = lines.trimmed_range(line);
-            if range.is_empty() {
+            if range.is_empty() || line < told {
                 continue;
             }
+            told = line + 1;
             match take(Token { line, start: range.start - text.line_start(line), length: range.len(), kind }) {
                 Next::On => {}
                 Next::Enough => return true,
