@@ -321,7 +321,7 @@ pub(super) fn codes_of(record: &str) -> impl Iterator<Item = (i16, &'static str,
     // DIMSTYLE has its handle behind 105: its 5 is the name of an arrow head.
     let no_handle = record == "DIMSTYLE";
     let is_circle = record == "CIRCLE";
-    let rest = entity.iter().chain(COMMON).filter(move |(code, _, _)| !is_own(*code) && !(no_handle && *code == 5));
+    let rest = entity.iter().chain(COMMON).filter(move |(code, _, _)| !(is_own(*code) || no_handle && *code == 5));
     own.iter().filter(move |(code, _, _)| !(is_circle && matches!(code, 50 | 51))).chain(rest).copied()
 }
 

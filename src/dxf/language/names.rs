@@ -93,7 +93,7 @@ fn named_by(record: &[u8], in_header: bool, code: i16) -> Option<(Names, bool)> 
         (b"BLOCK", 2) => Some((Names::Block, true)),
         (b"INSERT" | b"BLOCK_RECORD" | b"DIMENSION", 2) => Some((Names::Block, false)),
         // Names of arrow heads, not handles.
-        (b"DIMSTYLE", 5 | 6 | 7) => None,
+        (b"DIMSTYLE", 5..=7) => None,
         (b"LTYPE", 340) => Some((Names::Record, false)),
         (_, 5 | 105) => Some((Names::Record, true)),
         (_, 8 | 1003) => Some((Names::Layer, false)),
