@@ -38,11 +38,7 @@ pub struct Snapshot {
 
 impl Document {
     pub fn new(source: Source, settings: Arc<Effective>) -> Document {
-        let analysis = match &source {
-            Source::Dxf(text) => Analysis::new(text.drawing(), settings),
-            Source::Cad(drawing) => Analysis::new(drawing, settings),
-            Source::ThreeB(_) => Analysis::new(&Drawing::default(), settings),
-        };
+        let analysis = judged(&source, settings);
         Document { source, analysis }
     }
 
@@ -57,8 +53,7 @@ impl Document {
     /// Looks at everything again under other settings.
     pub fn set_settings(&mut self, settings: Arc<Effective>) {
         if *self.analysis.settings() != settings {
-            let source = std::mem::replace(&mut self.source, Source::Cad(Arc::default()));
-            *self = Document::new(source, settings);
+            self.analysis = judged(&self.source, settings);
         }
     }
 
@@ -109,23 +104,12 @@ impl Document {
 
     /// At most `limit` findings of reader and rules, errors first; and how many there are in all.
     pub fn findings(&mut self, limit: usize) -> (Vec<Finding>, usize) {
-        let (of_source, of_rules) = match &self.source {
-            Source::Dxf(document) => (document.findings(), self.analysis.findings(document.drawing(), limit)),
-            Source::Cad(drawing) => (&[][..], self.analysis.findings(drawing, limit)),
-            Source::ThreeB(document) => (document.findings(), (Vec::new(), 0)),
-        };
-        let settings = self.analysis.settings();
-        let (mut findings, mut count) = of_rules;
-        for finding in of_source {
-            // The reader knows no settings: severities are laid over its findings here.
-            if let Some(severity) = settings.severity_of(finding) {
-                findings.push(Finding { severity, ..finding.clone() });
-                count += 1;
-            }
-        }
-        findings.sort_by_key(|finding| finding.severity);
-        findings.truncate(limit);
-        (findings, count)
+        findings(&self.source, &mut self.analysis, limit)
+    }
+
+    /// All findings, for whoever shares the document and cannot keep what was found out on the way.
+    pub fn all_findings(&self) -> Vec<Finding> {
+        findings(&self.source, &mut self.analysis.clone(), usize::MAX).0
     }
 
     /// True when an error stands in the document: programs are refused then.
@@ -160,6 +144,34 @@ impl Document {
             Source::Dxf(document) => document.segments_at(range),
             _ => Vec::new(),
         }
+    }
+}
+
+fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Finding>, usize) {
+    let (of_source, of_rules) = match source {
+        Source::Dxf(document) => (document.findings(), analysis.findings(document.drawing(), limit)),
+        Source::Cad(drawing) => (&[][..], analysis.findings(drawing, limit)),
+        Source::ThreeB(document) => (document.findings(), (Vec::new(), 0)),
+    };
+    let settings = analysis.settings();
+    let (mut findings, mut count) = of_rules;
+    for finding in of_source {
+        // The reader knows no settings: severities are laid over its findings here.
+        if let Some(severity) = settings.severity_of(finding) {
+            findings.push(Finding { severity, ..finding.clone() });
+            count += 1;
+        }
+    }
+    findings.sort_by_key(|finding| finding.severity);
+    findings.truncate(limit);
+    (findings, count)
+}
+
+fn judged(source: &Source, settings: Arc<Effective>) -> Analysis {
+    match source {
+        Source::Dxf(text) => Analysis::new(text.drawing(), settings),
+        Source::Cad(drawing) => Analysis::new(drawing, settings),
+        Source::ThreeB(_) => Analysis::new(&Drawing::default(), settings),
     }
 }
 

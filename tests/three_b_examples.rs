@@ -1,9 +1,11 @@
 //! Published and computed 3B examples: geometry in, the very blocks out, and the published text back to its geometry.
+//! Some of them are a whole wire path: a line in, a circle from where it ends, the same line out.
 //!
 //! The collection is read from the folder that `WEDM_SHARED` names, or `../shared` beside the project; without it nothing is compared.
 
 use serde_json::Value;
 use std::path::PathBuf;
+use wedm::analysis::Analysis;
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::geometry::{Arc, Point, Segment};
 use wedm::program::three_b::{Block, Item, Motion, Words, decode, read, write};
@@ -39,37 +41,32 @@ fn entity(geometry: Geometry) -> Entity {
     Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: "LWPOLYLINE", geometry }
 }
 
-/// LINE and ARC entities joined to one open contour, or one closed contour of a lone full circle.
-fn as_entities(path: &[Segment]) -> (Drawing, Outline) {
+/// LINE, ARC and CIRCLE entities, chained as the server chains them.
+fn as_entities(path: &[Segment]) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-    let pieces: Vec<_> = path
-        .iter()
-        .map(|segment| match segment {
-            Segment::Line(line) => (drawing.push(entity(Geometry::Line { start: line.start, end: line.end })), false),
-            Segment::Arc(arc) if arc.is_full_turn() => {
-                (drawing.push(entity(Geometry::Circle { center: arc.center, radius: arc.radius })), arc.sweep < 0.0)
-            }
+    for segment in path {
+        let geometry = match segment {
+            Segment::Line(line) => Geometry::Line { start: line.start, end: line.end },
+            Segment::Arc(arc) if arc.is_full_turn() => Geometry::Circle { center: arc.center, radius: arc.radius },
             Segment::Arc(arc) => {
                 let (start, end) = (arc.start_angle, arc.start_angle + arc.sweep);
                 let (start_angle, end_angle) = if arc.sweep > 0.0 { (start, end) } else { (end, start) };
-                let geometry = Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle };
-                (drawing.push(entity(geometry)), arc.sweep < 0.0)
+                Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle }
             }
-        })
-        .collect();
-    let closed = matches!(path, [Segment::Arc(arc)] if arc.is_full_turn());
-    let contour = Contour::new(&drawing, pieces, closed);
-    let twice_area = if closed { contour.twice_area(&drawing) } else { 0.0 };
-    (drawing, Outline { contour, role: Role::Both, twice_area })
+        };
+        drawing.push(entity(geometry));
+    }
+    let outlines = Analysis::new(&drawing, Effective::default().into()).outlines(&drawing).to_vec();
+    (drawing, outlines)
 }
 
-fn as_polyline(path: &[Segment]) -> (Drawing, Outline) {
+fn as_polyline(path: &[Segment]) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     let mut vertices: Vec<Vertex> = path.iter().map(|s| Vertex { point: s.start(), bulge: s.bulge() }).collect();
     vertices.extend(path.last().map(|last| Vertex { point: last.end(), bulge: 0.0 }));
     let id = drawing.push(entity(Geometry::Polyline { closed: false, vertices }));
     let contour = Contour::new(&drawing, [(id, false)], false);
-    (drawing, Outline { contour, role: Role::Both, twice_area: 0.0 })
+    (drawing, Vec::from([Outline { contour, role: Role::Both, twice_area: 0.0 }]))
 }
 
 fn settings_from(start: Point) -> Effective {
@@ -105,13 +102,13 @@ fn assert_same(id: &str, written: &[Block], expected: &[Block]) {
     }
 }
 
-fn program(drawing: &Drawing, outline: &Outline, settings: &Effective) -> String {
-    let paths = plan(drawing, std::slice::from_ref(outline), settings, None).expect("a path");
+fn program(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> String {
+    let paths = plan(drawing, outlines, settings, None).expect("a path");
     write(&paths, 1.0, settings).expect("a program").text
 }
 
 /// One way to put a path into a drawing.
-type Drawer = fn(&[Segment]) -> (Drawing, Outline);
+type Drawer = fn(&[Segment]) -> (Drawing, Vec<Outline>);
 
 #[test]
 fn wire_paths_give_the_published_blocks() {
@@ -124,11 +121,11 @@ fn wire_paths_give_the_published_blocks() {
         let circle = path.iter().any(|s| s.as_arc().is_some_and(Arc::is_full_turn));
         let drawn: &[Drawer] = if circle { &[as_entities] } else { &[as_entities, as_polyline] };
         for draw in drawn {
-            let (drawing, outline) = draw(&path);
+            let (drawing, outlines) = draw(&path);
             let clockwise = matches!(path[..], [Segment::Arc(arc)] if arc.sweep < 0.0);
             let direction = if clockwise { Direction::Cw } else { Direction::Ccw };
             let settings = Effective { direction, ..settings_from(point(&example["geometry"]["wire_start"])) };
-            assert_same(id, &blocks(&program(&drawing, &outline, &settings)), &expected);
+            assert_same(id, &blocks(&program(&drawing, &outlines, &settings)), &expected);
         }
         compared += 1;
     }
@@ -153,7 +150,7 @@ fn nominal_contours_give_the_published_blocks_of_the_offset() {
         let correction = example["compensation"]["offset_mm"].as_f64().expect("offset");
         let settings = Effective { correction, thread: Some(PointSetting::One([start.x, start.y])), ..Effective::default() };
         let lines: Vec<&str> = example["program"].as_array().expect("blocks").iter().filter_map(Value::as_str).collect();
-        assert_same(example["id"].as_str().expect("id"), &blocks(&program(&drawing, &outline, &settings)), &blocks(&lines.join("\n")));
+        assert_same(example["id"].as_str().expect("id"), &blocks(&program(&drawing, &[outline], &settings)), &blocks(&lines.join("\n")));
     }
 }
 
@@ -171,4 +168,14 @@ fn published_text_decodes_to_its_path() {
             at = decoded.end();
         }
     }
+}
+
+/// The checked example of a hole of R 10 with a correction of 0.1, drawn as the wire goes.
+#[test]
+fn a_circle_and_its_leads_drawn_are_one_path() {
+    let (hole, edge) = (Point::origin(), Point::new(9.9, 0.0));
+    let path = [Segment::line(hole, edge), Segment::Arc(Arc::about(hole, edge, edge, true)), Segment::line(edge, hole)];
+    let (drawing, outlines) = as_entities(&path);
+    let written = program(&drawing, &outlines, &settings_from(hole));
+    assert_eq!(written.split_whitespace().collect::<Vec<_>>(), ["B9900B0B9900GXL1", "B9900B0B39600GYNR1", "B9900B0B9900GXL3", "DD"]);
 }

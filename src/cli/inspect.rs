@@ -73,7 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let mut diagnostics = opened.settings_rows;
     diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
-    let inspection = Inspection::of(&mut opened.document, arguments.handle.as_deref());
+    let inspection = Inspection::of(&opened.document, arguments.handle.as_deref());
     let inspection = inspection.unwrap_or(Inspection { units_to_mm: 1.0, entities: Vec::new() });
     Printed { inspection, diagnostics }
 }

@@ -39,8 +39,8 @@ pub struct InspectedSegment {
 
 impl Inspection {
     /// The list of an open document; `None` for a program, which holds no drawing.
-    pub fn of(document: &mut Document, handle: Option<&str>) -> Option<Inspection> {
-        let (findings, _) = document.findings(usize::MAX);
+    pub fn of(document: &Document, handle: Option<&str>) -> Option<Inspection> {
+        let findings = document.all_findings();
         let drawing = document.drawing()?;
         let unit = document.settings().unit_of(drawing);
         let zero_length = document.settings().tolerances.in_units(unit.mm).zero_length;

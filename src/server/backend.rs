@@ -75,18 +75,28 @@ impl Backend {
         answer.await.unwrap_or_else(|_| Err(internal(format!("internal error in {name}"))))
     }
 
-    /// A request whose result is text already and which may take long.
-    async fn errand(
+    /// A request that may take long. It is cancelled with its handler.
+    async fn errand<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        uri: &str,
+        token: Option<Value>,
+        act: impl FnOnce(&mut State, Errand<T>) + Send + 'static,
+    ) -> Result<T> {
+        let cancel = Cancel::default();
+        let _cancel_when_dropped = cancel.on_drop();
+        self.ask(name, Some(uri.into()), move |state, reply| act(state, Errand { reply, cancel, token })).await
+    }
+
+    /// An errand whose result is JSON text already.
+    async fn written(
         &self,
         name: &'static str,
         uri: &str,
         token: Option<Value>,
         act: impl FnOnce(&mut State, Errand) + Send + 'static,
     ) -> Result<Value> {
-        let cancel = Cancel::default();
-        let _cancel_when_dropped = cancel.on_drop();
-        let result = self.ask(name, Some(uri.into()), move |state, reply| act(state, Errand { reply, cancel, token })).await?;
-        Ok(self.prepared.token(result))
+        Ok(self.prepared.token(self.errand(name, uri, token, act).await?))
     }
 
     /// A request that the state thread answers at once.
@@ -149,33 +159,33 @@ impl Backend {
     async fn inspect(&self, params: Value) -> Result<Value> {
         let (params, token) = read::<protocol::Inspect>(params)?;
         let uri = params.uri.clone();
-        self.errand(method::INSPECT, &uri, token, move |state, errand| inspect::inspect(state, params, errand)).await
+        self.written(method::INSPECT, &uri, token, move |state, errand| inspect::inspect(state, params, errand)).await
     }
 
     async fn contours(&self, params: Value) -> Result<Value> {
         let (params, token) = read::<protocol::DrawingName>(params)?;
         let uri = params.uri.clone();
-        self.errand(method::CONTOURS, &uri, token, move |state, errand| contours::contours(state, params, errand)).await
+        self.written(method::CONTOURS, &uri, token, move |state, errand| contours::contours(state, params, errand)).await
     }
 
     async fn toolpath(&self, params: Value) -> Result<Value> {
         let (params, token) = read::<WithOptions>(params)?;
         let WithOptions { uri, options } = params;
         let about = uri.clone();
-        self.errand(method::TOOLPATH, &about, token, move |state, errand| toolpath::toolpath(state, &uri, options.as_ref(), errand)).await
+        self.written(method::TOOLPATH, &about, token, move |state, errand| toolpath::toolpath(state, &uri, options.as_ref(), errand)).await
     }
 
     async fn picture(&self, params: Value) -> Result<Value> {
         let (params, token) = read::<WithOptions>(params)?;
         let WithOptions { uri, options } = params;
         let about = uri.clone();
-        self.errand(method::PICTURE, &about, token, move |state, errand| picture::picture(state, &uri, options.as_ref(), errand)).await
+        self.written(method::PICTURE, &about, token, move |state, errand| picture::picture(state, &uri, options.as_ref(), errand)).await
     }
 
     async fn generate(&self, params: Value) -> Result<Value> {
         let about = params.get("uri").and_then(Value::as_str).unwrap_or_default().to_owned();
         let (params, token) = read::<generate::Params>(params)?;
-        self.errand(method::GENERATE, &about, token, move |state, errand| generate::generate(state, params, errand)).await
+        self.written(method::GENERATE, &about, token, move |state, errand| generate::generate(state, params, errand)).await
     }
 
     /// Methods that the protocol names and this version does not have.
@@ -191,7 +201,7 @@ impl Backend {
                 let panic = |_: &mut State, _: Reply<Value>| probe::panic_on_state_thread();
                 self.ask("wedm/test/panic", Some(params.uri.into()), panic).await
             }
-            probe::Site::Worker => self.errand("wedm/test/panic", &params.uri, None, probe::panic_on_worker).await,
+            probe::Site::Worker => self.written("wedm/test/panic", &params.uri, None, probe::panic_on_worker).await,
         }
     }
 
@@ -288,8 +298,9 @@ impl LanguageServer for Backend {
     }
 
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
-        let about = shared(&params.text_document.uri);
-        self.ask("textDocument/codeAction", Some(about), move |state, reply| code_action::code_action(state, params, reply)).await
+        let uri = params.text_document.uri.as_str().to_owned();
+        let token = params.work_done_progress_params.work_done_token.as_ref().and_then(|token| serde_json::to_value(token).ok());
+        self.errand("textDocument/codeAction", &uri, token, move |state, errand| code_action::code_action(state, params, errand)).await
     }
 
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
@@ -301,7 +312,7 @@ impl LanguageServer for Backend {
         let uri = params.text_document.uri;
         let about = shared(&uri);
         let act = move |state: &mut State, errand: Errand| language::symbols::document_symbol(state, uri, errand);
-        let token = self.errand("textDocument/documentSymbol", &about, None, act).await?;
+        let token = self.written("textDocument/documentSymbol", &about, None, act).await?;
         Ok(Some(language::symbols::standing_for(token)))
     }
 
@@ -309,7 +320,7 @@ impl LanguageServer for Backend {
         let uri = params.text_document.uri;
         let about = shared(&uri);
         let act = move |state: &mut State, errand: Errand| language::folding::folding_range(state, &uri, errand);
-        let token = self.errand("textDocument/foldingRange", &about, None, act).await?;
+        let token = self.written("textDocument/foldingRange", &about, None, act).await?;
         Ok(Some(language::folding::standing_for(token)))
     }
 
@@ -340,7 +351,7 @@ impl LanguageServer for Backend {
         let uri = params.text_document.uri;
         let about = shared(&uri);
         let act = move |state: &mut State, errand: Errand| language::tokens::full(state, &uri, errand);
-        let token = self.errand("textDocument/semanticTokens/full", &about, None, act).await?;
+        let token = self.written("textDocument/semanticTokens/full", &about, None, act).await?;
         Ok(Some(language::tokens::standing_for(token)))
     }
 

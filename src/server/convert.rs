@@ -1,7 +1,6 @@
 //! The one place where the core's findings, places and edits become the protocol's, and back.
 
-use crate::document::{Document, Source};
-use crate::dxf;
+use crate::document::Document;
 use crate::finding::{Detail, Finding, Place, Rule};
 use crate::message::en;
 use crate::protocol::{CodeDescription, Diagnostic, FindingData, Position, Range, severity_number};
@@ -15,8 +14,9 @@ pub(super) const PUBLISH_LIMIT: usize = 500;
 /// Where the pages of the rules stand.
 const RULES: &str = "https://github.com/wedm/wedm/blob/main/docs/rules/";
 
-/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others.
-pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Diagnostic> {
+/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
+/// there are in all.
+pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> (Vec<Diagnostic>, usize) {
     let (findings, count) = document.findings(PUBLISH_LIMIT);
     let mut diagnostics = diagnostics(document, &findings, encoding);
     if count > findings.len()
@@ -25,7 +25,7 @@ pub(super) fn publish_of(document: &mut Document, encoding: Encoding) -> Vec<Dia
         let detail = Detail::More { count: count - findings.len() };
         diagnostics.push(diagnostic(document, &Finding { rule: Rule::More, severity, place: Place::Document, detail }, encoding));
     }
-    diagnostics
+    (diagnostics, count)
 }
 
 pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: Encoding) -> Vec<Diagnostic> {
@@ -34,49 +34,11 @@ pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: E
 
 /// A finding of `document` as the client is shown it.
 pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
-    let bytes = document.range_of(&finding.place);
-    diagnostic_at(document, document.text().zip(bytes), finding, encoding)
-}
-
-/// Where the findings of a drawing stand in the text that it was read from.
-pub(super) struct Places {
-    dxf: Option<dxf::Document>,
-    encoding: Encoding,
-}
-
-impl Places {
-    /// The places of an open document as it is now; those of a drawing without text are its segments.
-    pub fn of(document: &Document, encoding: Encoding) -> Places {
-        let dxf = match document.source() {
-            Source::Dxf(dxf) => Some(dxf.clone()),
-            Source::Cad(_) | Source::ThreeB(_) => None,
-        };
-        Places { dxf, encoding }
-    }
-
-    /// What the reader of the text found.
-    pub fn findings(&self) -> &[Finding] {
-        self.dxf.as_ref().map_or(&[], |dxf| dxf.findings())
-    }
-
-    /// A finding of `document`, which was made of the drawing alone.
-    pub fn diagnostic(&self, document: &Document, finding: &Finding) -> Diagnostic {
-        let place = self.dxf.as_ref().map(|dxf| (dxf.text(), dxf.range_of(&finding.place)));
-        diagnostic_at(document, place, finding, self.encoding)
-    }
-}
-
-fn diagnostic_at(
-    document: &Document,
-    place: Option<(&SourceText, std::ops::Range<usize>)>,
-    finding: &Finding,
-    encoding: Encoding,
-) -> Diagnostic {
     let drawing = document.drawing().map(|drawing| &**drawing);
     let unit_mm = drawing.map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
-    let range = match place {
+    let range = match (document.text(), document.range_of(&finding.place)) {
         _ if finding.rule == Rule::More => Range::default(),
-        Some((text, bytes)) => range_of(text, bytes, encoding),
+        (Some(text), Some(bytes)) => range_of(text, bytes, encoding),
         _ => match finding.place {
             Place::Segment { segment, .. } => Range::of_segment(segment),
             _ => Range::default(),
@@ -100,7 +62,7 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
         range: error.range.clone().map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
         severity: severity_number(Rule::Settings.default_severity()),
         code: Rule::Settings.name().into(),
-        code_description: None,
+        code_description: code_description(Rule::Settings),
         source: "wedm".into(),
         message: error.message.clone(),
         data: None,
@@ -109,7 +71,7 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
 }
 
 fn code_description(rule: Rule) -> Option<CodeDescription> {
-    (rule != Rule::More).then(|| CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
+    Some(CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
 }
 
 pub(super) fn range_of(text: &SourceText, bytes: std::ops::Range<usize>, encoding: Encoding) -> Range {

@@ -82,7 +82,7 @@ fn apply(state: &mut State, uri: &Arc<str>, version: i64, changes: Vec<DrawingCh
     }
     match &mut open.content {
         Content::Read(document) => {
-            document.edit_drawing(|drawing| protocol::apply(drawing, changes)).ok_or("there is no such drawing open")??;
+            Arc::make_mut(document).edit_drawing(|drawing| protocol::apply(drawing, changes)).ok_or("there is no such drawing open")??;
         }
         Content::Damaged(Remains::Drawing(drawing)) => {
             protocol::apply(Arc::make_mut(drawing), changes)?;

@@ -45,7 +45,8 @@ impl Kind {
 }
 
 pub(super) enum Content {
-    Read(Box<Document>),
+    /// Shared with workers: an edit while one still looks at it costs a copy.
+    Read(Arc<Document>),
     Settings(SourceText),
     Foreign,
     /// Reading or judging it panicked: the text or drawing is kept, and tried again with the next change.
@@ -64,6 +65,8 @@ pub(super) struct Open {
     pub content: Content,
     /// Differs after every change: what was made for another stamp is out of date.
     pub stamp: u64,
+    /// Number of findings at the last publish.
+    pub findings: usize,
     /// The client has been told something since the opening.
     pub published: bool,
     /// The client has to be told something.
@@ -92,11 +95,20 @@ impl Open {
             Kind::Foreign => Content::Foreign,
             Kind::Dxf | Kind::ThreeB => read_text(kind, text.into_bytes(), settings),
         };
-        Open { uri, version, content, stamp, published: false, dirty: true, shot: Weak::new() }
+        Open { uri, version, content, stamp, findings: 0, published: false, dirty: true, shot: Weak::new() }
     }
 
     pub fn drawing(uri: Arc<str>, version: i64, drawing: Drawing, settings: &Arc<Effective>, stamp: u64) -> Open {
-        Open { uri, version, content: judge_drawing(Arc::new(drawing), settings), stamp, published: false, dirty: true, shot: Weak::new() }
+        Open {
+            uri,
+            version,
+            content: judge_drawing(Arc::new(drawing), settings),
+            stamp,
+            findings: 0,
+            published: false,
+            dirty: true,
+            shot: Weak::new(),
+        }
     }
 
     pub fn is_drawing(&self) -> bool {
@@ -127,8 +139,8 @@ impl Open {
         self.shot = Weak::new();
     }
 
-    pub fn document(&mut self) -> Option<&mut Document> {
-        match &mut self.content {
+    pub fn document(&self) -> Option<&Arc<Document>> {
+        match &self.content {
             Content::Read(document) => Some(document),
             _ => None,
         }
@@ -155,7 +167,7 @@ impl Open {
             }
             Content::Read(document) => {
                 let before = document.text().map_or(0, SourceText::len);
-                let edited = catch_unwind(AssertUnwindSafe(|| document.edit_text(range.clone(), replacement)));
+                let edited = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).edit_text(range.clone(), replacement)));
                 if let Err(panic) = edited {
                     report(&*panic);
                     let (kind, mut text) = text_of(document);
@@ -192,7 +204,7 @@ impl Open {
     pub fn set_settings(&mut self, settings: &Arc<Effective>) {
         match &mut self.content {
             Content::Read(document) if document.settings() != settings => {
-                let set = catch_unwind(AssertUnwindSafe(|| document.set_settings(settings.clone())));
+                let set = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).set_settings(settings.clone())));
                 self.dirty = true;
                 if let Err(panic) = set {
                     report(&*panic);
@@ -207,8 +219,11 @@ impl Open {
     /// What the client is shown now.
     pub fn diagnostics(&mut self, encoding: Encoding) -> Vec<Diagnostic> {
         match &mut self.content {
-            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(document, encoding))) {
-                Ok(diagnostics) => diagnostics,
+            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(Arc::make_mut(document), encoding))) {
+                Ok((diagnostics, count)) => {
+                    self.findings = count;
+                    diagnostics
+                }
                 Err(panic) => {
                     report(&*panic);
                     let settings = document.settings().clone();
@@ -238,7 +253,7 @@ fn read_text(kind: Kind, kept: Vec<u8>, settings: &Arc<Effective>) -> Content {
             Kind::ThreeB => Source::ThreeB(three_b::Document::read(bytes)),
             _ => Source::Dxf(dxf::Document::read(bytes)),
         };
-        Box::new(Document::new(source, settings.clone()))
+        Arc::new(Document::new(source, settings.clone()))
     }));
     match read {
         Ok(document) => Content::Read(document),
@@ -251,7 +266,7 @@ fn read_text(kind: Kind, kept: Vec<u8>, settings: &Arc<Effective>) -> Content {
 
 fn judge_drawing(drawing: Arc<Drawing>, settings: &Arc<Effective>) -> Content {
     let kept = drawing.clone();
-    let judged = catch_unwind(AssertUnwindSafe(|| Box::new(Document::new(Source::Cad(drawing), settings.clone()))));
+    let judged = catch_unwind(AssertUnwindSafe(|| Arc::new(Document::new(Source::Cad(drawing), settings.clone()))));
     match judged {
         Ok(document) => Content::Read(document),
         Err(panic) => {

@@ -173,8 +173,8 @@ impl Reader {
     fn word(&mut self, key: &str, node: &Node) -> Option<String> {
         match &node.value {
             Value::Null => None,
-            Value::Text(text) if !text.is_empty() && text.chars().all(|c| c.is_ascii_graphic()) => Some(text.clone()),
-            _ => self.misfit(key, node, "a word such as \"DD\""),
+            Value::Text(text) if !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric()) => Some(text.clone()),
+            _ => self.misfit(key, node, "a word of letters and digits such as \"DD\""),
         }
     }
 

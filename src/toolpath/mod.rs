@@ -5,6 +5,7 @@
 
 mod clearance;
 mod corners;
+mod drawn;
 mod leads;
 mod offset;
 mod order;
@@ -77,6 +78,14 @@ pub fn plan(drawing: &Drawing, outlines: &[Outline], settings: &Effective, handl
         ));
     }
     let chosen = order::chosen(drawing, outlines, handles)?;
+    let join = settings.tolerances.join / settings.unit_of(drawing).mm;
+    if settings.compensation == Compensation::None
+        && chosen.len() > 1
+        && let Some(path) =
+            drawn::one_path(drawing, outlines, &chosen, [settings.thread.as_ref(), settings.entry.as_ref()], settings.direction, join)
+    {
+        return Ok([path].into());
+    }
     let wanted = leads::wanted(drawing, outlines, &chosen, settings)?;
     let job = Job { drawing, outlines, settings, unit_mm: settings.unit_of(drawing).mm };
     let all = job.all_walls();

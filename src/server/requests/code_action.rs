@@ -1,13 +1,13 @@
 //! `textDocument/codeAction`: the fixes of findings, and one action that makes every safe fix.
 
+use super::{Errand, Subject, run, subject_of};
 use crate::document::{Document, Source};
 use crate::drawing::DrawingEdit as CoreEdit;
 use crate::finding::{Finding, Fix, Place};
 use crate::message::en;
 use crate::protocol::{self, Diagnostic, FindingData, method};
 use crate::server::convert;
-use crate::server::jobs::Progress;
-use crate::server::state::{Reply, State};
+use crate::server::state::State;
 use crate::text::Encoding;
 use ls_types::{
     CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, DocumentChanges,
@@ -21,36 +21,50 @@ pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
 /// More findings than this in one range get their fixes by "fix all" only: nobody picks from a longer list.
 const LISTED: usize = 100;
 
-pub(in crate::server) fn code_action(state: &mut State, params: CodeActionParams, reply: Reply<Option<CodeActionResponse>>) {
-    let token = params.work_done_progress_params.work_done_token.as_ref().and_then(|token| serde_json::to_value(token).ok());
-    let progress = Progress::begin(state.client.writer(), token, "Looking for fixes");
-    let actions = actions(state, &params);
-    drop(progress);
-    let _ = reply.send(actions.map(Some));
+pub(in crate::server) fn code_action(state: &mut State, params: CodeActionParams, errand: Errand<Option<CodeActionResponse>>) {
+    match prepare(state, &params) {
+        Err(error) => {
+            let _ = errand.reply.send(Err(error));
+        }
+        // Nothing can be fixed in a text that holds no drawing.
+        Ok(None) => {
+            let _ = errand.reply.send(Ok(Some(CodeActionResponse::new())));
+        }
+        Ok(Some((Subject { document, stamp, small }, target))) => {
+            let uri = params.text_document.uri.as_str().to_owned();
+            run(state, "Looking for fixes", &uri, (stamp, small), errand, move |_, _| Ok(Some(actions(&document, &target, &params))));
+        }
+    }
 }
 
 /// Where an edit goes.
-struct Target<'a> {
-    uri: &'a Uri,
+struct Target {
+    uri: Uri,
     version: i64,
     encoding: Encoding,
     document_changes: bool,
 }
 
-fn actions(state: &mut State, params: &CodeActionParams) -> Result<CodeActionResponse> {
+fn prepare(state: &mut State, params: &CodeActionParams) -> Result<Option<(Subject, Target)>> {
     let uri = &params.text_document.uri;
     let encoding = state.encoding;
     let document_changes = state.client.abilities.document_changes;
     let open = state.document(uri.as_str())?;
-    let target = Target { uri, version: open.version, encoding, document_changes };
-    let Some(document) = open.document().filter(|document| document.drawing().is_some()) else { return Ok(Vec::new()) };
+    let target = Target { uri: uri.clone(), version: open.version, encoding, document_changes };
+    match open.document().is_some_and(|document| document.drawing().is_some()) {
+        true => Ok(Some((subject_of(state, uri.as_str())?, target))),
+        false => Ok(None),
+    }
+}
+
+fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> CodeActionResponse {
     let unit_mm = document.drawing().map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
     let mut actions = Vec::new();
     if wants(&params.context, CodeActionKind::QUICKFIX.as_str()) {
-        for finding in chosen(document, params, encoding) {
-            let diagnostic = convert::diagnostic(document, &finding, encoding);
+        for finding in chosen(document, params, target.encoding) {
+            let diagnostic = convert::diagnostic(document, &finding, target.encoding);
             for (index, fix) in document.fixes(&finding).iter().enumerate() {
-                actions.extend(quick_fix(document, &target, &diagnostic, fix, index == 0, unit_mm));
+                actions.extend(quick_fix(document, target, &diagnostic, fix, index == 0, unit_mm));
             }
         }
     }
@@ -58,9 +72,9 @@ fn actions(state: &mut State, params: &CodeActionParams) -> Result<CodeActionRes
         && let Some(edit) = document.fix_all()
     {
         let action = CodeAction { title: en::fix_all_title().into(), kind: Some(CodeActionKind::new(FIX_ALL)), ..CodeAction::default() };
-        actions.extend(with_edit(document, &target, action, &edit));
+        actions.extend(with_edit(document, target, action, &edit));
     }
-    Ok(actions.into_iter().map(CodeActionOrCommand::CodeAction).collect())
+    actions.into_iter().map(CodeActionOrCommand::CodeAction).collect()
 }
 
 /// True when the client asked for this kind, for one above it, or for all.
@@ -73,8 +87,8 @@ fn wants(context: &CodeActionContext, kind: &str) -> bool {
 }
 
 /// The findings that the client means: those of its diagnostics where they say which, else those in the range.
-fn chosen(document: &mut Document, params: &CodeActionParams, encoding: Encoding) -> Vec<Finding> {
-    let (findings, _) = document.findings(usize::MAX);
+fn chosen(document: &Document, params: &CodeActionParams, encoding: Encoding) -> Vec<Finding> {
+    let findings = document.all_findings();
     let named: FxHashSet<(String, String, usize)> = params.context.diagnostics.iter().filter_map(name_of).collect();
     let drawing = document.drawing().cloned().unwrap_or_default();
     let in_range = in_range(document, params.range, encoding);
@@ -120,14 +134,7 @@ fn in_range(document: &Document, range: Range, encoding: Encoding) -> impl Fn(&D
     }
 }
 
-fn quick_fix(
-    document: &Document,
-    target: &Target<'_>,
-    diagnostic: &Diagnostic,
-    fix: &Fix,
-    first: bool,
-    unit_mm: f64,
-) -> Option<CodeAction> {
+fn quick_fix(document: &Document, target: &Target, diagnostic: &Diagnostic, fix: &Fix, first: bool, unit_mm: f64) -> Option<CodeAction> {
     let action = CodeAction {
         title: en::title(&fix.kind, unit_mm),
         kind: Some(CodeActionKind::QUICKFIX),
@@ -139,7 +146,7 @@ fn quick_fix(
 }
 
 /// The action with its edit in the form that the document takes; `None` where the edit cannot be made there.
-fn with_edit(document: &Document, target: &Target<'_>, action: CodeAction, edit: &CoreEdit) -> Option<CodeAction> {
+fn with_edit(document: &Document, target: &Target, action: CodeAction, edit: &CoreEdit) -> Option<CodeAction> {
     match document.source() {
         Source::Dxf(dxf) => match dxf.text_edits(edit) {
             Ok(edits) => {
@@ -163,7 +170,7 @@ fn with_edit(document: &Document, target: &Target<'_>, action: CodeAction, edit:
     }
 }
 
-fn workspace_edit(target: &Target<'_>, edits: Vec<TextEdit>) -> WorkspaceEdit {
+fn workspace_edit(target: &Target, edits: Vec<TextEdit>) -> WorkspaceEdit {
     if !target.document_changes {
         return WorkspaceEdit { changes: Some([(target.uri.clone(), edits)].into()), ..WorkspaceEdit::default() };
     }

@@ -1,15 +1,19 @@
 //! `wedm/generate`: a proved program, or the reason why there is none.
 
-use super::{Errand, Task, internal, places_of, refusal, refused, refused_with, run, snapshot_of, with_options, written};
+use super::{Errand, Subject, Task, internal, refusal, refused, refused_with, run, subject_of, with_options, written};
+use crate::document::{Document, Source};
 use crate::finding::{Finding, Severity};
 use crate::program::three_b::{self, ProofError};
-use crate::protocol::Program;
+use crate::protocol::{Diagnostic, Program};
 use crate::server::convert;
 use crate::server::jobs::{Cancel, Progress};
 use crate::server::state::State;
+use crate::settings::Effective;
+use crate::text::Encoding;
 use crate::toolpath::plan;
 use serde::Deserialize;
 use serde_json::Value;
+use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
 /// The languages that can be written.
@@ -38,13 +42,12 @@ pub(in crate::server) fn generate(state: &mut State, params: Params, errand: Err
 }
 
 struct Job {
-    snapshot: crate::document::Snapshot,
+    document: Arc<Document>,
     stamp: u64,
-    options: Option<std::sync::Arc<crate::settings::Effective>>,
+    options: Option<Arc<Effective>>,
     handles: Option<Vec<String>>,
     force: bool,
-    /// Holds what the reader of the text found as well; the rules' findings depend on the options.
-    places: convert::Places,
+    encoding: Encoding,
 }
 
 fn prepare(state: &mut State, params: &Params) -> Result<Job> {
@@ -54,30 +57,23 @@ fn prepare(state: &mut State, params: &Params) -> Result<Job> {
         return Err(Error::invalid_params(message));
     }
     let options = with_options(state, uri, params.options.as_ref())?;
-    let (snapshot, stamp) = snapshot_of(state, uri)?;
+    let Subject { document, stamp, .. } = subject_of(state, uri)?;
     for handle in params.handles.iter().flatten() {
-        if snapshot.drawing.find(handle).is_none() {
+        if document.drawing().is_none_or(|drawing| drawing.find(handle).is_none()) {
             return Err(Error::invalid_params(format!("there is no entity {handle}")));
         }
     }
-    let places = places_of(state, uri)?;
     let force = params.force.unwrap_or(false);
-    Ok(Job { snapshot, stamp, options, handles: params.handles.clone(), force, places })
+    Ok(Job { document, stamp, options, handles: params.handles.clone(), force, encoding: state.encoding })
 }
 
 impl Job {
     fn run(self, cancel: &Cancel, progress: &Progress) -> Result<Vec<u8>> {
-        let task = Task::new(self.snapshot, self.options);
-        let mut document = task.document();
-        let (of_rules, _) = document.findings(usize::MAX);
-        let of_source = self.places.findings().iter().filter_map(|finding| {
-            let severity = task.settings.severity_of(finding)?;
-            Some(Finding { severity, ..finding.clone() })
-        });
-        let findings: Vec<Finding> = of_source.chain(of_rules).collect();
-        let diagnostics = |wanted: &dyn Fn(Severity) -> bool| -> Vec<_> {
+        let task = Task::new(self.document.clone(), self.options.clone())?;
+        let findings = self.findings(&task);
+        let diagnostics = |wanted: &dyn Fn(Severity) -> bool| -> Vec<Diagnostic> {
             let wanted = findings.iter().filter(|finding| wanted(finding.severity)).take(convert::PUBLISH_LIMIT);
-            wanted.map(|finding| self.places.diagnostic(&document, finding)).collect()
+            wanted.map(|finding| convert::diagnostic(&self.document, finding, self.encoding)).collect()
         };
         let errors = findings.iter().filter(|finding| finding.severity == Severity::Error).count();
         if errors > 0 && !self.force {
@@ -90,7 +86,7 @@ impl Job {
         stop_if(cancel)?;
         progress.report("laying the wire's path");
         let handles = self.handles.as_deref();
-        let paths = plan(&task.drawing, &task.outlines, &task.settings, handles).map_err(|reason| refusal(&task, reason, &self.places))?;
+        let paths = plan(&task.drawing, &task.outlines, &task.settings, handles).map_err(|reason| refusal(&task, reason, self.encoding))?;
         if paths.is_empty() {
             return Err(refused("the drawing holds no contour to cut"));
         }
@@ -104,6 +100,22 @@ impl Job {
             ProofError::Mismatch(reason) => internal(format!("the program does not hold its proof: {reason}")),
         })?;
         written(&Program::new(program, diagnostics(&|severity| severity <= Severity::Warning)))
+    }
+}
+
+impl Job {
+    /// What the reader of the text found, and what the rules say under the request's options.
+    fn findings(&self, task: &Task) -> Vec<Finding> {
+        let of_rules = task.findings();
+        if Arc::ptr_eq(&task.document, &self.document) {
+            return of_rules;
+        }
+        let Source::Dxf(dxf) = self.document.source() else { return of_rules };
+        let of_source = dxf.findings().iter().filter_map(|finding| {
+            let severity = task.settings.severity_of(finding)?;
+            Some(Finding { severity, ..finding.clone() })
+        });
+        of_source.chain(of_rules).collect()
     }
 }
 

@@ -10,13 +10,15 @@ pub(super) mod picture;
 pub(super) mod probe;
 pub(super) mod toolpath;
 
-use super::convert::Places;
+use super::convert;
 use super::jobs::{Cancel, Progress};
 use super::state::{Reply, State};
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, Outline};
+use crate::finding::Finding;
 use crate::protocol::{Diagnostic, Refused};
 use crate::settings::{Effective, Settings, from_json};
+use crate::text::Encoding;
 use crate::toolpath::Refusal;
 use serde::Serialize;
 use serde_json::Value;
@@ -24,8 +26,8 @@ use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 
 /// What every long request brings along beside its params.
-pub(super) struct Errand {
-    pub reply: Reply<Vec<u8>>,
+pub(super) struct Errand<T = Vec<u8>> {
+    pub reply: Reply<T>,
     pub cancel: Cancel,
     /// `workDoneToken` of the params.
     pub token: Option<Value>,
@@ -57,16 +59,23 @@ pub(super) fn written(result: &impl Serialize) -> Result<Vec<u8>> {
     serde_json::to_vec(result).map_err(|error| internal(error.to_string()))
 }
 
-/// The drawing of an open document as it is now.
-pub(super) fn snapshot_of(state: &mut State, uri: &str) -> Result<(Snapshot, u64)> {
-    let open = state.document(uri)?;
-    let stamp = open.stamp;
-    let document = open.document().ok_or_else(|| refused(format!("{uri} holds no drawing")))?;
-    let snapshot = document.snapshot().ok_or_else(|| refused(format!("{uri} is a program, expected a drawing")))?;
-    Ok((snapshot, stamp))
+/// A drawing as it stands now, to be looked at from any thread.
+pub(super) struct Subject {
+    pub document: Arc<Document>,
+    pub stamp: u64,
+    /// Little enough to be looked at here and now.
+    pub small: bool,
 }
 
-pub(super) fn is_small(drawing: &Drawing) -> bool {
+pub(super) fn subject_of(state: &mut State, uri: &str) -> Result<Subject> {
+    let open = state.document(uri)?;
+    let document = open.document().ok_or_else(|| refused(format!("{uri} holds no drawing")))?.clone();
+    let drawing = document.drawing().ok_or_else(|| refused(format!("{uri} is a program, expected a drawing")))?;
+    let small = is_small(drawing) && open.findings <= SMALL;
+    Ok(Subject { stamp: open.stamp, small, document })
+}
+
+fn is_small(drawing: &Drawing) -> bool {
     let mut left = SMALL;
     drawing.entities().all(|(_, entity)| {
         let count = entity.geometry.segment_count().max(1);
@@ -74,13 +83,6 @@ pub(super) fn is_small(drawing: &Drawing) -> bool {
         left = left.saturating_sub(count);
         fits
     })
-}
-
-/// Where the findings of an open document's drawing stand.
-pub(super) fn places_of(state: &mut State, uri: &str) -> Result<Places> {
-    let encoding = state.encoding;
-    let document = state.document(uri)?.document().ok_or_else(|| refused(format!("{uri} holds no drawing")))?;
-    Ok(Places::of(document, encoding))
 }
 
 /// The request's own settings over those of the document, where it brings any.
@@ -94,39 +96,46 @@ pub(super) fn with_options(state: &mut State, uri: &str, options: Option<&Value>
     Ok(Some(Arc::new(Effective::of(&state.config.settings_for(file.as_deref()).overlaid(&settings)))))
 }
 
-/// A drawing and its contours, looked at anew where the request's options ask for it.
+/// A document as one request looks at it: under its own options, where it brings any.
 pub(super) struct Task {
+    /// As it is open: findings have their places here.
+    pub subject: Arc<Document>,
+    /// Under the options.
+    pub document: Arc<Document>,
     pub drawing: Arc<Drawing>,
     pub outlines: Arc<Vec<Outline>>,
     pub settings: Arc<Effective>,
 }
 
 impl Task {
-    pub fn new(snapshot: Snapshot, options: Option<Arc<Effective>>) -> Task {
-        let Snapshot { drawing, outlines, settings } = snapshot;
-        let Some(settings) = options.filter(|options| *options != settings) else { return Task { drawing, outlines, settings } };
-        let document = Document::new(Source::Cad(drawing.clone()), settings.clone());
-        let outlines = document.snapshot().map_or(outlines, |snapshot| snapshot.outlines);
-        Task { drawing, outlines, settings }
+    /// Errors: the document is a program.
+    pub fn new(subject: Arc<Document>, options: Option<Arc<Effective>>) -> Result<Task> {
+        let under_options = options.filter(|options| options != subject.settings()).and_then(|options| {
+            let drawing = subject.drawing()?.clone();
+            Some(Arc::new(Document::new(Source::Cad(drawing), options)))
+        });
+        let document = under_options.unwrap_or_else(|| subject.clone());
+        let Snapshot { drawing, outlines, settings } =
+            document.snapshot().ok_or_else(|| refused("the document is a program, expected a drawing"))?;
+        Ok(Task { subject, document, drawing, outlines, settings })
     }
 
     pub fn unit_mm(&self) -> f64 {
         self.settings.unit_of(&self.drawing).mm
     }
 
-    /// The drawing as a document of its own, for findings under the task's settings.
-    pub fn document(&self) -> Document {
-        Document::new(Source::Cad(self.drawing.clone()), self.settings.clone())
+    /// All findings under the task's settings; of the rules alone where the options made a document without its text.
+    pub fn findings(&self) -> Vec<Finding> {
+        self.document.all_findings()
     }
 }
 
 /// What `toolpath` refused, for the client.
-pub(super) fn refusal(task: &Task, refusal: Refusal, places: &Places) -> Error {
+pub(super) fn refusal(task: &Task, refusal: Refusal, encoding: Encoding) -> Error {
     match refusal {
         Refusal::Sentence(sentence) => refused(sentence),
         Refusal::Findings(findings) => {
-            let document = task.document();
-            let diagnostics: Vec<_> = findings.iter().map(|finding| places.diagnostic(&document, finding)).collect();
+            let diagnostics = convert::diagnostics(&task.subject, &findings, encoding);
             let first = diagnostics.first().map_or_else(|| "no path can be made".into(), |first| first.message.clone());
             refused_with(first, diagnostics)
         }
@@ -135,13 +144,13 @@ pub(super) fn refusal(task: &Task, refusal: Refusal, places: &Places) -> Error {
 
 /// Runs `work` at once when it is small, else on a worker; the result of a worker counts only when the document stands
 /// as it was.
-pub(super) fn run(
+pub(super) fn run<T: Send + 'static>(
     state: &mut State,
     name: &'static str,
     uri: &str,
     (stamp, small): (u64, bool),
-    errand: Errand,
-    work: impl FnOnce(&Cancel, &Progress) -> Result<Vec<u8>> + Send + 'static,
+    errand: Errand<T>,
+    work: impl FnOnce(&Cancel, &Progress) -> Result<T> + Send + 'static,
 ) {
     let Errand { reply, cancel, token } = errand;
     let progress = Progress::begin(state.client.writer(), token, name);

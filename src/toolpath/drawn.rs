@@ -1,0 +1,59 @@
+//! A drawing that is the wire's own path, leads included: entities that lead one from the end of the other.
+
+use super::{PathSegment, Source, WirePath};
+use crate::drawing::{Drawing, Geometry, Outline};
+use crate::geometry::{Arc, Point, Segment};
+use crate::settings::{Direction, PointSetting};
+
+/// Everything in `chosen` as one path, in machining order, when each entity begins or ends where the last one ended. A circle
+/// is gone round from where the wire meets it. `None` where the entities do not lead on from each other, and where a thread
+/// hole or an entry is asked for that is not the path's begin.
+pub(super) fn one_path(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    chosen: &[usize],
+    wanted: [Option<&PointSetting>; 2],
+    direction: Direction,
+    join: f64,
+) -> Option<WirePath> {
+    let mut asked = Vec::new();
+    for setting in wanted.into_iter().flatten() {
+        match setting {
+            PointSetting::One([x, y]) => asked.push(Point::new(*x, *y)),
+            PointSetting::ByHandle(_) => return None,
+        }
+    }
+    let is_chosen = |id| chosen.iter().any(|&index| outlines[index].contour.pieces.iter().any(|piece| piece.entity == id));
+    let mut segments: Vec<PathSegment> = Vec::new();
+    let mut here = asked.first().copied();
+    for (entity, geometry) in drawing.entities().filter(|(id, _)| is_chosen(*id)).map(|(id, entity)| (id, &entity.geometry)) {
+        let pieces: Vec<(usize, Segment)> = geometry.segments().enumerate().collect();
+        let (first, last) = (pieces.first()?.1.start(), pieces.last()?.1.end());
+        let meets = |point: Point| here.is_none_or(|here| (point - here).norm() <= join);
+        let pieces = match geometry {
+            _ if meets(first) && !is_circle(geometry) => pieces,
+            _ if meets(last) && !is_circle(geometry) => pieces.into_iter().rev().map(|(index, piece)| (index, piece.reversed())).collect(),
+            Geometry::Circle { .. } | Geometry::Arc { .. } => {
+                let Segment::Arc(circle) = pieces.first()?.1 else { return None };
+                let begin = here.unwrap_or(circle.start);
+                if !circle.is_full_turn() || circle.distance_to(begin) > join {
+                    return None;
+                }
+                Vec::from([(0, Segment::Arc(Arc::about(circle.center, begin, begin, direction != Direction::Cw)))])
+            }
+            _ => return None,
+        };
+        here = pieces.last().map(|(_, piece)| piece.end());
+        segments
+            .extend(pieces.into_iter().map(|(segment, geometry)| PathSegment { geometry, source: Source::Segment { entity, segment } }));
+    }
+    let begin = segments.first()?.geometry.start();
+    if asked.iter().any(|point| (point - begin).norm() > join) {
+        return None;
+    }
+    Some(WirePath { outline: *chosen.first()?, correction: 0.0, thread_hole: begin, segments })
+}
+
+fn is_circle(geometry: &Geometry) -> bool {
+    matches!(geometry, Geometry::Circle { .. } | Geometry::Arc { .. }) && geometry.is_closed()
+}
