@@ -91,7 +91,34 @@ fn text_session(name: &str, text: &str, rounds: usize) {
         timed(|| client.diagnostics(uri, last)).1
     });
     row(&format!("{name}: burst of 30 at 15/s, last answer"), bursts.collect(), "50 ms");
+    language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
     client.shut_down();
+}
+
+/// What an editor asks: about the place in the middle, the lines in sight, and the whole text.
+fn language_rows(client: &mut Client, name: &str, uri: &str, line: usize, lines: usize, rounds: usize) {
+    let document = json!({ "uri": uri });
+    let at = json!({ "textDocument": document, "position": { "line": line, "character": 0 } });
+    let in_sight = |count: usize| {
+        let range = json!({ "start": { "line": line, "character": 0 }, "end": { "line": (line + count).min(lines), "character": 0 } });
+        json!({ "textDocument": document, "range": range })
+    };
+    let places = json!({ "textDocument": document, "positions": [{ "line": line, "character": 0 }] });
+    let whole = json!({ "textDocument": document });
+    for (what, method, params, rounds, goal) in [
+        ("hover", "hover", at.clone(), rounds, "p99 20 ms"),
+        ("completion", "completion", at.clone(), rounds, "p99 20 ms"),
+        ("selection range", "selectionRange", places, rounds, "p99 20 ms"),
+        ("inlay hints of 100 lines", "inlayHint", in_sight(100), rounds, "p99 20 ms"),
+        ("semantic tokens of 100 lines", "semanticTokens/range", in_sight(100), rounds, "p99 20 ms"),
+        ("symbols", "documentSymbol", whole.clone(), rounds / 20, "200 ms"),
+        ("folds", "foldingRange", whole.clone(), rounds / 20, "200 ms"),
+        ("semantic tokens", "semanticTokens/full", whole, rounds / 20, ""),
+        ("definition", "definition", at, rounds / 20, "200 ms"),
+    ] {
+        let times = (0..rounds).map(|_| timed(|| client.request(&format!("textDocument/{method}"), params.clone())).1).collect();
+        row(&format!("{name}: {what}"), times, goal);
+    }
 }
 
 fn drawing_session(rounds: usize) {

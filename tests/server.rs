@@ -13,6 +13,8 @@ mod end;
 mod flood;
 #[path = "server/handshake.rs"]
 mod handshake;
+#[path = "server/language.rs"]
+mod language;
 #[path = "server/panics.rs"]
 mod panics;
 #[path = "server/programs.rs"]

@@ -16,6 +16,7 @@ mod entity;
 mod fault;
 mod foreign;
 mod insert;
+pub mod language;
 mod layers;
 mod lexer;
 mod lines;

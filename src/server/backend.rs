@@ -5,7 +5,8 @@ use super::config::{Level, path_of};
 use super::drawings::{self, Sent, SentChanges};
 use super::jobs::Cancel;
 use super::requests::code_action::FIX_ALL;
-use super::requests::{Errand, code_action, contours, drawing_edit, generate, inspect, internal, picture, probe, toolpath};
+use super::requests::language::navigate::{Question, navigate};
+use super::requests::{Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, picture, probe, toolpath};
 use super::state::{Mailbox, Reply, State};
 use super::transport::Prepared;
 use super::{parent, texts};
@@ -96,6 +97,34 @@ impl Backend {
         act: impl FnOnce(&mut State, Errand) + Send + 'static,
     ) -> Result<Value> {
         Ok(self.prepared.token(self.errand(name, uri, token, act).await?))
+    }
+
+    /// A request that the state thread answers at once.
+    async fn look<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        about: Arc<str>,
+        look: impl FnOnce(&mut State) -> Result<T> + Send + 'static,
+    ) -> Result<T> {
+        let act = move |state: &mut State, reply: Reply<T>| {
+            let _ = reply.send(look(state));
+        };
+        self.ask(name, Some(about), act).await
+    }
+
+    /// A request about a name, whose answer is short enough for the framework's types.
+    async fn navigate<T: DeserializeOwned>(
+        &self,
+        name: &'static str,
+        at: TextDocumentPositionParams,
+        question: Question,
+    ) -> Result<Option<T>> {
+        let cancel = Cancel::default();
+        let _cancel_when_dropped = cancel.on_drop();
+        let about = shared(&at.text_document.uri);
+        let act = move |state: &mut State, reply| navigate(state, &at, question, Errand { reply, cancel, token: None });
+        let answer = self.ask(name, Some(about), act).await?;
+        serde_json::from_slice(&answer).map_err(|error| internal(error.to_string()))
     }
 
     fn log(&self, message: String) {
@@ -274,6 +303,73 @@ impl LanguageServer for Backend {
         self.errand("textDocument/codeAction", &uri, token, move |state, errand| code_action::code_action(state, params, errand)).await
     }
 
+    async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
+        let about = shared(&params.text_document_position_params.text_document.uri);
+        self.look("textDocument/hover", about, move |state| language::hover::hover(state, &params)).await
+    }
+
+    async fn document_symbol(&self, params: DocumentSymbolParams) -> Result<Option<DocumentSymbolResponse>> {
+        let uri = params.text_document.uri;
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::symbols::document_symbol(state, uri, errand);
+        let token = self.written("textDocument/documentSymbol", &about, None, act).await?;
+        Ok(Some(language::symbols::standing_for(token)))
+    }
+
+    async fn folding_range(&self, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>> {
+        let uri = params.text_document.uri;
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::folding::folding_range(state, &uri, errand);
+        let token = self.written("textDocument/foldingRange", &about, None, act).await?;
+        Ok(Some(language::folding::standing_for(token)))
+    }
+
+    async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
+        let about = shared(&params.text_document_position.text_document.uri);
+        self.look("textDocument/completion", about, move |state| language::completion::completion(state, &params)).await
+    }
+
+    async fn selection_range(&self, params: SelectionRangeParams) -> Result<Option<Vec<SelectionRange>>> {
+        let about = shared(&params.text_document.uri);
+        self.look("textDocument/selectionRange", about, move |state| language::selection::selection_range(state, &params)).await
+    }
+
+    async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
+        let about = shared(&params.text_document.uri);
+        self.look("textDocument/inlayHint", about, move |state| language::hints::inlay_hint(state, &params)).await
+    }
+
+    async fn semantic_tokens_range(&self, params: SemanticTokensRangeParams) -> Result<Option<SemanticTokensRangeResult>> {
+        let about = shared(&params.text_document.uri);
+        self.look("textDocument/semanticTokens/range", about, move |state| {
+            language::tokens::range(state, &params.text_document.uri, params.range)
+        })
+        .await
+    }
+
+    async fn semantic_tokens_full(&self, params: SemanticTokensParams) -> Result<Option<SemanticTokensResult>> {
+        let uri = params.text_document.uri;
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::tokens::full(state, &uri, errand);
+        let token = self.written("textDocument/semanticTokens/full", &about, None, act).await?;
+        Ok(Some(language::tokens::standing_for(token)))
+    }
+
+    async fn goto_definition(&self, params: GotoDefinitionParams) -> Result<Option<GotoDefinitionResponse>> {
+        let at = params.text_document_position_params;
+        let found = self.navigate("textDocument/definition", at, Question::Definition).await?;
+        Ok(found.map(GotoDefinitionResponse::Array))
+    }
+
+    async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
+        let question = Question::References { with_definition: params.context.include_declaration };
+        self.navigate("textDocument/references", params.text_document_position, question).await
+    }
+
+    async fn document_highlight(&self, params: DocumentHighlightParams) -> Result<Option<Vec<DocumentHighlight>>> {
+        self.navigate("textDocument/documentHighlight", params.text_document_position_params, Question::Highlight).await
+    }
+
     async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
         self.ask("workspace/executeCommand", None, move |state, reply| {
             drawing_edit::execute(state, &params.command, params.arguments, reply);
@@ -308,6 +404,16 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
                 commands: vec![method::APPLY_DRAWING_EDIT_COMMAND.into()],
                 ..ExecuteCommandOptions::default()
             }),
+            completion_provider: Some(CompletionOptions::default()),
+            definition_provider: Some(OneOf::Left(true)),
+            references_provider: Some(OneOf::Left(true)),
+            document_highlight_provider: Some(OneOf::Left(true)),
+            selection_range_provider: Some(SelectionRangeProviderCapability::Simple(true)),
+            inlay_hint_provider: Some(OneOf::Left(true)),
+            semantic_tokens_provider: Some(language::tokens::capabilities()),
+            hover_provider: Some(HoverProviderCapability::Simple(true)),
+            document_symbol_provider: Some(OneOf::Left(true)),
+            folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
             workspace: Some(WorkspaceServerCapabilities {
                 workspace_folders: Some(WorkspaceFoldersServerCapabilities {
                     supported: Some(true),
@@ -329,7 +435,11 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
     let text = capabilities.text_document.as_ref();
     let related = text.and_then(|text| text.publish_diagnostics.as_ref()?.related_information);
     let registers = |dynamic: Option<bool>| dynamic == Some(true);
+    let text = capabilities.text_document.as_ref();
+    let folding = text.and_then(|text| text.folding_range.as_ref());
     Abilities {
+        hierarchical_symbols: text.and_then(|text| text.document_symbol.as_ref()?.hierarchical_document_symbol_support) == Some(true),
+        folding_limit: folding.and_then(|folding| usize::try_from(folding.range_limit?).ok()),
         apply_drawing_edit: ours("/wedm/applyDrawingEdit"),
         resend_drawing: ours("/wedm/resendDrawing"),
         document_changes: workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes) == Some(true),

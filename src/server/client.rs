@@ -28,6 +28,10 @@ pub(super) struct Abilities {
     pub register_configuration: bool,
     pub register_watched_files: bool,
     pub related_information: bool,
+    /// Symbols may be a tree.
+    pub hierarchical_symbols: bool,
+    /// Folds that the client takes at most.
+    pub folding_limit: Option<usize>,
 }
 
 /// The other end of the wire, as the state thread sees it.

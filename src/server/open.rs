@@ -11,7 +11,8 @@ use crate::text::{Encoding, SourceText};
 use crate::{dxf, finding::Rule};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Weak};
 
 /// What a text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,6 +71,21 @@ pub(super) struct Open {
     pub published: bool,
     /// The client has to be told something.
     pub dirty: bool,
+    /// The copy of the text that requests look at, while any of them does.
+    shot: Weak<Shot>,
+}
+
+/// A text as it was at one stamp. Requests that come between two edits share one.
+pub(super) struct Shot {
+    pub text: SourceText,
+    outdated: AtomicBool,
+}
+
+impl Shot {
+    /// The document has changed since: nobody wants an answer about this text.
+    pub fn is_outdated(&self) -> bool {
+        self.outdated.load(Ordering::Relaxed)
+    }
 }
 
 impl Open {
@@ -79,11 +95,20 @@ impl Open {
             Kind::Foreign => Content::Foreign,
             Kind::Dxf | Kind::ThreeB => read_text(kind, text.into_bytes(), settings),
         };
-        Open { uri, version, content, stamp, findings: 0, published: false, dirty: true }
+        Open { uri, version, content, stamp, findings: 0, published: false, dirty: true, shot: Weak::new() }
     }
 
     pub fn drawing(uri: Arc<str>, version: i64, drawing: Drawing, settings: &Arc<Effective>, stamp: u64) -> Open {
-        Open { uri, version, content: judge_drawing(Arc::new(drawing), settings), stamp, findings: 0, published: false, dirty: true }
+        Open {
+            uri,
+            version,
+            content: judge_drawing(Arc::new(drawing), settings),
+            stamp,
+            findings: 0,
+            published: false,
+            dirty: true,
+            shot: Weak::new(),
+        }
     }
 
     pub fn is_drawing(&self) -> bool {
@@ -92,6 +117,26 @@ impl Open {
             Content::Damaged(remains) => matches!(remains, Remains::Drawing(_)),
             Content::Settings(_) | Content::Foreign => false,
         }
+    }
+
+    /// The text for work beside the state thread; the first to ask between two edits has it copied (1 ms for 5 MB).
+    pub fn shot(&mut self) -> Option<Arc<Shot>> {
+        if let Some(shot) = self.shot.upgrade().filter(|shot| !shot.is_outdated()) {
+            return Some(shot);
+        }
+        let text = self.source_text()?.clone();
+        let shot = Arc::new(Shot { text, outdated: AtomicBool::new(false) });
+        self.shot = Arc::downgrade(&shot);
+        Some(shot)
+    }
+
+    /// Gives the document its next stamp: what was made for the one before is out of date.
+    pub fn set_stamp(&mut self, stamp: u64) {
+        self.stamp = stamp;
+        if let Some(shot) = self.shot.upgrade() {
+            shot.outdated.store(true, Ordering::Relaxed);
+        }
+        self.shot = Weak::new();
     }
 
     pub fn document(&self) -> Option<&Arc<Document>> {

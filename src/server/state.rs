@@ -152,7 +152,7 @@ impl State {
     pub fn mark_dirty(&mut self, uri: &Arc<str>) {
         let stamp = self.next_stamp();
         if let Some(open) = self.documents.get_mut(uri) {
-            open.stamp = stamp;
+            open.set_stamp(stamp);
             open.dirty = true;
             // Ours is the document's own copy of the name: one allocation for each document.
             let uri = open.uri.clone();

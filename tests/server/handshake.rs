@@ -37,7 +37,7 @@ fn each_state_of_life_has_its_own_refusal() {
     assert_eq!(client.code("initialize", json!({ "capabilities": {} })), -32600);
     assert_eq!(client.code("wedm/unheardOf", json!({})), -32601);
     assert_eq!(
-        client.code("textDocument/hover", json!({ "textDocument": { "uri": "a:b" }, "position": { "line": 0, "character": 0 } })),
+        client.code("textDocument/prepareRename", json!({ "textDocument": { "uri": "a:b" }, "position": { "line": 0, "character": 0 } })),
         -32601
     );
     assert_eq!(client.code("wedm/inspect", json!({ "uri": 3 })), -32602);

@@ -5,6 +5,7 @@ pub(super) mod contours;
 pub(super) mod drawing_edit;
 pub(super) mod generate;
 pub(super) mod inspect;
+pub(super) mod language;
 pub(super) mod picture;
 pub(super) mod probe;
 pub(super) mod toolpath;

@@ -33,7 +33,7 @@ impl Prepared {
 
     /// The body of a reply, its token replaced.
     pub fn body(&self, response: Response) -> serde_json::Result<Vec<u8>> {
-        let prepared = response.result().and_then(Value::as_str).filter(|token| token.starts_with('\u{1}')).and_then(|token| {
+        let prepared = response.result().and_then(string_of).filter(|token| token.starts_with('\u{1}')).and_then(|token| {
             let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
             waiting.texts.remove(token)
         });
@@ -48,5 +48,15 @@ impl Prepared {
                 Ok(body)
             }
         }
+    }
+}
+
+/// The string that may be a token: the result itself, or where a result of the framework's own types has room for one.
+fn string_of(result: &Value) -> Option<&str> {
+    match result {
+        Value::String(text) => Some(text),
+        Value::Array(list) => ["name", "collapsedText"].iter().find_map(|key| list.first()?.get(key)?.as_str()),
+        Value::Object(_) => result.get("resultId")?.as_str(),
+        _ => None,
     }
 }

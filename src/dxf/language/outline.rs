@@ -1,0 +1,252 @@
+//! The whole text as a tree: sections, tables and their entries, blocks, entities. Folding and symbols are made of it.
+
+use super::spot::text_of;
+use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::lines::Lines;
+use crate::text::SourceText;
+use std::ops::Range;
+
+/// Asked now and then: true when nobody wants the result any more.
+pub type Stop<'a> = &'a dyn Fn() -> bool;
+
+/// A contour of the drawing, as the tree names it: its entities' handles in order of travel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ContourNote {
+    pub closed: bool,
+    pub segments: usize,
+    pub handles: Vec<std::sync::Arc<str>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeKind {
+    Section,
+    Table,
+    /// Entry of a table.
+    Entry,
+    Block,
+    Entity,
+    /// A record that is none of these.
+    Other,
+    Contours,
+    Contour,
+    /// A run of entities that are not listed one by one.
+    Group,
+}
+
+/// A part of the text with a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Node {
+    pub kind: NodeKind,
+    /// Name of the record, as `LWPOLYLINE`.
+    pub record: Box<str>,
+    /// Name of the section, table, entry or block; the handle of an entity.
+    pub name: Box<str>,
+    pub detail: String,
+    /// Bytes of all of it.
+    pub range: Range<usize>,
+    /// Bytes of the record's name.
+    pub selection: Range<usize>,
+    /// First line and one past the last.
+    pub lines: Range<usize>,
+    pub children: Vec<Node>,
+}
+
+/// Calls `visit` for each tag of the text; false when it was stopped.
+pub(super) fn walk(lines: Lines<'_>, stop: Stop<'_>, mut visit: impl FnMut(Tag)) -> bool {
+    let (mut lexer, mut unheard) = (Lexer::new(lines, 0), Vec::new());
+    let mut until_asked = 0;
+    while let Some(tag) = lexer.next(&mut unheard) {
+        unheard.clear();
+        until_asked += 1;
+        if until_asked == 4096 {
+            until_asked = 0;
+            if stop() {
+                return false;
+            }
+        }
+        visit(tag);
+        if tag.code == 0 && lines.trimmed(tag.value_line()) == b"EOF" {
+            break;
+        }
+    }
+    true
+}
+
+/// The tree of a text; `None` when it was stopped.
+pub fn outline(text: &SourceText, stop: Stop<'_>) -> Option<Vec<Node>> {
+    let lines = Lines::new(text);
+    let mut builder = Builder { lines, open: Vec::new(), done: Vec::new(), record: None, vertices: 0 };
+    let mut end = 0;
+    let whole = walk(lines, stop, |tag| {
+        if tag.code == 0 {
+            builder.begin(tag);
+        } else {
+            builder.take(tag);
+        }
+        end = tag.line + 2;
+    });
+    builder.finish_record(end);
+    while !builder.open.is_empty() {
+        builder.close(end);
+    }
+    whole.then_some(builder.done)
+}
+
+struct Builder<'a> {
+    lines: Lines<'a>,
+    /// Section, table or block, POLYLINE: each holds the next.
+    open: Vec<Node>,
+    done: Vec<Node>,
+    /// The record that is being read, when it is none of those that hold others.
+    record: Option<Node>,
+    /// Vertices of the record or of the open POLYLINE.
+    vertices: usize,
+}
+
+impl Builder<'_> {
+    fn begin(&mut self, tag: Tag) {
+        let line = tag.line;
+        let name = self.lines.trimmed(tag.value_line());
+        if let Some(holder) = self.open.last()
+            && matches!(&*holder.record, "POLYLINE" | "INSERT")
+        {
+            match name {
+                b"VERTEX" | b"ATTRIB" => {
+                    self.vertices += usize::from(name == b"VERTEX");
+                    self.record = None;
+                    return self.hold_to(line + 2);
+                }
+                b"SEQEND" => {
+                    self.record = None;
+                    self.hold_to(line + 2);
+                    return;
+                }
+                _ => self.close(line),
+            }
+        }
+        self.finish_record(line);
+        match name {
+            b"SECTION" => {
+                while !self.open.is_empty() {
+                    self.close(line);
+                }
+                self.open.push(self.node(NodeKind::Section, tag));
+            }
+            b"ENDSEC" | b"EOF" => {
+                while !self.open.is_empty() {
+                    self.close(if name == b"ENDSEC" { line + 2 } else { line });
+                }
+            }
+            b"TABLE" | b"BLOCK" => {
+                self.close_to_section(line);
+                let kind = if name == b"TABLE" { NodeKind::Table } else { NodeKind::Block };
+                self.open.push(self.node(kind, tag));
+            }
+            b"ENDTAB" => self.close_to_section(line + 2),
+            b"ENDBLK" => {
+                // Its own tags come before the next record.
+                self.record = Some(self.node(NodeKind::Other, tag));
+            }
+            b"POLYLINE" => {
+                self.vertices = 0;
+                self.open.push(self.node(NodeKind::Entity, tag));
+            }
+            _ => {
+                let kind = match self.open.iter().rev().find(|node| node.kind != NodeKind::Entity).map(|node| (node.kind, &*node.name)) {
+                    Some((NodeKind::Table, _)) => NodeKind::Entry,
+                    Some((NodeKind::Block, _) | (NodeKind::Section, "ENTITIES" | "BLOCKS")) => NodeKind::Entity,
+                    _ => NodeKind::Other,
+                };
+                self.vertices = 0;
+                let node = self.node(kind, tag);
+                if name == b"INSERT" { self.open.push(node) } else { self.record = Some(node) }
+            }
+        }
+    }
+
+    /// A tag that begins no record.
+    fn take(&mut self, tag: Tag) {
+        let in_holder = self.record.is_none();
+        let Some(node) = self.record.as_mut().or(self.open.last_mut()) else { return };
+        // Vertices and attributes of a holder have codes of their own.
+        if in_holder && node.lines.end > node.lines.start {
+            return self.hold_to(tag.line + 2);
+        }
+        let value = self.lines.trimmed(tag.value_line());
+        match tag.code {
+            2 if matches!(node.kind, NodeKind::Section | NodeKind::Table | NodeKind::Entry | NodeKind::Block) && node.name.is_empty() => {
+                node.name = text_of(value).into();
+            }
+            5 | 105 if matches!(node.kind, NodeKind::Entity | NodeKind::Other) && node.name.is_empty() => node.name = text_of(value).into(),
+            8 if node.kind == NodeKind::Entity && node.detail.is_empty() => node.detail = text_of(value),
+            10 if &*node.record == "LWPOLYLINE" => self.vertices += 1,
+            2 if &*node.record == "INSERT" => node.detail = format!("{}, block {}", node.detail, text_of(value)),
+            1 if matches!(&*node.record, "TEXT" | "MTEXT") => node.detail = format!("{}, \"{}\"", node.detail, text_of(value)),
+            _ => {}
+        }
+    }
+
+    fn node(&self, kind: NodeKind, tag: Tag) -> Node {
+        let selection = self.lines.trimmed_range(tag.value_line());
+        let start = self.lines.range(tag.line).start;
+        Node {
+            kind,
+            record: text_of(self.lines.trimmed(tag.value_line())).into(),
+            name: "".into(),
+            detail: String::new(),
+            range: start..selection.end,
+            selection,
+            lines: tag.line..tag.line,
+            children: Vec::new(),
+        }
+    }
+
+    /// What belongs to the innermost holder reaches to `line`.
+    fn hold_to(&mut self, line: usize) {
+        if let Some(holder) = self.open.last_mut() {
+            holder.lines.end = line;
+        }
+    }
+
+    fn ended(&self, mut node: Node, end: usize) -> Node {
+        node.lines.end = end.max(node.lines.start + 1);
+        node.range.end = self.lines.range(node.lines.end - 1).end.max(node.selection.end);
+        if matches!(&*node.record, "LWPOLYLINE" | "POLYLINE") {
+            node.detail = match self.vertices {
+                1 => format!("{}, 1 vertex", node.detail),
+                count => format!("{}, {count} vertices", node.detail),
+            };
+        }
+        node
+    }
+
+    fn finish_record(&mut self, end: usize) {
+        let Some(node) = self.record.take() else { return };
+        if &*node.record == "ENDBLK" {
+            return self.close_to_section(end);
+        }
+        let node = self.ended(node, end);
+        self.put(node);
+    }
+
+    fn close(&mut self, end: usize) {
+        self.finish_record(end);
+        if let Some(node) = self.open.pop() {
+            let node = self.ended(node, end);
+            self.put(node);
+        }
+    }
+
+    fn close_to_section(&mut self, end: usize) {
+        while self.open.last().is_some_and(|node| node.kind != NodeKind::Section) {
+            self.close(end);
+        }
+    }
+
+    fn put(&mut self, node: Node) {
+        match self.open.last_mut() {
+            Some(holder) => holder.children.push(node),
+            None => self.done.push(node),
+        }
+    }
+}

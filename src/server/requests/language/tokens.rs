@@ -1,0 +1,93 @@
+//! `textDocument/semanticTokens`: of the whole text, and of the lines in sight.
+
+use super::{dxf_in, whole};
+use crate::dxf::language::{Token, TokenKind, tokens, tokens_in};
+use crate::server::requests::{Errand, written};
+use crate::server::state::State;
+use crate::text::{Encoding, SourceText};
+use ls_types::{
+    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensFullOptions, SemanticTokensLegend, SemanticTokensOptions,
+    SemanticTokensRangeResult, SemanticTokensResult, SemanticTokensServerCapabilities, Uri,
+};
+use tower_lsp::jsonrpc::Result;
+
+/// Tokens of one answer about a whole text.
+const LIMIT: usize = 1_000_000;
+/// Lines of one answer about a range.
+const LINES: usize = 10_000;
+
+pub(in crate::server) fn capabilities() -> SemanticTokensServerCapabilities {
+    SemanticTokensServerCapabilities::SemanticTokensOptions(SemanticTokensOptions {
+        legend: SemanticTokensLegend { token_types: TokenKind::ALL.map(type_of).to_vec(), token_modifiers: Vec::new() },
+        range: Some(true),
+        full: Some(SemanticTokensFullOptions::Bool(true)),
+        ..SemanticTokensOptions::default()
+    })
+}
+
+/// The types that themes have a colour for.
+fn type_of(kind: TokenKind) -> SemanticTokenType {
+    match kind {
+        TokenKind::Code => SemanticTokenType::PROPERTY,
+        TokenKind::Record => SemanticTokenType::KEYWORD,
+        TokenKind::Handle => SemanticTokenType::VARIABLE,
+        TokenKind::Layer => SemanticTokenType::NAMESPACE,
+        TokenKind::Number => SemanticTokenType::NUMBER,
+        TokenKind::Text => SemanticTokenType::STRING,
+        TokenKind::Comment => SemanticTokenType::COMMENT,
+        TokenKind::Variable => SemanticTokenType::MACRO,
+        TokenKind::Name => SemanticTokenType::TYPE,
+    }
+}
+
+pub(in crate::server) fn full(state: &mut State, uri: &Uri, errand: Errand) {
+    let encoding = state.encoding;
+    whole(state, "Colouring", uri.as_str(), errand, move |text, stop| {
+        let tokens = tokens(text, LIMIT, stop)?;
+        let answer = SemanticTokens { result_id: None, data: encoded(text, &tokens, encoding) };
+        (!stop()).then(|| written(&answer))
+    });
+}
+
+/// A typed result that holds the token of the true one.
+pub(in crate::server) fn standing_for(token: serde_json::Value) -> SemanticTokensResult {
+    SemanticTokensResult::Tokens(SemanticTokens { result_id: token.as_str().map(str::to_owned), data: Vec::new() })
+}
+
+pub(in crate::server) fn range(state: &mut State, uri: &Uri, range: Range) -> Result<Option<SemanticTokensRangeResult>> {
+    let encoding = state.encoding;
+    let Some(dxf) = dxf_in(state.document(uri.as_str())?) else { return Ok(None) };
+    let first = range.start.line as usize;
+    // A range that ends at the beginning of a line does not touch it.
+    let end = range.end.line as usize + usize::from(range.end.character > 0);
+    let tokens = tokens_in(dxf, first..end.min(first.saturating_add(LINES)));
+    let data = encoded(dxf.text(), &tokens, encoding);
+    Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens { result_id: None, data })))
+}
+
+fn encoded(text: &SourceText, tokens: &[Token], encoding: Encoding) -> Vec<SemanticToken> {
+    let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
+    let (mut line, mut character) = (0, 0);
+    let mut data = Vec::with_capacity(tokens.len());
+    for token in tokens {
+        let begin = text.line_start(token.line);
+        let (start, end) = (begin + token.start, begin + token.start + token.length);
+        let plain = text.bytes().get(begin..end).is_some_and(<[u8]>::is_ascii);
+        let (from, length) = if plain {
+            (token.start, token.length)
+        } else {
+            let from = text.position_of(start, encoding).1;
+            (from, text.position_of(end, encoding).1 - from)
+        };
+        let delta_line = token.line - line;
+        data.push(SemanticToken {
+            delta_line: number(delta_line),
+            delta_start: number(if delta_line == 0 { from.saturating_sub(character) } else { from }),
+            length: number(length),
+            token_type: token.kind as u32,
+            token_modifiers_bitset: 0,
+        });
+        (line, character) = (token.line, from);
+    }
+    data
+}
