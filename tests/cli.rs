@@ -279,6 +279,19 @@ fn a_fix_changes_its_numbers_and_no_other_byte() {
     }
 }
 
+/// What stands twice goes, and is counted beside the arcs.
+#[test]
+fn repairs_of_every_rule_are_said() {
+    let desk = Desk::new();
+    let text = String::from_utf8(desk.read("tight.dxf")).unwrap();
+    let circles: String =
+        ["2B", "2C"].iter().map(|handle| format!("  0\nCIRCLE\n  5\n{handle}\n  8\nDIE\n 10\n50\n 20\n0\n 40\n3\n")).collect();
+    let end = text.rfind("  0\nENDSEC").unwrap();
+    desk.write("doubled.dxf", format!("{}{circles}{}", &text[..end], &text[end..]));
+    check(&desk, "fix doubled.dxf -o fixed.dxf", 0, &["!doubled.dxf: 1 arc, 1 double repaired in 2 rounds"]);
+    check(&desk, "check fixed.dxf", 0, &["nothing found"]);
+}
+
 #[test]
 fn a_fix_in_place_writes_what_a_fix_beside_writes() {
     let desk = Desk::new();
