@@ -226,6 +226,10 @@ pub enum Detail {
     Overlap {
         length: f64,
     },
+    /// So much lies on or across each other that `count` stretches of contours were not compared with what is near them.
+    Crowded {
+        count: usize,
+    },
     ShortSegment {
         length: f64,
     },

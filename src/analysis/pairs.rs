@@ -2,7 +2,7 @@
 
 use super::report::Report;
 use crate::drawing::{ContourIndex, ContourKey, EntityId};
-use crate::finding::{Rule, Severity, Side};
+use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::geometry::{Bounds, Grid, Point, Segment, left_normal};
 use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Wall};
 use crate::settings::Effective;
@@ -31,6 +31,10 @@ struct Seen {
     blocked: bool,
 }
 
+/// More than this is not sought: a drawing in which so much lies on or across each other is no drawing to cut yet, and
+/// thousands of copies in one place would be compared for ever. Where that happened is reported.
+const MOST_SEEN: usize = 20_000;
+
 /// The runs of all contours by place, and what has been seen between them.
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
@@ -39,6 +43,10 @@ pub struct Pairs {
     partners: FxHashMap<RunId, Vec<RunId>>,
     /// Runs near which something has come or gone: whether their discs are empty is to be asked again.
     stale: FxHashSet<RunId>,
+    /// How many pairs are in `seen`.
+    seen_count: usize,
+    /// Runs that have not been compared with everything near them, since enough had been seen already.
+    uncompared: FxHashSet<RunId>,
     /// The farthest that a rule reaches.
     reach: f64,
 }
@@ -54,9 +62,11 @@ impl Pairs {
     /// Forgets a run with the box that it was looked at with.
     pub fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
+        self.uncompared.remove(&run);
         self.disturb(bounds);
         for partner in self.partners.remove(&run).unwrap_or_default() {
-            self.seen.remove(&ordered(run, partner));
+            let gone = self.seen.remove(&ordered(run, partner));
+            self.seen_count -= gone.map_or(0, |gone| gone.len());
             if let Some(of_partner) = self.partners.get_mut(&partner) {
                 of_partner.retain(|other| *other != run);
             }
@@ -94,6 +104,10 @@ impl Pairs {
         let (mut near, mut found) = (Vec::new(), Vec::new());
         for &run in runs {
             let Some(own) = outlook(run.0) else { continue };
+            if self.seen_count >= MOST_SEEN {
+                self.uncompared.insert(run);
+                continue;
+            }
             let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
             near.clear();
             self.grid.near(&area, |other| {
@@ -112,6 +126,10 @@ impl Pairs {
                         .any(|(wall, bounds)| bounds.grown(self.reach).touches(&theirs) && passes(wall.geometry(), &theirs, self.reach))
             });
             for &other in &near {
+                if self.seen_count >= MOST_SEEN {
+                    self.uncompared.insert(run);
+                    break;
+                }
                 let look = Look { rules: &rules, reach: self.reach, keys: (run.0, other.0) };
                 if other == run {
                     look.within(&walls, &mut found);
@@ -122,6 +140,7 @@ impl Pairs {
                     if found.iter().any(|seen: &Seen| seen.disc.is_some()) {
                         self.stale.insert(run);
                     }
+                    self.seen_count += found.len();
                     self.seen.insert(ordered(run, other), std::mem::take(&mut found));
                     self.partners.entry(run).or_default().push(other);
                     if other != run {
@@ -177,8 +196,23 @@ impl Pairs {
         doubled
     }
 
+    /// Says where segments have not been compared.
+    fn report_uncompared(&self, outlook: Outlooks, report: &mut Report) {
+        let first = self.uncompared.iter().filter_map(|&(key, run)| outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start));
+        let rank = |place: &Place| match place {
+            Place::Segment { entity, segment } => Some((*entity, *segment)),
+            _ => None,
+        };
+        if let Some(place) = first.min_by_key(rank)
+            && report.counts(Rule::Overlap, None)
+        {
+            report.add(Rule::Overlap, None, place, Detail::Crowded { count: self.uncompared.len() }, Vec::new());
+        }
+    }
+
     /// Adds the findings, in the order of their entities.
     pub fn report(&self, outlook: Outlooks, wire_sides: &FxHashMap<ContourKey, Option<Side>>, report: &mut Report) {
+        self.report_uncompared(outlook, report);
         type Ends = ((EntityId, usize), (EntityId, usize));
         let wire_side = |key: ContourKey| wire_sides.get(&key).copied().flatten();
         let concerned = |key: ContourKey, side: Option<Side>| side.is_none() || wire_side(key).is_none() || side == wire_side(key);

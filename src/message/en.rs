@@ -34,6 +34,9 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
         Detail::Gap { distance } => format!("ends do not meet: they are {} mm apart, within the join tolerance", mm(distance * unit_mm)),
         Detail::DuplicateEntity => "entity lies in the same place as another: the wire would cut it twice".into(),
         Detail::Overlap { length } => format!("segment runs on another one over {} mm", mm(length * unit_mm)),
+        Detail::Crowded { count } => format!(
+            "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them"
+        ),
         Detail::ShortSegment { length } => format!("segment is only {} mm long: controllers stumble over it", mm(length * unit_mm)),
         Detail::NearTangent { turn } => {
             format!("contour kinks by {:.2}° where it looks tangent: the wire leaves a mark", turn.abs().to_degrees())

@@ -130,6 +130,7 @@ impl FindingData {
             Detail::LostPocket { near } => data.at = Some((*near).into()),
             Detail::OffsetCollapse { required } => data.required = Some(*required),
             Detail::OpenContour { distance } | Detail::Gap { distance } => data.distance = Some(*distance),
+            Detail::Crowded { count } => data.count = Some(*count),
             Detail::DuplicateEntity => {}
             Detail::Overlap { length } | Detail::ShortSegment { length } => data.length = Some(*length),
             Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
