@@ -179,3 +179,15 @@ fn a_circle_and_its_leads_drawn_are_one_path() {
     let written = program(&drawing, &outlines, &settings_from(hole));
     assert_eq!(written.split_whitespace().collect::<Vec<_>>(), ["B9900B0B9900GXL1", "B9900B0B39600GYNR1", "B9900B0B9900GXL3", "DD"]);
 }
+
+/// The rules let such a drawing pass: with compensation "none" what touches and doubles is the wire's way, not a fault.
+#[test]
+fn no_error_stands_in_a_wire_path_that_is_drawn() {
+    let (hole, edge) = (Point::origin(), Point::new(9.9, 0.0));
+    let path = [Segment::line(hole, edge), Segment::Arc(Arc::about(hole, edge, edge, true)), Segment::line(edge, hole)];
+    let (drawing, _) = as_entities(&path);
+    let settings = Effective { compensation: Compensation::None, ..Effective::default() };
+    let (findings, _) = Analysis::new(&drawing, settings.into()).findings(&drawing, usize::MAX);
+    let errors: Vec<_> = findings.iter().filter(|finding| finding.severity == wedm::finding::Severity::Error).collect();
+    assert!(errors.is_empty(), "{errors:?}");
+}

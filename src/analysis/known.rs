@@ -13,13 +13,16 @@ pub struct Known {
     pub index: ContourIndex,
     /// The role that an entity or a layer states.
     pub stated: Option<Role>,
-    /// For each local rule, for each run of the index, what it has seen.
+    /// For each local rule, for each run of the index, what it has seen; nothing at all where it has seen nothing, as in
+    /// most contours.
     facts: Vec<Vec<Vec<Fact>>>,
+    /// Number of runs when the rules looked last.
+    runs: usize,
 }
 
 impl Known {
     pub fn new(index: ContourIndex, stated: Option<Role>) -> Known {
-        Known { index, stated, facts: vec![Vec::new(); LOCAL_RULES.len()] }
+        Known { index, stated, facts: Vec::new(), runs: 0 }
     }
 
     /// Lets every local rule look again at the segments of `changed` and as far about as it reaches; at all behind when
@@ -27,12 +30,14 @@ impl Known {
     pub fn look(&mut self, drawing: &Drawing, contour: &Contour, limits: &Limits, settings: &Effective, changed: Range<usize>) {
         let outlook = Outlook { drawing, contour, index: &self.index, limits };
         let (count, runs) = (contour.len(), self.index.run_count());
-        for (rule, facts) in LOCAL_RULES.iter().zip(&mut self.facts) {
+        let recounted = self.runs != runs;
+        self.runs = runs;
+        let mut seen = Vec::new();
+        for (number, rule) in LOCAL_RULES.iter().enumerate() {
             if settings.severity(rule.rule).is_none() {
                 continue;
             }
             let (before, behind) = (rule.reach)(&outlook, changed.clone());
-            let recounted = facts.len() != runs;
             let end = if recounted { count } else { (changed.end + behind).min(count) };
             let mut ranges: Vec<Range<usize>> = once(changed.start.saturating_sub(before)..end).collect();
             if contour.closed && changed.start < before {
@@ -41,13 +46,19 @@ impl Known {
             if contour.closed && changed.end + behind > count {
                 ranges.push(0..(changed.end + behind - count).min(count));
             }
-            facts.resize(runs, Vec::new());
-            for range in ranges {
-                let until = range.end.div_ceil(RUN).min(runs);
-                for (run, facts) in facts.iter_mut().enumerate().take(until).skip(range.start / RUN) {
-                    facts.clear();
-                    (rule.look)(&outlook, self.index.range_of(run), facts);
+            if let Some(facts) = self.facts.get_mut(number).filter(|facts| !facts.is_empty()) {
+                facts.resize(runs, Vec::new());
+            }
+            for run in ranges.into_iter().flat_map(|range| range.start / RUN..range.end.div_ceil(RUN).min(runs)) {
+                seen.clear();
+                (rule.look)(&outlook, self.index.range_of(run), &mut seen);
+                if seen.is_empty() && self.facts.get(number).is_none_or(Vec::is_empty) {
+                    continue;
                 }
+                self.facts.resize(LOCAL_RULES.len(), Vec::new());
+                let facts = &mut self.facts[number];
+                facts.resize(runs, Vec::new());
+                facts[run] = seen.as_slice().into();
             }
         }
     }

@@ -237,7 +237,8 @@ impl Pairs {
                 continue;
             }
             let unknown = rule.warning_when_side_unknown && (wire_side(each.one.0).is_none() || wire_side(each.other.0).is_none());
-            let mildest = if unknown { Some(Severity::Warning) } else { each.mildest };
+            // Where the contour is the wire's own path it may well touch and cross itself: leads do.
+            let mildest = if unknown || report.is_for_a_path() { Some(Severity::Warning) } else { each.mildest };
             if report.counts(rule.rule, mildest)
                 && let (Some(own), Some(theirs)) = (outlook(each.one.0), outlook(each.other.0))
                 && let (Some(one), Some(other)) = (Wall::new(&own, each.one.1), Wall::new(&theirs, each.other.1))

@@ -1,7 +1,7 @@
 //! Findings as they are gathered: counted all, kept up to a limit, the worst first.
 
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::settings::Effective;
+use crate::settings::{Compensation, Effective};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -37,6 +37,11 @@ impl Tally {
 impl Report {
     pub fn new(settings: Arc<Effective>, limit: usize) -> Report {
         Report { settings, limit, kept: BTreeMap::new(), count: 0, tally: Tally::default() }
+    }
+
+    /// True where the settings take a contour as the path of the wire.
+    pub fn is_for_a_path(&self) -> bool {
+        self.settings.compensation == Compensation::None
     }
 
     /// The severity of a rule, `mildest` where the case is milder than the rule and nobody has set it; `None` where it is off.

@@ -28,7 +28,8 @@ impl<K: Copy + PartialEq> Grid<K> {
         let level = level_of(&bounds);
         *self.levels.entry(level).or_default() += 1;
         for cell in cells(level, &bounds) {
-            self.cells.entry(cell).or_default().push((key, bounds));
+            // Most cells hold one box: a vector that grows by itself would begin with room for four.
+            self.cells.entry(cell).or_insert_with(|| Vec::with_capacity(1)).push((key, bounds));
         }
     }
 
