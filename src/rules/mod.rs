@@ -174,5 +174,5 @@ pub struct PairRule {
 /// How many segments before and behind a segment a pair rule may look at.
 pub const NEIGHBOURS: usize = 4;
 
-/// Every rule on pairs of segments; [`duplicate_entity`] first, which others are silent for.
+/// Every rule on pairs of segments; `duplicate-entity` first, which others are silent for.
 pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE, overlap::RULE, self_intersection::RULE, narrow_slot::RULE];
