@@ -429,3 +429,15 @@ fn the_pictures_of_the_documentation_are_current() {
     expect_test::expect_file!["../docs/pictures/small-radius.svg"].assert_eq(&faulty);
     expect_test::expect_file!["../docs/pictures/small-radius-fixed.svg"].assert_eq(&fixed);
 }
+
+#[test]
+fn a_new_drawing_holds_the_contours_and_the_path_of_the_wire() {
+    let desk = Desk::new();
+    check(&desk, "draw clean.dxf --side opening -o path.dxf", 0, &[]);
+    let list = desk.run("inspect path.dxf --output json --side opening").json();
+    let layers = |layer: &str| list["entities"].as_array().unwrap().iter().filter(|entity| entity["layer"] == layer).count();
+    // A lead in and out, and a piece of path for each segment and for the one that is cut in two by the entry.
+    let contour = desk.run("inspect clean.dxf --output json").json();
+    let segments = contour["entities"][0]["segments"].as_array().unwrap().len();
+    assert_eq!((layers("DIE"), layers("WIRE")), (1, segments + 3));
+}

@@ -1,25 +1,29 @@
-//! `wedm draw`: a picture of contour, faults and wire path.
+//! `wedm draw`: a picture of contour, faults and wire path; or contour and wire path as a new drawing.
 
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files};
+use crate::document::Snapshot;
+use crate::drawing::{Drawing, Entity, Geometry};
+use crate::geometry::Segment;
 use crate::settings::Settings;
-use crate::toolpath::{self, Refusal};
-use crate::{message::en, picture};
+use crate::toolpath::{self, Refusal, WirePath};
+use crate::{dxf, message::en, picture};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Draw contours, faults and wire path as SVG
+/// Draw contours, faults and wire path as SVG, or contours and wire path as DXF
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm draw plate.dxf -o plate.svg
-  wedm draw plate.dxf --side opening -o plate.svg      with the path of the wire")]
+  wedm draw plate.dxf --side opening -o plate.svg      with the path of the wire
+  wedm draw plate.dxf --side opening -o path.dxf       contours, and the path on the layer WIRE")]
 pub struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Write the picture there, as .svg [default: stdout]
+    /// Write the picture there, as .svg or .dxf [default: SVG to stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -50,17 +54,48 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::say(&format!("{} drawn without the path of the wire: {reason}", styled(output::NOTE, "note:")));
         Vec::new()
     });
-    let svg = picture::svg(&snapshot.drawing, &snapshot.outlines, &findings, &paths, unit_mm);
-    output::write(arguments.output.as_deref(), svg.as_bytes())?;
+    let picture = match arguments.output.as_deref().and_then(ending_of).as_deref() {
+        Some("dxf") => dxf::write(&with_paths(&snapshot, &paths)).map_err(Failure)?,
+        _ => picture::svg(&snapshot.drawing, &snapshot.outlines, &findings, &paths, unit_mm).into_bytes(),
+    };
+    output::write(arguments.output.as_deref(), &picture)?;
     Ok(Verdict::Clean)
 }
 
+/// Layer of the wire's path in a drawing that is made.
+const WIRE: &str = "WIRE";
+
+/// A new drawing of the contours as they are, and of the wire's path as LINE, ARC and CIRCLE on a layer of its own.
+fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
+    let mut drawing = Drawing::new(Some(snapshot.settings.unit_of(&snapshot.drawing)));
+    for (_, entity) in snapshot.drawing.entities() {
+        drawing.push(entity.clone());
+    }
+    for segment in paths.iter().flat_map(|path| &path.segments) {
+        let (kind, geometry) = match segment.geometry {
+            Segment::Line(line) => ("LINE", Geometry::Line { start: line.start, end: line.end }),
+            Segment::Arc(arc) if arc.is_full_turn() => ("CIRCLE", Geometry::Circle { center: arc.center, radius: arc.radius }),
+            Segment::Arc(arc) => {
+                // A DXF arc runs counter-clockwise, whichever way the wire goes.
+                let arc = if arc.sweep < 0.0 { arc.reversed() } else { arc };
+                let (start_angle, end_angle) = (arc.start_angle, arc.start_angle + arc.sweep);
+                ("ARC", Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle })
+            }
+        };
+        drawing.push(Entity { handle: WIRE.into(), layer: WIRE.into(), role: None, kind, geometry });
+    }
+    drawing
+}
+
+fn ending_of(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_string_lossy().to_ascii_lowercase())
+}
+
 fn refuse_other_formats(target: &Path) -> Result<(), Failure> {
-    let ending = target.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    match ending.as_deref() {
-        Some("svg") => Ok(()),
+    match ending_of(target).as_deref() {
+        Some("svg" | "dxf") => Ok(()),
         _ if target == Path::new("-") => Ok(()),
-        Some(ending) => Err(Failure(format!("{}: .{ending} is not written, expected .svg", target.display()))),
-        None => Err(Failure(format!("{}: its name has no ending, expected .svg", target.display()))),
+        Some(ending) => Err(Failure(format!("{}: .{ending} is not written, expected .svg or .dxf", target.display()))),
+        None => Err(Failure(format!("{}: its name has no ending, expected .svg or .dxf", target.display()))),
     }
 }
