@@ -77,8 +77,66 @@ fn apply(drawing: &mut Drawing, edit: &Edit) -> Option<Touched> {
     }
 }
 
+/// Number of cases: `usual`, unless the environment asks for another one (`PROPTEST_CASES`).
+fn cases(usual: u32) -> u32 {
+    std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok()).unwrap_or(usual)
+}
+
+/// A place on a circle of many chords: now and then a little off it, or where the next chord is a different one.
+fn on_circle(at: usize, off: f64) -> Vertex {
+    let angle = at as f64 * std::f64::consts::TAU / 40.0;
+    Vertex::new((5.0 + off) * angle.cos(), (5.0 + off) * angle.sin(), 0.0)
+}
+
+/// Chords in a row from a place on.
+fn chords(most: usize) -> impl Strategy<Value = Vec<Vertex>> {
+    let off = prop_oneof![12 => Just(0.0), 1 => Just(0.001), 1 => Just(0.3)];
+    (0..40usize, proptest::collection::vec(off, 0..most))
+        .prop_map(|(from, offs)| offs.into_iter().enumerate().map(|(at, off)| on_circle(from + at, off)).collect())
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(400), failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn sequences_of_chords_are_seen_alike(
+        closed: bool,
+        role in role(),
+        start in chords(90),
+        loose in proptest::collection::vec((0..40usize, 0..40usize), 0..12),
+        edits in proptest::collection::vec((0..90usize, 0..8usize, chords(8), 0..4usize), 1..12),
+    ) {
+        let settings = Arc::new(Effective::of(&Settings { side: Some(SideSetting::Auto), ..Settings::default() }));
+        let mut drawing = Drawing::new(None);
+        let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices: start }, role));
+        let line = |from: usize, to: usize| Geometry::Line { start: on_circle(from, 0.0).point, end: on_circle(to, 0.0).point };
+        for (from, step) in loose {
+            drawing.push(entity(line(from, from + 1 + step / 20), None));
+        }
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        for (from, count, insert, kind) in edits {
+            let touched = match kind {
+                0 => {
+                    let id = drawing.order()[from % drawing.len()];
+                    if id == polyline { continue };
+                    drawing.replace(id, entity(line(count * 5, count * 5 + 1), None));
+                    Touched::Entity { entity: id }
+                }
+                1 => Touched::Entity { entity: drawing.push(entity(line(from, from + 1), None)) },
+                _ => match drawing.splice(polyline, from, count, &insert) {
+                    Ok(touched) => touched,
+                    Err(_) => continue,
+                },
+            };
+            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            let mut fresh = Analysis::new(&drawing, settings.clone());
+            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(1000), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn incremental_equals_fresh(

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 use wedm::analysis::Analysis;
+use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Role, Vertex};
 use wedm::finding::{Finding, Rule, Severity};
 use wedm::geometry::{Point, Segment, positive_angle};
@@ -280,5 +281,19 @@ fn an_open_contour_is_no_error_where_it_is_the_wires_path() {
         let (findings, _) = Analysis::new(&drawing, Arc::new(Effective::of(&settings))).findings(&drawing, 100);
         let severity = findings.iter().find(|finding| finding.rule == Rule::OpenContour).map(|finding| finding.severity);
         assert_eq!(severity, Some(expected), "{text}");
+    }
+}
+
+#[test]
+fn what_the_reader_finds_keeps_its_severity_unless_somebody_sets_it() {
+    let text = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n5\nA\n90\n7\n70\n1\n10\n0\n20\n0\n10\n5\n20\n0\n10\n5\n20\n5\n0\nENDSEC\n0\nEOF\n";
+    for (toml, expected) in
+        [("", Some(Severity::Warning)), ("[rules]\nsyntax = \"error\"", Some(Severity::Error)), ("[rules]\nsyntax = \"off\"", None)]
+    {
+        let settings: Settings = toml::from_str(toml).unwrap();
+        let source = Source::Dxf(wedm::dxf::Document::read(text.into()));
+        let (findings, _) = Document::new(source, Arc::new(Effective::of(&settings))).findings(100);
+        let severity = findings.iter().find(|finding| finding.rule == Rule::Syntax).map(|finding| finding.severity);
+        assert_eq!(severity, expected, "{toml}");
     }
 }

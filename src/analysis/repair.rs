@@ -9,6 +9,9 @@ use rustc_hash::FxHashSet;
 /// The rules whose safe repairs "fix all" makes, the first of them that has any.
 const SAFE: [Rule; 4] = [Rule::DuplicateEntity, Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
+/// Edits that are tried before a rule is given up: each costs a look at the drawing.
+const TRIES: usize = 24;
+
 impl Analysis {
     /// Those of the fixes of a finding of `rule` that make nothing worse and let the finding go.
     pub(super) fn checked(&self, drawing: &Drawing, rule: Rule, fixes: Vec<Fix>) -> Vec<Fix> {
@@ -40,13 +43,14 @@ impl Analysis {
         }
         let (findings, _) = analysis.findings(drawing, usize::MAX);
         for rule in rules {
+            let mut tries_left = TRIES;
             let of_rule = findings.iter().filter(|finding| finding.rule == rule);
             let fixes = of_rule.filter_map(|finding| {
                 let crate::finding::Place::Segment { entity, segment } = finding.place else { return None };
                 let fixes = self.other_fixes(drawing, finding, (entity, segment))?;
                 fixes.into_iter().find(|fix| fix.preferred && fix.in_fix_all).map(|fix| fix.edit)
             });
-            if let Some(edit) = self.most_of(drawing, rule, &before, &apart(fixes)) {
+            if let Some(edit) = self.most_of(drawing, rule, &before, &apart(fixes), &mut tries_left) {
                 return Some(edit);
             }
         }
@@ -54,10 +58,11 @@ impl Analysis {
     }
 
     /// All the edits as one; where that makes anything worse, the first half of them that does not.
-    fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit]) -> Option<DrawingEdit> {
-        if edits.is_empty() {
+    fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit], tries_left: &mut usize) -> Option<DrawingEdit> {
+        if edits.is_empty() || *tries_left == 0 {
             return None;
         }
+        *tries_left -= 1;
         let all = DrawingEdit { changes: edits.iter().flat_map(|edit| edit.changes.iter().cloned()).collect() };
         if self.mends(drawing, rule, before, &all) {
             return Some(all);
@@ -66,7 +71,7 @@ impl Analysis {
             return None;
         }
         let (first, second) = edits.split_at(edits.len() / 2);
-        self.most_of(drawing, rule, before, first).or_else(|| self.most_of(drawing, rule, before, second))
+        self.most_of(drawing, rule, before, first, tries_left).or_else(|| self.most_of(drawing, rule, before, second, tries_left))
     }
 }
 
