@@ -448,13 +448,16 @@ impl Analysis {
         if piece.count > 0 {
             own.extend([0..1, piece.count - 1..piece.count]);
         }
-        let ranges: Vec<Range<usize>> = own
-            .into_iter()
-            .map(|range| match piece.reversed {
-                true => piece.first + piece.count - range.end..piece.first + piece.count - range.start,
-                false => piece.first + range.start..piece.first + range.end,
-            })
-            .collect();
+        let ranges = own.into_iter().map(|range| {
+            let (start, end) = match piece.reversed {
+                true => (piece.first + piece.count - range.end, piece.first + piece.count - range.start),
+                false => (piece.first + range.start, piece.first + range.end),
+            };
+            // What lies behind has other indices now; in a piece travelled against its own direction, and in the pieces
+            // behind this one, that reaches past the splice.
+            start..if recounted { contour.len() } else { end }
+        });
+        let ranges: Vec<Range<usize>> = ranges.collect();
         // What a pair rule sees at a segment depends on its neighbours, too. Runs behind a segment that came or went
         // have other segments.
         let mut runs = BTreeSet::new();
