@@ -82,7 +82,7 @@ fn the_settings_in_force_say_where_the_correction_comes_from() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("wedm.toml");
     let uri = format!("file://{}/plate.dxf", folder.path().display());
-    let mut check = |options: Value, toml: Option<&str>, correction: f64, from: &str| {
+    let check = |options: Value, toml: Option<&str>, correction: f64, from: &str| {
         match toml {
             Some(text) => std::fs::write(&file, text).unwrap(),
             None => std::fs::remove_file(&file).unwrap_or_default(),
