@@ -31,9 +31,9 @@ namespace Wedm.Tests
             _session.Dispose();
         }
 
-        private LiveDrawing Open(MemoryDrawing host)
+        private LiveDrawing Open(MemoryDrawing host, string uri = "cad:plate")
         {
-            var drawing = _session.Open("cad:plate", host);
+            var drawing = _session.Open(uri, host);
             host.Watcher = drawing;
             _session.UntilChecked(drawing);
             return drawing;
@@ -110,6 +110,28 @@ namespace Wedm.Tests
             Assert.AreEqual(0.05, row.Radius.Value, 1e-9);
             Assert.AreEqual(19.95, row.X, 1e-9);
             Assert.AreEqual("small-radius", row.Verdict);
+        }
+
+        [Test]
+        public void The_settings_file_in_the_folder_of_the_drawing_holds()
+        {
+            var folder = Directory.CreateDirectory(Path.Combine(Path.GetTempPath(), Path.GetRandomFileName())).FullName;
+            try
+            {
+                File.WriteAllText(Path.Combine(folder, "wedm.toml"), "correction = 0.2\n");
+                var drawing = Open(new MemoryDrawing(Plates.WithFillet(0.15)), DrawingUri.Of(Path.Combine(folder, "plate 1.dwg")));
+                CollectionAssert.AreEqual(new[] { "small-radius" }, Rules(drawing));
+            }
+            finally
+            {
+                Directory.Delete(folder, true);
+            }
+        }
+
+        [Test]
+        public void A_drawing_without_a_file_is_known_by_its_title()
+        {
+            Assert.AreEqual("autocad:Drawing%201.dwg", DrawingUri.Of("Drawing 1.dwg"));
         }
 
         [Test]
