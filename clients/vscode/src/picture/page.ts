@@ -26,7 +26,6 @@ export function page(webview: vscode.Webview, extension: vscode.Uri): string {
 </header>
 <main id="stage" tabindex="0" aria-label="Picture of the drawing">
   <p id="trouble" hidden></p>
-  <div id="legend" aria-hidden="true"></div>
   <div id="scale" aria-hidden="true"><span id="scale-bar"></span><span id="scale-text"></span></div>
   <div id="place" aria-hidden="true"></div>
 </main>
