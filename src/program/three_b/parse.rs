@@ -445,7 +445,7 @@ fn wants_to_be_a_block(text: &[u8]) -> bool {
     };
     let numbers = followed_by(b"B", |byte| byte.is_ascii_digit());
     let axes = followed_by(b"G", |byte| matches!(byte.to_ascii_uppercase(), b'X' | b'Y'));
-    let ends = followed_by(b"LR", |byte| matches!(byte, b'0'..=b'9'));
+    let ends = followed_by(b"LR", |byte| byte.is_ascii_digit());
     let begins = matches!(code.first().map(u8::to_ascii_uppercase), Some(b'B' | b'0'..=b'9'));
     let kinds = usize::from(numbers > 0) + usize::from(axes > 0) + usize::from(ends > 0);
     kinds >= 2 || (begins && (numbers >= 2 || kinds == 1 && code.iter().filter(|byte| byte.eq_ignore_ascii_case(&b'B')).count() >= 2))
