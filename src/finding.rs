@@ -4,6 +4,7 @@
 
 use crate::drawing::{DrawingEdit, EntityId};
 use crate::geometry::Point;
+use crate::text::TextEdit;
 use std::ops::Range;
 
 /// The rules by the names that users see. Order is that of the documentation.
@@ -275,15 +276,30 @@ pub struct Finding {
     pub related: Vec<Place>,
 }
 
-/// A repair that a user may choose.
+/// A repair that a user may choose. Rules on drawings make edits of the drawing, rules on programs edits of the text.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fix {
+pub struct Fix<E = DrawingEdit> {
     pub kind: FixKind,
     /// The one that a user most likely wants.
     pub preferred: bool,
     /// False where "fix all" leaves it out.
     pub in_fix_all: bool,
-    pub edit: DrawingEdit,
+    pub edit: E,
+}
+
+/// What a fix changes: a drawing, which each kind of document turns into its own edit, or the text itself.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    Drawing(DrawingEdit),
+    /// Sorted and disjoint.
+    Text(Vec<TextEdit>),
+}
+
+impl<E> Fix<E> {
+    /// The same repair with its edit in another form.
+    pub fn map<F>(self, form: impl FnOnce(E) -> F) -> Fix<F> {
+        Fix { kind: self.kind, preferred: self.preferred, in_fix_all: self.in_fix_all, edit: form(self.edit) }
+    }
 }
 
 /// What a fix does, as data for its title. Lengths in drawing units.

@@ -163,7 +163,8 @@ mod tests {
         let settings = settings(correction);
         let mut fixed = document(PLATE, &settings);
         let Source::Dxf(text) = fixed.source() else { unreachable!() };
-        let edits = text.text_edits(&fixed.fix_all().unwrap()).unwrap();
+        let Some(crate::finding::Edit::Drawing(edit)) = fixed.fix_all() else { unreachable!() };
+        let edits = text.text_edits(&edit).unwrap();
         let mut bytes = PLATE.to_string();
         edits.iter().rev().for_each(|edit| bytes.replace_range(edit.range.clone(), &edit.text));
         fixed = document(&bytes, &settings);

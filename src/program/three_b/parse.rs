@@ -27,7 +27,8 @@ impl Default for Words<'_> {
 }
 
 impl Words<'_> {
-    fn meaning(&self, word: &[u8]) -> Option<Word> {
+    /// What a word does; `None` for what is no word of a program. Letter case does not matter.
+    pub(super) fn meaning(&self, word: &[u8]) -> Option<Word> {
         let is = |known: &str| word.eq_ignore_ascii_case(known.as_bytes());
         if is(self.end) || ["DD", "E", "FF", "MJ"].into_iter().any(is) {
             // A setting may have made one of these the pause.
@@ -177,14 +178,14 @@ impl Cursor<'_> {
                 if let Some(at) = start_point(&rest[1..]) {
                     return Ok(Some(Token::Other(Item::StartPoint { at, range: self.range(start) })));
                 }
-                Ok(two_numbers(&rest[1..]).map(Token::Coordinates))
+                Ok(two_numbers(before_comment(&rest[1..])).map(Token::Coordinates))
             }
             // Some writers open with a heading between rows of stars.
             b'*' => {
                 self.at = self.line.len();
                 Ok(None)
             }
-            b'0'..=b'9' | b'-' | b'+' | b'.' if start > 0 => match two_numbers(rest) {
+            b'0'..=b'9' | b'-' | b'+' | b'.' if start > 0 => match two_numbers(before_comment(rest)) {
                 Some(end) => {
                     self.at = self.line.len();
                     Ok(Some(Token::Coordinates(end)))
@@ -300,19 +301,23 @@ impl Cursor<'_> {
 }
 
 /// The point of `Start Point = x , y`.
-fn start_point(text: &[u8]) -> Option<[f64; 2]> {
+pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
     let text = text.trim_ascii_start();
     let name = b"start point";
     if !text.get(..name.len())?.eq_ignore_ascii_case(name) {
         return None;
     }
     let value = text[name.len()..].trim_ascii_start().strip_prefix(b"=")?;
-    let value = &value[..value.iter().position(|&byte| byte == b';').unwrap_or(value.len())];
-    two_numbers(value)
+    two_numbers(before_comment(value))
+}
+
+/// What stands before a `;`.
+pub(super) fn before_comment(text: &[u8]) -> &[u8] {
+    text.split(|&byte| byte == b';').next().unwrap_or_default()
 }
 
 /// `x , y` or `x y`, and nothing else.
-fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
+pub(super) fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
     let text = std::str::from_utf8(text).ok()?;
     let mut fields = text.split(|c: char| c == ',' || c.is_ascii_whitespace()).filter(|field| !field.is_empty());
     let mut number = || fields.next()?.parse::<f64>().ok().filter(|value| value.is_finite());
