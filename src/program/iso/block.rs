@@ -53,6 +53,8 @@ pub struct Block {
     pub stop: Option<Stop>,
     /// `M98 P1`.
     pub call: Option<u32>,
+    /// `L3`: how often the subprogram runs.
+    pub repeat: Option<u32>,
     /// M99.
     pub returns: bool,
     /// A word that takes the coordinates for something else than a move, such as G04 or G28.
@@ -74,10 +76,19 @@ pub struct Offset {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
     /// A word that means on one machine what it does not on another.
-    Foreign { code: Code, range: Range<usize> },
+    Foreign {
+        code: Code,
+        range: Range<usize>,
+    },
     /// `H001=110`
-    Definition { offset: Offset, value: Number },
-    Fault { fault: WordFault, range: Range<usize> },
+    Definition {
+        offset: Offset,
+        value: Number,
+    },
+    Fault {
+        fault: WordFault,
+        range: Range<usize>,
+    },
 }
 
 /// What a foreign word is told apart by: its letter, and its number times 10 where that is G's or M's.
@@ -130,8 +141,9 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
                 b'P' => {
                     (subprogram, p_range, is_spare_p) = (number.whole().and_then(|whole| u32::try_from(whole).ok()), Some(range), true);
                 }
-                // Feed, and how often a subprogram runs.
-                b'F' | b'L' => {}
+                b'L' => block.repeat = Some(index(number)),
+                // The feed does not change where the wire goes.
+                b'F' => {}
                 _ => note(Note::Foreign { code: Code::of(letter, number), range }),
             }
         }

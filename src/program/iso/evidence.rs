@@ -24,24 +24,37 @@ pub struct Evidence {
     pub incremental: Arcs,
 }
 
-/// Arcs whose centre tells the rules apart, and how many of them do not fit under each.
+/// Arcs with I and J: how many of them do not fit under each rule, and how many fit under two rules about unlike centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Arcs {
-    pub telling: u32,
-    pub off: [u32; 3],
-    /// Arcs with a centre in all.
     pub all: u32,
+    pub off: [u32; 3],
+    /// In the order of [`PAIRS`].
+    pub unclear: [u32; 3],
 }
 
 const RULES: [CenterRule; 3] = [CenterRule::StartToCenter, CenterRule::CenterToStart, CenterRule::Absolute];
 
+const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
 impl Arcs {
     fn add(&mut self, other: &Arcs) {
-        self.telling += other.telling;
         self.all += other.all;
-        for (count, more) in self.off.iter_mut().zip(other.off) {
+        for (count, more) in self.off.iter_mut().chain(&mut self.unclear).zip(other.off.into_iter().chain(other.unclear)) {
             *count += more;
         }
+    }
+
+    /// True where two rules fit equally many arcs, more than any other, and lead to unlike circles.
+    fn is_open(&self, rules: usize) -> bool {
+        let least = self.off[..rules].iter().copied().min().unwrap_or(0);
+        let open = |(&(a, b), &unclear): (&(usize, usize), &u32)| unclear > 0 && b < rules && self.off[a] == least && self.off[b] == least;
+        PAIRS.iter().zip(&self.unclear).any(open)
+    }
+
+    /// The arcs fit one rule better than the others.
+    fn tells(&self, rules: usize) -> bool {
+        self.all > 0 && !self.is_open(rules)
     }
 
     /// The rule that the fewest arcs are off under; `preferred` where others are no better, then the first.
@@ -80,12 +93,15 @@ impl Evidence {
             return;
         }
         arcs.all += 1;
+        let centers = RULES.map(|rule| arc.center(rule));
         let off = RULES.map(|rule| arc.difference(rule).abs() > tolerance as f64);
         // Under G91 nothing is absolute.
-        let compared = if arc.incremental { &off[..2] } else { &off[..] };
-        arcs.telling += u32::from(compared.iter().any(|&is_off| is_off != off[0]));
-        for (count, &is_off) in arcs.off.iter_mut().zip(compared) {
+        let compared = if arc.incremental { 2 } else { 3 };
+        for (count, &is_off) in arcs.off.iter_mut().zip(&off[..compared]) {
             *count += u32::from(is_off);
+        }
+        for (count, (a, b)) in arcs.unclear.iter_mut().zip(PAIRS) {
+            *count += u32::from(b < compared && !off[a] && !off[b] && centers[a] != centers[b]);
         }
     }
 
@@ -94,13 +110,10 @@ impl Evidence {
         let whole_numbers_are_fine = self.with_point == 0;
         let absolute = self.absolute.rule(preferred, &RULES);
         // What the arcs under G90 show, those under G91 of the same program need not show again.
-        let shown = if self.absolute.telling > 0 { absolute } else { preferred };
+        let shown = if self.absolute.tells(3) { absolute } else { preferred };
         let incremental = self.incremental.rule(shown, &RULES[..2]);
-        let absolute = if self.absolute.telling == 0 && self.incremental.telling > 0 {
-            self.absolute.rule(incremental, &RULES)
-        } else {
-            absolute
-        };
+        let absolute =
+            if !self.absolute.tells(3) && self.incremental.tells(2) { self.absolute.rule(incremental, &RULES) } else { absolute };
         let step = match (whole_numbers_are_fine, self.inch) {
             (true, false) => MICROMETRE,
             (true, true) => 2_540,
@@ -109,10 +122,9 @@ impl Evidence {
         Reading { whole_numbers_are_fine, absolute, incremental, tolerance: (STEPS * step).clamp(STEPS * MICROMETRE, COARSEST) }
     }
 
-    /// True where there are arcs and none of them shows where I and J lead: full circles only, which fit under several rules.
+    /// True where the arcs fit under two rules equally well, as full circles do.
     pub fn leaves_centers_open(&self) -> bool {
-        let open = |arcs: &Arcs| arcs.all > 0 && arcs.telling == 0;
-        let told = self.absolute.telling > 0 || self.incremental.telling > 0;
-        !told && (open(&self.absolute) || open(&self.incremental))
+        let told = self.absolute.tells(3) || self.incremental.tells(2);
+        !told && (self.absolute.is_open(3) || self.incremental.is_open(2))
     }
 }

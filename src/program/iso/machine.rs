@@ -211,6 +211,8 @@ pub struct Machine {
     pub zero: Place,
     /// Where the wire stands is not known, since a coordinate could not be read.
     pub lost: [bool; 2],
+    /// It was not known at some time since the last rapid or stop.
+    pub torn: bool,
     pub motion: Motion,
     pub incremental: bool,
     pub inch: bool,
@@ -220,8 +222,8 @@ pub struct Machine {
     pub switches: Option<bool>,
     /// The wire has moved since the beginning or the last stop.
     pub moved: bool,
-    /// Something has been said to the machine.
-    pub begun: bool,
+    /// G92 has said where the wire stands.
+    pub stated: bool,
     pub ended: bool,
 }
 
@@ -231,6 +233,7 @@ impl Default for Machine {
             at: [0, 0],
             zero: [0, 0],
             lost: [false, false],
+            torn: false,
             motion: Motion::Line,
             incremental: false,
             inch: false,
@@ -238,7 +241,7 @@ impl Default for Machine {
             offset: None,
             switches: None,
             moved: false,
-            begun: false,
+            stated: false,
             ended: false,
         }
     }
@@ -247,7 +250,6 @@ impl Default for Machine {
 impl Machine {
     /// Does what a line says. The move it makes is given back; none where the wire stands still, or where it stands is not known.
     pub fn run(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
-        self.begun |= !block.empty;
         if let Some(inch) = block.inch {
             self.inch = inch;
         }
@@ -282,6 +284,8 @@ impl Machine {
             Some(Stop::Pause) => self.moved = false,
             None => {}
         }
+        let parts = block.stop.is_some() || moved.is_some_and(|moved| !moved.is_cut());
+        self.torn = self.lost != [false, false] || (self.torn && !parts);
         moved
     }
 
@@ -291,6 +295,7 @@ impl Machine {
         for (axis, number) in [block.x, block.y].into_iter().enumerate() {
             if let Some(number) = number {
                 let stated = reading.length(number, self.inch);
+                self.stated = true;
                 if self.moved && !self.lost[axis] {
                     self.zero[axis] = self.at[axis].wrapping_sub(stated);
                 } else {
@@ -347,10 +352,7 @@ impl Machine {
                 j: j.unwrap_or(0),
                 absolute: match self.incremental {
                     true => [0, 0],
-                    false => [
-                        i.map_or(from[0], |i| self.zero[0].wrapping_add(i)),
-                        j.map_or(from[1], |j| self.zero[1].wrapping_add(j)),
-                    ],
+                    false => [i.map_or(from[0], |i| self.zero[0].wrapping_add(i)), j.map_or(from[1], |j| self.zero[1].wrapping_add(j))],
                 },
             },
         };

@@ -5,10 +5,9 @@
 
 use super::block::{Code, Note, Offset, Stop, read_line};
 use super::evidence::Evidence;
-use super::machine::{Course, Machine, Move, Place, Reading, added, micrometres};
+use super::machine::{Course, Machine, Move, Place, Reading, added};
 use super::word::{Number, WordFault};
 use crate::finding::Side;
-use crate::geometry::{Point, cross};
 use std::ops::Range;
 
 /// A fault of one line. Places are bytes from the start of the stretch.
@@ -40,6 +39,8 @@ pub struct Tight {
     pub arc: Move,
     /// Bytes from the start of the stretch; the whole line's words.
     pub range: (u32, u32),
+    /// The run that it is part of, by its index in the stretch.
+    pub run: u32,
 }
 
 /// Arcs of a larger radius than this are not kept: no correction comes near, nm.
@@ -52,12 +53,15 @@ pub struct Run {
     pub first: [Move; 2],
     pub last: [Move; 2],
     pub moves: u32,
+    pub arcs: u32,
     /// Twice the signed area in nm², about the place where the run begins.
     pub twice_area: i128,
     /// The line that begins it, bytes from the start of the stretch.
     pub range: (u32, u32),
     /// The line that ends it.
     pub last_range: (u32, u32),
+    /// Nothing of it was lost to lines that could not be read.
+    pub whole: bool,
     /// It goes on in the next stretch.
     pub open: bool,
     /// It is the continuation of the one before.
@@ -75,10 +79,22 @@ pub enum RunSide {
 }
 
 impl Run {
-    fn begin(first: Move, cap: f64, range: (u32, u32), continues: bool) -> Run {
+    fn begin(first: Move, cap: f64, range: (u32, u32), continues: bool, whole: bool) -> Run {
         let side = first.side.map_or(RunSide::None, RunSide::One);
-        let (first, last, twice_area) = ([first; 2], [first; 2], cap as i128);
-        Run { first, last, moves: 1, twice_area, range, last_range: range, open: true, continues, side }
+        let twice_area = cap as i128;
+        Run {
+            first: [first; 2],
+            last: [first; 2],
+            moves: 1,
+            arcs: u32::from(first.is_arc()),
+            twice_area,
+            range,
+            last_range: range,
+            whole,
+            open: true,
+            continues,
+            side,
+        }
     }
 
     fn start(&self) -> Place {
@@ -100,6 +116,7 @@ impl Run {
         }
         self.last = [self.last[1], step];
         self.moves += 1;
+        self.arcs += u32::from(step.is_arc());
         self.last_range = range;
         self.side = joined(self.side, step.side.map_or(RunSide::None, RunSide::One));
     }
@@ -116,6 +133,8 @@ impl Run {
         }
         self.last = if next.moves == 1 { [self.last[1], next.last[1]] } else { next.last };
         self.moves += next.moves;
+        self.arcs += next.arcs;
+        self.whole &= next.whole;
         self.open = next.open;
         self.side = joined(self.side, next.side);
     }
@@ -159,16 +178,17 @@ pub struct Stretch {
     pub definitions: Vec<(Offset, Number, bool)>,
     /// N words with the byte at which they stand.
     pub numbers: Vec<(u32, u32)>,
-    /// A cut that was going on before these lines ends with none of them.
-    pub ends_run_before: bool,
+    /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
+    pub ends_run_before: Option<bool>,
     /// The first words behind the end.
     pub behind_end: Option<(u32, u32)>,
     /// The last line that says anything.
     pub last_words: Option<(u32, u32)>,
     /// A subprogram is called.
     pub calls: bool,
-    /// Blocks that move the wire.
+    /// Blocks that move the wire, and stops on the way.
     pub moves: u32,
+    pub pauses: u32,
     /// It holds coordinates under G90, or an absolute centre, or G92: what it does hangs on where the wire stands before.
     fixed: bool,
 }
@@ -188,11 +208,12 @@ impl Stretch {
             foreign: Vec::new(),
             definitions: Vec::new(),
             numbers: Vec::new(),
-            ends_run_before: false,
+            ends_run_before: None,
             behind_end: None,
             last_words: None,
             calls: false,
             moves: 0,
+            pauses: 0,
             fixed: false,
         };
         for (offset, line) in lines {
@@ -233,26 +254,29 @@ impl Stretch {
         }
         self.evidence.numbers(&block);
         self.fixed |= block.sets_position;
+        let torn = self.after.torn;
         let made = self.after.run(&block, &self.reading);
         match made {
-            Some(made) => self.made(made, range),
-            None if block.has_coordinates() || block.broken => self.interrupt(),
+            Some(made) => self.made(made, range, torn),
+            None if self.after.torn => self.interrupt(false),
             None => {}
         }
-        if matches!(block.stop, Some(Stop::Pause | Stop::End)) {
-            self.interrupt();
+        if let Some(stop) = block.stop {
+            self.pauses += u32::from(stop == Stop::Pause);
+            self.interrupt(true);
         }
     }
 
-    /// What comes next is a cut of its own.
-    fn interrupt(&mut self) {
+    /// What comes next is a cut of its own; `whole` is false where lines between cannot be read.
+    fn interrupt(&mut self, whole: bool) {
         match self.runs.last_mut() {
-            Some(run) => run.open = false,
-            None => self.ends_run_before = true,
+            Some(run) if run.open => (run.open, run.whole) = (false, run.whole && whole),
+            Some(_) => {}
+            None => _ = self.ends_run_before.get_or_insert(whole),
         }
     }
 
-    fn made(&mut self, made: Move, range: (u32, u32)) {
+    fn made(&mut self, made: Move, range: (u32, u32), torn: bool) {
         self.moves += 1;
         self.fixed |= !made.incremental;
         if let Some(on) = made.switches
@@ -269,7 +293,9 @@ impl Stretch {
                     // µm² to nm².
                     cap = (arc.twice_cap_area() * 1e6).round();
                     if arc.radius * 1e3 < LARGEST_CORRECTION {
-                        self.tight.push(Tight { arc: made, range });
+                        let goes_on = self.runs.last().is_some_and(|run| run.open);
+                        let run = (self.runs.len() - usize::from(goes_on)) as u32;
+                        self.tight.push(Tight { arc: made, range, run });
                     }
                 }
                 Course::OffRadius { start, end, .. } => {
@@ -280,7 +306,7 @@ impl Stretch {
             }
         }
         if !made.is_cut() {
-            return self.interrupt();
+            return self.interrupt(true);
         }
         if made.from == made.to && !made.is_arc() {
             return;
@@ -288,8 +314,8 @@ impl Stretch {
         match self.runs.last_mut() {
             Some(run) if run.open => run.push(made, cap, range),
             last => {
-                let continues = last.is_none() && !self.ends_run_before;
-                self.runs.push(Run::begin(made, cap, range, continues));
+                let continues = last.is_none() && self.ends_run_before.is_none();
+                self.runs.push(Run::begin(made, cap, range, continues, !torn));
             }
         }
     }
@@ -309,7 +335,7 @@ impl Stretch {
 }
 
 /// From the first to the last byte of a line that is no space.
-fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
+pub fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
     let leading = line.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
     let trailing = line[leading..].iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
     ((offset + leading) as u32, (offset + line.len() - trailing) as u32)
@@ -321,25 +347,4 @@ fn pair(range: Range<usize>) -> (u32, u32) {
 
 fn narrow(range: Range<usize>) -> Range<u32> {
     range.start as u32..range.end as u32
-}
-
-/// The side of a cut from which the wire comes to it, told by the first and the last direction of the contour at the entry; `None` where
-/// the two disagree.
-pub fn side_of_entry(run: &Run, reading: &Reading) -> Option<Side> {
-    let entry = micrometres(run.first[0].to);
-    let from: Point = micrometres(run.first[0].from);
-    let ahead = run.first[1].segment(reading).start_tangent();
-    let behind = run.last[0].segment(reading).end_tangent();
-    let way = from - entry;
-    let length = way.norm();
-    let sides = [cross(ahead, way), cross(behind, way)];
-    // A way in along the contour says nothing.
-    let clear = length * 0.02;
-    if sides.iter().all(|&side| side > clear) {
-        Some(Side::Left)
-    } else if sides.iter().all(|&side| side < -clear) {
-        Some(Side::Right)
-    } else {
-        None
-    }
 }

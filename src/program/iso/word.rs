@@ -46,10 +46,16 @@ pub enum Token {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordFault {
     /// A letter without its number.
-    NoNumber { letter: u8 },
+    NoNumber {
+        letter: u8,
+    },
     /// `X1,5` or `X1.2.3`.
-    NotANumber { letter: u8 },
-    TooManyDigits { digits: u32 },
+    NotANumber {
+        letter: u8,
+    },
+    TooManyDigits {
+        digits: u32,
+    },
     /// `(` without `)`.
     OpenComment,
     /// A character that begins no word.
