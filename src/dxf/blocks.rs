@@ -63,8 +63,10 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    pub(super) fn is_empty(&self) -> bool {
-        self.blocks.is_empty()
+    /// The same blocks, nothing drawn and nothing known of them: what was found out before they were whole may not hold.
+    pub(super) fn unasked(self) -> Blocks {
+        let count = self.blocks.len();
+        Blocks { blocks: self.blocks, by_name: self.by_name, sizes: vec![None; count], used: vec![false; count], ..Blocks::default() }
     }
 
     /// Begins the block whose record starts at `line` and ends before the lexer's place. A name that is taken stays with

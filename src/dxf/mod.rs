@@ -122,11 +122,11 @@ impl Document {
         }
         let mut reading = Reading::default();
         self.read_items(&mut reading);
-        if reading.early && !reading.blocks.is_empty() {
-            // Blocks that stand behind what refers to them.
+        if reading.early {
+            // Blocks, or parts of them, that stand behind what refers to them.
             self.findings.clear();
             *self.table = Table::default();
-            reading = Reading { known: Some(reading.blocks), ..Reading::default() };
+            reading = Reading { known: Some(reading.blocks.unasked()), ..Reading::default() };
             self.read_items(&mut reading);
         }
         let Reading { mut drawing, unit, any_record, blocks, known, .. } = reading;
@@ -164,6 +164,7 @@ impl Document {
                 Said::Nothing => {}
                 Said::Block => {
                     item.became = Became::Block;
+                    reading.early |= reading.known.is_none() && reading.refers;
                     reading.blocks.begin(&lexer, line);
                 }
                 Said::Structure { entities, unit: stated } => {
@@ -184,7 +185,10 @@ impl Document {
                     match outcome {
                         Outcome::Damaged => item.became = Became::Damaged,
                         Outcome::Unsupported(kind, why) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
-                        outcome if context == Context::Blocks => reading.blocks.add(outcome),
+                        outcome if context == Context::Blocks => {
+                            reading.early |= reading.known.is_none() && reading.refers;
+                            reading.blocks.add(outcome);
+                        }
                         Outcome::Insert(insert) => reading.push_reference(&insert, line, &mut item, table, findings, lines),
                         Outcome::Entity(read) => {
                             if let Shape::Plain(geometry) = read.shape {
@@ -265,7 +269,9 @@ struct Reading {
     blocks: Blocks,
     /// The blocks of the file, when they are known from an earlier reading.
     known: Option<Blocks>,
-    /// A block was asked for before any block was read.
+    /// Something in the modelspace refers to a block.
+    refers: bool,
+    /// A block was asked for before all blocks were read: what it draws is not known yet.
     early: bool,
 }
 
@@ -307,7 +313,11 @@ impl Reading {
         findings: &mut Vec<Finding>,
         lines: Lines,
     ) {
-        self.early |= self.known.is_none() && self.blocks.is_empty();
+        self.refers = true;
+        if self.early {
+            // All is read again.
+            return;
+        }
         let blocks = self.known.as_mut().unwrap_or(&mut self.blocks);
         let parts = match blocks.resolve(insert, table.fit_tolerance) {
             Ok(parts) => parts,
