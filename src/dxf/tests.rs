@@ -3,5 +3,6 @@
 mod blocks;
 mod editing;
 mod faults;
+mod layers;
 mod reading;
 mod writing;

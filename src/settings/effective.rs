@@ -1,7 +1,7 @@
 //! Settings with every default filled in.
 
 use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, RuleSeverity, Settings, SideSetting, UnitSetting};
-use crate::drawing::{Role, Unit};
+use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,6 +19,7 @@ pub struct Effective {
     pub unit: Unit,
     pub margin: f64,
     pub layers: BTreeMap<String, Role>,
+    pub colors: BTreeMap<Color, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,
     /// The rules whose severity somebody has set.
     pub stated: BTreeSet<Rule>,
@@ -71,6 +72,7 @@ impl Effective {
             },
             margin: settings.margin.unwrap_or(0.001),
             layers: settings.layers.clone().unwrap_or_default(),
+            colors: settings.colors.iter().flatten().filter_map(|(name, role)| Some((Color::named(name)?, *role))).collect(),
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             layout: program.layout.unwrap_or_default(),
@@ -83,7 +85,7 @@ impl Effective {
             compensation: program.compensation.unwrap_or_default(),
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),
-            tolerances: Tolerances::default(),
+            tolerances: Tolerances { arc_fit: settings.arc_fit.unwrap_or(Tolerances::default().arc_fit), ..Tolerances::default() },
         }
     }
 
