@@ -15,8 +15,11 @@ const char NAME[] = "wedm.exe";
 const char NAME[] = "wedm";
 #endif
 
-const char HOW_TO_GET_IT[] = "Build it in wedm's folder with \"cargo install --path .\", or put the program beside the plugin, "
-                             "or choose it with the button \"Server…\".";
+/// LibreCAD takes every file beside a plugin for a plugin and complains about the others, but not on Windows; a folder it passes over.
+const char FOLDER[] = "wedm-server";
+
+const char HOW_TO_GET_IT[] = "Build it in wedm's folder with \"cargo install --path .\", or put the program into the folder wedm-server "
+                             "beside the plugin, or choose it with the button \"Server…\".";
 
 bool runs(const QString &path)
 {
@@ -36,9 +39,11 @@ QString findProgram(const ProgramSearch &search, QString *message)
                            .arg(QDir::toNativeSeparators(search.setting), QString::fromUtf8(HOW_TO_GET_IT));
         return QString();
     }
-    const QString beside = QDir(search.pluginFolder).filePath(NAME);
-    if (!search.pluginFolder.isEmpty() && runs(beside))
-        return beside;
+    const QDir plugins(search.pluginFolder);
+    for (const QString &beside : {plugins.filePath(QStringLiteral("%1/%2").arg(FOLDER, NAME)), plugins.filePath(NAME)}) {
+        if (!search.pluginFolder.isEmpty() && runs(beside))
+            return beside;
+    }
     const QString onPath = QStandardPaths::findExecutable(NAME);
     if (!onPath.isEmpty())
         return onPath;
@@ -48,7 +53,7 @@ QString findProgram(const ProgramSearch &search, QString *message)
         return ofCargo;
     if (message)
         *message = QStringLiteral("The wedm server was not found: it is not set, not in \"%1\", not on PATH and not in \"%2\". %3")
-                       .arg(QDir::toNativeSeparators(search.pluginFolder), QDir::toNativeSeparators(QFileInfo(ofCargo).path()),
+                       .arg(QDir::toNativeSeparators(plugins.filePath(FOLDER)), QDir::toNativeSeparators(QFileInfo(ofCargo).path()),
                             QString::fromUtf8(HOW_TO_GET_IT));
     return QString();
 }

@@ -13,7 +13,7 @@ struct ProgramSearch {
     QString pluginFolder;
 };
 
-/// The path of the program: what is set, else beside the plugin, else on PATH, else where cargo installs.
+/// The path of the program: what is set, else beside the plugin (best in a folder `wedm-server` there), else on PATH, else where cargo installs.
 /// Empty when there is none; `message` then says where it was looked for and how to get it.
 /// A setting that names no program is an answer too: nothing else is taken in its place.
 QString findProgram(const ProgramSearch &search, QString *message);

@@ -150,6 +150,10 @@ void Session::watchRadii(const QString &uri, bool on)
 
 void Session::requestRepair(const QString &uri, const QString &handle, int segment)
 {
+    if (m_state == State::Starting) {
+        whenSettled([=] { requestRepair(uri, handle, segment); });
+        return;
+    }
     const QSharedPointer<Document> document = m_documents.value(uri);
     if (!document || m_state != State::Ready) {
         emit repairFailed(uri, tr("The server is not there; nothing was changed."));
@@ -188,6 +192,10 @@ void Session::requestRepair(const QString &uri, const QString &handle, int segme
 
 void Session::generate(const QString &uri, const QString &path, bool force)
 {
+    if (m_state == State::Starting) {
+        whenSettled([=] { generate(uri, path, force); });
+        return;
+    }
     const QSharedPointer<Document> document = m_documents.value(uri);
     if (!document || m_state != State::Ready) {
         emit generateFailed(uri, path, tr("The server is not there; nothing was written."), QStringList());
@@ -213,6 +221,22 @@ void Session::setState(State state, const QString &text)
 {
     m_state = state;
     emit stateChanged(state, text);
+    // A server that is ready hears of the drawings first; `initialized` goes on with what has waited.
+    if (state != State::Starting && state != State::Ready)
+        settled();
+}
+
+void Session::whenSettled(std::function<void()> call)
+{
+    m_waitingCalls += call;
+}
+
+void Session::settled()
+{
+    const QVector<std::function<void()>> calls = m_waitingCalls;
+    m_waitingCalls.clear();
+    for (const std::function<void()> &call : calls)
+        call();
 }
 
 void Session::launch()
@@ -283,6 +307,7 @@ void Session::initialized(const Answer &answer)
         each.value()->inspectedVersion = -1;
         open(*each.value());
     }
+    settled();
 }
 
 void Session::refuse(const QString &text)

@@ -113,6 +113,9 @@ private:
     void takeRepair(const QString &uri, const QJsonArray &actions);
     void takeProgram(const QString &uri, const QString &path, const QJsonObject &result);
     void drop();
+    /// Does `call` now, or as soon as a server that is starting is ready or is not going to be.
+    void whenSettled(std::function<void()> call);
+    void settled();
 
     Patience m_patience;
     ProgramSearch m_search;
@@ -121,6 +124,7 @@ private:
     State m_state = State::Stopped;
     QHash<QString, QSharedPointer<Document>> m_documents;
     QJsonObject m_settings;
+    QVector<std::function<void()>> m_waitingCalls;
     QTimer m_restart;
     QTimer m_handshake;
     QElapsedTimer m_life;

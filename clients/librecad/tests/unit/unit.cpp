@@ -330,7 +330,8 @@ private slots:
         const QString nowhere = look("");
         const QString ofCargo = home.filePath(".cargo/bin/wedm");
         QDir(home.path()).mkpath(".cargo/bin");
-        const QStringList places{ofCargo, path.filePath("wedm"), beside.filePath("wedm")};
+        QDir(beside.path()).mkpath("wedm-server");
+        const QStringList places{ofCargo, path.filePath("wedm"), beside.filePath("wedm"), beside.filePath("wedm-server/wedm")};
         QStringList found;
         for (const QString &place : places) {
             QFile::copy("/bin/true", place);
@@ -417,6 +418,16 @@ private slots:
         QVERIFY2(talk.noRepairs.last().at(1).toString().contains("nothing was changed", Qt::CaseInsensitive),
                  qPrintable(talk.noRepairs.last().at(1).toString()));
         QCOMPARE(talk.repairs.size(), 0);
+    }
+
+    /// What is asked while the server starts is answered once it is there.
+    void askedTooEarly()
+    {
+        Talk talk;
+        talk.start();
+        talk.session.look("librecad:1", {polyline(1, opening(0.08))}, Units::Millimetre);
+        talk.session.requestRepair("librecad:1", QString(), -1);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.repairs.size(), 1, LONG);
     }
 
     void programIsWritten()
