@@ -52,7 +52,7 @@ impl Limits {
             side: settings.side,
             compensation: settings.compensation,
             end: "M02".into(),
-            center: CenterRule::StartToCenter,
+            center: settings.profile.as_ref().map_or(CenterRule::StartToCenter, |profile| profile.center),
         }
     }
 }

@@ -16,7 +16,7 @@ fn path_of(segments: Vec<Segment>) -> WirePath {
     let source = Source::Segment { entity: EntityId(0), segment: 0 };
     let thread_hole = segments.first().map_or_else(Point::origin, Segment::start);
     let segments = segments.into_iter().map(|geometry| PathSegment { geometry, source }).collect();
-    WirePath { outline: 0, correction: 0.0, thread_hole, segments }
+    WirePath { outline: 0, correction: 0.0, thread_hole, side: None, segments }
 }
 
 fn written(segments: Vec<Segment>) -> ProvedProgram {
