@@ -1,7 +1,7 @@
 //! One level of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
 
-use super::value::{Entry, Node, Value};
 use super::profile::DECIMALS;
+use super::value::{Entry, Node, Value};
 use super::{Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings, SettingsError, shipped_profiles};
 use crate::drawing::Role;
 use crate::finding::Rule;
@@ -37,7 +37,11 @@ impl Reader {
                 "rules" => settings.rules = reader.rules(key, node),
                 "program" => settings.program = reader.program(key, node),
                 "profiles" => settings.profiles = reader.profiles(key, node),
-                _ => reader.unknown(key, entry, "correction, wire-diameter, gap, side, units, margin, passes, layers, rules, program or profiles"),
+                _ => reader.unknown(
+                    key,
+                    entry,
+                    "correction, wire-diameter, gap, side, units, margin, passes, layers, rules, program or profiles",
+                ),
             }
         });
         if settings.correction.is_some() && settings.wire_diameter.is_some() {
@@ -197,7 +201,8 @@ impl Reader {
             Value::List(items) => items,
             _ => return self.misfit(key, node, "a list of lines such as [\"G90\"]"),
         };
-        let lines: Vec<Option<String>> = items.iter().enumerate().map(|(index, item)| self.line(&format!("{key}[{index}]"), item)).collect();
+        let lines: Vec<Option<String>> =
+            items.iter().enumerate().map(|(index, item)| self.line(&format!("{key}[{index}]"), item)).collect();
         lines.into_iter().collect()
     }
 

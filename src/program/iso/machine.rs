@@ -6,8 +6,8 @@
 use super::block::{Block, Compensation, Motion, Offset, Stop};
 use super::word::Number;
 use crate::finding::Side;
-pub use crate::settings::CenterRule;
 use crate::geometry::{Arc, Point, Segment};
+pub use crate::settings::CenterRule;
 
 /// Nanometres in a micrometre.
 pub const MICROMETRE: i64 = 1_000;

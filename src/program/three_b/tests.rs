@@ -3,10 +3,11 @@
 use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
 use super::encode::{END_TOLERANCE, Encoded, encode, point_of, snap};
 use super::parse::{Item, StatedPoint, Word, Words, read};
-use super::write::{ProofError, ProvedProgram, write, write_with};
+use super::write::{write, write_with};
 use super::{DecodeFault, decode};
 use crate::drawing::EntityId;
 use crate::geometry::{Arc, Point, Segment, Vector, direction};
+use crate::program::{ProofError, ProvedProgram};
 use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use proptest::prelude::*;
