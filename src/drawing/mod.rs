@@ -71,6 +71,12 @@ impl Drawing {
         &self.order
     }
 
+    /// The place of an entity in the machining order. Cheap while the order is that in which entities came.
+    pub fn rank(&self, id: EntityId) -> Option<usize> {
+        // Found is found, sorted or not.
+        self.order.binary_search(&id).ok().or_else(|| self.order.iter().position(|&other| other == id))
+    }
+
     /// Entities in machining order.
     pub fn entities(&self) -> impl Iterator<Item = (EntityId, &Entity)> + '_ {
         self.order.iter().filter_map(|&id| Some((id, self.get(id)?)))
@@ -147,12 +153,24 @@ impl Drawing {
 
     /// Removes the entity and gives it back. Costs the length of the machining order.
     pub fn remove(&mut self, id: EntityId) -> Option<Arc<Entity>> {
+        let entity = self.take(id)?;
+        self.order.retain(|&other| other != id);
+        Some(entity)
+    }
+
+    /// Removes entities. Costs the length of the machining order once, however many they are.
+    pub fn remove_all(&mut self, ids: &FxHashSet<EntityId>) {
+        if ids.iter().filter_map(|&id| self.take(id)).count() > 0 {
+            self.order.retain(|id| !ids.contains(id));
+        }
+    }
+
+    fn take(&mut self, id: EntityId) -> Option<Arc<Entity>> {
         let entity = self.slots.get_mut(id.0 as usize)?.take()?;
         if self.by_handle.get(&entity.handle) == Some(&id) {
             self.by_handle.remove(&entity.handle);
         }
         self.fixed.remove(&id);
-        self.order.retain(|&other| other != id);
         Some(entity)
     }
 
