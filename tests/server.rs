@@ -17,6 +17,8 @@ mod handshake;
 mod language;
 #[path = "server/panics.rs"]
 mod panics;
+#[path = "server/program_text.rs"]
+mod program_text;
 #[path = "server/programs.rs"]
 mod programs;
 #[path = "server/settings.rs"]

@@ -6,6 +6,7 @@ mod block;
 mod decode;
 mod document;
 mod encode;
+pub(in crate::program) mod language;
 mod layout;
 mod parse;
 mod proof;
