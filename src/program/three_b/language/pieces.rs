@@ -109,7 +109,7 @@ impl Cutter<'_> {
         let field = match byte.to_ascii_uppercase() {
             b';' => self.behind_semicolon(rest),
             b'*' => {
-                self.to_end();
+                self.run_to_end();
                 Field::Comment
             }
             b'B' if !self.is_word(words) => {
@@ -214,7 +214,7 @@ impl Cutter<'_> {
             };
         }
         if start_point(rest).is_some() {
-            self.to_end();
+            self.run_to_end();
             return Field::StartPoint;
         }
         self.strange(start)
@@ -222,7 +222,7 @@ impl Cutter<'_> {
 
     fn behind_semicolon(&mut self, rest: &[u8]) -> Field {
         if start_point(&rest[1..]).is_some() {
-            self.to_end();
+            self.run_to_end();
             return Field::StartPoint;
         }
         let numbers = before_comment(&rest[1..]);
@@ -230,12 +230,12 @@ impl Cutter<'_> {
             self.at += 1 + numbers.trim_ascii_end().len();
             return Field::Coordinates;
         }
-        self.to_end();
+        self.run_to_end();
         Field::Comment
     }
 
     /// To the end of the line, space left out.
-    fn to_end(&mut self) {
+    fn run_to_end(&mut self) {
         let rest = &self.line[self.at..];
         let length = rest.iter().rposition(|byte| !matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0x1a)).map_or(0, |last| last + 1);
         self.at += length.max(1);
