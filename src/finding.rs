@@ -26,7 +26,23 @@ pub enum Rule {
     LeadIn,
     UnsupportedEntity,
     Units,
-    /// Damaged DXF or 3B text.
+    /// An arc of an ISO program whose ends are not on one circle about its centre.
+    ArcOffRadius,
+    /// An arc whose centre is its start.
+    ArcWithoutRadius,
+    /// The correction is switched where controls do not take it: by an arc or a rapid.
+    CompensationSwitch,
+    /// G41 or G42 sends the wire to the side of the part.
+    WrongSide,
+    /// The arcs of a program do not tell how their centres are meant.
+    AmbiguousCenter,
+    /// Words that one machine takes otherwise than another, or not at all.
+    MachineDependent,
+    NotClosed,
+    MissingEnd,
+    TextAfterEnd,
+    BlockNumber,
+    /// Damaged DXF or program text.
     Syntax,
     /// A value in `wedm.toml` or in the client's settings that does not fit.
     Settings,
@@ -35,7 +51,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 19] = [
+    pub const ALL: [Rule; 29] = [
         Rule::SmallRadius,
         Rule::SharpCorner,
         Rule::NarrowSlot,
@@ -52,6 +68,16 @@ impl Rule {
         Rule::LeadIn,
         Rule::UnsupportedEntity,
         Rule::Units,
+        Rule::ArcOffRadius,
+        Rule::ArcWithoutRadius,
+        Rule::CompensationSwitch,
+        Rule::WrongSide,
+        Rule::AmbiguousCenter,
+        Rule::MachineDependent,
+        Rule::NotClosed,
+        Rule::MissingEnd,
+        Rule::TextAfterEnd,
+        Rule::BlockNumber,
         Rule::Syntax,
         Rule::Settings,
         Rule::More,
@@ -75,6 +101,16 @@ impl Rule {
             Rule::LeadIn => "lead-in",
             Rule::UnsupportedEntity => "unsupported-entity",
             Rule::Units => "units",
+            Rule::ArcOffRadius => "arc-off-radius",
+            Rule::ArcWithoutRadius => "arc-without-radius",
+            Rule::CompensationSwitch => "compensation-switch",
+            Rule::WrongSide => "wrong-side",
+            Rule::AmbiguousCenter => "ambiguous-center",
+            Rule::MachineDependent => "machine-dependent",
+            Rule::NotClosed => "not-closed",
+            Rule::MissingEnd => "missing-end",
+            Rule::TextAfterEnd => "text-after-end",
+            Rule::BlockNumber => "block-number",
             Rule::Syntax => "syntax",
             Rule::Settings => "settings",
             Rule::More => "more",
@@ -90,10 +126,23 @@ impl Rule {
             | Rule::OpenContour
             | Rule::SelfIntersection
             | Rule::LeadIn
+            | Rule::ArcOffRadius
+            | Rule::ArcWithoutRadius
+            | Rule::CompensationSwitch
+            | Rule::WrongSide
             | Rule::Syntax
             | Rule::Settings => Severity::Error,
-            Rule::SharpCorner | Rule::Gap | Rule::DuplicateEntity | Rule::Overlap | Rule::ShortSegment | Rule::Units => Severity::Warning,
-            Rule::UnsupportedEntity | Rule::More => Severity::Information,
+            Rule::SharpCorner
+            | Rule::Gap
+            | Rule::DuplicateEntity
+            | Rule::Overlap
+            | Rule::ShortSegment
+            | Rule::Units
+            | Rule::NotClosed
+            | Rule::MissingEnd
+            | Rule::TextAfterEnd
+            | Rule::BlockNumber => Severity::Warning,
+            Rule::UnsupportedEntity | Rule::AmbiguousCenter | Rule::MachineDependent | Rule::More => Severity::Information,
             Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
     }
@@ -163,6 +212,8 @@ pub enum NoFix {
     NoNeighbour,
     /// The entity cannot be edited (part of a block, or of a kind that has no such edit).
     NotEditable,
+    /// It stands in a program: the drawing that it was made of has to change.
+    Program,
 }
 
 /// An arc tighter than the correction, in drawing units. Lengths for people are made in mm by the message.
@@ -250,6 +301,7 @@ pub enum Detail {
         radius: f64,
         deviation: f64,
     },
+    Iso(IsoFault),
     LeadIn(String),
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
@@ -264,6 +316,57 @@ pub enum Detail {
     More {
         count: usize,
     },
+}
+
+/// What is wrong in an ISO program. Lengths in µm.
+#[derive(Clone, Debug, PartialEq)]
+pub enum IsoFault {
+    /// The start of an arc is `start` from its centre, its end `end`.
+    OffRadius {
+        start: f64,
+        end: f64,
+    },
+    /// An arc without I, J and R, or whose centre is one of its ends.
+    NoRadius,
+    /// Compensation goes on or off with a move that is an arc, or else a rapid.
+    Switch {
+        on: bool,
+        arc: bool,
+    },
+    /// The wire runs on `side` of a contour, which makes it a punch (or an opening) where the settings say the other.
+    RoleSide {
+        side: Side,
+        punch: bool,
+    },
+    /// The wire runs on `side` of a contour and comes to it from the other one.
+    EntrySide {
+        side: Side,
+    },
+    /// The ends of a cut are `distance` apart.
+    NotClosed {
+        distance: f64,
+    },
+    /// The program ends without `word`.
+    NoEnd {
+        word: String,
+    },
+    BehindEnd,
+    /// A block number stands twice.
+    NumberTwice {
+        number: u32,
+    },
+    /// `word` stands `count` times.
+    Foreign {
+        word: String,
+        count: usize,
+    },
+    /// A subprogram that is not in the text.
+    NoSubprogram {
+        number: u32,
+    },
+    EndlessCalls,
+    /// Full circles only: I and J are taken as leading from start to centre.
+    OpenCenters,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -323,4 +426,12 @@ pub enum FixKind {
     MakeTangent { moved: f64 },
     /// One arc takes the place of `chords` lines.
     OneArc { chords: usize, radius: f64 },
+    /// A program gets the word that ends it.
+    AddEnd { word: String },
+    /// What stands behind the end of a program goes.
+    DeleteBehindEnd,
+    /// A rapid becomes a cut.
+    CutRapid,
+    /// G41 becomes G42 or the other way round.
+    SwapSide,
 }

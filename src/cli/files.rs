@@ -75,10 +75,9 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
     let refusal = match ending.as_str() {
         // What is in the file decides between text and binary DXF.
         "dxf" | "dxb" | "dxfb" => return Ok(Kind::Dxf),
-        "iso" | "nc" => "ISO programs are not read yet, expected .dxf or .3b".into(),
         "dwg" => "DWG is not read, expected .dxf: save the drawing as DXF".into(),
-        "" => "its name has no ending, expected .dxf or .3b".into(),
-        ending => format!("its name ends with .{ending}, expected .dxf or .3b"),
+        "" => "its name has no ending, expected .dxf, .3b, .iso or .nc".into(),
+        ending => format!("its name ends with .{ending}, expected .dxf, .3b, .iso or .nc"),
     };
     Err(Failure(format!("{}: {refusal}", path.display())))
 }

@@ -1,7 +1,7 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
-use super::three_b;
 use super::trace::{Step, Trace};
+use super::{iso, three_b};
 use crate::finding::{Finding, Fix, Severity};
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
@@ -13,15 +13,18 @@ use std::ops::Range;
 pub enum Language {
     /// 3B, and 4B in the same text.
     ThreeB,
+    /// ISO words (G code) of wire EDM.
+    Iso,
 }
 
 impl Language {
-    pub const ALL: [Language; 1] = [Language::ThreeB];
+    pub const ALL: [Language; 2] = [Language::ThreeB, Language::Iso];
 
     /// `languageId` in the protocol.
     pub fn id(self) -> &'static str {
         match self {
             Language::ThreeB => "3b",
+            Language::Iso => "wire-iso",
         }
     }
 
@@ -29,6 +32,7 @@ impl Language {
     pub fn endings(self) -> &'static [&'static str] {
         match self {
             Language::ThreeB => &["3b", "4b"],
+            Language::Iso => &["iso", "nc"],
         }
     }
 
@@ -46,6 +50,7 @@ impl Language {
 #[derive(Clone, Debug)]
 pub enum Document {
     ThreeB(three_b::Document),
+    Iso(iso::Document),
 }
 
 impl Document {
@@ -53,18 +58,21 @@ impl Document {
     pub fn read(language: Language, bytes: Vec<u8>, settings: &Effective) -> Document {
         match language {
             Language::ThreeB => Document::ThreeB(three_b::Document::read_with(bytes, settings)),
+            Language::Iso => Document::Iso(iso::Document::read_with(bytes, settings)),
         }
     }
 
     pub fn language(&self) -> Language {
         match self {
             Document::ThreeB(_) => Language::ThreeB,
+            Document::Iso(_) => Language::Iso,
         }
     }
 
     pub fn text(&self) -> &SourceText {
         match self {
             Document::ThreeB(document) => document.text(),
+            Document::Iso(document) => document.text(),
         }
     }
 
@@ -72,6 +80,7 @@ impl Document {
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         match self {
             Document::ThreeB(document) => document.edit(range, replacement),
+            Document::Iso(document) => document.edit(range, replacement),
         }
     }
 
@@ -79,6 +88,7 @@ impl Document {
     pub fn set_settings(&mut self, settings: &Effective) {
         match self {
             Document::ThreeB(document) => document.set_settings(settings),
+            Document::Iso(document) => document.set_settings(settings),
         }
     }
 
@@ -87,6 +97,7 @@ impl Document {
     pub fn findings(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let of_reader = match self {
             Document::ThreeB(document) => document.findings(),
+            Document::Iso(document) => document.findings(),
         };
         let mut findings: Vec<Finding> = Vec::new();
         for finding in of_reader {
@@ -105,6 +116,7 @@ impl Document {
     pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
         match self {
             Document::ThreeB(document) => document.fixes(finding),
+            Document::Iso(document) => document.fixes(finding),
         }
     }
 
@@ -131,6 +143,7 @@ impl Document {
     pub fn trace(&self) -> Trace {
         match self {
             Document::ThreeB(document) => document.trace(),
+            Document::Iso(document) => document.trace(),
         }
     }
 
@@ -138,6 +151,7 @@ impl Document {
     pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
         match self {
             Document::ThreeB(document) => document.steps_in(range),
+            Document::Iso(document) => document.steps_in(range),
         }
     }
 }

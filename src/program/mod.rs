@@ -4,6 +4,7 @@
 //! machine goes. What a language alone knows stands in its own folder.
 
 mod document;
+pub mod iso;
 pub mod language;
 pub mod three_b;
 pub mod trace;

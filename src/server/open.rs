@@ -310,6 +310,7 @@ mod tests {
         check("3b", "file:///a/plate.txt", Kind::Program(Language::ThreeB));
         check("toml", "file:///a/wedm.toml", Kind::Settings);
         check("toml", "file:///a/Cargo.toml", Kind::Foreign);
-        check("wire-iso", "file:///a/plate.iso", Kind::Foreign);
+        check("wire-iso", "file:///a/plate.txt", Kind::Program(Language::Iso));
+        check("", "file:///a/plate.NC", Kind::Program(Language::Iso));
     }
 }

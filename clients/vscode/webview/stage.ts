@@ -8,7 +8,8 @@ import { element } from "./page";
 const REACH = 6;
 /** A pointer that has moved less has clicked. */
 const CLICK = 4;
-const MARGIN = 48;
+/** Pixels about the drawing, in which the numbers of its faults have room. */
+const MARGIN = { width: 96, height: 48 };
 /** A part that is zoomed to fills this share of the window. */
 const SHARE = 0.22;
 

@@ -11,5 +11,6 @@ use std::ops::Range;
 pub fn format(document: &Document, settings: &Effective, lines: Range<usize>) -> Vec<TextEdit> {
     match document {
         Document::ThreeB(program) => three_b::language::format(program.text(), settings.stated_layout, &program.words(), lines),
+        Document::Iso(_) => Vec::new(),
     }
 }

@@ -1,7 +1,7 @@
 //! 3B text as an open document: its lines and what is wrong in them.
 
 use super::decode::decode;
-use super::parse::{Item, SyntaxFault, Word, Words, read_line};
+use super::parse::{Item, SyntaxFault, Word, Words, read_line, unexpected};
 use crate::finding::{Detail, Finding, Fix, Place, Rule};
 use crate::geometry::{Point, Segment};
 use crate::program::trace::{Kind, Step, Trace};
@@ -60,14 +60,14 @@ impl Document {
         for line in 0..self.text.line_count() {
             let range = self.text.line_range(line);
             let start = range.start;
-            let _ = read_line(&self.text.bytes()[range], start, &self.words(), |item| match item {
+            read_line(&self.text.bytes()[range], start, &self.words(), |item| match item {
                 Item::StartPoint { at: [x, y], .. } => {
                     if trace.steps.is_empty() {
                         at = Point::new((x * 1000.0).round(), (y * 1000.0).round());
                         (trace.start, trace.start_is_known) = (at, true);
                     }
                 }
-                Item::Word { word, range } => {
+                Item::Word { word, range, .. } => {
                     let kind = if word == Word::End { Kind::End } else { Kind::Pause };
                     trace.steps.push(Step { range, line, number: None, kind, start: at, end: at, ideal: None, contour });
                     contour += usize::from(word == Word::Pause);
@@ -79,6 +79,7 @@ impl Document {
                     trace.steps.push(Step { range, line, number, kind, start: at, end, ideal, contour });
                     at = end;
                 }
+                Item::Text { .. } | Item::Fault(_) => {}
             });
         }
         trace
@@ -125,12 +126,17 @@ impl Document {
 
     fn findings_in(&self, lines: Range<usize>) -> Vec<Finding> {
         let words = self.words();
-        let faults = lines.filter_map(|line| {
+        let mut findings = Vec::new();
+        for line in lines {
             let range = self.text.line_range(line);
             let start = range.start;
-            read_line(&self.text.bytes()[range], start, &words, |_| {}).err()
-        });
-        faults.map(finding).collect()
+            read_line(&self.text.bytes()[range], start, &words, |item| match item {
+                Item::Fault(fault) => findings.push(finding(fault)),
+                Item::Text { range, column } => findings.push(finding(unexpected(self.text.bytes(), range, column))),
+                _ => {}
+            });
+        }
+        findings
     }
 }
 
@@ -145,8 +151,8 @@ fn finding(fault: SyntaxFault) -> Finding {
     Finding {
         rule: Rule::Syntax,
         severity: Rule::Syntax.default_severity(),
+        detail: Detail::Syntax(fault.sentence()),
         place: Place::Text { range: fault.range },
-        detail: Detail::Syntax(fault.sentence),
         related: Vec::new(),
     }
 }
@@ -160,10 +166,7 @@ mod tests {
     fn each_damaged_line_is_named_once_and_the_rest_is_read() {
         let document = Document::read(b"B1000B0B1000GXL1\nB1B2GXL1\nB0B1000B1000GYL2\n9900B0B9900GXL1\nDD\n".to_vec());
         let sentences: Vec<_> = document.findings().iter().map(|finding| (start_of(finding), finding.detail.clone())).collect();
-        let expected = [
-            (21, "column 5: found `GXL1`, expected digits of Y, or B before J"),
-            (43, "column 1: found `9900B0B9900G`, expected a block (B X B Y B J G Z), a pause or end word, or a comment after `;`"),
-        ];
+        let expected = [(21, "column 5: found `GXL1`, expected digits of Y, or B before J"), (43, "a B of the block is missing")];
         assert_eq!(sentences, expected.map(|(start, sentence)| (start, Detail::Syntax(sentence.into()))));
     }
 

@@ -80,6 +80,7 @@ async function answer(error: unknown, how: How): Promise<How | undefined> {
       return undefined;
     case FORCE:
       return { ...how, force: true };
+    case undefined:
     default:
       return undefined;
   }

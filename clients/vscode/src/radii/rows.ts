@@ -51,7 +51,7 @@ function segmentRow(handle: string, segment: Segment, toMm: number): SegmentRow 
     handle,
     segment,
     label: `${segment.index}   ${what}`,
-    description: `${segment.verdict} · ${mm(x)}, ${mm(y)}`,
+    description: segment.verdict === "ok" ? `${mm(x)}, ${mm(y)}` : `${segment.verdict} · ${mm(x)}, ${mm(y)}`,
     faulty: segment.verdict !== "ok",
   };
 }

@@ -119,7 +119,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
     const located = await segmentAt(this.server, editor.document.uri, editor.selection.active);
     const entity = this.#rows.find((row) => row.handle === located?.handle);
     const row = entity?.segments.find((segment) => segment.segment.index === located?.segment) ?? entity;
-    if (row !== undefined && this.#view.visible) {
+    if (row !== undefined) {
       await this.#view.reveal(row, { select: true, focus: false });
     }
   }

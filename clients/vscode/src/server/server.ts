@@ -173,7 +173,9 @@ export class Server implements vscode.Disposable {
     if (client === undefined || this.#state.kind !== "running") {
       throw new Error("the wedm server is not running");
     }
-    return client.sendRequest<Methods[M][1]>(method, params, token);
+    // A token that is undefined would be sent as a second param.
+    const given = token === undefined ? [params] : [params, token];
+    return client.sendRequest<Methods[M][1]>(method, ...given);
   }
 
   #options(): LanguageClientOptions {

@@ -5,11 +5,11 @@
 
 use super::pieces::{Field, Piece, pieces};
 use crate::geometry::Point;
-use crate::program::three_b::block::{Block, Node};
+use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::{point_of, snap as node_of};
 use crate::program::three_b::layout::{push_block_number, push_end_point, push_fields, push_to_comment_column};
-use crate::program::three_b::parse::{Item, Word, Words, read_line};
+use crate::program::three_b::parse::{Item, StatedPoint, Word, Words, read_line};
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use std::ops::Range;
@@ -58,7 +58,7 @@ fn survey(text: &SourceText, words: &Words<'_>) -> Survey {
     for line in 0..text.line_count() {
         let range = text.line_range(line);
         let bytes = &text.bytes()[range];
-        let _ = read_line(bytes, 0, words, |item| {
+        read_line(bytes, 0, words, |item| {
             let Item::Block { range, number, stated_end, .. } = item else { return };
             ordinal = ordinal.saturating_add(1);
             numbers_count_blocks &= number.is_none_or(|number| number == ordinal);
@@ -127,14 +127,17 @@ impl<'a> Walk<'a> {
     fn read(&mut self, line: &[u8], is_first: bool) {
         let mut items = std::mem::take(&mut self.items);
         items.clear();
-        self.is_sound = read_line(line, usize::from(!is_first), self.words, |item| items.push(item)).is_ok();
+        self.is_sound = true;
+        read_line(line, usize::from(!is_first), self.words, |item| match item {
+            Item::Fault(_) | Item::Text { .. } => self.is_sound = false,
+            item => items.push(item),
+        });
         // The reader skips a byte order mark at offset 0 only.
         let shift = usize::from(!is_first);
         for item in &mut items {
-            let range = match item {
-                Item::Block { range, .. } | Item::Word { range, .. } | Item::StartPoint { range, .. } => range,
-            };
-            *range = range.start - shift..range.end - shift;
+            if let Item::Block { range, .. } | Item::Word { range, .. } | Item::StartPoint { range, .. } = item {
+                *range = range.start - shift..range.end - shift;
+            }
         }
         self.items = items;
         self.pieces = pieces(line, self.words);
@@ -150,7 +153,11 @@ impl<'a> Walk<'a> {
             return None;
         }
         let has = |field: Field| self.pieces.iter().filter(|piece| piece.field == field).count();
-        let numbers = self.items.iter().filter(|item| matches!(item, Item::Block { number: Some(_), .. })).count();
+        let numbers = self
+            .items
+            .iter()
+            .filter(|item| matches!(item, Item::Block { number: Some(_), .. } | Item::Word { number: Some(_), .. }))
+            .count();
         // A header stands alone; a number that no block has would be lost.
         if self.items.is_empty() || has(Field::StartPoint) > 0 || has(Field::Strange) > 0 || has(Field::Number) != numbers {
             return trimmed();
@@ -163,17 +170,21 @@ impl<'a> Walk<'a> {
                 head.extend_from_slice(line_end.as_bytes());
             }
             match item {
-                Item::Block { block, number, stated_end, range } => {
+                Item::Block { block, number, stated_end, range, part } => {
                     let stated = self.stated(*stated_end, block, &mut stand);
                     let ordinal = self.ordinal + 1 + self.blocks_before(index);
-                    self.push_block(&mut head, block, *number, ordinal, stated, self.coordinates_behind(line, range.end))?;
+                    let numbers = (*number, ordinal);
+                    self.push_block(&mut head, (block, part.as_ref()), numbers, stated, self.coordinates_behind(line, range.end))?;
                     last_block = Some(block);
                 }
-                Item::Word { range, .. } => {
+                Item::Word { range, number, .. } => {
+                    if let Some(number) = number {
+                        self.push_number(&mut head, *number)?;
+                    }
                     head.extend(line.get(range.clone())?.to_ascii_uppercase());
                     last_block = None;
                 }
-                Item::StartPoint { .. } => return trimmed(),
+                Item::StartPoint { .. } | Item::Text { .. } | Item::Fault(_) => return trimmed(),
             }
         }
         let comment = self.pieces.last().filter(|piece| piece.field == Field::Comment).map(|piece| piece.range.clone());
@@ -193,30 +204,33 @@ impl<'a> Walk<'a> {
         self.items.iter().take(index).filter(|item| matches!(item, Item::Block { .. })).count() as u64
     }
 
+    fn push_number(&self, head: &mut Vec<u8>, number: u32) -> Option<()> {
+        match self.layout {
+            // It stands for whatever was too large.
+            _ if number == u32::MAX => return None,
+            Layout::Compact => head.extend_from_slice(format!("N{number} ").as_bytes()),
+            Layout::Aligned | Layout::Checking => push_block_number(head, number.into()),
+        }
+        Some(())
+    }
+
     fn push_block(
         &self,
         head: &mut Vec<u8>,
-        block: &Block,
-        number: Option<u32>,
-        ordinal: u64,
+        (block, part): (&Block, Option<&PartArc>),
+        (number, ordinal): (Option<u32>, u64),
         stated: Stated,
         coordinates: &[u8],
     ) -> Option<()> {
         const BLANK_NUMBER: &[u8] = b"        ";
-        if number == Some(u32::MAX) {
-            // It stands for whatever was too large.
-            return None;
-        }
         match (self.layout, number) {
-            (Layout::Checking, Some(number)) => push_block_number(head, number.into()),
+            (Layout::Compact | Layout::Aligned, Some(_)) if matches!(stated, Stated::Right(_)) => {}
+            (_, Some(number)) => self.push_number(head, number)?,
             (Layout::Checking, None) if self.numbers_count_blocks => push_block_number(head, ordinal),
             (Layout::Checking, None) => head.extend_from_slice(BLANK_NUMBER),
-            (_, Some(_)) if matches!(stated, Stated::Right(_)) => {}
-            (Layout::Aligned, Some(number)) => push_block_number(head, number.into()),
-            (Layout::Compact, Some(number)) => head.extend_from_slice(format!("N{number} ").as_bytes()),
             (_, None) => {}
         }
-        push_fields(head, self.layout, block);
+        push_fields(head, self.layout, block, part);
         match (self.layout, stated) {
             (_, Stated::Wrong) => {
                 push_to_comment_column(head, block);
@@ -244,8 +258,8 @@ impl<'a> Walk<'a> {
     ///
     /// Where stated points stay in the text, what follows is held against them; where they go, against the blocks alone, so that
     /// formatting again finds the same.
-    fn stated(&self, stated: Option<[f64; 2]>, block: &Block, stand: &mut Stand) -> Stated {
-        let stated = stated.and_then(|[x, y]| node_of(Point::new(x * 1000.0, y * 1000.0)));
+    fn stated(&self, stated: Option<StatedPoint>, block: &Block, stand: &mut Stand) -> Stated {
+        let stated = stated.and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
         let told = if self.layout == Layout::Checking { stated } else { None };
         match decode(block, stand.at) {
             Ok(segment) => {
@@ -288,6 +302,7 @@ impl<'a> Walk<'a> {
                 Item::StartPoint { at: [x, y], .. } => {
                     stand = Stand { at: Point::new(x * 1000.0, y * 1000.0), trust: Trust::Known, arcs: 0.0 };
                 }
+                Item::Text { .. } | Item::Fault(_) => {}
             }
         }
         self.stand = stand;
@@ -299,23 +314,21 @@ impl<'a> Walk<'a> {
         let mut again: Vec<Item> = Vec::with_capacity(self.items.len());
         let text = [formed.head.as_bytes(), line.get(formed.kept.clone()).unwrap_or_default()].concat();
         for part in text.split(|byte| matches!(byte, b'\n' | b'\r')) {
-            if read_line(part, 1, self.words, |item| again.push(item)).is_err() {
-                return false;
-            }
+            read_line(part, 1, self.words, |item| again.push(item));
         }
         let is_same = |(old, new): (&Item, &Item)| match (old, new) {
             (
-                Item::Block { block: old, number, stated_end, .. },
-                Item::Block { block: new, number: new_number, stated_end: new_end, .. },
+                Item::Block { block: old, number, stated_end, part, .. },
+                Item::Block { block: new, number: new_number, stated_end: new_end, part: new_part, .. },
             ) => {
                 let number_is_kept = new_number.is_none() || number.is_none() || number == new_number;
                 let end_is_kept = match (stated_end, new_end) {
-                    (Some(old), Some(new)) => (old[0] - new[0]).abs() <= 0.0006 && (old[1] - new[1]).abs() <= 0.0006,
+                    (Some(old), Some(new)) => (0..2).all(|axis| (old.at[axis] - new.at[axis]).abs() <= 0.0006),
                     _ => true,
                 };
-                old == new && number_is_kept && end_is_kept
+                old == new && part == new_part && number_is_kept && end_is_kept
             }
-            (Item::Word { word: old, .. }, Item::Word { word: new, .. }) => old == new,
+            (Item::Word { word: old, number, .. }, Item::Word { word: new, number: new_number, .. }) => old == new && number == new_number,
             _ => false,
         };
         again.len() == self.items.len() && self.items.iter().zip(&again).all(is_same)

@@ -45,7 +45,8 @@ pub struct Piece {
 
 /// Cuts a line, without its line end, into pieces. Space between them belongs to none.
 pub fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
-    let mut cutter = Cutter { line, at: if line.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 }, block: Expected::Nothing };
+    let mut cutter =
+        Cutter { line, at: if line.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 }, block: Expected::Nothing, is_behind_block: false };
     let mut found = Vec::with_capacity(12);
     while let Some(piece) = cutter.next(words) {
         found.push(piece);
@@ -68,11 +69,13 @@ struct Cutter<'a> {
     line: &'a [u8],
     at: usize,
     block: Expected,
+    /// A block has begun in this line.
+    is_behind_block: bool,
 }
 
 impl Cutter<'_> {
     fn skip_space(&mut self) {
-        while matches!(self.line.get(self.at), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a)) {
+        while matches!(self.line.get(self.at), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|')) {
             self.at += 1;
         }
     }
@@ -108,12 +111,14 @@ impl Cutter<'_> {
         let rest = &self.line[start..];
         let field = match byte.to_ascii_uppercase() {
             b';' => self.behind_semicolon(rest),
-            b'*' => {
+            b'0'..=b'9' | b'(' if !self.is_behind_block && self.row_number() => Field::Number,
+            b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' | b'(' | 0x80.. => {
                 self.run_to_end();
                 Field::Comment
             }
             b'B' if !self.is_word(words) => {
                 self.at += 1;
+                self.is_behind_block = true;
                 self.block = match self.block {
                     Expected::Numbers(count) if count < 4 => Expected::Numbers(count + 1),
                     _ => Expected::Numbers(1),
@@ -191,6 +196,22 @@ impl Cutter<'_> {
     /// True when the letters and digits at the cursor are a pause or end word.
     fn is_word(&self, words: &Words<'_>) -> bool {
         words.meaning(alphanumeric(&self.line[self.at..])).is_some()
+    }
+
+    /// The number of a row: `12 `, `12.`, `12:`, `12)`, `(12)`, with a block behind it.
+    fn row_number(&mut self) -> bool {
+        let start = self.at;
+        self.at += usize::from(self.line.get(start) == Some(&b'('));
+        let has_digits = self.digits();
+        let mark = self.line.get(self.at).copied();
+        self.at += usize::from(matches!(mark, Some(b')' | b':' | b'.')));
+        // A bare number that hangs on the block is one of its own that lost its B.
+        let has_digits = has_digits && !mark.is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'));
+        let (end, mut behind) = (self.at, self.line[self.at..].iter());
+        let is_number =
+            has_digits && behind.find(|byte| !matches!(byte, b' ' | b'\t')).is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'));
+        self.at = if is_number { end } else { start };
+        is_number
     }
 
     fn motion(&mut self, start: usize, letters: usize) -> Field {
@@ -284,6 +305,10 @@ mod tests {
             "B1B2B3B4GXDDSR3",
             "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Separator B | Radius 4 | Axis GX | Convexity DD | Motion SR3",
         );
+        check("(12) B1", "Number (12) | Separator B | X 1");
+        check("12 B1", "Number 12 | Separator B | X 1");
+        check("|B 1|B 2|", "Separator B | X 1 | Separator B | Y 2");
+        check("(plate)", "Comment (plate)");
         check("; Start Point = 1 , 2", "StartPoint ; Start Point = 1 , 2");
         check("D ; thread", "Pause D | Comment ; thread");
         check("B1B2B3GXL1DD", "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Axis GX | Motion L1 | End DD");

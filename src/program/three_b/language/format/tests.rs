@@ -42,13 +42,15 @@ fn every_layout_keeps_blocks_numbers_and_comments() {
          N    3: B   9900 B      0 B   9900 GX L3  ;      0.000 ,      0.000 ; out\nDD\n",
     );
     // Most of its blocks have no space in them.
+    check(Some(Layout::Aligned), "b 0 b 5000 b 10000 b 5000 gx dd nr 1", "B      0 B   5000 B  10000 B   5000 GX DD NR1");
+    check(Some(Layout::Compact), "(3) b 0 b 5000 b 10000 b 5000 gx d nr 1 ; x", "N3 B0B5000B10000B5000GXDNR1 ; x");
     check(None, HOLE, "; hole\nN1 B9900B0B9900GXL1 ; in\nB9900B0B39600GYNR1\nB9900B0B9900GXL3 ; out\nDD\n");
 }
 
 #[test]
 fn damaged_lines_headings_and_what_follows_the_end_stay() {
-    let text = "***** x\nB1B2GXL1  \n9900B0B9900GXL1\n  b5b0b5gxl1\nN7\nN8 DD\nDD\n b1b0b1gxl1\n";
-    check(Some(Layout::Compact), text, "***** x\nB1B2GXL1  \n9900B0B9900GXL1\nB5B0B5GXL1\nN7\nN8 DD\nDD\n b1b0b1gxl1\n");
+    let text = "***** x\nB1B2GXL1  \n9900B0B9900GXL1\n  b5b0b5gxl1\nN7\nn8 dd\n dd \n b1b0b1gxl1\n";
+    check(Some(Layout::Compact), text, "***** x\nB1B2GXL1  \n9900B0B9900GXL1\nB5B0B5GXL1\nN7\nN8 DD\n dd \n b1b0b1gxl1\n");
 }
 
 #[test]
@@ -98,6 +100,7 @@ proptest! {
                 Item::Block { block, .. } => format!("{block:?}"),
                 Item::Word { word, .. } => format!("{word:?}"),
                 Item::StartPoint { at, .. } => format!("{at:?}"),
+                Item::Text { .. } | Item::Fault(_) => "damaged".into(),
             });
             (content.collect::<Vec<_>>(), faults.len())
         };
