@@ -373,6 +373,16 @@ impl LanguageServer for Backend {
         self.look("textDocument/selectionRange", about, move |state| language::selection::selection_range(state, &params)).await
     }
 
+    async fn prepare_rename(&self, params: TextDocumentPositionParams) -> Result<Option<PrepareRenameResponse>> {
+        let about = shared(&params.text_document.uri);
+        self.look("textDocument/prepareRename", about, move |state| language::rename::prepare(state, &params)).await
+    }
+
+    async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
+        let about = shared(&params.text_document_position.text_document.uri);
+        self.look("textDocument/rename", about, move |state| language::rename::rename(state, &params)).await
+    }
+
     async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
         let about = shared(&params.text_document.uri);
         self.look("textDocument/inlayHint", about, move |state| language::hints::inlay_hint(state, &params)).await
@@ -448,6 +458,10 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
             references_provider: Some(OneOf::Left(true)),
             document_highlight_provider: Some(OneOf::Left(true)),
             selection_range_provider: Some(SelectionRangeProviderCapability::Simple(true)),
+            rename_provider: Some(OneOf::Right(RenameOptions {
+                prepare_provider: Some(true),
+                work_done_progress_options: WorkDoneProgressOptions::default(),
+            })),
             inlay_hint_provider: Some(OneOf::Left(true)),
             semantic_tokens_provider: Some(language::tokens::capabilities()),
             hover_provider: Some(HoverProviderCapability::Simple(true)),
