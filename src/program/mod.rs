@@ -7,6 +7,7 @@ mod document;
 mod format;
 pub mod grid;
 pub mod iso;
+pub mod language;
 pub mod three_b;
 pub mod trace;
 pub mod write;
