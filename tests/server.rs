@@ -15,8 +15,12 @@ mod flood;
 mod handshake;
 #[path = "server/language.rs"]
 mod language;
+#[path = "server/locate.rs"]
+mod locate;
 #[path = "server/panics.rs"]
 mod panics;
+#[path = "server/program_text.rs"]
+mod program_text;
 #[path = "server/programs.rs"]
 mod programs;
 #[path = "server/settings.rs"]

@@ -1,15 +1,14 @@
-//! `wedm fix`: every safe repair of a drawing, in its own bytes.
+//! `wedm fix`: every safe repair of a drawing or program, in its own bytes.
 
+use super::changes::{diff, edited};
 use super::options::Common;
 use super::output::{self, counted, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, files};
 use crate::document::{Document, Source};
-use crate::finding::{Rule, Severity};
+use crate::finding::{Edit, Rule, Severity};
 use crate::text::TextEdit;
 use clap::Args;
-use similar::udiff::UnifiedHunkHeader;
-use similar::{Algorithm, ChangeTag, capture_diff_slices, group_diff_ops};
 use std::path::{Path, PathBuf};
 
 /// Repair what can be repaired safely
@@ -23,7 +22,7 @@ Examples:
   wedm fix plate.dxf -o fixed.dxf
   wedm fix plate.dxf --in-place --correction 0.12")]
 pub struct Arguments {
-    /// The drawing
+    /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
     #[command(flatten)]
@@ -64,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.target.output {
         output::refuse_input(target, path)?;
     }
-    let opened = files::open_drawing(path, &arguments.common, &arguments.common.settings())?;
+    let opened = files::open(path, &arguments.common, &arguments.common.settings())?;
     files::refuse_faulty_settings(&opened)?;
     let repair = repair(path, opened.document)?;
     deliver(arguments, &repair)?;
@@ -73,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(if errors_left { Verdict::Errors } else { Verdict::Clean })
 }
 
-/// A drawing before and after.
+/// A drawing or program before and after.
 struct Repair {
     bytes_before: Vec<u8>,
     before: Vec<Row>,
@@ -108,36 +107,28 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
         let settings = document.settings().clone();
         let present = document.text().map_or(&[][..], |text| text.bytes());
         let edited = edited(present, &edits).ok_or_else(|| Failure(format!("{}: the edits of a fix overlap", path.display())))?;
-        document = files::drawing_of(edited, settings);
+        document = files::reread(&document, edited, settings);
         rounds += 1;
     }
     let after = report::rows(path, &mut document);
     let repair = Repair { bytes_before, before, document, after, rounds };
     let errors = |rows: &[Row]| rows.iter().filter(|row| row.severity == Severity::Error).count();
     if errors(&repair.after) > errors(&repair.before) {
-        let sentence = "the repaired drawing has more errors than the drawing had; nothing is written";
+        let sentence = "what was repaired has more errors than before; nothing is written";
         return Err(Failure(format!("{}: internal error: {sentence}", path.display())));
     }
     Ok(repair)
 }
 
 fn next_edits(path: &Path, document: &Document) -> Result<Option<Vec<TextEdit>>, Failure> {
-    let (Some(edit), Source::Dxf(text)) = (document.fix_all(), document.source()) else { return Ok(None) };
-    let edits = text.text_edits(&edit).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?;
+    let edits = match (document.fix_all(), document.source()) {
+        (Some(Edit::Drawing(edit)), Source::Dxf(text)) => {
+            text.text_edits(&edit).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?
+        }
+        (Some(Edit::Text(edits)), _) => edits,
+        _ => return Ok(None),
+    };
     Ok(Some(edits).filter(|edits| !edits.is_empty()))
-}
-
-/// The bytes with `edits` made, which are sorted and disjoint; `None` when they are not, or reach past the end.
-fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
-    let mut result = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    for edit in edits {
-        result.extend_from_slice(bytes.get(at..edit.range.start)?);
-        result.extend_from_slice(edit.text.as_bytes());
-        at = edit.range.end;
-    }
-    result.extend_from_slice(bytes.get(at..)?);
-    Some(result)
 }
 
 fn deliver(arguments: &Arguments, repair: &Repair) -> Result<(), Failure> {
@@ -150,44 +141,6 @@ fn deliver(arguments: &Arguments, repair: &Repair) -> Result<(), Failure> {
         None if repair.is_changed() => output::write(Some(&arguments.path), repair.bytes()),
         None => Ok(()),
     }
-}
-
-/// A unified diff with three lines of context, in the file's own bytes.
-fn diff(path: &Path, before: &[u8], after: &[u8]) -> Vec<u8> {
-    let mut text = Vec::new();
-    if before == after {
-        return text;
-    }
-    let lines = |bytes| <[u8]>::split_inclusive(bytes, |&byte| byte == b'\n').collect::<Vec<_>>();
-    let (old, new) = (lines(before), lines(after));
-    for sign in ["---", "+++"] {
-        push_line(&mut text, output::STRONG, format!("{sign} {}", path.display()).as_bytes());
-    }
-    for ops in group_diff_ops(capture_diff_slices(Algorithm::Myers, &old, &new), 3) {
-        push_line(&mut text, output::NOTE, UnifiedHunkHeader::new(&ops).to_string().as_bytes());
-        for change in ops.iter().flat_map(|op| op.iter_changes(&old, &new)) {
-            let (sign, style) = match change.tag() {
-                ChangeTag::Delete => (b'-', output::ERROR),
-                ChangeTag::Insert => (b'+', output::GOOD),
-                ChangeTag::Equal => (b' ', anstyle::Style::new()),
-            };
-            push_line(&mut text, style, &[&[sign], change.value()].concat());
-            if !change.value().ends_with(b"\n") {
-                text.extend_from_slice(b"\\ No newline at end of file\n");
-            }
-        }
-    }
-    text
-}
-
-/// A line in a style; its line end stands behind the colours, which would reach into the next line's margin.
-fn push_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
-    let end = line.iter().rposition(|byte| !matches!(byte, b'\r' | b'\n')).map_or(0, |last| last + 1);
-    let (shown, line_end) = line.split_at(end);
-    text.extend_from_slice(style.render().to_string().as_bytes());
-    text.extend_from_slice(shown);
-    text.extend_from_slice(style.render_reset().to_string().as_bytes());
-    text.extend_from_slice(if line_end.is_empty() { b"\n" } else { line_end });
 }
 
 /// What was repaired, and what is left and why, to stderr: stdout may be the drawing.
@@ -215,27 +168,5 @@ fn summarise(path: &Path, repair: &Repair) {
         };
         let place = format!("{name}:{}:{}", row.line, row.column);
         output::say(&format!("{} {place}: {}{reason}", styled(output::WARNING, "left:"), row.message));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn replacement(range: std::ops::Range<usize>, text: &str) -> TextEdit {
-        TextEdit { range, text: text.into() }
-    }
-
-    #[test]
-    fn edits_change_their_bytes_and_no_others() {
-        let edits = [replacement(1..2, "xyz"), replacement(3..3, "-"), replacement(4..5, "")];
-        assert_eq!(edited(b"ab\xffde", &edits).as_deref(), Some(&b"axyz\xff-d"[..]));
-    }
-
-    #[test]
-    fn edits_that_cannot_be_made_are_refused() {
-        for edits in [vec![replacement(0..9, "")], vec![replacement(2..3, ""), replacement(1..2, "")]] {
-            assert_eq!(edited(b"abc", &edits), None);
-        }
     }
 }

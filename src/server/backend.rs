@@ -5,8 +5,11 @@ use super::config::{Level, path_of};
 use super::drawings::{self, Sent, SentChanges};
 use super::jobs::Cancel;
 use super::requests::code_action::FIX_ALL;
+use super::requests::language::formatting::Scope;
 use super::requests::language::navigate::{Question, navigate};
-use super::requests::{Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, picture, probe, toolpath};
+use super::requests::{
+    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, settings, toolpath,
+};
 use super::state::{Mailbox, Reply, State};
 use super::transport::Prepared;
 use super::{parent, texts};
@@ -50,6 +53,8 @@ pub(super) fn service(mailbox: Mailbox, prepared: Prepared, flags: Arc<Flags>, o
         .custom_method(method::TOOLPATH, Backend::toolpath)
         .custom_method(method::PICTURE, Backend::picture)
         .custom_method(method::GENERATE, Backend::generate)
+        .custom_method(method::LOCATE, Backend::locate)
+        .custom_method(method::SETTINGS, Backend::settings)
         .custom_method("wedm/simulate", Backend::not_there_yet)
         .custom_method("wedm/test/panic", Backend::test_panic)
         .custom_method("wedm/test/ask", Backend::test_ask)
@@ -127,6 +132,13 @@ impl Backend {
         serde_json::from_slice(&answer).map_err(|error| internal(error.to_string()))
     }
 
+    async fn formatted(&self, name: &'static str, uri: Uri, scope: Scope) -> Result<Option<Vec<TextEdit>>> {
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::formatting::formatting(state, &uri, scope, errand);
+        let token = self.written(name, &about, None, act).await?;
+        Ok(Some(language::formatting::standing_for(token)))
+    }
+
     fn log(&self, message: String) {
         self.tell("log", None, move |state| state.client.log(Weight::Warning, message));
     }
@@ -186,6 +198,20 @@ impl Backend {
         let about = params.get("uri").and_then(Value::as_str).unwrap_or_default().to_owned();
         let (params, token) = read::<generate::Params>(params)?;
         self.written(method::GENERATE, &about, token, move |state, errand| generate::generate(state, params, errand)).await
+    }
+
+    async fn locate(&self, params: Value) -> Result<Value> {
+        let (params, _) = read::<protocol::Locate>(params)?;
+        let about: Arc<str> = params.uri.as_str().into();
+        let located = self.look(method::LOCATE, about, move |state| locate::locate(state, &params)).await?;
+        serde_json::to_value(located).map_err(|error| internal(error.to_string()))
+    }
+
+    async fn settings(&self, params: Value) -> Result<Value> {
+        let (params, _) = read::<protocol::DrawingName>(params)?;
+        let about: Arc<str> = params.uri.as_str().into();
+        let in_force = self.look(method::SETTINGS, about, move |state| Ok(settings::settings(state, &params.uri))).await?;
+        serde_json::to_value(in_force).map_err(|error| internal(error.to_string()))
     }
 
     /// Methods that the protocol names and this version does not have.
@@ -324,6 +350,19 @@ impl LanguageServer for Backend {
         Ok(Some(language::folding::standing_for(token)))
     }
 
+    async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        self.formatted("textDocument/formatting", params.text_document.uri, Scope::Whole).await
+    }
+
+    async fn range_formatting(&self, params: DocumentRangeFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        self.formatted("textDocument/rangeFormatting", params.text_document.uri, Scope::Range(params.range)).await
+    }
+
+    async fn on_type_formatting(&self, params: DocumentOnTypeFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let at = params.text_document_position;
+        self.formatted("textDocument/onTypeFormatting", at.text_document.uri, Scope::Left(at.position)).await
+    }
+
     async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
         let about = shared(&params.text_document_position.text_document.uri);
         self.look("textDocument/completion", about, move |state| language::completion::completion(state, &params)).await
@@ -332,6 +371,16 @@ impl LanguageServer for Backend {
     async fn selection_range(&self, params: SelectionRangeParams) -> Result<Option<Vec<SelectionRange>>> {
         let about = shared(&params.text_document.uri);
         self.look("textDocument/selectionRange", about, move |state| language::selection::selection_range(state, &params)).await
+    }
+
+    async fn prepare_rename(&self, params: TextDocumentPositionParams) -> Result<Option<PrepareRenameResponse>> {
+        let about = shared(&params.text_document.uri);
+        self.look("textDocument/prepareRename", about, move |state| language::rename::prepare(state, &params)).await
+    }
+
+    async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
+        let about = shared(&params.text_document_position.text_document.uri);
+        self.look("textDocument/rename", about, move |state| language::rename::rename(state, &params)).await
     }
 
     async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
@@ -409,10 +458,17 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
             references_provider: Some(OneOf::Left(true)),
             document_highlight_provider: Some(OneOf::Left(true)),
             selection_range_provider: Some(SelectionRangeProviderCapability::Simple(true)),
+            rename_provider: Some(OneOf::Right(RenameOptions {
+                prepare_provider: Some(true),
+                work_done_progress_options: WorkDoneProgressOptions::default(),
+            })),
             inlay_hint_provider: Some(OneOf::Left(true)),
             semantic_tokens_provider: Some(language::tokens::capabilities()),
             hover_provider: Some(HoverProviderCapability::Simple(true)),
             document_symbol_provider: Some(OneOf::Left(true)),
+            document_formatting_provider: Some(OneOf::Left(true)),
+            document_range_formatting_provider: Some(OneOf::Left(true)),
+            document_on_type_formatting_provider: Some(language::formatting::on_type()),
             folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
             workspace: Some(WorkspaceServerCapabilities {
                 workspace_folders: Some(WorkspaceFoldersServerCapabilities {
