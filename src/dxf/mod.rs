@@ -11,6 +11,7 @@ mod blocks;
 mod change;
 mod code_page;
 mod curve;
+mod dxb;
 mod edit;
 mod entity;
 mod fault;
@@ -66,11 +67,16 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads a file: DXF text in the code page that it names, or binary DXF, which becomes text that says the same
+    /// Reads a file: DXF text in the code page that it names, or binary DXF or DXB, which become text that says the same
     /// (see [`Document::is_binary`]). Never fails: what is damaged is in [`Document::findings`].
     pub fn read_file(bytes: Vec<u8>) -> Document {
-        let is_binary = bytes.starts_with(binary::SENTINEL);
-        let (bytes, fault) = if is_binary { binary::to_text(&bytes) } else { (bytes, None) };
+        let (is_dxf, is_dxb) = (bytes.starts_with(binary::SENTINEL), bytes.starts_with(dxb::SENTINEL));
+        let is_binary = is_dxf || is_dxb;
+        let (bytes, fault) = match () {
+            () if is_dxf => binary::to_text(&bytes),
+            () if is_dxb => dxb::to_text(&bytes),
+            () => (bytes, None),
+        };
         let layers = Layers::in_code_page(CodePage::of_file(&bytes));
         let mut document = Document { layers: Box::new(layers), is_binary, ..Document::default() };
         document.take(bytes);
@@ -114,7 +120,7 @@ impl Document {
         self.table.fit_tolerance = fit_tolerance(self.arc_fit, self.drawing.unit);
     }
 
-    /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF file says. It cannot be edited.
+    /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF or DXB file says. It cannot be edited.
     pub fn is_binary(&self) -> bool {
         self.is_binary
     }

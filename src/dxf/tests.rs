@@ -4,5 +4,5 @@ mod blocks;
 mod editing;
 mod faults;
 mod layers;
-mod reading;
+pub(super) mod reading;
 mod writing;

@@ -11,7 +11,7 @@ pub(super) fn dxf(entities: &str) -> String {
 }
 
 /// Handle and geometry of each entity, in short.
-pub(super) fn entities(document: &Document) -> Vec<String> {
+pub(in crate::dxf) fn entities(document: &Document) -> Vec<String> {
     let drawing = document.drawing();
     drawing
         .entities()
