@@ -21,6 +21,7 @@ pub use scale::scaled;
 pub use sheet::Sheet;
 
 use super::Document;
+use crate::program::language::Proposal;
 use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -55,15 +56,6 @@ pub const ALL: [Refactoring; 18] = [
     number::NUMBER,
     number::WITHOUT_NUMBERS,
 ];
-
-/// A refactoring as it is offered at a selection.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Proposal {
-    pub id: &'static str,
-    pub title: String,
-    /// The edits, or why it cannot be done.
-    pub edits: Result<Vec<TextEdit>, String>,
-}
 
 /// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
 ///
