@@ -149,7 +149,7 @@ impl Analysis {
         }
         self.report_contours(drawing, &ordered, &mut report);
         let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.iter().copied().zip(sides.iter().copied()).collect();
-        self.pairs.report(&|key| self.outlook(drawing, key), &side_of, &mut report);
+        self.pairs.report(drawing, &|key| self.outlook(drawing, key), &side_of, &mut report);
         self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
         report
     }
