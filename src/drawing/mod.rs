@@ -53,6 +53,8 @@ pub struct Drawing {
     /// By id: a number that rises in machining order, so that two entities are compared without a search.
     ranks: Vec<u64>,
     by_handle: FxHashMap<Arc<str>, EntityId>,
+    /// The number given last to a handle that was taken, while none has become free.
+    last_number: FxHashMap<Arc<str>, u64>,
     /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
     fixed: FxHashSet<EntityId>,
     /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
@@ -108,8 +110,12 @@ impl Drawing {
         let id = EntityId(self.slots.len() as u32);
         if self.by_handle.contains_key(&entity.handle) {
             let base = entity.handle.clone();
-            let free = (2..).map(|n: u64| format!("{base}#{n}")).find(|name| !self.by_handle.contains_key(name.as_str()));
-            entity.handle = free.expect("a free number exists").into();
+            let mut number = self.last_number.get(&base).map_or(2, |last| last + 1);
+            while self.by_handle.contains_key(format!("{base}#{number}").as_str()) {
+                number += 1;
+            }
+            entity.handle = format!("{base}#{number}").into();
+            self.last_number.insert(base, number);
         }
         self.by_handle.insert(entity.handle.clone(), id);
         self.slots.push(Some(Arc::new(entity)));
@@ -134,6 +140,13 @@ impl Drawing {
             if let Some(new) = self.ranks.last_mut() {
                 *new = (position as u64 + 1) * RANK_STEP;
             }
+        }
+    }
+
+    /// Ranks all entities by the order as it stands.
+    fn rank_anew(&mut self) {
+        for (at, id) in self.order.iter().enumerate() {
+            self.ranks[id.0 as usize] = (at as u64 + 1) * RANK_STEP;
         }
     }
 
@@ -195,13 +208,26 @@ impl Drawing {
 
     /// Removes the entity and gives it back. Costs the length of the machining order.
     pub fn remove(&mut self, id: EntityId) -> Option<Arc<Entity>> {
+        let entity = self.take(id)?;
+        self.order.retain(|&other| other != id);
+        Some(entity)
+    }
+
+    /// Removes entities. Costs the length of the machining order once, however many they are.
+    pub fn remove_all(&mut self, ids: &FxHashSet<EntityId>) {
+        if ids.iter().filter_map(|&id| self.take(id)).count() > 0 {
+            self.order.retain(|id| !ids.contains(id));
+        }
+    }
+
+    fn take(&mut self, id: EntityId) -> Option<Arc<Entity>> {
         let entity = self.slots.get_mut(id.0 as usize)?.take()?;
         if self.by_handle.get(&entity.handle) == Some(&id) {
             self.by_handle.remove(&entity.handle);
         }
+        self.last_number.clear();
         self.fixed.remove(&id);
         self.straight.remove(&id);
-        self.order.retain(|&other| other != id);
         Some(entity)
     }
 
