@@ -53,8 +53,8 @@ pub struct Drawing {
     /// By id: a number that rises in machining order, so that two entities are compared without a search.
     ranks: Vec<u64>,
     by_handle: FxHashMap<Arc<str>, EntityId>,
-    /// By handle that stands more than once: every number from 2 to below this one is taken.
-    doubled: FxHashMap<Arc<str>, u64>,
+    /// The number given last to a handle that was taken, while none has become free.
+    last_number: FxHashMap<Arc<str>, u64>,
     /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
     fixed: FxHashSet<EntityId>,
     /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
@@ -109,7 +109,13 @@ impl Drawing {
     pub fn insert_at(&mut self, position: usize, mut entity: Entity) -> EntityId {
         let id = EntityId(self.slots.len() as u32);
         if self.by_handle.contains_key(&entity.handle) {
-            entity.handle = self.free_name(&entity.handle);
+            let base = entity.handle.clone();
+            let mut number = self.last_number.get(&base).map_or(2, |last| last + 1);
+            while self.by_handle.contains_key(format!("{base}#{number}").as_str()) {
+                number += 1;
+            }
+            entity.handle = format!("{base}#{number}").into();
+            self.last_number.insert(base, number);
         }
         self.by_handle.insert(entity.handle.clone(), id);
         self.slots.push(Some(Arc::new(entity)));
@@ -117,29 +123,6 @@ impl Drawing {
         self.rank_at(position);
         self.order.insert(position, id);
         id
-    }
-
-    /// The handle with the least free number behind it. A file may hold one handle a million times: the numbers that are
-    /// known to be taken are not tried again.
-    fn free_name(&mut self, handle: &Arc<str>) -> Arc<str> {
-        let next = self.doubled.entry(handle.clone()).or_insert(2);
-        loop {
-            let name: Arc<str> = format!("{handle}#{next}").into();
-            *next += 1;
-            if !self.by_handle.contains_key(&name) {
-                return name;
-            }
-        }
-    }
-
-    /// A name that was taken is free again.
-    fn free(&mut self, name: &str) {
-        self.by_handle.remove(name);
-        if let Some((handle, number)) = name.rsplit_once('#')
-            && let (Some(next), Ok(number)) = (self.doubled.get_mut(handle), number.parse::<u64>())
-        {
-            *next = number.clamp(2, *next);
-        }
     }
 
     /// Ranks a new entity, the one behind the last slot, between those that stand around `position` now.
@@ -157,6 +140,13 @@ impl Drawing {
             if let Some(new) = self.ranks.last_mut() {
                 *new = (position as u64 + 1) * RANK_STEP;
             }
+        }
+    }
+
+    /// Ranks all entities by the order as it stands.
+    fn rank_anew(&mut self) {
+        for (at, id) in self.order.iter().enumerate() {
+            self.ranks[id.0 as usize] = (at as u64 + 1) * RANK_STEP;
         }
     }
 
@@ -218,13 +208,26 @@ impl Drawing {
 
     /// Removes the entity and gives it back. Costs the length of the machining order.
     pub fn remove(&mut self, id: EntityId) -> Option<Arc<Entity>> {
+        let entity = self.take(id)?;
+        self.order.retain(|&other| other != id);
+        Some(entity)
+    }
+
+    /// Removes entities. Costs the length of the machining order once, however many they are.
+    pub fn remove_all(&mut self, ids: &FxHashSet<EntityId>) {
+        if ids.iter().filter_map(|&id| self.take(id)).count() > 0 {
+            self.order.retain(|id| !ids.contains(id));
+        }
+    }
+
+    fn take(&mut self, id: EntityId) -> Option<Arc<Entity>> {
         let entity = self.slots.get_mut(id.0 as usize)?.take()?;
         if self.by_handle.get(&entity.handle) == Some(&id) {
-            self.free(&entity.handle);
+            self.by_handle.remove(&entity.handle);
         }
+        self.last_number.clear();
         self.fixed.remove(&id);
         self.straight.remove(&id);
-        self.order.retain(|&other| other != id);
         Some(entity)
     }
 
@@ -235,50 +238,5 @@ impl Drawing {
             Geometry::Polyline { vertices, .. } => Some(vertices),
             _ => None,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::Point;
-
-    fn push(drawing: &mut Drawing, handle: &str) -> EntityId {
-        let geometry = Geometry::Text { at: Point::origin(), text: "O".into() };
-        drawing.push(Entity { handle: handle.into(), layer: "0".into(), role: None, kind: "TEXT", geometry })
-    }
-
-    #[test]
-    fn a_doubled_handle_gets_the_least_free_number() {
-        let mut drawing = Drawing::default();
-        let mut check = |handle: &str, removed: &[&str], expected: &str| {
-            for name in removed {
-                let id = drawing.find(name).unwrap();
-                drawing.remove(id);
-            }
-            let id = push(&mut drawing, handle);
-            assert_eq!(&*drawing.get(id).unwrap().handle, expected);
-            assert_eq!(drawing.find(expected), Some(id));
-        };
-        check("A", &[], "A");
-        check("A#3", &[], "A#3");
-        check("A", &[], "A#2");
-        check("A", &[], "A#4");
-        check("A", &[], "A#5");
-        check("A", &["A#2"], "A#2");
-        check("A", &["A#4", "A#3"], "A#3");
-        check("A", &[], "A#4");
-        check("A", &["A"], "A");
-        check("A#3", &[], "A#3#2");
-        check("A", &["A#3#2"], "A#6");
-    }
-
-    #[test]
-    fn one_handle_a_hundred_thousand_times_is_no_work() {
-        let mut drawing = Drawing::default();
-        for _ in 0..100_000 {
-            push(&mut drawing, "F0");
-        }
-        assert!(drawing.find("F0#100000").is_some());
     }
 }

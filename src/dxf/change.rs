@@ -62,11 +62,15 @@ impl Document {
                     of_entity.arc = Some((center, radius, start_angle, end_angle));
                 }
                 Change::RemoveEntity { .. } => of_entity.removed = true,
-                // Of several in one place, the last comes first: each goes in before what stands there.
-                Change::InsertVertex { index, vertex, .. } => of_entity.inserted.insert(0, (index, vertex)),
+                Change::InsertVertex { index, vertex, .. } => of_entity.inserted.push((index, vertex)),
                 Change::SetClosed { closed, .. } => of_entity.closed = Some(closed),
-                Change::AddEntity { ref geometry, .. } => of_entity.added.insert(0, geometry.clone()),
+                Change::AddEntity { ref geometry, .. } => of_entity.added.push(geometry.clone()),
             }
+        }
+        // Of several in one place, the last comes first: each goes in before what stands there.
+        for of_entity in wanted.values_mut() {
+            of_entity.inserted.reverse();
+            of_entity.added.reverse();
         }
         let mut edits = Vec::new();
         let mut free_handle = None;

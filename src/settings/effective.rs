@@ -1,6 +1,7 @@
 //! Settings with every default filled in.
 
-use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, RuleSeverity, Settings, SideSetting, UnitSetting};
+use super::profile::DEFAULT_PROFILE;
+use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting};
 use crate::drawing::{Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
@@ -23,6 +24,8 @@ pub struct Effective {
     /// The rules whose severity somebody has set.
     pub stated: BTreeSet<Rule>,
     pub layout: Layout,
+    /// The layout that somebody has set; without one, a program that is formatted stays in its own.
+    pub stated_layout: Option<Layout>,
     pub direction: Direction,
     pub corner: Corner,
     pub thread: Option<PointSetting>,
@@ -30,6 +33,8 @@ pub struct Effective {
     pub lead_in: f64,
     pub jumps: Jumps,
     pub compensation: Compensation,
+    /// How ISO programs are written; the sentence that says which profiles there are, where the one that is named is not among them.
+    pub profile: Result<Profile, String>,
     pub end: String,
     pub pause: String,
     pub tolerances: Tolerances,
@@ -74,6 +79,7 @@ impl Effective {
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             layout: program.layout.unwrap_or_default(),
+            stated_layout: program.layout,
             direction: program.direction.unwrap_or_default(),
             corner: program.corner.unwrap_or_default(),
             thread: program.thread,
@@ -81,6 +87,7 @@ impl Effective {
             lead_in: program.lead_in.unwrap_or(3.0),
             jumps: program.jumps.unwrap_or_default(),
             compensation: program.compensation.unwrap_or_default(),
+            profile: Profile::of(program.profile.as_deref().unwrap_or(DEFAULT_PROFILE), settings.profiles.as_ref()),
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),
             tolerances: Tolerances::default(),
