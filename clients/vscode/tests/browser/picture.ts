@@ -16,7 +16,7 @@ export async function picture(checks: Checks): Promise<void> {
   checks.page = host.page;
   const bulges = [...SMALL.matchAll(/^ *42\r?\n/gm)].map((match) => SMALL.slice(0, match.index).split("\n").length + 1);
   try {
-    await window.open("small-radius.dxf");
+    await window.openOurs("small-radius.dxf");
     await window.squiggles.first().waitFor();
     await window.command("Wire EDM: Open Picture Beside");
     const page = await window.picture();

@@ -12,6 +12,12 @@ export class Window {
     await this.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
   }
 
+  /** Opens a file of ours and waits for the extension. */
+  async openOurs(name: string): Promise<void> {
+    await this.open(name);
+    await this.status.waitFor();
+  }
+
   async command(title: string): Promise<void> {
     await this.page.keyboard.press("F1");
     const input = this.page.locator(".quick-input-widget input");
