@@ -11,6 +11,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use wedm::document::{Document, Source};
 use wedm::dxf;
+use wedm::finding::Edit;
 use wedm::settings::Effective;
 
 /// As many rounds as `wedm fix` makes.
@@ -74,7 +75,7 @@ fn measure(shape: &Shape, segments: usize, most_rounds: usize) -> Measured {
     let began = Instant::now();
     let mut rounds = 0;
     while rounds < most_rounds
-        && let Some(edit) = document.fix_all()
+        && let Some(Edit::Drawing(edit)) = document.fix_all()
     {
         let Source::Dxf(dxf) = document.source() else { break };
         let edits = dxf.text_edits(&edit).unwrap_or_else(|reason| panic!("{}: {reason}", shape.name));

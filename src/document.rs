@@ -1,11 +1,11 @@
 //! A document as the two faces hold it: its source, its drawing, what is known of it.
 //!
-//! DXF text, drawings sent by a CAD program and 3B text differ here and nowhere above.
+//! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
 use crate::analysis::Analysis;
-use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline};
-use crate::finding::{Finding, Fix, Place};
-use crate::program::three_b;
+use crate::drawing::{Delta, Drawing, EntityId, Outline};
+use crate::finding::{Edit, Finding, Fix, Place};
+use crate::program;
 use crate::settings::Effective;
 use crate::text::SourceText;
 use crate::{dxf, finding::Severity};
@@ -18,7 +18,8 @@ pub enum Source {
     Dxf(dxf::Document),
     /// Sent by a CAD program; there is no text behind it.
     Cad(Arc<Drawing>),
-    ThreeB(three_b::Document),
+    /// A program, in whichever language.
+    Program(program::Document),
 }
 
 /// An open document.
@@ -37,7 +38,10 @@ pub struct Snapshot {
 }
 
 impl Document {
-    pub fn new(source: Source, settings: Arc<Effective>) -> Document {
+    pub fn new(mut source: Source, settings: Arc<Effective>) -> Document {
+        if let Source::Program(program) = &mut source {
+            program.set_settings(&settings);
+        }
         let analysis = judged(&source, settings);
         Document { source, analysis }
     }
@@ -53,6 +57,9 @@ impl Document {
     /// Looks at everything again under other settings.
     pub fn set_settings(&mut self, settings: Arc<Effective>) {
         if *self.analysis.settings() != settings {
+            if let Source::Program(program) = &mut self.source {
+                program.set_settings(&settings);
+            }
             self.analysis = judged(&self.source, settings);
         }
     }
@@ -61,7 +68,7 @@ impl Document {
     pub fn text(&self) -> Option<&SourceText> {
         match &self.source {
             Source::Dxf(document) => Some(document.text()),
-            Source::ThreeB(document) => Some(document.text()),
+            Source::Program(program) => Some(program.text()),
             Source::Cad(_) => None,
         }
     }
@@ -71,7 +78,15 @@ impl Document {
         match &self.source {
             Source::Dxf(document) => Some(document.drawing()),
             Source::Cad(drawing) => Some(drawing),
-            Source::ThreeB(_) => None,
+            Source::Program(_) => None,
+        }
+    }
+
+    /// The program, where the document is one.
+    pub fn program(&self) -> Option<&program::Document> {
+        match &self.source {
+            Source::Program(program) => Some(program),
+            Source::Dxf(_) | Source::Cad(_) => None,
         }
     }
 
@@ -89,7 +104,7 @@ impl Document {
                 let delta = document.edit(range, replacement);
                 self.analysis.update(document.drawing(), &delta);
             }
-            Source::ThreeB(document) => document.edit(range, replacement),
+            Source::Program(program) => program.edit(range, replacement),
             Source::Cad(_) => {}
         }
     }
@@ -119,13 +134,22 @@ impl Document {
     }
 
     /// The fixes of one finding, the preferred one first.
-    pub fn fixes(&self, finding: &Finding) -> Vec<Fix> {
-        self.drawing().map_or_else(Vec::new, |drawing| self.analysis.fixes(drawing, finding))
+    pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Edit>> {
+        match &self.source {
+            Source::Dxf(_) | Source::Cad(_) => {
+                let of_drawing = |drawing| self.analysis.fixes(drawing, finding);
+                self.drawing().map_or_else(Vec::new, |drawing| of_drawing(drawing)).into_iter().map(|fix| fix.map(Edit::Drawing)).collect()
+            }
+            Source::Program(program) => program.fixes(finding).into_iter().map(|fix| fix.map(Edit::Text)).collect(),
+        }
     }
 
     /// One edit that makes every safe fix.
-    pub fn fix_all(&self) -> Option<DrawingEdit> {
-        self.analysis.fix_all(self.drawing()?)
+    pub fn fix_all(&self) -> Option<Edit> {
+        match &self.source {
+            Source::Dxf(_) | Source::Cad(_) => self.analysis.fix_all(self.drawing()?).map(Edit::Drawing),
+            Source::Program(program) => program.fix_all(self.settings()).map(Edit::Text),
+        }
     }
 
     /// Bytes that a place stands for; `None` where there is no text.
@@ -133,7 +157,7 @@ impl Document {
         match (&self.source, place) {
             (_, Place::Text { range }) => Some(range.clone()),
             (Source::Dxf(document), place) => Some(document.range_of(place)),
-            (Source::ThreeB(_), _) => Some(0..0),
+            (Source::Program(_), _) => Some(0..0),
             (Source::Cad(_), _) => None,
         }
     }
@@ -151,7 +175,7 @@ fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Find
     let (of_source, of_rules) = match source {
         Source::Dxf(document) => (document.findings(), analysis.findings(document.drawing(), limit)),
         Source::Cad(drawing) => (&[][..], analysis.findings(drawing, limit)),
-        Source::ThreeB(document) => (document.findings(), (Vec::new(), 0)),
+        Source::Program(program) => return program.findings(analysis.settings(), limit),
     };
     let settings = analysis.settings();
     let (mut findings, mut count) = of_rules;
@@ -171,7 +195,7 @@ fn judged(source: &Source, settings: Arc<Effective>) -> Analysis {
     match source {
         Source::Dxf(text) => Analysis::new(text.drawing(), settings),
         Source::Cad(drawing) => Analysis::new(drawing, settings),
-        Source::ThreeB(_) => Analysis::new(&Drawing::default(), settings),
+        Source::Program(_) => Analysis::new(&Drawing::default(), settings),
     }
 }
 

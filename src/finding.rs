@@ -4,6 +4,7 @@
 
 use crate::drawing::{DrawingEdit, EntityId};
 use crate::geometry::Point;
+use crate::text::TextEdit;
 use std::ops::Range;
 
 /// The rules by the names that users see. Order is that of the documentation.
@@ -25,7 +26,23 @@ pub enum Rule {
     LeadIn,
     UnsupportedEntity,
     Units,
-    /// Damaged DXF or 3B text.
+    /// An arc of an ISO program whose ends are not on one circle about its centre.
+    ArcOffRadius,
+    /// An arc whose centre is its start.
+    ArcWithoutRadius,
+    /// The correction is switched where controls do not take it: by an arc or a rapid.
+    CompensationSwitch,
+    /// G41 or G42 sends the wire to the side of the part.
+    WrongSide,
+    /// The arcs of a program do not tell how their centres are meant.
+    AmbiguousCenter,
+    /// Words that one machine takes otherwise than another, or not at all.
+    MachineDependent,
+    NotClosed,
+    MissingEnd,
+    TextAfterEnd,
+    BlockNumber,
+    /// Damaged DXF or program text.
     Syntax,
     /// A value in `wedm.toml` or in the client's settings that does not fit.
     Settings,
@@ -34,7 +51,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 19] = [
+    pub const ALL: [Rule; 29] = [
         Rule::SmallRadius,
         Rule::SharpCorner,
         Rule::NarrowSlot,
@@ -51,6 +68,16 @@ impl Rule {
         Rule::LeadIn,
         Rule::UnsupportedEntity,
         Rule::Units,
+        Rule::ArcOffRadius,
+        Rule::ArcWithoutRadius,
+        Rule::CompensationSwitch,
+        Rule::WrongSide,
+        Rule::AmbiguousCenter,
+        Rule::MachineDependent,
+        Rule::NotClosed,
+        Rule::MissingEnd,
+        Rule::TextAfterEnd,
+        Rule::BlockNumber,
         Rule::Syntax,
         Rule::Settings,
         Rule::More,
@@ -74,6 +101,16 @@ impl Rule {
             Rule::LeadIn => "lead-in",
             Rule::UnsupportedEntity => "unsupported-entity",
             Rule::Units => "units",
+            Rule::ArcOffRadius => "arc-off-radius",
+            Rule::ArcWithoutRadius => "arc-without-radius",
+            Rule::CompensationSwitch => "compensation-switch",
+            Rule::WrongSide => "wrong-side",
+            Rule::AmbiguousCenter => "ambiguous-center",
+            Rule::MachineDependent => "machine-dependent",
+            Rule::NotClosed => "not-closed",
+            Rule::MissingEnd => "missing-end",
+            Rule::TextAfterEnd => "text-after-end",
+            Rule::BlockNumber => "block-number",
             Rule::Syntax => "syntax",
             Rule::Settings => "settings",
             Rule::More => "more",
@@ -89,10 +126,23 @@ impl Rule {
             | Rule::OpenContour
             | Rule::SelfIntersection
             | Rule::LeadIn
+            | Rule::ArcOffRadius
+            | Rule::ArcWithoutRadius
+            | Rule::CompensationSwitch
+            | Rule::WrongSide
             | Rule::Syntax
             | Rule::Settings => Severity::Error,
-            Rule::SharpCorner | Rule::Gap | Rule::DuplicateEntity | Rule::Overlap | Rule::ShortSegment | Rule::Units => Severity::Warning,
-            Rule::UnsupportedEntity | Rule::More => Severity::Information,
+            Rule::SharpCorner
+            | Rule::Gap
+            | Rule::DuplicateEntity
+            | Rule::Overlap
+            | Rule::ShortSegment
+            | Rule::Units
+            | Rule::NotClosed
+            | Rule::MissingEnd
+            | Rule::TextAfterEnd
+            | Rule::BlockNumber => Severity::Warning,
+            Rule::UnsupportedEntity | Rule::AmbiguousCenter | Rule::MachineDependent | Rule::More => Severity::Information,
             Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
     }
@@ -162,6 +212,8 @@ pub enum NoFix {
     NoNeighbour,
     /// The entity cannot be edited (part of a block, or of a kind that has no such edit).
     NotEditable,
+    /// It stands in a program: the drawing that it was made of has to change.
+    Program,
 }
 
 /// An arc tighter than the correction, in drawing units. Lengths for people are made in mm by the message.
@@ -249,6 +301,7 @@ pub enum Detail {
         radius: f64,
         deviation: f64,
     },
+    Iso(IsoFault),
     LeadIn(String),
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
@@ -265,6 +318,57 @@ pub enum Detail {
     },
 }
 
+/// What is wrong in an ISO program. Lengths in µm.
+#[derive(Clone, Debug, PartialEq)]
+pub enum IsoFault {
+    /// The start of an arc is `start` from its centre, its end `end`.
+    OffRadius {
+        start: f64,
+        end: f64,
+    },
+    /// An arc without I, J and R, or whose centre is one of its ends.
+    NoRadius,
+    /// Compensation goes on or off with a move that is an arc, or else a rapid.
+    Switch {
+        on: bool,
+        arc: bool,
+    },
+    /// The wire runs on `side` of a contour, which makes it a punch (or an opening) where the settings say the other.
+    RoleSide {
+        side: Side,
+        punch: bool,
+    },
+    /// The wire runs on `side` of a contour and comes to it from the other one.
+    EntrySide {
+        side: Side,
+    },
+    /// The ends of a cut are `distance` apart.
+    NotClosed {
+        distance: f64,
+    },
+    /// The program ends without `word`.
+    NoEnd {
+        word: String,
+    },
+    BehindEnd,
+    /// A block number stands twice.
+    NumberTwice {
+        number: u32,
+    },
+    /// `word` stands `count` times.
+    Foreign {
+        word: String,
+        count: usize,
+    },
+    /// A subprogram that is not in the text.
+    NoSubprogram {
+        number: u32,
+    },
+    EndlessCalls,
+    /// Full circles only: I and J are taken as leading from start to centre.
+    OpenCenters,
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     pub rule: Rule,
@@ -275,15 +379,30 @@ pub struct Finding {
     pub related: Vec<Place>,
 }
 
-/// A repair that a user may choose.
+/// A repair that a user may choose. Rules on drawings make edits of the drawing, rules on programs edits of the text.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fix {
+pub struct Fix<E = DrawingEdit> {
     pub kind: FixKind,
     /// The one that a user most likely wants.
     pub preferred: bool,
     /// False where "fix all" leaves it out.
     pub in_fix_all: bool,
-    pub edit: DrawingEdit,
+    pub edit: E,
+}
+
+/// What a fix changes: a drawing, which each kind of document turns into its own edit, or the text itself.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    Drawing(DrawingEdit),
+    /// Sorted and disjoint.
+    Text(Vec<TextEdit>),
+}
+
+impl<E> Fix<E> {
+    /// The same repair with its edit in another form.
+    pub fn map<F>(self, form: impl FnOnce(E) -> F) -> Fix<F> {
+        Fix { kind: self.kind, preferred: self.preferred, in_fix_all: self.in_fix_all, edit: form(self.edit) }
+    }
 }
 
 /// What a fix does, as data for its title. Lengths in drawing units.
@@ -307,4 +426,12 @@ pub enum FixKind {
     MakeTangent { moved: f64 },
     /// One arc takes the place of `chords` lines.
     OneArc { chords: usize, radius: f64 },
+    /// A program gets the word that ends it.
+    AddEnd { word: String },
+    /// What stands behind the end of a program goes.
+    DeleteBehindEnd,
+    /// A rapid becomes a cut.
+    CutRapid,
+    /// G41 becomes G42 or the other way round.
+    SwapSide,
 }

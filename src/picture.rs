@@ -2,6 +2,10 @@
 //!
 //! It shows what others have found and planned and decides nothing. It knows drawings, findings and paths,
 //! and nothing of files or protocols. The same input gives the same bytes.
+//!
+//! Whoever shows it to somebody who may point at it finds parts by their class: `figure` is the drawing, `lens` an enlarged
+//! fault, `mark` the number beside one (with `data-at`, the point on the sheet that it belongs to), `chrome` what is
+//! written about it, `fine` what is too small to be seen at this size. What stands for a segment says so in `data-handle` and `data-segment`.
 
 mod figure;
 mod lens;
@@ -12,7 +16,7 @@ use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
 use crate::geometry::{Bounds, Segment};
 use crate::toolpath::{Source, WirePath};
-use figure::{Frame, escaped, number, path_data};
+use figure::{Frame, escaped, named, number, path_data};
 
 use rustc_hash::FxHashSet;
 use std::fmt::Write;
@@ -50,14 +54,17 @@ pub fn svg(drawing: &Drawing, outlines: &[Outline], findings: &[Finding], paths:
     let legend_top = details_top + details_height;
     let mut sheet = style::opening(SHEET_WIDTH, legend_top + 48.0, &picture.title());
     picture.header(&mut sheet);
+    sheet.push_str("<g class=\"figure\">\n");
     picture.figure(&mut sheet, &frame);
     marks::faults(&mut sheet, &frame, &picture.faults, unit_mm, FIGURE_TOP - 26.0);
+    sheet.push_str("</g>\n");
     lens::row(&mut sheet, &picture, details_top);
     let shown =
         style::Shown { faults: !picture.faults.is_empty(), others: findings.iter().any(is_other), paths: !picture.paths.is_empty() };
+    sheet.push_str("<g class=\"chrome\">\n");
     style::legend(&mut sheet, legend_top + 12.0, shown);
     style::scale_bar(&mut sheet, SHEET_WIDTH - MARGIN, legend_top + 12.0, scale / unit_mm);
-    sheet.push_str("</svg>\n");
+    sheet.push_str("</g>\n</svg>\n");
     sheet
 }
 
@@ -161,12 +168,12 @@ impl Picture<'_> {
             let length: f64 = self.paths.iter().flat_map(|path| &path.segments).map(|segment| segment.geometry.length()).sum();
             facts.push(format!("wire path {:.3} mm", self.mm(length)));
         }
-        let _ = writeln!(sheet, r#"<text class="heading" x="{MARGIN}" y="34">{}</text>"#, escaped(&self.title()));
-        let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="52">{}</text>"#, escaped(&facts.join(" · ")));
+        let _ = writeln!(sheet, r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#, escaped(&self.title()));
+        let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#, escaped(&facts.join(" · ")));
     }
 
     fn figure(&self, sheet: &mut String, frame: &Frame) {
-        let _ = writeln!(sheet, "{}", frame.opening());
+        let _ = writeln!(sheet, "{}", frame.opening_of_drawing(self.unit_mm));
         self.areas(sheet, frame);
         self.asides(sheet, frame);
         self.contours(sheet, frame);
@@ -176,10 +183,14 @@ impl Picture<'_> {
             let arc = Segment::Arc(fault.arc());
             let _ = writeln!(
                 sheet,
-                r#"<path class="fault" d="{}"><title>{}</title></path>"#,
+                r#"<path class="fault" {} d="{}"><title>{}</title></path>"#,
+                named(&fault.handle, fault.segment),
                 path_data(frame, [arc], false),
                 escaped(&self.fault_label(fault))
             );
+            let (x, y) = frame.local(lens::correction_disc(fault));
+            let radius = fault.detail.required * frame.scale;
+            let _ = writeln!(sheet, r#"<circle class="correction fine" cx="{}" cy="{}" r="{}"/>"#, number(x), number(y), number(radius));
         }
         marks::thread_holes(sheet, frame, self);
         sheet.push_str("</g>\n");
@@ -232,7 +243,12 @@ impl Picture<'_> {
             let data = path_data(frame, entity.geometry.segments(), entity.geometry.is_closed());
             let label = format!("{} {} on layer {}, not cut", entity.kind, entity.handle, entity.layer);
             if !data.is_empty() {
-                let _ = writeln!(sheet, r#"<path class="aside" d="{data}"><title>{}</title></path>"#, escaped(&label));
+                let _ = writeln!(
+                    sheet,
+                    r#"<path class="aside" data-handle="{}" d="{data}"><title>{}</title></path>"#,
+                    escaped(&entity.handle),
+                    escaped(&label)
+                );
             }
         }
     }
@@ -245,13 +261,19 @@ impl Picture<'_> {
                 if count > TOOLTIP_SEGMENTS {
                     let data = path_data(frame, entity.geometry.segments(), entity.geometry.is_closed());
                     let label = format!("{} {} · {} segments", entity.kind, entity.handle, piece.count);
-                    let _ = writeln!(sheet, r#"<path class="contour" d="{data}"><title>{}</title></path>"#, escaped(&label));
+                    let _ = writeln!(
+                        sheet,
+                        r#"<path class="contour" data-handle="{}" d="{data}"><title>{}</title></path>"#,
+                        escaped(&entity.handle),
+                        escaped(&label)
+                    );
                     continue;
                 }
                 for (index, segment) in entity.geometry.segments().enumerate() {
                     let data = path_data(frame, [segment], false);
                     let label = escaped(&self.segment_label(entity, index, &segment));
-                    let _ = writeln!(sheet, r#"<path class="contour" d="{data}"><title>{label}</title></path>"#);
+                    let name = named(&entity.handle, index);
+                    let _ = writeln!(sheet, r#"<path class="contour" {name} d="{data}"><title>{label}</title></path>"#);
                 }
             }
         }
@@ -296,9 +318,12 @@ impl Picture<'_> {
                 _ => None,
             };
             let label = format!("<title>{} · segment {segment} · {}</title>", escaped(&entity.handle), finding.rule.name());
+            let name = named(&entity.handle, segment);
             let _ = match point.map(|point| frame.local(point)) {
-                Some((x, y)) => writeln!(sheet, r#"<circle class="dot" cx="{}" cy="{}" r="4.5">{label}</circle>"#, number(x), number(y)),
-                None => writeln!(sheet, r#"<path class="other" d="{}">{label}</path>"#, path_data(frame, [geometry], false)),
+                Some((x, y)) => {
+                    writeln!(sheet, r#"<circle class="dot" {name} cx="{}" cy="{}" r="4.5">{label}</circle>"#, number(x), number(y))
+                }
+                None => writeln!(sheet, r#"<path class="other" {name} d="{}">{label}</path>"#, path_data(frame, [geometry], false)),
             };
         }
     }

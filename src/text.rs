@@ -47,6 +47,10 @@ impl SourceText {
         &self.bytes
     }
 
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
     /// The text with `U+FFFD` in the place of what is not UTF-8.
     pub fn as_str_lossy(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(&self.bytes)

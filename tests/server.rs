@@ -15,6 +15,8 @@ mod flood;
 mod handshake;
 #[path = "server/language.rs"]
 mod language;
+#[path = "server/locate.rs"]
+mod locate;
 #[path = "server/panics.rs"]
 mod panics;
 #[path = "server/programs.rs"]

@@ -10,7 +10,7 @@ pub struct Shape {
 }
 
 /// All of them, with names that can be names of files.
-pub const ALL: [Shape; 15] = [
+pub const ALL: [Shape; 16] = [
     Shape { name: "comb", text: |count| polyline(&comb(count), true) },
     Shape { name: "comb-of-lines", text: |count| lines(chain(&comb(count), true)) },
     Shape { name: "circle-of-chords", text: |count| polyline(&circle(count), true) },
@@ -25,6 +25,7 @@ pub const ALL: [Shape; 15] = [
     Shape { name: "doubles", text: |count| lines(doubles(count)) },
     Shape { name: "gaps", text: |count| lines(gaps(count)) },
     Shape { name: "gaps-in-one-chain", text: |count| lines(gaps_in_one_chain(count)) },
+    Shape { name: "one-handle", text: |count| lines(loose(count)).replace("\n5\n", "\n5\n1\n999\n") },
     Shape { name: "short-segments", text: |count| polyline(&short(count), true) },
 ];
 

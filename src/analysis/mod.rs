@@ -165,9 +165,9 @@ impl Analysis {
         }
         let place = |&key: &ContourKey| {
             let first = self.chains.first_of(key).filter(|&first| drawing.get(first).is_some())?;
-            Some((drawing.rank(first)?, key))
+            Some((drawing.rank(first), key))
         };
-        let mut loud: Vec<(usize, ContourKey)> = self.loud.iter().filter_map(place).collect();
+        let mut loud: Vec<(u64, ContourKey)> = self.loud.iter().filter_map(place).collect();
         loud.sort_unstable();
         loud.into_iter().map(|(_, key)| key).collect()
     }
@@ -240,7 +240,7 @@ impl Analysis {
             }
         }
         self.report_contours(drawing, loud.iter().map(|(key, _)| *key), &mut report);
-        self.pairs.report(&|key| self.outlook(drawing, key), &|key| side_of(self, key), &mut report);
+        self.pairs.report(drawing, &|key| self.outlook(drawing, key), &|key| side_of(self, key), &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();
             let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();

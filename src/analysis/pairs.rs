@@ -1,7 +1,7 @@
 //! What the rules on pairs of segments have seen, by the runs of segments that the two lie in.
 
 use super::report::Report;
-use crate::drawing::{ContourIndex, ContourKey, ContourSegment, EntityId};
+use crate::drawing::{ContourIndex, ContourKey, ContourSegment, Drawing, EntityId};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::geometry::{Bounds, Grid, Point, Segment, left_normal};
 use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Wall};
@@ -232,10 +232,10 @@ impl Pairs {
     }
 
     /// Says where segments have not been compared.
-    fn report_uncompared(&self, outlook: Outlooks, report: &mut Report) {
+    fn report_uncompared(&self, drawing: &Drawing, outlook: Outlooks, report: &mut Report) {
         let first = self.uncompared.iter().filter_map(|&(key, run)| outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start));
         let rank = |place: &Place| match place {
-            Place::Segment { entity, segment } => Some((*entity, *segment)),
+            Place::Segment { entity, segment } => Some((drawing.rank(*entity), *segment)),
             _ => None,
         };
         if let Some(place) = first.min_by_key(rank)
@@ -245,9 +245,9 @@ impl Pairs {
         }
     }
 
-    /// Adds the findings, in the order of their entities.
-    pub fn report(&self, outlook: Outlooks, wire_side: &dyn Fn(ContourKey) -> Option<Side>, report: &mut Report) {
-        self.report_uncompared(outlook, report);
+    /// Adds the findings, in the machining order of their entities.
+    pub fn report(&self, drawing: &Drawing, outlook: Outlooks, wire_side: &dyn Fn(ContourKey) -> Option<Side>, report: &mut Report) {
+        self.report_uncompared(drawing, outlook, report);
         type Ends = ((EntityId, usize), (EntityId, usize));
         let concerned = |key: ContourKey, side: Option<Side>| side.is_none() || wire_side(key).is_none() || side == wire_side(key);
         let mut seen: Vec<(usize, Ends, &Seen)> = Vec::new();
@@ -261,7 +261,8 @@ impl Pairs {
                 seen.push((each.rule, (one, other), each));
             }
         }
-        seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, *ends));
+        let rank = |(entity, segment): (EntityId, usize)| (drawing.rank(entity), segment);
+        seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, rank(ends.0), rank(ends.1)));
         let is_double = |each: &&(usize, Ends, &Seen)| PAIR_RULES[each.0].rule == Rule::DuplicateEntity;
         let doubles: FxHashSet<(EntityId, EntityId)> = seen.iter().filter(is_double).map(|(_, ends, _)| (ends.0.0, ends.1.0)).collect();
         let merged = merged(&seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(), &|key| outlook(key).map(|it| it.contour.len()));
@@ -409,10 +410,10 @@ impl Look<'_> {
         }
     }
 
-    /// Lets the rules look at two segments whose boxes come near each other. The one of the earlier entity comes first,
-    /// so that the answer does not depend on how contours are keyed.
+    /// Lets the rules look at two segments whose boxes come near each other. The one of the entity that is machined earlier
+    /// comes first, so that the answer depends neither on how contours are keyed nor on when an entity was drawn.
     fn at(&self, one: &(Wall, Bounds), other: &(Wall, Bounds), found: &mut Vec<Seen>) {
-        let place = |wall: &Wall| (wall.segment.entity, wall.segment.segment);
+        let place = |wall: &Wall| (wall.outlook.drawing.rank(wall.segment.entity), wall.segment.segment);
         let (own, theirs) = ((self.keys.0, one.0.index), (self.keys.1, other.0.index));
         let ((one, own), (other, theirs)) =
             if place(&one.0) <= place(&other.0) { ((one, own), (other, theirs)) } else { ((other, theirs), (one, own)) };

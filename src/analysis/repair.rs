@@ -50,7 +50,9 @@ impl Analysis {
             let fixes = of_rule.filter_map(|finding| {
                 let crate::finding::Place::Segment { entity, segment } = finding.place else { return None };
                 let fixes = self.other_fixes(drawing, finding, (entity, segment))?;
-                fixes.into_iter().find(|fix| fix.preferred && fix.in_fix_all).map(|fix| fix.edit)
+                let fix = fixes.into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
+                // One that cannot be made must not stand in the way of the others.
+                fix.edit.changes.iter().all(|change| drawing.accepts(change).is_ok()).then_some(fix.edit)
             });
             if let Some(edit) = self.most_of(drawing, rule, &before, &apart(fixes)) {
                 return Some(edit);

@@ -7,7 +7,7 @@ use crate::document::{Document, Source};
 use crate::drawing::Unit;
 use crate::finding::{Detail, Finding, Place, Rule};
 use crate::message::en;
-use crate::program::three_b;
+use crate::program::{self, Language};
 use crate::protocol::FindingData;
 use crate::settings::{Effective, Settings, SettingsError};
 use crate::text::SourceText;
@@ -28,7 +28,7 @@ pub struct Opened {
 
 enum Kind {
     Dxf,
-    ThreeB,
+    Program(Language),
 }
 
 /// Reads one file with the settings that hold for it: `wedm.toml` upwards from it, `--config`, then the options.
@@ -69,14 +69,15 @@ pub fn refuse_faulty_settings(opened: &Opened) -> Result<(), Failure> {
 
 fn kind_of(path: &Path) -> Result<Kind, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    if let Some(language) = Language::of_ending(&ending) {
+        return Ok(Kind::Program(language));
+    }
     let refusal = match ending.as_str() {
         // What is in the file decides between text and binary DXF.
         "dxf" | "dxb" | "dxfb" => return Ok(Kind::Dxf),
-        "3b" => return Ok(Kind::ThreeB),
-        "iso" | "nc" => "ISO programs are not read yet, expected .dxf or .3b".into(),
         "dwg" => "DWG is not read, expected .dxf: save the drawing as DXF".into(),
-        "" => "its name has no ending, expected .dxf or .3b".into(),
-        ending => format!("its name ends with .{ending}, expected .dxf or .3b"),
+        "" => "its name has no ending, expected .dxf, .3b, .iso or .nc".into(),
+        ending => format!("its name ends with .{ending}, expected .dxf, .3b, .iso or .nc"),
     };
     Err(Failure(format!("{}: {refusal}", path.display())))
 }
@@ -84,14 +85,15 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
 fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
     let source = match kind {
         Kind::Dxf => Source::Dxf(dxf::Document::read_file(bytes)),
-        Kind::ThreeB => Source::ThreeB(three_b::Document::read(bytes)),
+        Kind::Program(language) => Source::Program(program::Document::read(*language, bytes, &settings)),
     };
     Document::new(source, settings)
 }
 
-/// DXF bytes under given settings, such as a fix has made them.
-pub fn drawing_of(bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
-    document(&Kind::Dxf, bytes, settings)
+/// Other bytes of the same kind under given settings, such as a fix has made them.
+pub fn reread(before: &Document, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
+    let kind = before.program().map_or(Kind::Dxf, |program| Kind::Program(program.language()));
+    document(&kind, bytes, settings)
 }
 
 /// The settings for an input, and the faults found in settings files.

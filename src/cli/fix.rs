@@ -1,11 +1,11 @@
-//! `wedm fix`: every safe repair of a drawing, in its own bytes.
+//! `wedm fix`: every safe repair of a drawing or program, in its own bytes.
 
 use super::options::Common;
 use super::output::{self, counted, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, files};
 use crate::document::{Document, Source};
-use crate::finding::{Rule, Severity};
+use crate::finding::{Edit, Rule, Severity};
 use crate::text::TextEdit;
 use clap::Args;
 use similar::udiff::UnifiedHunkHeader;
@@ -23,7 +23,7 @@ Examples:
   wedm fix plate.dxf -o fixed.dxf
   wedm fix plate.dxf --in-place --correction 0.12")]
 pub struct Arguments {
-    /// The drawing
+    /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
     #[command(flatten)]
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.target.output {
         output::refuse_input(target, path)?;
     }
-    let opened = files::open_drawing(path, &arguments.common, &arguments.common.settings())?;
+    let opened = files::open(path, &arguments.common, &arguments.common.settings())?;
     files::refuse_faulty_settings(&opened)?;
     let repair = repair(path, opened.document)?;
     deliver(arguments, &repair)?;
@@ -73,7 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(if errors_left { Verdict::Errors } else { Verdict::Clean })
 }
 
-/// A drawing before and after.
+/// A drawing or program before and after.
 struct Repair {
     bytes_before: Vec<u8>,
     before: Vec<Row>,
@@ -108,22 +108,27 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
         let settings = document.settings().clone();
         let present = document.text().map_or(&[][..], |text| text.bytes());
         let edited = edited(present, &edits).ok_or_else(|| Failure(format!("{}: the edits of a fix overlap", path.display())))?;
-        document = files::drawing_of(edited, settings);
+        document = files::reread(&document, edited, settings);
         rounds += 1;
     }
     let after = report::rows(path, &mut document);
     let repair = Repair { bytes_before, before, document, after, rounds };
     let errors = |rows: &[Row]| rows.iter().filter(|row| row.severity == Severity::Error).count();
     if errors(&repair.after) > errors(&repair.before) {
-        let sentence = "the repaired drawing has more errors than the drawing had; nothing is written";
+        let sentence = "what was repaired has more errors than before; nothing is written";
         return Err(Failure(format!("{}: internal error: {sentence}", path.display())));
     }
     Ok(repair)
 }
 
 fn next_edits(path: &Path, document: &Document) -> Result<Option<Vec<TextEdit>>, Failure> {
-    let (Some(edit), Source::Dxf(text)) = (document.fix_all(), document.source()) else { return Ok(None) };
-    let edits = text.text_edits(&edit).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?;
+    let edits = match (document.fix_all(), document.source()) {
+        (Some(Edit::Drawing(edit)), Source::Dxf(text)) => {
+            text.text_edits(&edit).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?
+        }
+        (Some(Edit::Text(edits)), _) => edits,
+        _ => return Ok(None),
+    };
     Ok(Some(edits).filter(|edits| !edits.is_empty()))
 }
 

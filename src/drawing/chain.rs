@@ -468,7 +468,7 @@ pub fn stated_role(drawing: &Drawing, contour: &Contour, of_layer: &dyn Fn(&str)
 fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<EntityId> {
     if entities.len() <= FEW {
         let mut ordered: Vec<EntityId> = entities.into_iter().collect();
-        ordered.sort_by_cached_key(|&id| drawing.rank(id));
+        ordered.sort_unstable_by_key(|&id| drawing.rank(id));
         return ordered;
     }
     let mut wanted = vec![false; drawing.id_bound()];

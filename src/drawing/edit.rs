@@ -120,6 +120,8 @@ pub enum ChangeError {
     NotFinite,
     /// A part of a block, or fitted to a curve.
     NotEditable,
+    /// A bulge for a polyline that can have lines only.
+    OnlyLines,
 }
 
 impl std::fmt::Display for ChangeError {
@@ -127,6 +129,7 @@ impl std::fmt::Display for ChangeError {
         match self {
             ChangeError::UnknownEntity => write!(f, "there is no such entity"),
             ChangeError::NotEditable => write!(f, "the entity is a part of a block or fitted to a curve, and cannot be edited"),
+            ChangeError::OnlyLines => write!(f, "the entity is a 3D polyline, whose vertices have no bulge"),
             ChangeError::NotAPolyline => write!(f, "the entity is not a polyline and has no vertices"),
             ChangeError::OutOfRange { index, count } => write!(f, "vertex {index} is out of range, the polyline has {count}"),
             ChangeError::NotFinite => write!(f, "a coordinate, radius or bulge is not a finite number, or a radius is not positive"),
@@ -170,9 +173,7 @@ impl Drawing {
         for change in &edit.changes {
             let id = change.entity();
             let old = result.get(id).ok_or(ChangeError::UnknownEntity)?;
-            if !result.is_editable(id) {
-                return Err(ChangeError::NotEditable);
-            }
+            result.accepts(change)?;
             match *change {
                 Change::SetVertex { entity, index, vertex } => delta.touched.push(result.splice(entity, index, 1, &[vertex])?),
                 Change::RemoveVertex { entity, index } => moving.entry(entity).or_default().push((index, None)),
@@ -214,6 +215,19 @@ impl Drawing {
         delta.touched.extend(removed.map(|change| Touched::Removed { entity: change.entity() }));
         *self = result;
         Ok(delta)
+    }
+
+    /// Whether an entity can take a change at all, whatever its numbers are.
+    pub fn accepts(&self, change: &Change) -> Result<(), ChangeError> {
+        let bulge = match change {
+            Change::SetVertex { vertex, .. } | Change::InsertVertex { vertex, .. } => vertex.bulge,
+            _ => 0.0,
+        };
+        match change.entity() {
+            entity if !self.is_editable(entity) => Err(ChangeError::NotEditable),
+            entity if bulge != 0.0 && self.is_straight(entity) => Err(ChangeError::OnlyLines),
+            _ => Ok(()),
+        }
     }
 
     /// Vertices of one polyline come and go, in one pass over it. A vertex comes in before the one at its index; of several
@@ -286,6 +300,7 @@ impl Drawing {
                 self.order.push(id);
                 self.order.extend(behind.get(&id).into_iter().flatten().rev());
             }
+            self.rank_anew();
         }
         Ok(())
     }

@@ -107,6 +107,12 @@ impl Document {
         found
     }
 
+    /// The entity with geometry in whose record a byte lies, the first where a block's reference gives several.
+    pub fn entity_at(&self, offset: usize) -> Option<EntityId> {
+        let item = self.table.items.get(self.table.item_at(self.text.line_of(offset))?)?;
+        item.entities().find(|&entity| self.drawing.get(entity).is_some())
+    }
+
     fn segments_of(&self, entity: EntityId, start: usize, first: usize, last: usize, found: &mut Vec<(EntityId, usize)>) {
         let count = self.drawing.get(entity).map_or(0, |entity| entity.geometry.segment_count());
         let Some(vertices) = self.table.vertices.get(&entity) else {

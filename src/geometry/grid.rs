@@ -72,20 +72,16 @@ impl<K: Copy + PartialEq> Grid<K> {
         let cell = cell_of(bounds);
         let Some(&first) = self.first.get(&cell) else { return };
         let (mut before, mut at) = (NONE, first);
-        while let Some(boxed) = self.boxes.get(at as usize) {
-            if boxed.key != key {
-                (before, at) = (at, boxed.next);
-                continue;
-            }
-            let next = boxed.next;
-            match self.boxes.get_mut(before as usize) {
-                Some(before) => before.next = next,
-                None if next == NONE => drop(self.first.remove(&cell)),
-                None => drop(self.first.insert(cell, next)),
-            }
-            self.boxes[at as usize].next = self.free;
-            self.free = at;
-            break;
+        while let Some(boxed) = self.boxes.get(at as usize).filter(|boxed| boxed.key != key) {
+            (before, at) = (at, boxed.next);
+        }
+        let Some(boxed) = self.boxes.get_mut(at as usize) else { return };
+        let next = std::mem::replace(&mut boxed.next, self.free);
+        self.free = at;
+        match self.boxes.get_mut(before as usize) {
+            Some(before) => before.next = next,
+            None if next == NONE => drop(self.first.remove(&cell)),
+            None => drop(self.first.insert(cell, next)),
         }
         if let Some(count) = self.levels.get_mut(&cell.0) {
             *count -= 1;

@@ -1,6 +1,6 @@
 //! English.
 
-use crate::finding::{Detail, Finding, FixKind, NoFix, SmallRadius};
+use crate::finding::{Detail, Finding, FixKind, IsoFault, NoFix, Side, SmallRadius};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
 pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
@@ -52,6 +52,7 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
             mm(radius * unit_mm),
             mm(deviation * unit_mm)
         ),
+        Detail::Iso(fault) => iso(fault),
         Detail::More { count } => format!("{count} more findings are not shown"),
         Detail::LeadIn(sentence) | Detail::Units(sentence) | Detail::Syntax(sentence) | Detail::Settings(sentence) => sentence.clone(),
     }
@@ -89,6 +90,10 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::DeleteDouble => "Delete the double".into(),
         FixKind::Merge => "Remove the short segment, its neighbours meet".into(),
         FixKind::MakeTangent { moved } => format!("Make the segments tangent (moves the contour by {} mm)", mm(moved * unit_mm)),
+        FixKind::AddEnd { word } => format!("End the program with {word}"),
+        FixKind::DeleteBehindEnd => "Delete what stands behind the end".into(),
+        FixKind::CutRapid => "Cut there (G01) instead of the rapid".into(),
+        FixKind::SwapSide => "Let the wire run on the other side (swap G41 and G42)".into(),
         FixKind::OneArc { chords, radius } => format!("Replace the {chords} chords by one arc of R {} mm", mm(radius * unit_mm)),
     }
 }
@@ -96,6 +101,50 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
 /// Title of the action that makes every safe fix.
 pub fn fix_all_title() -> &'static str {
     "Fix all that can be fixed safely"
+}
+
+/// What is wrong in an ISO program. Its lengths are µm.
+fn iso(fault: &IsoFault) -> String {
+    let side_word = |side: &Side| match side {
+        Side::Left => "G41 lets the wire run on the left",
+        Side::Right => "G42 lets the wire run on the right",
+    };
+    match fault {
+        IsoFault::OffRadius { start, end } => {
+            let (near, far) = told_apart(start / 1e3, end / 1e3);
+            format!(
+                "the ends of the arc are not on one circle: the start is {near} mm from the centre, the end {far} mm; the control stops here, or cuts another arc"
+            )
+        }
+        IsoFault::NoRadius => "arc without a radius: I, J or R are missing, or the centre is one of its ends".into(),
+        IsoFault::Switch { on: true, arc: true } => {
+            "the correction is switched on by an arc: controls refuse that, expected a straight cut (G01) to the contour".into()
+        }
+        IsoFault::Switch { on: false, arc: true } => {
+            "the correction is switched off by an arc: controls refuse that, expected a straight cut (G01) off the contour".into()
+        }
+        IsoFault::Switch { .. } => "the correction is switched on by a rapid: expected a straight cut (G01) to the contour".into(),
+        IsoFault::RoleSide { side, punch } => {
+            let (is, wanted) = if *punch { ("outside", "opening") } else { ("inside", "punch") };
+            format!("{}, which is {is} this contour: the settings say {wanted}, the wire cuts into the part", side_word(side))
+        }
+        IsoFault::EntrySide { side } => {
+            format!("{} of this contour, but it comes to it from the other side: it crosses the part's edge", side_word(side))
+        }
+        IsoFault::NotClosed { distance } => {
+            format!("the cut does not close: it ends {} mm from where it began", mm(distance / 1e3))
+        }
+        IsoFault::NoEnd { word } => format!("the program has no end, expected {word}: the machine waits for more"),
+        IsoFault::BehindEnd => "text behind the end of the program: the machine does not run it".into(),
+        IsoFault::NumberTwice { number } => format!("block number N{number} stands twice"),
+        IsoFault::Foreign { word, count: 1 } => format!("{word} is a matter of the machine: it is kept, not followed"),
+        IsoFault::Foreign { word, count } => format!("{word} ({count} times) is a matter of the machine: it is kept, not followed"),
+        IsoFault::NoSubprogram { number } => format!("subprogram {number} does not stand in this text: it is not followed"),
+        IsoFault::EndlessCalls => "the subprograms call each other without end, or too deep: they are not followed further".into(),
+        IsoFault::OpenCenters => {
+            "full circles alone do not tell how I and J are meant: they are taken as leading from the start to the centre".into()
+        }
+    }
 }
 
 fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
@@ -120,6 +169,7 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
         }
         Some(NoFix::SealsContour) => text += "; the arc that fits would seal the slot (narrow-slot)",
         Some(NoFix::NoNeighbour) => text += "; there is no neighbour on both sides that a larger arc could be tangent to",
+        Some(NoFix::Program) => text += "; repair it in the drawing, and make the program again",
         Some(NoFix::NotEditable) => text += "; it is part of an entity that cannot be edited here",
     }
     text

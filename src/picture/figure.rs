@@ -21,6 +21,19 @@ impl Frame {
         format!(r#"<g transform="matrix(1 0 0 -1 {} {})">"#, number(self.left), number(self.bottom))
     }
 
+    /// The same for the drawing itself, with what turns coordinates within the group into the drawing's:
+    /// `data-origin` + local / `data-scale`, of which one is `data-unit-mm` millimetres.
+    pub fn opening_of_drawing(&self, unit_mm: f64) -> String {
+        format!(
+            r#"<g class="drawing" transform="matrix(1 0 0 -1 {} {})" data-origin="{:?} {:?}" data-scale="{:?}" data-unit-mm="{unit_mm:?}">"#,
+            number(self.left),
+            number(self.bottom),
+            self.origin.x,
+            self.origin.y,
+            self.scale
+        )
+    }
+
     /// Coordinates within the group, y up.
     pub fn local(&self, point: Point) -> (f64, f64) {
         let shifted = (point - self.origin) * self.scale;
@@ -75,6 +88,11 @@ pub(super) fn path_data(frame: &Frame, segments: impl IntoIterator<Item = Segmen
 fn pair(frame: &Frame, point: Point) -> String {
     let (x, y) = frame.local(point);
     format!("{} {}", number(x), number(y))
+}
+
+/// The attributes by which an element is found that stands for a segment.
+pub(super) fn named(handle: &str, segment: usize) -> String {
+    format!(r#"data-handle="{}" data-segment="{segment}""#, escaped(handle))
 }
 
 /// At most three decimals, without trailing zeros and without a minus before zero.

@@ -1,6 +1,6 @@
 //! The first faults enlarged, each with the circle of the correction beside the arc that is too tight for it.
 
-use super::figure::{Frame, escaped, number, path_data};
+use super::figure::{Frame, escaped, named, number, path_data};
 use super::{Fault, MARGIN, Picture, SHEET_WIDTH};
 use crate::drawing::{Outline, Role};
 use crate::geometry::{Bounds, Point, Segment};
@@ -32,7 +32,8 @@ pub(super) fn row(sheet: &mut String, picture: &Picture, top: f64) {
     let left_out = picture.faults.len().saturating_sub(MOST);
     if left_out > 0 {
         let y = top + height_of(picture.faults.len()) - 8.0;
-        let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="{}">and {left_out} more, marked in the drawing</text>"#, number(y));
+        let _ =
+            writeln!(sheet, r#"<text class="note lens" x="{MARGIN}" y="{}">and {left_out} more, marked in the drawing</text>"#, number(y));
     }
 }
 
@@ -56,6 +57,7 @@ fn lens(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, left
 
     let (x, y, width, height) = (number(left), number(top), number(WIDTH), number(WINDOW));
     let rectangle = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}" rx="6""#);
+    let _ = writeln!(sheet, r#"<g class="lens" {}>"#, named(&fault.handle, fault.segment));
     let _ = writeln!(sheet, r#"<clipPath id="lens{index}"><rect {rectangle}/></clipPath>"#);
     let _ = writeln!(sheet, r#"<g clip-path="url(#lens{index})">"#);
     let ground = if outline.is_some_and(|outline| outline.role == Role::Opening) { "ground" } else { "sheet" };
@@ -68,6 +70,7 @@ fn lens(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, left
     marks(sheet, fault, disc, &frame);
     let _ = writeln!(sheet, r#"</g></g><rect class="window" {rectangle}/>"#);
     caption(sheet, picture, fault, index, left, top + WINDOW);
+    sheet.push_str("</g>\n");
 }
 
 fn shade(sheet: &mut String, picture: &Picture, outline: &Outline, frame: &Frame) {
@@ -129,7 +132,7 @@ fn caption(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, l
 /// Centre of the circle of the correction as it would have to lie: touching both neighbours of a fillet.
 ///
 /// From a half turn on no circle touches both; it is then shown about the arc's own centre.
-fn correction_disc(fault: &Fault) -> Point {
+pub(super) fn correction_disc(fault: &Fault) -> Point {
     let arc = fault.arc();
     let opening = (arc.sweep.abs() / 2.0).cos();
     let inward = (arc.center - arc.point_at(0.5)).try_normalize(0.0);

@@ -1,6 +1,6 @@
 //! Numbered marks beside the faults, thread holes, starting points and texts.
 
-use super::figure::{Frame, escaped, number};
+use super::figure::{Frame, escaped, named, number};
 use super::{Fault, MARGIN, Picture, SHEET_WIDTH};
 use crate::geometry::{Point, Vector, direction};
 use crate::toolpath::Source;
@@ -24,6 +24,7 @@ pub(super) fn faults(sheet: &mut String, frame: &Frame, faults: &[Fault], unit_m
         let angle = (-outward.y).atan2(outward.x);
         let label = free_place(at, angle, with_radius, &taken, top);
         let (x, y) = label.badge;
+        let _ = writeln!(sheet, r#"<g class="mark" {} data-at="{} {}">"#, named(&fault.handle, fault.segment), number(at.0), number(at.1));
         let _ = writeln!(
             sheet,
             r#"<path class="leader" d="M{} {}L{} {}"/><circle class="badge" cx="{2}" cy="{3}" r="9"/><text class="count" x="{2}" y="{}">{}</text>"#,
@@ -44,6 +45,7 @@ pub(super) fn faults(sheet: &mut String, frame: &Frame, faults: &[Fault], unit_m
                 number(y + 4.0)
             );
         }
+        sheet.push_str("</g>\n");
         taken.push(label);
     }
 }

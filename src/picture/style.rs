@@ -25,6 +25,7 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .fault{stroke:#d1242f;stroke-width:3.4}
 .other{stroke:#bf8700;stroke-width:3}
 .leader,.spoke{stroke:#d1242f;stroke-width:.9}
+.fine{display:none}
 .correction{stroke:#bf8700;stroke-width:1.5;stroke-dasharray:6 4}
 .dot{fill:#bf8700}
 .badge{fill:#d1242f}

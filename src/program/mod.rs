@@ -1,3 +1,11 @@
-//! Programs for the machine: how each language is read, decoded to geometry and written.
+//! Programs for the machine: how each language is read, judged, followed by the machine and written.
+//!
+//! [`Document`] is a program as the faces hold it, whatever its language; [`trace`] is what every language comes to: where the
+//! machine goes. What a language alone knows stands in its own folder.
 
+mod document;
+pub mod iso;
 pub mod three_b;
+pub mod trace;
+
+pub use document::{Document, Language};

@@ -2,7 +2,7 @@
 
 use super::drawing::Point;
 use crate::drawing::Drawing;
-use crate::finding::{Detail, Finding, NoFix, Place, Side, SmallRadius};
+use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, Side, SmallRadius};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +58,7 @@ pub struct FindingData {
     /// 1-based number of the pass with the largest correction, where several are set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pass: Option<usize>,
-    /// Why no fix is offered: `narrow-slot`, `seals-contour`, `no-neighbour` or `not-editable`.
+    /// Why no fix is offered: `narrow-slot`, `seals-contour`, `no-neighbour`, `not-editable` or `program`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_fix: Option<String>,
     /// Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
@@ -141,6 +141,7 @@ impl FindingData {
                 data.radius = Some(*radius);
                 data.distance = Some(*deviation);
             }
+            Detail::Iso(fault) => data.iso(fault),
             Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
         }
         data
@@ -163,6 +164,22 @@ impl FindingData {
         self.no_fix = detail.no_fix.map(|reason| no_fix_name(reason).into());
     }
 
+    /// Lengths of a program's findings are mm, as those of a drawing in mm.
+    fn iso(&mut self, fault: &IsoFault) {
+        match fault {
+            IsoFault::OffRadius { start, end } => {
+                self.radius = Some(start / 1e3);
+                self.distance = Some((start - end).abs() / 1e3);
+            }
+            IsoFault::NotClosed { distance } => self.distance = Some(distance / 1e3),
+            IsoFault::Foreign { word, count } => {
+                self.kind = Some(word.clone());
+                self.count = Some(*count);
+            }
+            _ => {}
+        }
+    }
+
     pub fn is_empty(&self) -> bool {
         *self == FindingData::default()
     }
@@ -174,5 +191,6 @@ fn no_fix_name(reason: NoFix) -> &'static str {
         NoFix::SealsContour => "seals-contour",
         NoFix::NoNeighbour => "no-neighbour",
         NoFix::NotEditable => "not-editable",
+        NoFix::Program => "program",
     }
 }

@@ -9,7 +9,9 @@ mod data;
 mod diagnostic;
 mod drawing;
 mod generate;
+mod in_force;
 mod inspection;
+mod locate;
 mod number;
 mod requests;
 mod schema;
@@ -22,7 +24,9 @@ pub use data::{FindingData, RelatedPlace, SideName};
 pub use diagnostic::{CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number};
 pub use drawing::{Drawing, Entity, Geometry, Point, Units, Vertex};
 pub use generate::{Closure, Generate, Program, Refused};
+pub use in_force::{CorrectionSource, SettingsInForce};
 pub use inspection::{InspectedEntity, InspectedSegment, Inspection};
+pub use locate::{Locate, Located};
 pub use requests::{
     Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, DrawingVersion, Inspect, OpenDrawing, OptionsOf,
     Picture, ResendDrawing, Resent,
@@ -46,6 +50,8 @@ pub mod method {
     pub const CONTOURS: &str = "wedm/contours";
     pub const TOOLPATH: &str = "wedm/toolpath";
     pub const PICTURE: &str = "wedm/picture";
+    pub const LOCATE: &str = "wedm/locate";
+    pub const SETTINGS: &str = "wedm/settings";
     /// The command that a drawing's code actions hold.
     pub const APPLY_DRAWING_EDIT_COMMAND: &str = "wedm.applyDrawingEdit";
 }

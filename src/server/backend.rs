@@ -6,7 +6,9 @@ use super::drawings::{self, Sent, SentChanges};
 use super::jobs::Cancel;
 use super::requests::code_action::FIX_ALL;
 use super::requests::language::navigate::{Question, navigate};
-use super::requests::{Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, picture, probe, toolpath};
+use super::requests::{
+    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, settings, toolpath,
+};
 use super::state::{Mailbox, Reply, State};
 use super::transport::Prepared;
 use super::{parent, texts};
@@ -50,6 +52,8 @@ pub(super) fn service(mailbox: Mailbox, prepared: Prepared, flags: Arc<Flags>, o
         .custom_method(method::TOOLPATH, Backend::toolpath)
         .custom_method(method::PICTURE, Backend::picture)
         .custom_method(method::GENERATE, Backend::generate)
+        .custom_method(method::LOCATE, Backend::locate)
+        .custom_method(method::SETTINGS, Backend::settings)
         .custom_method("wedm/simulate", Backend::not_there_yet)
         .custom_method("wedm/test/panic", Backend::test_panic)
         .custom_method("wedm/test/ask", Backend::test_ask)
@@ -186,6 +190,20 @@ impl Backend {
         let about = params.get("uri").and_then(Value::as_str).unwrap_or_default().to_owned();
         let (params, token) = read::<generate::Params>(params)?;
         self.written(method::GENERATE, &about, token, move |state, errand| generate::generate(state, params, errand)).await
+    }
+
+    async fn locate(&self, params: Value) -> Result<Value> {
+        let (params, _) = read::<protocol::Locate>(params)?;
+        let about: Arc<str> = params.uri.as_str().into();
+        let located = self.look(method::LOCATE, about, move |state| locate::locate(state, &params)).await?;
+        serde_json::to_value(located).map_err(|error| internal(error.to_string()))
+    }
+
+    async fn settings(&self, params: Value) -> Result<Value> {
+        let (params, _) = read::<protocol::DrawingName>(params)?;
+        let about: Arc<str> = params.uri.as_str().into();
+        let in_force = self.look(method::SETTINGS, about, move |state| Ok(settings::settings(state, &params.uri))).await?;
+        serde_json::to_value(in_force).map_err(|error| internal(error.to_string()))
     }
 
     /// Methods that the protocol names and this version does not have.

@@ -4,7 +4,7 @@ use super::convert;
 use super::transport::panic_text;
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
-use crate::program::three_b;
+use crate::program::{self, Language};
 use crate::protocol::{Diagnostic, Range};
 use crate::settings::{Effective, FILE_NAME, from_toml};
 use crate::text::{Encoding, SourceText};
@@ -18,7 +18,7 @@ use std::sync::{Arc, Weak};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Dxf,
-    ThreeB,
+    Program(Language),
     /// The project's `wedm.toml`.
     Settings,
     /// Nothing that is read here.
@@ -36,10 +36,11 @@ impl Kind {
         let by_name = name.rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
         match (language, by_name.as_deref()) {
             ("dxf", _) => Kind::Dxf,
-            ("3b", _) => Kind::ThreeB,
-            (_, Some("dxf")) => Kind::Dxf,
-            (_, Some("3b")) => Kind::ThreeB,
-            _ => Kind::Foreign,
+            (language, ending) => match (Language::of_id(language), ending) {
+                (Some(language), _) => Kind::Program(language),
+                (None, Some("dxf")) => Kind::Dxf,
+                (None, ending) => ending.and_then(Language::of_ending).map_or(Kind::Foreign, Kind::Program),
+            },
         }
     }
 }
@@ -93,7 +94,7 @@ impl Open {
         let content = match kind {
             Kind::Settings => Content::Settings(SourceText::new(text.into_bytes())),
             Kind::Foreign => Content::Foreign,
-            Kind::Dxf | Kind::ThreeB => read_text(kind, text.into_bytes(), settings),
+            Kind::Dxf | Kind::Program(_) => read_text(kind, text.into_bytes(), settings),
         };
         Open { uri, version, content, stamp, findings: 0, published: false, dirty: true, shot: Weak::new() }
     }
@@ -244,7 +245,7 @@ impl Open {
 }
 
 fn text_of(document: &Document) -> (Kind, SourceText) {
-    let kind = if matches!(document.source(), Source::ThreeB(_)) { Kind::ThreeB } else { Kind::Dxf };
+    let kind = document.program().map_or(Kind::Dxf, |program| Kind::Program(program.language()));
     (kind, document.text().cloned().unwrap_or_default())
 }
 
@@ -252,7 +253,7 @@ fn read_text(kind: Kind, kept: Vec<u8>, settings: &Arc<Effective>) -> Content {
     let read = catch_unwind(AssertUnwindSafe(|| {
         let bytes = kept.clone();
         let source = match kind {
-            Kind::ThreeB => Source::ThreeB(three_b::Document::read(bytes)),
+            Kind::Program(language) => Source::Program(program::Document::read(language, bytes, settings)),
             _ => Source::Dxf(dxf::Document::read(bytes)),
         };
         Arc::new(Document::new(source, settings.clone()))
@@ -298,16 +299,18 @@ fn internal_error() -> Diagnostic {
 #[cfg(test)]
 mod tests {
     use super::Kind;
+    use crate::program::Language;
 
     #[test]
     fn a_text_is_known_by_its_language_or_its_name() {
         let check = |language: &str, uri: &str, expected: Kind| assert_eq!(Kind::of(language, uri), expected, "{language} {uri}");
         check("dxf", "file:///a/b", Kind::Dxf);
         check("plaintext", "file:///a/B.DXF", Kind::Dxf);
-        check("", "untitled:plate.3b", Kind::ThreeB);
-        check("3b", "file:///a/plate.txt", Kind::ThreeB);
+        check("", "untitled:plate.3b", Kind::Program(Language::ThreeB));
+        check("3b", "file:///a/plate.txt", Kind::Program(Language::ThreeB));
         check("toml", "file:///a/wedm.toml", Kind::Settings);
         check("toml", "file:///a/Cargo.toml", Kind::Foreign);
-        check("wire-iso", "file:///a/plate.iso", Kind::Foreign);
+        check("wire-iso", "file:///a/plate.txt", Kind::Program(Language::Iso));
+        check("", "file:///a/plate.NC", Kind::Program(Language::Iso));
     }
 }

@@ -80,7 +80,7 @@ struct Motion {
 /// Every block decoded from where the one before it ended.
 fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
     let (items, faults) = three_b::read(program.as_bytes(), &Words::default());
-    holds(faults.is_empty(), || faults.first().map_or_else(String::new, |fault| fault.sentence.clone()))?;
+    holds(faults.is_empty(), || faults.first().map_or_else(String::new, three_b::SyntaxFault::sentence))?;
     let mut motions = Vec::new();
     let mut at = start * 1e3;
     let (mut jump, mut ended) = (false, false);
@@ -88,6 +88,7 @@ fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
         match item {
             Item::Word { word: Word::Pause, .. } => jump = !jump,
             Item::Word { word: Word::End, .. } => ended = true,
+            Item::Text { .. } | Item::Fault(_) => {}
             Item::StartPoint { .. } => {}
             Item::Block { block, .. } => {
                 let segment = three_b::decode(&block, at)
@@ -163,7 +164,8 @@ mod tests {
         let settings = settings(correction);
         let mut fixed = document(PLATE, &settings);
         let Source::Dxf(text) = fixed.source() else { unreachable!() };
-        let edits = text.text_edits(&fixed.fix_all().unwrap()).unwrap();
+        let Some(crate::finding::Edit::Drawing(edit)) = fixed.fix_all() else { unreachable!() };
+        let edits = text.text_edits(&edit).unwrap();
         let mut bytes = PLATE.to_string();
         edits.iter().rev().for_each(|edit| bytes.replace_range(edit.range.clone(), &edit.text));
         fixed = document(&bytes, &settings);

@@ -100,3 +100,12 @@ pub struct Block {
     pub axis: CountingAxis,
     pub motion: Motion,
 }
+
+/// What a 4B block says beside a 3B block: the controller changes each arc by its correction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PartArc {
+    /// µm.
+    pub radius: i64,
+    /// `DD`: the wire runs inside of the arc, whose radius the correction makes smaller. `D`: outside.
+    pub concave: bool,
+}

@@ -1,8 +1,12 @@
 //! 3B text as an open document: its lines and what is wrong in them.
 
-use super::parse::{SyntaxFault, Words, read_line};
-use crate::finding::{Detail, Finding, Place, Rule};
-use crate::text::SourceText;
+use super::decode::decode;
+use super::parse::{Item, SyntaxFault, Word, Words, read_line, unexpected};
+use crate::finding::{Detail, Finding, Fix, Place, Rule};
+use crate::geometry::{Point, Segment};
+use crate::program::trace::{Kind, Step, Trace};
+use crate::settings::Effective;
+use crate::text::{SourceText, TextEdit};
 use std::ops::Range;
 
 /// A 3B program as text, and the faults found in it.
@@ -11,6 +15,8 @@ use std::ops::Range;
 #[derive(Clone, Debug, Default)]
 pub struct Document {
     text: SourceText,
+    end_word: String,
+    pause_word: String,
     /// In the order of the text; all have a range of it.
     findings: Vec<Finding>,
 }
@@ -18,17 +24,79 @@ pub struct Document {
 impl Document {
     /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
     pub fn read(bytes: Vec<u8>) -> Document {
+        Document::read_with(bytes, &Effective::default())
+    }
+
+    /// The same with the words and limits of a controller.
+    pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let text = SourceText::new(bytes);
-        let findings = findings_in(&text, 0..text.line_count());
-        Document { text, findings }
+        let mut document = Document { text, end_word: settings.end.clone(), pause_word: settings.pause.clone(), findings: Vec::new() };
+        document.findings = document.findings_in(0..document.text.line_count());
+        document
+    }
+
+    /// Reads again where the words between blocks have changed.
+    pub fn set_settings(&mut self, settings: &Effective) {
+        if (&self.end_word, &self.pause_word) != (&settings.end, &settings.pause) {
+            *self = Document::read_with(std::mem::take(&mut self.text).into_bytes(), settings);
+        }
+    }
+
+    fn words(&self) -> Words<'_> {
+        Words { pause: self.pause_word.trim(), end: self.end_word.trim() }
+    }
+
+    /// The fixes of one finding, the preferred one first.
+    pub fn fixes(&self, _finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+        Vec::new()
+    }
+
+    /// Where the machine goes, block by block.
+    pub fn trace(&self) -> Trace {
+        let mut trace = Trace::default();
+        let mut at = trace.start;
+        let mut contour = 0;
+        for line in 0..self.text.line_count() {
+            let range = self.text.line_range(line);
+            let start = range.start;
+            read_line(&self.text.bytes()[range], start, &self.words(), |item| match item {
+                Item::StartPoint { at: [x, y], .. } => {
+                    if trace.steps.is_empty() {
+                        at = Point::new((x * 1000.0).round(), (y * 1000.0).round());
+                        (trace.start, trace.start_is_known) = (at, true);
+                    }
+                }
+                Item::Word { word, range, .. } => {
+                    let kind = if word == Word::End { Kind::End } else { Kind::Pause };
+                    trace.steps.push(Step { range, line, number: None, kind, start: at, end: at, ideal: None, contour });
+                    contour += usize::from(word == Word::Pause);
+                }
+                Item::Block { block, range, number, .. } => {
+                    let ideal = decode(&block, at).ok();
+                    let end = ideal.map_or(at, |ideal| ideal.end());
+                    let kind = if matches!(ideal, Some(Segment::Arc(_))) { Kind::Arc } else { Kind::Line };
+                    trace.steps.push(Step { range, line, number, kind, start: at, end, ideal, contour });
+                    at = end;
+                }
+                Item::Text { .. } | Item::Fault(_) => {}
+            });
+        }
+        trace
+    }
+
+    /// The steps whose text overlaps or touches a range of bytes.
+    pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
+        let mut steps = self.trace().steps;
+        steps.retain(|step| step.range.start <= range.end && range.start <= step.range.end);
+        steps
     }
 
     pub fn text(&self) -> &SourceText {
         &self.text
     }
 
-    pub fn findings(&self) -> &[Finding] {
-        &self.findings
+    pub fn findings(&self) -> Vec<Finding> {
+        self.findings.clone()
     }
 
     /// Replaces a range of bytes and reads again what it touched.
@@ -51,8 +119,23 @@ impl Document {
                 *range = range.start - behind + new_behind..range.end - behind + new_behind;
             }
         }
-        let fresh = findings_in(&self.text, first..last + 1);
+        let fresh = self.findings_in(first..last + 1);
         self.findings.splice(kept_before..kept_behind, fresh);
+    }
+
+    fn findings_in(&self, lines: Range<usize>) -> Vec<Finding> {
+        let words = self.words();
+        let mut findings = Vec::new();
+        for line in lines {
+            let range = self.text.line_range(line);
+            let start = range.start;
+            read_line(&self.text.bytes()[range], start, &words, |item| match item {
+                Item::Fault(fault) => findings.push(finding(fault)),
+                Item::Text { range, column } => findings.push(finding(unexpected(self.text.bytes(), range, column))),
+                _ => {}
+            });
+        }
+        findings
     }
 }
 
@@ -63,22 +146,12 @@ fn start_of(finding: &Finding) -> usize {
     }
 }
 
-fn findings_in(text: &SourceText, lines: Range<usize>) -> Vec<Finding> {
-    let words = Words::default();
-    let faults = lines.filter_map(|line| {
-        let range = text.line_range(line);
-        let start = range.start;
-        read_line(&text.bytes()[range], start, &words, |_| {}).err()
-    });
-    faults.map(finding).collect()
-}
-
 fn finding(fault: SyntaxFault) -> Finding {
     Finding {
         rule: Rule::Syntax,
         severity: Rule::Syntax.default_severity(),
+        detail: Detail::Syntax(fault.sentence()),
         place: Place::Text { range: fault.range },
-        detail: Detail::Syntax(fault.sentence),
         related: Vec::new(),
     }
 }
@@ -92,10 +165,7 @@ mod tests {
     fn each_damaged_line_is_named_once_and_the_rest_is_read() {
         let document = Document::read(b"B1000B0B1000GXL1\nB1B2GXL1\nB0B1000B1000GYL2\n9900B0B9900GXL1\nDD\n".to_vec());
         let sentences: Vec<_> = document.findings().iter().map(|finding| (start_of(finding), finding.detail.clone())).collect();
-        let expected = [
-            (21, "column 5: found `GXL1`, expected digits of Y, or B before J"),
-            (43, "column 1: found `9900B0B9900G`, expected a block (B X B Y B J G Z), a pause or end word, or a comment after `;`"),
-        ];
+        let expected = [(21, "column 5: found `GXL1`, expected digits of Y, or B before J"), (43, "a B of the block is missing")];
         assert_eq!(sentences, expected.map(|(start, sentence)| (start, Detail::Syntax(sentence.into()))));
     }
 

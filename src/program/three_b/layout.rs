@@ -5,13 +5,28 @@ use crate::settings::Layout;
 
 /// Appends one block with its line end. `number` (from 1) and the absolute end point stand in the checking layout only.
 pub(super) fn push_block(out: &mut Vec<u8>, layout: Layout, number: usize, block: &Block, end: Node) {
+    if layout == Layout::Checking {
+        push_block_number(out, number as u64);
+    }
+    push_fields(out, layout, block);
+    if layout == Layout::Checking {
+        push_to_comment_column(out, block);
+        push_end_point(out, end);
+    }
+    out.push(b'\n');
+}
+
+/// Appends `N   12: `.
+pub(super) fn push_block_number(out: &mut Vec<u8>, number: u64) {
+    out.push(b'N');
+    push_number(out, number, 5);
+    out.extend_from_slice(b": ");
+}
+
+/// Appends the block itself, from its first `B` to the quadrant.
+pub(super) fn push_fields(out: &mut Vec<u8>, layout: Layout, block: &Block) {
     let width = if layout == Layout::Compact { 0 } else { 6 };
     let between: &[u8] = if layout == Layout::Compact { b"" } else { b" " };
-    if layout == Layout::Checking {
-        out.push(b'N');
-        push_number(out, number as u64, 5);
-        out.extend_from_slice(b": ");
-    }
     for value in [block.x, block.y, block.j] {
         out.push(b'B');
         out.extend_from_slice(between);
@@ -30,14 +45,19 @@ pub(super) fn push_block(out: &mut Vec<u8>, layout: Layout, number: usize, block
     };
     out.extend_from_slice(kind);
     out.push(b'0' + quadrant.number());
-    if layout == Layout::Checking {
-        // Lines and arcs end in one column.
-        out.extend_from_slice(if kind.len() == 1 { b"  ; " } else { b" ; " });
-        push_millimetres(out, end.x, 10);
-        out.extend_from_slice(b" , ");
-        push_millimetres(out, end.y, 10);
-    }
-    out.push(b'\n');
+}
+
+/// Appends the spaces behind a block in columns, so that what follows lines and arcs stands in one column.
+pub(super) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
+    out.extend_from_slice(if matches!(block.motion, Motion::Line(_)) { b"  " } else { b" " });
+}
+
+/// Appends `; x , y`, the absolute end point in mm.
+pub(super) fn push_end_point(out: &mut Vec<u8>, end: Node) {
+    out.extend_from_slice(b"; ");
+    push_millimetres(out, end.x, 10);
+    out.extend_from_slice(b" , ");
+    push_millimetres(out, end.y, 10);
 }
 
 /// Appends the header that carries the absolute start of a program, which blocks cannot.

@@ -6,16 +6,20 @@ mod block;
 mod decode;
 mod document;
 mod encode;
+mod fields;
 mod layout;
+mod machine;
 mod parse;
 mod proof;
 #[cfg(test)]
 mod tests;
 mod write;
 
-pub use block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
+pub use block::{Block, CountingAxis, LARGEST, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
 pub use document::Document;
 pub use encode::{Encoded, encode, snap};
-pub use parse::{Item, SyntaxFault, Word, Words, read, read_line};
+pub use fields::{Fields, fields_of};
+pub use machine::{interpolate, travel};
+pub use parse::{Flaw, Item, StatedPoint, SyntaxFault, Word, Words, read, read_line};
 pub use write::{ProofError, ProvedProgram, write, write_with};

@@ -1,8 +1,11 @@
-//! Reading 3B text line by line: compact, spaced, aligned and checking layouts, with comments, block numbers and coordinates.
+//! Reading 3B and 4B text line by line: compact, spaced, aligned and checking layouts, with comments, block numbers and coordinates.
 //!
-//! A line that cannot be read gives one fault; what was read of it before counts, and the next line is read as if nothing had been.
+//! What a line says hangs on no other line. A block that cannot be read gives one fault, and reading goes on behind it; where it is
+//! plain what was meant (a lost `B`, `B25` for `N25`), the block is read and the fault said beside it. Text that looks like no block
+//! is handed out as [`Item::Text`]: only its place among the blocks tells a heading from a fault.
 
-use super::block::{Block, CountingAxis, Motion, Quadrant};
+use super::block::{Block, PartArc};
+use super::fields::{self, Fields};
 use std::ops::Range;
 
 /// What a word between the blocks does.
@@ -27,13 +30,25 @@ impl Default for Words<'_> {
 }
 
 impl Words<'_> {
-    fn meaning(&self, word: &[u8]) -> Option<Word> {
+    /// What a word does; `None` for what is no word of a program. Letter case does not matter.
+    pub(super) fn meaning(&self, word: &[u8]) -> Option<Word> {
         let is = |known: &str| word.eq_ignore_ascii_case(known.as_bytes());
-        if is(self.end) || ["DD", "E", "FF", "MJ"].into_iter().any(is) {
-            // A setting may have made one of these the pause.
-            return Some(if is(self.pause) && !is(self.end) { Word::Pause } else { Word::End });
+        if is(self.end) {
+            return Some(Word::End);
         }
-        (is(self.pause) || is("D") || is("A")).then_some(Word::Pause)
+        // A setting may have made one of the usual end words the pause.
+        if is(self.pause) {
+            return Some(Word::Pause);
+        }
+        if ["DD", "E", "FF", "MJ"].into_iter().any(is) {
+            return Some(Word::End);
+        }
+        (is("D") || is("A")).then_some(Word::Pause)
+    }
+
+    /// True for the two words that the settings name.
+    fn is_own(&self, word: &[u8]) -> bool {
+        [self.pause, self.end].iter().any(|own| word.eq_ignore_ascii_case(own.as_bytes()))
     }
 }
 
@@ -44,38 +59,100 @@ pub enum Item {
         block: Block,
         /// From the first `B` to the quadrant.
         range: Range<usize>,
-        /// `N12`.
+        /// `N12`, or the number of a row.
         number: Option<u32>,
         /// Absolute end point in mm that stands behind the block.
-        stated_end: Option<[f64; 2]>,
+        stated_end: Option<StatedPoint>,
+        /// What a 4B block says beside a 3B block.
+        part: Option<PartArc>,
     },
     Word {
         word: Word,
+        /// The word that the settings name, not one of another controller.
+        is_own: bool,
         range: Range<usize>,
+        number: Option<u32>,
     },
     /// `Start Point = x , y`, mm.
     StartPoint {
         at: [f64; 2],
         range: Range<usize>,
     },
+    /// Neither block, word nor comment, and nothing that wants to be a block.
+    Text {
+        range: Range<usize>,
+        column: usize,
+    },
+    Fault(SyntaxFault),
 }
 
-/// A place that cannot be read, and the sentence that says what was found and what was expected.
+/// A point that stands behind a block, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StatedPoint {
+    pub at: [f64; 2],
+    /// The fewest decimals of its two numbers.
+    pub decimals: u8,
+}
+
+/// What is wrong with a line as text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Flaw {
+    /// It cannot be read: the sentence says what was found and what was expected.
+    Unreadable(String),
+    /// `B` is missing before the number that begins at this byte.
+    MissingB { at: usize },
+    /// `B` stands where the `N` of a block number was meant.
+    BlockNumberAsB { number: u32 },
+    /// The letter O stands for a zero.
+    LetterO,
+}
+
+/// A place that cannot be read as it stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SyntaxFault {
     pub range: Range<usize>,
-    pub sentence: String,
+    pub flaw: Flaw,
 }
 
-/// Reads a whole text; line ends are LF, CR LF and CR.
+impl SyntaxFault {
+    /// What was found and what was expected.
+    pub fn sentence(&self) -> String {
+        match &self.flaw {
+            Flaw::Unreadable(sentence) => sentence.clone(),
+            Flaw::MissingB { .. } => "a B of the block is missing".into(),
+            Flaw::BlockNumberAsB { number } => format!("B{number} stands where N{number} was meant"),
+            Flaw::LetterO => "the letter O stands where a zero was meant".into(),
+        }
+    }
+}
+
+/// Reads a whole text; line ends are LF, CR LF and CR. Text that is no block, word or comment is a fault behind the first block.
 pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
     let (mut items, mut faults) = (Vec::new(), Vec::new());
+    let mut has_block = false;
     for range in lines(text) {
         let start = range.start;
-        faults.extend(read_line(&text[range], start, words, |item| items.push(item)).err());
+        read_line(&text[range], start, words, |item| match item {
+            Item::Fault(fault) => faults.push(fault),
+            Item::Text { range, column } if has_block => faults.push(unexpected(text, range, column)),
+            Item::Text { .. } => {}
+            item => {
+                has_block |= matches!(item, Item::Block { .. });
+                items.push(item);
+            }
+        });
     }
     (items, faults)
 }
+
+/// The fault of text between the blocks.
+pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> SyntaxFault {
+    let found = shown(text.get(range.clone()).unwrap_or_default());
+    let sentence = format!("column {column}: found `{found}`, expected {BLOCK_OR_WORD}");
+    SyntaxFault { range, flaw: Flaw::Unreadable(sentence) }
+}
+
+const BLOCK_OR_WORD: &str = "a block (B X B Y B J G Z), a pause or end word, or a comment after `;`";
 
 /// The bytes of each line without its end.
 fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
@@ -97,15 +174,15 @@ fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
 }
 
 /// Reads one line, without its line end, and hands out what it says. Ranges are counted from `offset`.
-pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl FnMut(Item)) -> Result<(), SyntaxFault> {
-    let mut cursor = Cursor { line, at: 0, offset };
+pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl FnMut(Item)) {
+    let mut cursor = Cursor { line, at: 0, offset, behind_block: false };
     if offset == 0 && line.starts_with(b"\xef\xbb\xbf") {
         cursor.at = 3;
     }
     // A block waits for the next token, because its coordinates stand behind it.
     let mut waiting: Option<Item> = None;
     let mut number = None;
-    let outcome = loop {
+    loop {
         match cursor.token(words) {
             Ok(Some(Token::Number(read))) => number = Some(read),
             Ok(Some(Token::Coordinates(end))) => {
@@ -113,30 +190,51 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
                     *stated_end = Some(end);
                 }
             }
-            Ok(Some(Token::Block(block, range))) => {
+            Ok(Some(Token::Block { block, part, range, row, faults })) => {
                 waiting.take().into_iter().for_each(&mut each);
-                waiting = Some(Item::Block { block, range, number: number.take(), stated_end: None });
+                faults.into_iter().map(Item::Fault).for_each(&mut each);
+                waiting = Some(Item::Block { block, range, number: number.take().or(row), stated_end: None, part });
+                cursor.behind_block = true;
+            }
+            Ok(Some(Token::Word { word, is_own, range })) => {
+                waiting.take().into_iter().for_each(&mut each);
+                each(Item::Word { word, is_own, range, number: number.take() });
             }
             Ok(Some(Token::Other(item))) => {
                 waiting.take().into_iter().for_each(&mut each);
                 each(item);
             }
-            Ok(None) => break Ok(()),
-            Err(fault) => break Err(fault),
+            Ok(None) => break,
+            Err(fault) => {
+                waiting.take().into_iter().for_each(&mut each);
+                each(Item::Fault(fault));
+                number = None;
+                if !cursor.skip_broken_block() {
+                    break;
+                }
+            }
         }
-    };
+    }
     waiting.into_iter().for_each(&mut each);
-    outcome
 }
-
-/// More digits than any controller takes are not read as a number.
-const MOST_DIGITS: usize = 12;
 
 enum Token {
     /// `N12` before a block.
     Number(u32),
-    Block(Block, Range<usize>),
-    Coordinates([f64; 2]),
+    Block {
+        block: Block,
+        part: Option<PartArc>,
+        range: Range<usize>,
+        /// Number of the row that stands before the first `B`.
+        row: Option<u32>,
+        faults: Vec<SyntaxFault>,
+    },
+    Word {
+        word: Word,
+        is_own: bool,
+        range: Range<usize>,
+    },
+    Coordinates(StatedPoint),
     Other(Item),
 }
 
@@ -144,6 +242,8 @@ struct Cursor<'a> {
     line: &'a [u8],
     at: usize,
     offset: usize,
+    /// A block has been read in this line.
+    behind_block: bool,
 }
 
 impl Cursor<'_> {
@@ -152,18 +252,10 @@ impl Cursor<'_> {
     }
 
     fn skip_space(&mut self) {
-        // 0x1A ends a text of DOS.
-        while matches!(self.peek(), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a)) {
+        // 0x1A ends a text of DOS; bars part the columns of a table.
+        while matches!(self.peek(), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|')) {
             self.at += 1;
         }
-    }
-
-    /// Skips space and takes one letter, given in upper case, in either case.
-    fn take(&mut self, letter: u8) -> bool {
-        self.skip_space();
-        let found = self.peek().is_some_and(|byte| byte.to_ascii_uppercase() == letter);
-        self.at += usize::from(found);
-        found
     }
 
     fn token(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
@@ -172,111 +264,99 @@ impl Cursor<'_> {
         let Some(byte) = self.peek() else { return Ok(None) };
         let rest = &self.line[start..];
         match byte {
+            b'B' | b'b' => {}
             b';' => {
                 self.at = self.line.len();
                 if let Some(at) = start_point(&rest[1..]) {
                     return Ok(Some(Token::Other(Item::StartPoint { at, range: self.range(start) })));
                 }
-                Ok(two_numbers(&rest[1..]).map(Token::Coordinates))
+                return Ok(stated_point(before_comment(&rest[1..])).map(Token::Coordinates));
             }
-            // Some writers open with a heading between rows of stars.
-            b'*' => {
-                self.at = self.line.len();
-                Ok(None)
-            }
-            b'0'..=b'9' | b'-' | b'+' | b'.' if start > 0 => match two_numbers(rest) {
-                Some(end) => {
-                    self.at = self.line.len();
-                    Ok(Some(Token::Coordinates(end)))
+            // Some writers open with a heading between rows of stars; brackets and slashes open comments elsewhere.
+            b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' | 0x80.. => return Ok(self.comment()),
+            b'(' => match row_number(rest) {
+                Some((number, length)) if !self.behind_block => {
+                    self.at += length;
+                    return Ok(Some(Token::Number(number)));
                 }
-                None => Err(self.fault("a block or a comment after `;`")),
+                _ => return Ok(self.comment()),
             },
-            _ => self.word_or_block(words),
+            b'0'..=b'9' | b'-' | b'+' | b'.' => {
+                if self.behind_block
+                    && let Some(end) = stated_point(before_comment(rest))
+                {
+                    self.at = self.line.len();
+                    return Ok(Some(Token::Coordinates(end)));
+                }
+                if !self.behind_block
+                    && let Some((number, length)) = row_number(rest)
+                {
+                    self.at += length;
+                    return Ok(Some(Token::Number(number)));
+                }
+            }
+            _ => {}
         }
+        self.word_or_block(words)
+    }
+
+    fn comment(&mut self) -> Option<Token> {
+        self.at = self.line.len();
+        None
     }
 
     fn word_or_block(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
         let start = self.at;
         let rest = &self.line[start..];
+        if let Some((block, part, length)) = fields::strict(rest) {
+            self.at += length;
+            return Ok(Some(Token::Block { block, part, range: self.range(start), row: None, faults: Vec::new() }));
+        }
         let length = rest.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(rest.len());
         if length > 0
             && let Some(word) = words.meaning(&rest[..length])
         {
+            let is_own = words.is_own(&rest[..length]);
             self.at += length;
-            return Ok(Some(Token::Other(Item::Word { word, range: self.range(start) })));
+            return Ok(Some(Token::Word { word, is_own, range: self.range(start) }));
         }
         if let Some(at) = start_point(rest) {
             self.at = self.line.len();
             return Ok(Some(Token::Other(Item::StartPoint { at, range: self.range(start) })));
         }
-        if self.take(b'N') {
-            let number = self.digits("a block number after N")?;
-            self.take(b':');
-            return Ok(Some(Token::Number(number.and_then(|number| u32::try_from(number).ok()).unwrap_or(u32::MAX))));
+        if matches!(rest.first(), Some(b'N' | b'n'))
+            && let Some((number, length)) = n_word(rest)
+        {
+            self.at += length;
+            return Ok(Some(Token::Number(number)));
         }
-        if !self.take(b'B') {
-            return Err(self.fault("a block (B X B Y B J G Z), a pause or end word, or a comment after `;`"));
+        if !wants_to_be_a_block(rest) {
+            self.at = self.line.len();
+            let end = start + rest.trim_ascii_end().len();
+            return Ok(Some(Token::Other(Item::Text { range: self.offset + start..self.offset + end, column: start + 1 })));
         }
-        let block = self.block()?;
-        Ok(Some(Token::Block(block, self.range(start))))
-    }
-
-    /// The block behind its first `B`.
-    fn block(&mut self) -> Result<Block, SyntaxFault> {
-        let x = self.digits("")?.unwrap_or(0);
-        self.expect(b'B', "digits of X, or B before Y")?;
-        let y = self.digits("")?.unwrap_or(0);
-        self.expect(b'B', "digits of Y, or B before J")?;
-        let j = self.digits("the counting length J in µm")?.unwrap_or(0);
-        self.expect(b'G', "G and the counting axis, GX or GY")?;
-        let axis = match (self.take(b'X'), self.at) {
-            (true, _) => CountingAxis::X,
-            (false, _) if self.take(b'Y') => CountingAxis::Y,
-            _ => return Err(self.fault("X or Y after G")),
-        };
-        let kind: fn(Quadrant) -> Motion = if self.take(b'L') {
-            Motion::Line
-        } else if self.take(b'S') {
-            self.expect(b'R', "R of SR")?;
-            Motion::Clockwise
-        } else if self.take(b'N') {
-            self.expect(b'R', "R of NR")?;
-            Motion::CounterClockwise
-        } else {
-            return Err(self.fault("L, SR or NR and a quadrant"));
-        };
-        self.skip_space();
-        let quadrant = self.peek().and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
-        let Some(quadrant) = quadrant else { return Err(self.fault("a quadrant from 1 to 4")) };
-        self.at += 1;
-        Ok(Block { x, y, j, axis, motion: kind(quadrant) })
-    }
-
-    fn expect(&mut self, letter: u8, expected: &str) -> Result<(), SyntaxFault> {
-        if self.take(letter) { Ok(()) } else { Err(self.fault(expected)) }
-    }
-
-    /// A number without sign; `None` for no digit, which is a fault where `required` says what it would be.
-    fn digits(&mut self, required: &str) -> Result<Option<i64>, SyntaxFault> {
-        self.skip_space();
-        let start = self.at;
-        let mut value: i64 = 0;
-        let mut significant = 0;
-        while let Some(digit @ b'0'..=b'9') = self.peek() {
-            significant += usize::from(significant > 0 || digit != b'0');
-            if significant <= MOST_DIGITS {
-                value = value * 10 + i64::from(digit - b'0');
+        match fields::lenient(rest) {
+            Ok(found) => {
+                self.at += found.fields.end;
+                let faults = found.faults.into_iter().map(|fault| self.placed(fault, start)).collect();
+                let (Fields { first, .. }, end) = (&found.fields, self.at);
+                let range = self.offset + start + first..self.offset + end;
+                Ok(Some(Token::Block { block: found.block, part: found.part, range, row: found.row, faults }))
             }
-            self.at += 1;
+            Err((at, expected)) => {
+                self.at = start + at;
+                Err(self.fault(&expected))
+            }
         }
-        if significant > MOST_DIGITS {
-            let sentence = format!("column {}: found a number of {significant} digits, expected at most {MOST_DIGITS}", start + 1);
-            return Err(SyntaxFault { range: self.range(start), sentence });
-        }
-        if self.at == start && !required.is_empty() {
-            return Err(self.fault(required));
-        }
-        Ok((self.at > start).then_some(value))
+    }
+
+    fn placed(&self, fault: SyntaxFault, start: usize) -> SyntaxFault {
+        let shift = self.offset + start;
+        let flaw = match fault.flaw {
+            Flaw::MissingB { at } => Flaw::MissingB { at: at + shift },
+            flaw => flaw,
+        };
+        SyntaxFault { range: fault.range.start + shift..fault.range.end + shift, flaw }
     }
 
     fn range(&self, start: usize) -> Range<usize> {
@@ -290,32 +370,240 @@ impl Cursor<'_> {
         if rest.is_empty() {
             // There is nothing to underline behind the end, so the last byte stands for it.
             let range = self.offset + self.at.saturating_sub(1)..self.offset + self.at;
-            return SyntaxFault { range, sentence: format!("column {column}: the line ends, expected {expected}") };
+            return SyntaxFault { range, flaw: Flaw::Unreadable(format!("column {column}: the line ends, expected {expected}")) };
         }
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len()).max(1);
-        let shown: String = String::from_utf8_lossy(&rest[..length.min(48)]).chars().take(12).collect();
         let range = self.offset + self.at..self.offset + self.at + length;
-        SyntaxFault { range, sentence: format!("column {column}: found `{shown}`, expected {expected}") }
+        SyntaxFault { range, flaw: Flaw::Unreadable(format!("column {column}: found `{}`, expected {expected}", shown(&rest[..length]))) }
+    }
+
+    /// Goes behind the quadrant that the broken block ends in, where more blocks may stand; false where there is none.
+    fn skip_broken_block(&mut self) -> bool {
+        let rest = &self.line[self.at..];
+        let comment = rest.iter().position(|&byte| byte == b';').unwrap_or(rest.len());
+        let is_end = |window: &[u8]| matches!(window, [b'L' | b'R' | b'l' | b'r', b'1'..=b'4']);
+        match rest[..comment].windows(2).position(is_end) {
+            Some(at) => {
+                self.at += at + 2;
+                self.behind_block = true;
+                true
+            }
+            None => false,
+        }
     }
 }
 
+/// The first characters of what was found.
+fn shown(bytes: &[u8]) -> String {
+    let word = bytes.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+    String::from_utf8_lossy(&word[..word.len().min(48)]).chars().take(12).collect()
+}
+
+/// `N12`, `N 12`, `N12:`: the number, and how many bytes it takes.
+fn n_word(text: &[u8]) -> Option<(u32, usize)> {
+    let digits = 1 + text[1..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    let (number, length) = digits_of(&text[digits..])?;
+    let mut end = digits + length;
+    let space = text[end..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    if text.get(end + space) == Some(&b':') {
+        end += space + 1;
+    }
+    Some((number, end))
+}
+
+/// A number of a row that is marked as one: `(1)`, `1)`, `1.`, `1:`, `1、`.
+fn row_number(text: &[u8]) -> Option<(u32, usize)> {
+    let open = usize::from(text.first() == Some(&b'('));
+    let (number, length) = digits_of(&text[open..])?;
+    let behind = &text[open + length..];
+    let mark = match (open, behind.first()?) {
+        (_, b')') => 1,
+        (0, b':') => 1,
+        (0, b'.') if !behind.get(1).is_some_and(u8::is_ascii_digit) => 1,
+        (0, _) if behind.starts_with("、".as_bytes()) => "、".len(),
+        _ => return None,
+    };
+    Some((number, open + length + mark))
+}
+
+fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
+    let length = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let digits = std::str::from_utf8(text.get(..length)?).ok().filter(|digits| !digits.is_empty())?;
+    Some((digits.parse().unwrap_or(u32::MAX), length))
+}
+
+/// Whether text has enough of a block to be taken for a broken one.
+fn wants_to_be_a_block(text: &[u8]) -> bool {
+    let code = &text[..text.iter().position(|&byte| byte == b';').unwrap_or(text.len()).min(160)];
+    let followed_by = |first: &[u8], fits: fn(u8) -> bool| {
+        let mut count = 0;
+        for (at, byte) in code.iter().enumerate() {
+            let next = code[at + 1..].iter().find(|byte| !matches!(byte, b' ' | b'\t' | b'|'));
+            count += usize::from(first.contains(&byte.to_ascii_uppercase()) && next.is_some_and(|&next| fits(next)));
+        }
+        count
+    };
+    let numbers = followed_by(b"B", |byte| byte.is_ascii_digit());
+    let axes = followed_by(b"G", |byte| matches!(byte.to_ascii_uppercase(), b'X' | b'Y'));
+    let ends = followed_by(b"LR", |byte| byte.is_ascii_digit());
+    let begins = matches!(code.first().map(u8::to_ascii_uppercase), Some(b'B' | b'0'..=b'9'));
+    let kinds = usize::from(numbers > 0) + usize::from(axes > 0) + usize::from(ends > 0);
+    kinds >= 2 || (begins && (numbers >= 2 || kinds == 1 && code.iter().filter(|byte| byte.eq_ignore_ascii_case(&b'B')).count() >= 2))
+}
+
 /// The point of `Start Point = x , y`.
-fn start_point(text: &[u8]) -> Option<[f64; 2]> {
+pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
     let text = text.trim_ascii_start();
     let name = b"start point";
     if !text.get(..name.len())?.eq_ignore_ascii_case(name) {
         return None;
     }
-    let value = text[name.len()..].trim_ascii_start().strip_prefix(b"=")?;
-    let value = &value[..value.iter().position(|&byte| byte == b';').unwrap_or(value.len())];
-    two_numbers(value)
+    let value = text[name.len()..].trim_ascii_start();
+    let value = value.strip_prefix(b"=").or_else(|| value.strip_prefix(b":"))?;
+    two_numbers(before_comment(value))
 }
 
-/// `x , y` or `x y`, and nothing else.
-fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
+/// What stands before a `;`.
+pub(super) fn before_comment(text: &[u8]) -> &[u8] {
+    text.split(|&byte| byte == b';').next().unwrap_or_default()
+}
+
+/// `x , y` or `x y`, and nothing else, mm.
+pub(super) fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
+    stated_point(text).map(|point| point.at)
+}
+
+/// `x , y`, `x y`, `X=x Y=y`, in brackets or not, and nothing else.
+fn stated_point(text: &[u8]) -> Option<StatedPoint> {
     let text = std::str::from_utf8(text).ok()?;
-    let mut fields = text.split(|c: char| c == ',' || c.is_ascii_whitespace()).filter(|field| !field.is_empty());
-    let mut number = || fields.next()?.parse::<f64>().ok().filter(|value| value.is_finite());
-    let numbers = [number()?, number()?];
-    fields.next().is_none().then_some(numbers)
+    let is_between =
+        |c: char| matches!(c, ',' | '(' | ')' | '[' | ']' | '=' | ':' | 'X' | 'Y' | 'x' | 'y' | '|') || c.is_ascii_whitespace();
+    let mut fields = text.split(is_between).filter(|field| !field.is_empty());
+    let mut decimals = usize::MAX;
+    let mut number = || {
+        let field = fields.next()?.trim_end_matches("mm");
+        decimals = decimals.min(field.split_once('.').map_or(0, |(_, places)| places.len()));
+        field.parse::<f64>().ok().filter(|value| value.is_finite())
+    };
+    let at = [number()?, number()?];
+    fields.next().is_none().then_some(StatedPoint { at, decimals: decimals.min(9) as u8 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::block::{CountingAxis, Motion};
+    use super::*;
+
+    /// Blocks, words and faults of a line in one readable row.
+    fn check(line: &str, expected: &str) {
+        let mut said = Vec::new();
+        read_line(line.as_bytes(), 100, &Words::default(), |item| {
+            said.push(match item {
+                Item::Block { block, number, stated_end, part, .. } => {
+                    let motion = match block.motion {
+                        Motion::Line(quadrant) => format!("L{}", quadrant.number()),
+                        Motion::Clockwise(quadrant) => format!("SR{}", quadrant.number()),
+                        Motion::CounterClockwise(quadrant) => format!("NR{}", quadrant.number()),
+                    };
+                    let number = number.map_or_else(String::new, |number| format!("N{number} "));
+                    let end = stated_end.map_or_else(String::new, |end| format!(" at {:?}", end.at));
+                    let axis = if block.axis == CountingAxis::X { 'X' } else { 'Y' };
+                    let part = part.map_or_else(String::new, |part| format!(" R{} {}", part.radius, if part.concave { "DD" } else { "D" }));
+                    format!("{number}{},{},{} {axis} {motion}{part}{end}", block.x, block.y, block.j)
+                }
+                Item::Word { word, number, .. } => format!("{}{word:?}", number.map_or_else(String::new, |number| format!("N{number} "))),
+                Item::StartPoint { at, .. } => format!("start {at:?}"),
+                Item::Text { range, .. } => format!("text {}..{}", range.start - 100, range.end - 100),
+                Item::Fault(fault) => format!("! {}..{} {}", fault.range.start - 100, fault.range.end - 100, fault.sentence()),
+            });
+        });
+        assert_eq!(said.join(" / "), expected, "{line}");
+    }
+
+    #[test]
+    fn every_layout_is_read() {
+        for line in [
+            "B9900B0B39600GYNR1",
+            "b 9900 b 0 b 39600 gy nr 1",
+            "  B  9900 B     0 B 039600 GY NR1 ; round the hole",
+            "B9900BB39600GYNR1",
+            "B\t9900\tB\tB\t39600\tG\tY\tN\tR\t1",
+            "|B 9900|B 0|B 39600|GY|NR1|",
+        ] {
+            check(line, "9900,0,39600 Y NR1");
+        }
+        for line in [
+            "N12B9900B0B9900GXL1",
+            "N 12: B9900B0B9900GXL1",
+            "n0012 b9900 b0 b9900 gx l1",
+            "12 B9900B0B9900GXL1",
+            "(12) B9900B0B9900GXL1",
+            "12. B9900B0B9900GXL1",
+        ] {
+            check(line, "N12 9900,0,9900 X L1");
+        }
+        for line in [
+            "B0B21500B21500GYL2 ; 1.5 , 21.5",
+            "B0B21500B21500GYL2  1.500   21.500",
+            "BBB021500GYL2 ; X=1.5, Y=21.5",
+            "B B B21500 GY L2 (1.5,21.5)",
+        ] {
+            let ratio = if line.contains("B0B2") { "0,21500" } else { "0,0" };
+            let point = if line.contains('(') { String::new() } else { " at [1.5, 21.5]".into() };
+            check(line, &format!("{ratio},21500 Y L2{point}"));
+        }
+        check("B40000BB040000GXL1 B1B9B090000GYL1 DD", "40000,0,40000 X L1 / 1,9,90000 Y L1 / End");
+        check("N13: DD ; the end", "N13 End");
+        check("Start Point = -1.5 , 2", "start [-1.5, 2.0]");
+        check("; Start Point = 1.50000 , 2.0 ; X , Y", "start [1.5, 2.0]");
+        check("B0B5000B10000B5000GXDDNR1", "0,5000,10000 X NR1 R5000 DD");
+        check("B 3000 B 4000 B 6000 B 5000 GX D SR 1", "3000,4000,6000 X SR1 R5000 D");
+    }
+
+    #[test]
+    fn headings_and_comments_are_no_faults() {
+        for line in [
+            "****************",
+            "; anything B1 B2 GX",
+            "% 0001",
+            "(plate 12)",
+            "/ skipped",
+            "\u{7a0b}\u{5e8f}\u{5982}\u{4e0b}",
+            "",
+            "   \t ",
+        ] {
+            check(line, "");
+        }
+        check("CAXAWEDM -Version 2.0 , Name : 1.3B", "text 0..35");
+        check("Conner R= 0.00000    , Offset F= 0.10000 ,Length= 125.000 mm", "text 0..60");
+        check("START", "text 0..5");
+    }
+
+    #[test]
+    fn what_was_meant_is_read_and_the_fault_said() {
+        check("9900B0B9900GXL1", "! 0..4 a B of the block is missing / 9900,0,9900 X L1");
+        check("N3 9900B0B9900GXL1", "! 3..7 a B of the block is missing / N3 9900,0,9900 X L1");
+        check("B9900 0B9900GXL1", "! 6..7 a B of the block is missing / 9900,0,9900 X L1");
+        check("B9900B0 9900GXL1", "! 8..12 a B of the block is missing / 9900,0,9900 X L1");
+        check("B99000B9900GXL1", "! 0..11 a B of the block is missing / 9900,0,9900 X L1");
+        check("B25B9900B0B9900GXL1", "! 0..3 B25 stands where N25 was meant / N25 9900,0,9900 X L1");
+        check("B 25 B 9900 B 0 B 39600 GY NR1", "! 0..4 B25 stands where N25 was meant / N25 9900,0,39600 Y NR1");
+        check("B9900BOB9900GXL1", "! 6..7 the letter O stands where a zero was meant / 9900,0,9900 X L1");
+    }
+
+    #[test]
+    fn a_broken_block_is_said_with_its_column_and_hides_no_other() {
+        check("B1B2GXL1", "! 4..8 column 5: found `GXL1`, expected digits of Y, or B before J");
+        check("B1000B0B1000GX", "! 13..14 column 15: the line ends, expected L, SR or NR and a quadrant");
+        check("B1000B0B1000GXL5", "! 15..16 column 16: found `5`, expected a quadrant from 1 to 4");
+        check("B1000B0B1000GZL1", "! 13..16 column 14: found `ZL1`, expected X or Y after G");
+        check("B1000B0BGXL1", "! 8..12 column 9: found `GXL1`, expected the counting length J in \u{b5}m");
+        check("B-5B0B5GXL1", "! 1..11 column 2: found `-5B0B5GXL1`, expected digits of X, or B before Y");
+        check(
+            "B1000B0B1000 B5B0B5GXL1 B7B0B7GXL1",
+            "! 13..23 column 14: found `B5B0B5GXL1`, expected G and the counting axis, GX or GY / 7,0,7 X L1",
+        );
+        check("B1x2B0B12GXL1 DD", "! 2..13 column 3: found `x2B0B12GXL1`, expected digits of X, or B before Y / End");
+        check("B1B0B1GXL1 hello", "1,0,1 X L1 / text 11..16");
+    }
 }

@@ -22,12 +22,15 @@ impl Proof {
     /// Reads `line` again, decodes it from its own node and compares it with its piece of the path.
     pub fn check_line(&mut self, line: &[u8], words: &Words<'_>, encoded: &Encoded) -> Result<(), String> {
         let mut read: Option<Block> = None;
-        let outcome = read_line(line, 0, words, |item| {
-            if let Item::Block { block, .. } = item {
-                read = Some(block);
-            }
+        let mut fault = None;
+        read_line(line, 0, words, |item| match item {
+            Item::Block { block, .. } => read = Some(block),
+            Item::Fault(found) => fault = Some(found),
+            _ => {}
         });
-        outcome.map_err(|fault| format!("a written block cannot be read again: {}", fault.sentence))?;
+        if let Some(fault) = fault {
+            return Err(format!("a written block cannot be read again: {}", fault.sentence()));
+        }
         match read {
             Some(block) if block == encoded.block => self.check_block(&block, encoded),
             _ => Err(format!("a written block reads as {read:?}, not as {:?}", encoded.block)),

@@ -2,7 +2,7 @@
 
 use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
 use super::encode::{END_TOLERANCE, Encoded, encode, point_of, snap};
-use super::parse::{Item, Word, Words, read};
+use super::parse::{Item, StatedPoint, Word, Words, read};
 use super::write::{ProofError, ProvedProgram, write, write_with};
 use super::{DecodeFault, decode};
 use crate::drawing::EntityId;
@@ -180,8 +180,14 @@ fn text_of_every_writer_is_read() {
         items,
         [
             Item::StartPoint { at: [1.5, -2.0], range: 0..24 },
-            Item::Block { block, range: 29..38, number: Some(7), stated_end: Some([1.505, -2.0]) },
-            Item::Word { word: Word::Pause, range: 54..55 },
+            Item::Block {
+                block,
+                range: 29..38,
+                number: Some(7),
+                stated_end: Some(StatedPoint { at: [1.505, -2.0], decimals: 1 }),
+                part: None
+            },
+            Item::Word { word: Word::Pause, is_own: true, range: 54..55, number: None },
         ]
     );
 }
@@ -194,12 +200,12 @@ fn a_damaged_line_says_what_was_expected_where() {
         ("B9900B0B9900", "column 13: the line ends, expected G and the counting axis, GX or GY"),
         ("B9900B0BGXL1", "column 9: found `GXL1`, expected the counting length J in µm"),
         ("B-9900B0B9900GXL1", "column 2: found `-9900B0B9900`, expected digits of X, or B before Y"),
-        ("B1B1B99999999999999999999GXL1", "column 6: found a number of 20 digits, expected at most 12"),
+        ("B1B1B99999999999999999999GXL1", "column 6: found `999999999999`, expected at most 12 digits"),
         ("B1B1B5GXMR1", "column 9: found `MR1`, expected L, SR or NR and a quadrant"),
-        ("XY", "column 1: found `XY`, expected a block (B X B Y B J G Z), a pause or end word, or a comment after `;`"),
+        ("B1B0B1GXL1\nXY", "column 1: found `XY`, expected a block (B X B Y B J G Z), a pause or end word, or a comment after `;`"),
     ] {
         let (_, faults) = read(text.as_bytes(), &Words::default());
-        assert_eq!(faults.iter().map(|fault| fault.sentence.as_str()).collect::<Vec<_>>(), [sentence]);
+        assert_eq!(faults.iter().map(|fault| fault.sentence()).collect::<Vec<_>>(), [sentence]);
     }
 }
 

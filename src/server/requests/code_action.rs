@@ -1,9 +1,8 @@
 //! `textDocument/codeAction`: the fixes of findings, and one action that makes every safe fix.
 
-use super::{Errand, Subject, run, subject_of};
+use super::{Errand, SMALL, Subject, run, subject_of};
 use crate::document::{Document, Source};
-use crate::drawing::DrawingEdit as CoreEdit;
-use crate::finding::{Finding, Fix, Place};
+use crate::finding::{Edit, Finding, Fix, Place};
 use crate::message::en;
 use crate::protocol::{self, Diagnostic, FindingData, method};
 use crate::server::convert;
@@ -26,7 +25,7 @@ pub(in crate::server) fn code_action(state: &mut State, params: CodeActionParams
         Err(error) => {
             let _ = errand.reply.send(Err(error));
         }
-        // Nothing can be fixed in a text that holds no drawing.
+        // Nothing can be fixed in a text that is neither drawing nor program.
         Ok(None) => {
             let _ = errand.reply.send(Ok(Some(CodeActionResponse::new())));
         }
@@ -53,10 +52,12 @@ fn prepare(state: &mut State, params: &CodeActionParams) -> Result<Option<(Subje
     let shows_related = state.client.abilities.related_information;
     let open = state.document(uri.as_str())?;
     let target = Target { uri: uri.clone(), version: open.version, encoding, document_changes, shows_related };
-    match open.document().is_some_and(|document| document.drawing().is_some()) {
-        true => Ok(Some((subject_of(state, uri.as_str())?, target))),
-        false => Ok(None),
+    let Some(document) = open.document() else { return Ok(None) };
+    if document.program().is_some() {
+        let small = document.text().is_none_or(|text| text.line_count() <= SMALL);
+        return Ok(Some((Subject { document: document.clone(), stamp: open.stamp, small }, target)));
     }
+    Ok(Some((subject_of(state, uri.as_str())?, target)))
 }
 
 fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> CodeActionResponse {
@@ -93,14 +94,22 @@ fn wants(context: &CodeActionContext, kind: &str) -> bool {
 fn chosen(document: &Document, params: &CodeActionParams, encoding: Encoding) -> Vec<Finding> {
     let findings = document.all_findings();
     let named: FxHashSet<(String, String, usize)> = params.context.diagnostics.iter().filter_map(name_of).collect();
+    // In a program, rule and line say which: its findings have no handle.
+    let said: FxHashSet<(String, u32)> =
+        params.context.diagnostics.iter().filter_map(|diagnostic| Some((rule_of(diagnostic)?, diagnostic.range.start.line))).collect();
+    let said_of = |finding: &Finding| {
+        let (text, range) = (document.text()?, document.range_of(&finding.place)?);
+        Some((finding.rule.name().to_owned(), convert::range_of(text, range, encoding).start.line))
+    };
     let drawing = document.drawing().cloned().unwrap_or_default();
     let in_range = in_range(document, params.range, encoding);
-    let is_chosen = |finding: &Finding| match (named.is_empty(), &finding.place) {
+    let is_named = if document.program().is_some() { !said.is_empty() } else { !named.is_empty() };
+    let is_chosen = |finding: &Finding| match (!is_named, &finding.place) {
         (true, _) => in_range(document, finding),
         (false, Place::Segment { entity, segment }) => drawing
             .get(*entity)
             .is_some_and(|entity| named.contains(&(finding.rule.name().to_owned(), entity.handle.to_string(), *segment))),
-        (false, _) => false,
+        (false, _) => said_of(finding).is_some_and(|name| said.contains(&name)),
     };
     let chosen: Vec<Finding> = findings.iter().filter(|finding| is_chosen(finding)).take(LISTED).cloned().collect();
     chosen
@@ -109,11 +118,14 @@ fn chosen(document: &Document, params: &CodeActionParams, encoding: Encoding) ->
 /// Rule, handle and segment that a client's diagnostic names.
 fn name_of(diagnostic: &ls_types::Diagnostic) -> Option<(String, String, usize)> {
     let data: FindingData = serde_json::from_value(diagnostic.data.clone()?).ok()?;
-    let rule = match diagnostic.code.as_ref()? {
-        ls_types::NumberOrString::String(rule) => rule.clone(),
-        ls_types::NumberOrString::Number(_) => return None,
-    };
-    Some((rule, data.handle?, data.segment?))
+    Some((rule_of(diagnostic)?, data.handle?, data.segment?))
+}
+
+fn rule_of(diagnostic: &ls_types::Diagnostic) -> Option<String> {
+    match diagnostic.code.as_ref()? {
+        ls_types::NumberOrString::String(rule) => Some(rule.clone()),
+        ls_types::NumberOrString::Number(_) => None,
+    }
 }
 
 /// Whether a finding lies in the range: by line in a drawing, by the bytes of its number or of its segment in a text.
@@ -137,7 +149,14 @@ fn in_range(document: &Document, range: Range, encoding: Encoding) -> impl Fn(&D
     }
 }
 
-fn quick_fix(document: &Document, target: &Target, diagnostic: &Diagnostic, fix: &Fix, first: bool, unit_mm: f64) -> Option<CodeAction> {
+fn quick_fix(
+    document: &Document,
+    target: &Target,
+    diagnostic: &Diagnostic,
+    fix: &Fix<Edit>,
+    first: bool,
+    unit_mm: f64,
+) -> Option<CodeAction> {
     let action = CodeAction {
         title: en::title(&fix.kind, unit_mm),
         kind: Some(CodeActionKind::QUICKFIX),
@@ -149,9 +168,9 @@ fn quick_fix(document: &Document, target: &Target, diagnostic: &Diagnostic, fix:
 }
 
 /// The action with its edit in the form that the document takes; `None` where the edit cannot be made there.
-fn with_edit(document: &Document, target: &Target, action: CodeAction, edit: &CoreEdit) -> Option<CodeAction> {
-    match document.source() {
-        Source::Dxf(dxf) => match dxf.text_edits(edit) {
+fn with_edit(document: &Document, target: &Target, action: CodeAction, edit: &Edit) -> Option<CodeAction> {
+    match (document.source(), edit) {
+        (Source::Dxf(dxf), Edit::Drawing(edit)) => match dxf.text_edits(edit) {
             Ok(edits) => {
                 let edits = convert::lsp_edits(dxf.text(), edits, target.encoding);
                 Some(CodeAction { edit: Some(workspace_edit(target, edits)), ..action })
@@ -161,7 +180,7 @@ fn with_edit(document: &Document, target: &Target, action: CodeAction, edit: &Co
                 None
             }
         },
-        Source::Cad(drawing) => {
+        (Source::Cad(drawing), Edit::Drawing(edit)) => {
             let changes = protocol::changes_of(drawing, edit);
             let argument = protocol::DrawingEdit { uri: target.uri.as_str().into(), version: target.version, changes };
             let arguments = vec![serde_json::to_value(argument).ok()?];
@@ -169,7 +188,11 @@ fn with_edit(document: &Document, target: &Target, action: CodeAction, edit: &Co
                 Command { title: action.title.clone(), command: method::APPLY_DRAWING_EDIT_COMMAND.into(), arguments: Some(arguments) };
             Some(CodeAction { command: Some(command), ..action })
         }
-        Source::ThreeB(_) => None,
+        (_, Edit::Text(edits)) => {
+            let edits = convert::lsp_edits(document.text()?, edits.clone(), target.encoding);
+            Some(CodeAction { edit: Some(workspace_edit(target, edits)), ..action })
+        }
+        (Source::Program(_), Edit::Drawing(_)) => None,
     }
 }
 

@@ -6,8 +6,10 @@ pub(super) mod drawing_edit;
 pub(super) mod generate;
 pub(super) mod inspect;
 pub(super) mod language;
+pub(super) mod locate;
 pub(super) mod picture;
 pub(super) mod probe;
+pub(super) mod settings;
 pub(super) mod toolpath;
 
 use super::convert;

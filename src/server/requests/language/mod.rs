@@ -27,7 +27,7 @@ fn dxf_in(open: &Open) -> Option<&dxf::Document> {
     match &open.content {
         Content::Read(document) => match document.source() {
             Source::Dxf(dxf) => Some(dxf),
-            Source::Cad(_) | Source::ThreeB(_) => None,
+            Source::Cad(_) | Source::Program(_) => None,
         },
         _ => None,
     }

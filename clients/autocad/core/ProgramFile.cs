@@ -1,0 +1,31 @@
+using System.IO;
+using System.Text;
+
+namespace Wedm.Core
+{
+    /// <summary>Writes a program beside its target and puts it in the target's place, so that no half program ever stands there.</summary>
+    public static class ProgramFile
+    {
+        /// <exception cref="IOException">It cannot be written; the target is as it was.</exception>
+        public static void Write(string path, string program)
+        {
+            var beside = path + ".wedm-new";
+            try
+            {
+                File.WriteAllText(beside, program, new UTF8Encoding(false));
+                if (File.Exists(path))
+                {
+                    File.Replace(beside, path, null);
+                }
+                else
+                {
+                    File.Move(beside, path);
+                }
+            }
+            finally
+            {
+                File.Delete(beside);
+            }
+        }
+    }
+}

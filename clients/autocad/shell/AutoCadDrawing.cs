@@ -1,0 +1,267 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using Autodesk.AutoCAD.ApplicationServices;
+using Autodesk.AutoCAD.DatabaseServices;
+using Autodesk.AutoCAD.Geometry;
+using Wedm.Core;
+using CadEntity = Autodesk.AutoCAD.DatabaseServices.Entity;
+using Entity = Wedm.Core.Entity;
+
+namespace Wedm.AutoCad
+{
+    /// <summary>
+    /// A document's modelspace as the core sees it. Plane entities whose extrusion is +Z or −Z are known, in world coordinates; all
+    /// others stay out, as they do in the server.
+    /// </summary>
+    internal sealed class AutoCadDrawing : IDrawingHost
+    {
+        private const double DegreesPerRadian = 180.0 / Math.PI;
+
+        private readonly Document _document;
+
+        public AutoCadDrawing(Document document)
+        {
+            _document = document;
+        }
+
+        private Database Database => _document.Database;
+
+        public string Units
+        {
+            get
+            {
+                switch (Database.Insunits)
+                {
+                    case UnitsValue.Millimeters:
+                        return "mm";
+                    case UnitsValue.Inches:
+                        return "inch";
+                    default:
+                        return null;
+                }
+            }
+        }
+
+        public IEnumerable<Entity> ReadAll()
+        {
+            using (var transaction = Database.TransactionManager.StartOpenCloseTransaction())
+            {
+                var modelspace = (BlockTableRecord)transaction.GetObject(SymbolUtilityServices.GetBlockModelSpaceId(Database), OpenMode.ForRead);
+                var entities = modelspace.Cast<ObjectId>().Select(id => Known(transaction.GetObject(id, OpenMode.ForRead))).Where(entity => entity != null);
+                return entities.ToArray();
+            }
+        }
+
+        public Entity Read(string handle)
+        {
+            using (var transaction = Database.TransactionManager.StartOpenCloseTransaction())
+            {
+                return TryFind(handle, out var id) ? Known(transaction.GetObject(id, OpenMode.ForRead, true)) : null;
+            }
+        }
+
+        /// <summary>The object of a handle; false where it is gone.</summary>
+        public bool TryFind(string handle, out ObjectId id)
+        {
+            id = ObjectId.Null;
+            return long.TryParse(handle, NumberStyles.AllowHexSpecifier, CultureInfo.InvariantCulture, out var number)
+                && Database.TryGetObjectId(new Handle(number), out id)
+                && !id.IsErased;
+        }
+
+        public string Write(IReadOnlyList<KeyValuePair<string, Entity>> entities)
+        {
+            try
+            {
+                // One transaction under one lock is one step of undo.
+                using (_document.LockDocument())
+                using (var transaction = Database.TransactionManager.StartTransaction())
+                {
+                    foreach (var entity in entities)
+                    {
+                        Write(transaction, entity.Key, entity.Value);
+                    }
+                    transaction.Commit();
+                    return null;
+                }
+            }
+            catch (Autodesk.AutoCAD.Runtime.Exception fault)
+            {
+                return "AutoCAD refused the change: " + fault.ErrorStatus;
+            }
+        }
+
+        private void Write(Transaction transaction, string handle, Entity entity)
+        {
+            if (!TryFind(handle, out var id))
+            {
+                if (entity != null)
+                {
+                    Append(transaction, entity);
+                }
+                return;
+            }
+            var there = (CadEntity)transaction.GetObject(id, OpenMode.ForWrite);
+            if (entity == null)
+            {
+                there.Erase();
+            }
+            else if (!Set(there, entity))
+            {
+                // Another kind stands in its place: it takes over layer, colour and linetype.
+                var fresh = Append(transaction, entity);
+                fresh.SetPropertiesFrom(there);
+                there.Erase();
+            }
+        }
+
+        private CadEntity Append(Transaction transaction, Entity entity)
+        {
+            var modelspace = (BlockTableRecord)transaction.GetObject(SymbolUtilityServices.GetBlockModelSpaceId(Database), OpenMode.ForWrite);
+            var fresh = Blank(entity);
+            fresh.SetDatabaseDefaults(Database);
+            fresh.Layer = entity.Layer;
+            Set(fresh, entity);
+            modelspace.AppendEntity(fresh);
+            transaction.AddNewlyCreatedDBObject(fresh, true);
+            return fresh;
+        }
+
+        private static CadEntity Blank(Entity entity)
+        {
+            if (entity is PolylineEntity)
+            {
+                return new Polyline();
+            }
+            if (entity is LineEntity)
+            {
+                return new Line();
+            }
+            if (entity is ArcEntity)
+            {
+                return new Arc();
+            }
+            if (entity is CircleEntity)
+            {
+                return new Circle();
+            }
+            throw new NotSupportedException("a text is never written");
+        }
+
+        /// <summary>Gives an object of AutoCAD's the geometry of an entity; false where it is of another kind.</summary>
+        private static bool Set(CadEntity there, Entity entity)
+        {
+            if (there is Polyline polyline && entity is PolylineEntity wanted)
+            {
+                SetVertices(polyline, wanted);
+            }
+            else if (there is Line line && entity is LineEntity wantedLine)
+            {
+                line.StartPoint = At(wantedLine.Start, line.StartPoint.Z);
+                line.EndPoint = At(wantedLine.End, line.EndPoint.Z);
+            }
+            else if (there is Arc arc && entity is ArcEntity wantedArc)
+            {
+                var mirrored = arc.Normal.Z < 0;
+                arc.Center = At(wantedArc.Center, arc.Center.Z);
+                arc.Radius = wantedArc.Radius;
+                arc.StartAngle = (mirrored ? 180 - wantedArc.EndAngleDeg : wantedArc.StartAngleDeg) / DegreesPerRadian;
+                arc.EndAngle = (mirrored ? 180 - wantedArc.StartAngleDeg : wantedArc.EndAngleDeg) / DegreesPerRadian;
+            }
+            else if (there is Circle circle && entity is CircleEntity wantedCircle)
+            {
+                circle.Center = At(wantedCircle.Center, circle.Center.Z);
+                circle.Radius = wantedCircle.Radius;
+            }
+            else
+            {
+                return false;
+            }
+            return true;
+        }
+
+        /// <summary>Only vertices that differ are written, so that widths of the others stay.</summary>
+        private static void SetVertices(Polyline polyline, PolylineEntity wanted)
+        {
+            var mirror = Mirror(polyline.Normal);
+            for (var index = 0; index < wanted.Vertices.Count; index++)
+            {
+                var vertex = wanted.Vertices[index];
+                var point = new Point2d(vertex.X * mirror, vertex.Y);
+                if (index >= polyline.NumberOfVertices)
+                {
+                    polyline.AddVertexAt(index, point, vertex.Bulge * mirror, 0, 0);
+                }
+                else if (!vertex.Equals(VertexAt(polyline, index)))
+                {
+                    polyline.SetPointAt(index, point);
+                    polyline.SetBulgeAt(index, vertex.Bulge * mirror);
+                }
+            }
+            for (var index = polyline.NumberOfVertices - 1; index >= wanted.Vertices.Count; index--)
+            {
+                polyline.RemoveVertexAt(index);
+            }
+            polyline.Closed = wanted.Closed;
+        }
+
+        private Entity Known(DBObject found)
+        {
+            var entity = found as CadEntity;
+            if (entity == null || entity.IsErased || entity.OwnerId != SymbolUtilityServices.GetBlockModelSpaceId(Database))
+            {
+                return null;
+            }
+            var handle = entity.Handle.ToString();
+            if (entity is Polyline polyline && IsPlane(polyline.Normal) && polyline.NumberOfVertices > 0)
+            {
+                var vertices = Enumerable.Range(0, polyline.NumberOfVertices).Select(index => VertexAt(polyline, index)).ToArray();
+                return new PolylineEntity(handle, polyline.Layer, polyline.Closed, vertices);
+            }
+            if (entity is Line line && line.StartPoint.Z == line.EndPoint.Z)
+            {
+                return new LineEntity(handle, line.Layer, Flat(line.StartPoint), Flat(line.EndPoint));
+            }
+            if (entity is Arc arc && IsPlane(arc.Normal))
+            {
+                var start = arc.StartAngle * DegreesPerRadian;
+                var end = arc.EndAngle * DegreesPerRadian;
+                return arc.Normal.Z > 0
+                    ? new ArcEntity(handle, arc.Layer, Flat(arc.Center), arc.Radius, start, end)
+                    : new ArcEntity(handle, arc.Layer, Flat(arc.Center), arc.Radius, 180 - end, 180 - start);
+            }
+            if (entity is Circle circle && IsPlane(circle.Normal))
+            {
+                return new CircleEntity(handle, circle.Layer, Flat(circle.Center), circle.Radius);
+            }
+            if (entity is DBText text)
+            {
+                return new TextEntity(handle, text.Layer, Flat(text.Position), text.TextString);
+            }
+            if (entity is MText paragraph)
+            {
+                return new TextEntity(handle, paragraph.Layer, Flat(paragraph.Location), paragraph.Text);
+            }
+            return null;
+        }
+
+        /// <summary>In world coordinates: where the extrusion is −Z, AutoCAD's own x and bulge have the other sign.</summary>
+        private static Vertex VertexAt(Polyline polyline, int index)
+        {
+            var mirror = Mirror(polyline.Normal);
+            var point = polyline.GetPoint2dAt(index);
+            // Adding zero makes a plain zero out of a negative one.
+            return new Vertex((point.X * mirror) + 0.0, point.Y, (polyline.GetBulgeAt(index) * mirror) + 0.0);
+        }
+
+        private static double Mirror(Vector3d normal) => normal.Z < 0 ? -1 : 1;
+
+        private static bool IsPlane(Vector3d normal) => normal.X == 0 && normal.Y == 0;
+
+        private static double[] Flat(Point3d point) => new[] { point.X, point.Y };
+
+        private static Point3d At(double[] point, double z) => new Point3d(point[0], point[1], z);
+    }
+}

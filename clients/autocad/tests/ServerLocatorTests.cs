@@ -1,0 +1,51 @@
+using System.IO;
+using NUnit.Framework;
+using Wedm.Core;
+
+namespace Wedm.Tests
+{
+    [TestFixture]
+    public class ServerLocatorTests
+    {
+        private string _root;
+
+        [SetUp]
+        public void MakeFolders()
+        {
+            _root = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+            foreach (var folder in new[] { "beside", "path", "empty" })
+            {
+                Directory.CreateDirectory(Path.Combine(_root, folder));
+            }
+            File.WriteAllText(In("beside"), "");
+            File.WriteAllText(In("path"), "");
+        }
+
+        [TearDown]
+        public void RemoveFolders()
+        {
+            Directory.Delete(_root, true);
+        }
+
+        private string In(string folder) => Path.Combine(_root, folder, ServerLocator.ProgramName);
+
+        [Test]
+        public void The_setting_wins_then_the_plugins_folder_then_the_path()
+        {
+            var path = Path.Combine(_root, "empty") + Path.PathSeparator + Path.Combine(_root, "path");
+            Assert.AreEqual(In("path"), ServerLocator.Find(In("path"), Path.Combine(_root, "beside"), path));
+            Assert.AreEqual(In("beside"), ServerLocator.Find("", Path.Combine(_root, "beside"), path));
+            Assert.AreEqual(In("path"), ServerLocator.Find(null, Path.Combine(_root, "empty"), path));
+        }
+
+        [Test]
+        public void A_missing_server_is_said_with_the_way_to_get_it()
+        {
+            var fault = Assert.Throws<ServerMissingException>(() => ServerLocator.Find(null, Path.Combine(_root, "empty"), ""));
+            StringAssert.Contains("cargo install", fault.Message);
+            StringAssert.Contains(Path.Combine(_root, "empty"), fault.Message);
+            fault = Assert.Throws<ServerMissingException>(() => ServerLocator.Find("/no/such/wedm", Path.Combine(_root, "beside"), ""));
+            StringAssert.Contains("\"/no/such/wedm\"", fault.Message);
+        }
+    }
+}

@@ -1,0 +1,339 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.IO;
+using System.Linq;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+using Wedm.Core;
+
+namespace Wedm.Tests
+{
+    /// <summary>The core against the real server.</summary>
+    [TestFixture]
+    public class SessionTests
+    {
+        private readonly List<string> _messages = new List<string>();
+        private Session _session;
+
+        [SetUp]
+        public void Start()
+        {
+            _messages.Clear();
+            _session = new Session(Plates.Server);
+            _session.Message += _messages.Add;
+            _session.Start();
+        }
+
+        [TearDown]
+        public void Stop()
+        {
+            _session.Dispose();
+        }
+
+        private LiveDrawing Open(MemoryDrawing host, string uri = "cad:plate")
+        {
+            var drawing = _session.Open(uri, host);
+            host.Watcher = drawing;
+            _session.UntilChecked(drawing);
+            return drawing;
+        }
+
+        private string Outcome(Action<Action<string>, Action<string>> ask)
+        {
+            string outcome = null;
+            ask(done => outcome = "done: " + done, refused => outcome = "refused: " + refused);
+            _session.Until(() => outcome != null, "an answer");
+            return outcome;
+        }
+
+        private string Fix(LiveDrawing drawing, Finding finding = null) => Outcome((done, refused) => _session.Fix(drawing, finding, done, refused));
+
+        private static string[] Rules(LiveDrawing drawing) => drawing.Findings.Where(finding => finding.Severity == Severity.Error).Select(finding => finding.Rule).ToArray();
+
+        [Test]
+        public void A_tight_arc_is_found_fixed_in_one_step_of_undo_and_comes_back_with_it()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(0.05));
+            var drawing = Open(host);
+            CollectionAssert.AreEqual(new[] { "small-radius" }, Rules(drawing));
+            var finding = drawing.Findings.First(one => one.Rule == "small-radius");
+            Assert.AreEqual("2A", finding.Handle);
+            Assert.AreEqual(1, finding.Segment);
+            Assert.AreEqual(0.05, finding.Radius.Value, 1e-9);
+            StringAssert.StartsWith("done: Replace the arc by one of R 0.101 mm", Fix(drawing, finding));
+            _session.UntilChecked(drawing);
+            CollectionAssert.IsEmpty(Rules(drawing));
+            Assert.AreEqual(1, host.StepsOfUndo);
+            host.Undo();
+            Assert.AreEqual(1, drawing.Flush());
+            _session.UntilChecked(drawing);
+            CollectionAssert.AreEqual(new[] { "small-radius" }, Rules(drawing));
+        }
+
+        [Test]
+        public void All_that_is_safe_is_fixed_at_once()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(0.05), new LineEntity("3", "0", new[] { 50.0, 0 }, new[] { 60.0, 0 }));
+            var drawing = Open(host);
+            StringAssert.StartsWith("done: Fix all", Fix(drawing));
+            _session.UntilChecked(drawing);
+            CollectionAssert.DoesNotContain(Rules(drawing), "small-radius");
+            Assert.AreEqual(1, host.StepsOfUndo);
+            StringAssert.StartsWith("refused: nothing here can be fixed", Fix(drawing));
+        }
+
+        [Test]
+        public void An_edit_is_sent_as_a_splice_and_its_findings_arrive()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(2), Plates.WithFillet(3, "2B"));
+            var drawing = Open(host);
+            CollectionAssert.IsEmpty(Rules(drawing));
+            host.Edit(Plates.WithFillet(0.08, "2B"));
+            Assert.IsTrue(drawing.HasUnsentChanges);
+            Assert.AreEqual(1, drawing.Flush());
+            _session.UntilChecked(drawing);
+            Assert.AreEqual("2B", drawing.Findings.Single(finding => finding.Severity == Severity.Error).Handle);
+            Assert.AreEqual(0, drawing.Flush(), "nothing is sent twice");
+        }
+
+        [Test]
+        public void The_radius_list_names_each_vertex_with_its_radius_and_verdict()
+        {
+            var drawing = Open(new MemoryDrawing(Plates.WithFillet(0.05)));
+            IReadOnlyList<RadiusRow> rows = null;
+            _session.ListRadii(drawing, list => rows = list, Assert.Fail);
+            _session.Until(() => rows != null, "the list");
+            Assert.AreEqual(5, rows.Count);
+            var row = rows.Single(one => one.IsAtFault);
+            Assert.AreEqual(1, row.Vertex);
+            Assert.AreEqual(0.05, row.Radius.Value, 1e-9);
+            Assert.AreEqual(19.95, row.X, 1e-9);
+            Assert.AreEqual("small-radius", row.Verdict);
+        }
+
+        [Test]
+        public void The_settings_file_in_the_folder_of_the_drawing_holds()
+        {
+            var folder = Directory.CreateDirectory(Path.Combine(Path.GetTempPath(), Path.GetRandomFileName())).FullName;
+            try
+            {
+                File.WriteAllText(Path.Combine(folder, "wedm.toml"), "correction = 0.2\n");
+                var drawing = Open(new MemoryDrawing(Plates.WithFillet(0.15)), DrawingUri.Of(Path.Combine(folder, "plate 1.dwg")));
+                CollectionAssert.AreEqual(new[] { "small-radius" }, Rules(drawing));
+            }
+            finally
+            {
+                Directory.Delete(folder, true);
+            }
+        }
+
+        [Test]
+        public void A_drawing_without_a_file_is_known_by_its_title()
+        {
+            Assert.AreEqual("autocad:Drawing%201.dwg", DrawingUri.Of("Drawing 1.dwg"));
+        }
+
+        [Test]
+        public void A_program_is_written_when_the_drawing_is_clean_and_refused_with_its_errors_before()
+        {
+            _session.Settings = JObject.Parse(@"{ ""side"": ""opening"" }");
+            var host = new MemoryDrawing(Plates.WithFillet(0.05));
+            var drawing = Open(host);
+            Func<string> generate = () => Outcome((done, refused) => _session.Generate(drawing, "3b", done, refused));
+            var refusal = generate();
+            StringAssert.StartsWith("refused: an error stands in the drawing", refusal);
+            StringAssert.Contains("arc R 0.050 mm is below the correction 0.100 mm", refusal);
+            host.Edit(Plates.WithFillet(2));
+            var program = generate();
+            StringAssert.StartsWith("done: B", program);
+            StringAssert.EndsWith("DD\n", program);
+        }
+
+        [Test]
+        public void A_fix_is_refused_when_undo_has_gone_by_while_it_was_on_its_way()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(0.05));
+            var drawing = Open(host);
+            host.Edit(Plates.WithFillet(0.07));
+            drawing.Flush();
+            _session.UntilChecked(drawing);
+            // Undo without an event, after the question is out: the plugin must see for itself.
+            string outcome = null;
+            _session.Fix(drawing, null, done => outcome = "done", refused => outcome = refused);
+            host.Watcher = null;
+            host.Undo();
+            host.Watcher = drawing;
+            _session.Until(() => outcome != null, "an answer");
+            Assert.AreEqual("the drawing has changed since the fix was made for it", outcome);
+            Assert.IsTrue(host.Read("2A").IsSameAs(Plates.WithFillet(0.05)), "nothing was changed");
+            Assert.AreEqual(1, drawing.Flush(), "what undo has changed is sent now");
+            _session.UntilChecked(drawing);
+            Assert.AreEqual(0.05, drawing.Findings.First(finding => finding.Rule == "small-radius").Radius.Value, 1e-9);
+        }
+
+        [Test]
+        public void A_server_that_is_killed_in_the_middle_of_an_edit_comes_back_with_the_drawing_as_it_is()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(2));
+            var drawing = Open(host);
+            var first = _session.ServerId.Value;
+            host.Edit(Plates.WithFillet(0.05));
+            Process.GetProcessById(first).Kill();
+            drawing.Flush();
+            string outcome = null;
+            _session.Generate(drawing, "3b", done => outcome = "done", refused => outcome = refused);
+            _session.Until(() => outcome != null, "the request that nobody can answer any more");
+            StringAssert.DoesNotStartWith("done", outcome);
+            _session.Until(() => _session.State == SessionState.Running && _session.ServerId != first, "a new server");
+            _session.UntilChecked(drawing);
+            CollectionAssert.AreEqual(new[] { "small-radius" }, Rules(drawing));
+            StringAssert.Contains("started again", _messages.Single());
+        }
+
+        [Test]
+        public void The_server_gets_the_whole_drawing_when_a_change_does_not_apply()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(2));
+            var drawing = Open(host);
+            // The server takes no change of an entity that it does not know.
+            _session.Notify("wedm/didChangeDrawing", JObject.Parse(
+                @"{ ""drawing"": { ""uri"": ""cad:plate"", ""version"": 2 }, ""changes"": [{ ""handle"": ""77"", ""entity"": null }] }"));
+            var version = drawing.Version;
+            _session.Until(() => drawing.Version > version, "a request for the drawing");
+            _session.UntilChecked(drawing);
+            CollectionAssert.IsEmpty(Rules(drawing));
+        }
+
+        [Test]
+        public void Two_hundred_thousand_vertices_do_not_hold_up_the_host()
+        {
+            const int count = 200000;
+            var vertices = Enumerable.Range(0, count).Select(index =>
+                new Vertex(100 * Math.Cos(2 * Math.PI * index / count), 100 * Math.Sin(2 * Math.PI * index / count), 0)).ToArray();
+            var drawing = Open(new MemoryDrawing(new PolylineEntity("1", "0", true, vertices)));
+            var moved = (Vertex[])vertices.Clone();
+            moved[count / 2] = new Vertex(moved[count / 2].X + 0.5, moved[count / 2].Y, 0);
+            var host = new MemoryDrawing(new PolylineEntity("1", "0", true, vertices)) { Watcher = drawing };
+            var change = Changes.Between("1", host.Read("1"), new PolylineEntity("1", "0", true, moved));
+            Assert.AreEqual(1, ((JArray)change["vertices"]["insert"]).Count, "one vertex is sent, not two hundred thousand");
+        }
+    }
+
+    /// <summary>Servers that are not what they should be.</summary>
+    [TestFixture]
+    public class BadServerTests
+    {
+        private static string Failure(Func<string> locate)
+        {
+            string message = null;
+            using (var session = new Session(locate))
+            {
+                session.Message += text => message = text;
+                session.Start();
+                session.Until(() => session.State == SessionState.Failed, "failure");
+                session.Start();
+                session.Until(() => session.State == SessionState.Failed, "failure once more, after the user has tried again");
+            }
+            return message;
+        }
+
+        private static string Script(string text)
+        {
+            var path = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+            File.WriteAllText(path, text);
+            Process.Start("chmod", "+x " + path).WaitForExit();
+            return path;
+        }
+
+        private const string Answer = @"#!/usr/bin/env python3
+import json, sys
+length = int(sys.stdin.buffer.readline().split(b':')[1]); sys.stdin.buffer.readline()
+request = json.loads(sys.stdin.buffer.read(length))
+body = json.dumps({'jsonrpc': '2.0', 'id': request['id'], 'result': RESULT}).encode()
+sys.stdout.buffer.write(b'Content-Length: %d\r\n\r\n' % len(body) + body); sys.stdout.flush()
+sys.stdin.buffer.read()
+";
+
+        [TestCase("{'capabilities': {'experimental': {'wedm': {'protocol': 2}}}, 'serverInfo': {'name': 'wedm', 'version': '9.0.0'}}",
+            "wedm 9.0.0 speaks protocol 2, this plugin needs protocol 1: install plugin and server of the same release")]
+        [TestCase("{'capabilities': {}, 'serverInfo': {'name': 'other'}}",
+            "other  speaks no protocol of wedm, this plugin needs protocol 1: install plugin and server of the same release")]
+        public void Another_protocol_is_refused_with_both_versions(string result, string expected)
+        {
+            var path = Script(Answer.Replace("RESULT", result));
+            try
+            {
+                Assert.AreEqual(expected, Failure(() => path));
+            }
+            finally
+            {
+                File.Delete(path);
+            }
+        }
+
+        [Test]
+        public void A_missing_server_is_said()
+        {
+            StringAssert.Contains("there is no such file", Failure(() => ServerLocator.Find("/no/such/wedm", "", "")));
+        }
+
+        [Test]
+        public void A_program_that_cannot_run_is_said()
+        {
+            var path = Path.GetTempFileName();
+            try
+            {
+                StringAssert.Contains("cannot be started", Failure(() => path));
+            }
+            finally
+            {
+                File.Delete(path);
+            }
+        }
+
+        [Test]
+        public void A_server_that_dies_at_once_is_tried_again_with_growing_pauses()
+        {
+            var path = Script("#!/bin/sh\necho 'disk on fire' >&2\nexit 3\n");
+            var messages = new List<string>();
+            try
+            {
+                using (var session = new Session(() => path))
+                {
+                    session.Message += messages.Add;
+                    session.Start();
+                    session.Until(() => messages.Count == 3, "three deaths");
+                }
+            }
+            finally
+            {
+                File.Delete(path);
+            }
+            StringAssert.EndsWith("in 0.5 s", messages[0]);
+            StringAssert.EndsWith("in 1 s", messages[1]);
+            StringAssert.EndsWith("in 2 s", messages[2]);
+        }
+
+        [Test]
+        public void A_server_that_does_not_read_does_not_hold_up_the_host()
+        {
+            var path = Script(Answer.Replace("RESULT", "{'capabilities': {'experimental': {'wedm': {'protocol': 1}}}}").Replace("sys.stdin.buffer.read()", "import time; time.sleep(60)"));
+            try
+            {
+                using (var session = new Session(() => path))
+                {
+                    session.Start();
+                    session.Until(() => session.State == SessionState.Running, "the greeting");
+                    var vertices = Enumerable.Range(0, 100000).Select(index => new Vertex(index, 0.123456789, 0)).ToArray();
+                    var drawing = session.Open("cad:big", new MemoryDrawing(new PolylineEntity("1", "0", false, vertices)));
+                    Assert.AreEqual(1, drawing.Version, "it is on its way, megabytes more than a pipe holds");
+                }
+            }
+            finally
+            {
+                File.Delete(path);
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+import js from "@eslint/js";
+import { defineConfig } from "eslint/config";
+import tseslint from "typescript-eslint";
+
+export default defineConfig(
+  { ignores: ["dist/", "node_modules/", "tests/host/", "*.mjs"] },
+  js.configs.recommended,
+  tseslint.configs.strictTypeChecked,
+  tseslint.configs.stylisticTypeChecked,
+  {
+    languageOptions: { parserOptions: { project: ["./tsconfig.json", "./webview/tsconfig.json", "./tests/tsconfig.json"] } },
+    rules: {
+      eqeqeq: "error",
+      "@typescript-eslint/no-floating-promises": ["error", { allowForKnownSafeCalls: [{ from: "package", name: "test", package: "node:test" }] }],
+      // VS Code's Disposable is a shape; what it hands out is none of its class.
+      "@typescript-eslint/no-unsafe-class-instance-assignment": "off",
+      "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
+      "@typescript-eslint/switch-exhaustiveness-check": "error",
+      "max-len": ["error", { code: 140, ignoreUrls: true, ignoreTemplateLiterals: true, ignoreStrings: true }],
+    },
+  },
+);

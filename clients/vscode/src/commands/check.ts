@@ -1,0 +1,129 @@
+// Checks files by their path with `wedm check`, whatever their size, and lists what it finds under Problems.
+
+import * as vscode from "vscode";
+import type { Server } from "../server/server";
+import { type Listed, read } from "./listed";
+import { run } from "./run";
+import { uriOf } from "./subject";
+
+const SEVERITIES: Record<Listed["severity"], vscode.DiagnosticSeverity> = {
+  error: vscode.DiagnosticSeverity.Error,
+  warning: vscode.DiagnosticSeverity.Warning,
+  information: vscode.DiagnosticSeverity.Information,
+  hint: vscode.DiagnosticSeverity.Hint,
+};
+const PROBLEMS = "Show Problems";
+
+export class PathCheck implements vscode.Disposable {
+  readonly #findings = vscode.languages.createDiagnosticCollection("wedm check");
+  readonly #opened: vscode.Disposable;
+
+  constructor(private readonly server: Server) {
+    // A document that is open is watched by the server itself.
+    this.#opened = vscode.workspace.onDidOpenTextDocument((document) => {
+      this.#findings.delete(document.uri);
+    });
+  }
+
+  async ask(argument: unknown): Promise<void> {
+    const target = uriOf(argument) ?? (await choose());
+    if (target === undefined) {
+      return;
+    }
+    if (target.scheme !== "file") {
+      void vscode.window.showErrorMessage(`Wire EDM: ${target.toString()} is no file on disk.`);
+      return;
+    }
+    const found = await this.server.find();
+    if (found.program === null) {
+      void vscode.window.showErrorMessage(`Wire EDM: ${found.reason}.`);
+      return;
+    }
+    await this.#check(found.program, target);
+  }
+
+  async #check(program: string, target: vscode.Uri): Promise<void> {
+    const options = ["check", "--output", "json", ...(await this.#settings(target)), "--", target.fsPath];
+    const outcome = await vscode.window.withProgress(
+      { location: vscode.ProgressLocation.Notification, title: `Checking ${vscode.workspace.asRelativePath(target)}`, cancellable: true },
+      async (_progress, token) => ({ ...(await run(program, options, token)), cancelled: token.isCancellationRequested }),
+    );
+    if (outcome.cancelled) {
+      return;
+    }
+    const list = read(outcome.output);
+    if (list === null) {
+      void vscode.window.showErrorMessage(`Wire EDM: ${outcome.errors.trim() || `wedm check ended with code ${outcome.code ?? "none"}`}`);
+      return;
+    }
+    this.#show(list);
+    await this.#say(target, list, outcome.errors);
+  }
+
+  /** What VS Code has set, where no `wedm.toml` says otherwise: on the command line it would win over the file. */
+  async #settings(target: vscode.Uri): Promise<string[]> {
+    try {
+      const isFolder = ((await vscode.workspace.fs.stat(target)).type & vscode.FileType.Directory) !== 0;
+      const asked = isFolder ? vscode.Uri.joinPath(target, "any.dxf") : target;
+      const inForce = await this.server.request("wedm/settings", { uri: asked.toString() });
+      return inForce.correctionFrom === "client" ? ["--correction", String(inForce.correction)] : [];
+    } catch {
+      return [];
+    }
+  }
+
+  #show(list: Listed[]): void {
+    const open = new Set(vscode.workspace.textDocuments.map((document) => document.uri.toString()));
+    const byFile = new Map<string, vscode.Diagnostic[]>();
+    for (const listed of list) {
+      const range = new vscode.Range(listed.line - 1, listed.column - 1, listed.endLine - 1, listed.endColumn - 1);
+      const diagnostic = new vscode.Diagnostic(range, listed.message, SEVERITIES[listed.severity]);
+      diagnostic.source = "wedm check";
+      diagnostic.code = listed.rule;
+      const file = byFile.get(listed.path);
+      if (file === undefined) {
+        byFile.set(listed.path, [diagnostic]);
+      } else {
+        file.push(diagnostic);
+      }
+    }
+    this.#findings.clear();
+    for (const [path, diagnostics] of byFile) {
+      const uri = vscode.Uri.file(path);
+      if (!open.has(uri.toString())) {
+        this.#findings.set(uri, diagnostics);
+      }
+    }
+  }
+
+  async #say(target: vscode.Uri, list: Listed[], errors: string): Promise<void> {
+    const count = (severity: Listed["severity"]): number => list.filter((listed) => listed.severity === severity).length;
+    const [faults, warnings] = [count("error"), count("warning")];
+    const unread = errors.trim() === "" ? "" : ` ${errors.trim().split("\n").pop() ?? ""}`;
+    const name = vscode.workspace.asRelativePath(target);
+    const message = `${name}: ${faults === 1 ? "1 error" : `${faults} errors`}, ${warnings === 1 ? "1 warning" : `${warnings} warnings`}.${unread}`;
+    const chosen = await (faults > 0
+      ? vscode.window.showErrorMessage(message, PROBLEMS)
+      : vscode.window.showInformationMessage(message, ...(list.length > 0 ? [PROBLEMS] : [])));
+    if (chosen === PROBLEMS) {
+      await vscode.commands.executeCommand("workbench.actions.view.problems");
+    }
+  }
+
+  dispose(): void {
+    this.#findings.dispose();
+    this.#opened.dispose();
+  }
+}
+
+async function choose(): Promise<vscode.Uri | undefined> {
+  const folder = vscode.workspace.workspaceFolders?.[0]?.uri;
+  const chosen = await vscode.window.showOpenDialog({
+    title: "Check a File or Folder",
+    openLabel: "Check",
+    canSelectFiles: true,
+    canSelectFolders: true,
+    ...(folder === undefined ? {} : { defaultUri: folder }),
+  });
+  return chosen?.[0];
+}

@@ -1,0 +1,82 @@
+// Puts the parts together.
+
+import * as vscode from "vscode";
+import { PathCheck } from "./commands/check";
+import { convertToDxf } from "./commands/convert";
+import { changeCorrection } from "./commands/correction";
+import { fixAll } from "./commands/fixAll";
+import { generate } from "./commands/generate";
+import { Front } from "./front";
+import { watchLargeFiles } from "./large";
+import { Pictures } from "./picture/pictures";
+import { Radii } from "./radii/tree";
+import { sayWhatFails } from "./server/notices";
+import { Server } from "./server/server";
+import { Status } from "./status";
+
+/** Settings that count from the server's next start. */
+const STARTS_ANEW = ["wedm.server.path", "wedm.server.log"];
+
+let running: Server | undefined;
+
+export function activate(context: vscode.ExtensionContext): void {
+  const log = vscode.window.createOutputChannel("Wire EDM", { log: true });
+  const server = new Server(context, log);
+  running = server;
+  const front = new Front();
+  const pictures = new Pictures(server, front, context.extensionUri);
+  const radii = new Radii(server);
+  const check = new PathCheck(server);
+  const commands: Record<string, (...given: unknown[]) => Promise<void> | void> = {
+    "wedm.generate3b": (uri) => generate(server, front, "3b", uri),
+    "wedm.generate4b": (uri) => generate(server, front, "4b", uri),
+    "wedm.generateIso": (uri) => generate(server, front, "iso", uri),
+    "wedm.openPicture": (uri) => pictures.open(uri, false),
+    "wedm.simulate": (uri) => pictures.open(uri, true),
+    "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),
+    "wedm.fixAll": () => fixAll(front),
+    "wedm.checkPath": (uri) => check.ask(uri),
+    "wedm.showRadii": () => radii.show(),
+    "wedm.radii.onlyFaults": () => radii.filter(true),
+    "wedm.radii.all": () => radii.filter(false),
+    "wedm.radii.reveal": (handle, segment) => radii.revealInText(handle, segment),
+    "wedm.changeCorrection": () => changeCorrection(server, front),
+    "wedm.restartServer": () => server.restart(),
+    "wedm.showLog": () => {
+      log.show();
+    },
+  };
+  context.subscriptions.push(
+    log,
+    server,
+    front,
+    pictures,
+    radii,
+    check,
+    new Status(server, front),
+    sayWhatFails(server, log),
+    watchLargeFiles(),
+    vscode.workspace.onDidChangeConfiguration((event) => {
+      if (STARTS_ANEW.some((key) => event.affectsConfiguration(key))) {
+        void server.restart();
+      }
+    }),
+    ...Object.entries(commands).map(([name, act]) => vscode.commands.registerCommand(name, guarded(act))),
+  );
+  void server.restart();
+}
+
+/** A command that fails says so in a sentence. */
+function guarded(act: (...given: unknown[]) => Promise<void> | void): (...given: unknown[]) => Promise<void> {
+  return async (...given) => {
+    try {
+      await act(...given);
+    } catch (error) {
+      void vscode.window.showErrorMessage(`Wire EDM: ${error instanceof Error ? error.message : String(error)}`);
+    }
+  };
+}
+
+export async function deactivate(): Promise<void> {
+  await running?.stop();
+}

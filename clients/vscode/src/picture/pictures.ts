@@ -1,0 +1,68 @@
+// The one panel of the picture, which follows the document in front.
+
+import * as vscode from "vscode";
+import { uriOf } from "../commands/subject";
+import type { Front } from "../front";
+import { isOurs } from "../languages";
+import type { Server } from "../server/server";
+import { Picture, VIEW_TYPE } from "./panel";
+
+export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposable {
+  #picture: Picture | undefined;
+  readonly #restored: vscode.Disposable;
+
+  constructor(
+    private readonly server: Server,
+    private readonly front: Front,
+    private readonly extension: vscode.Uri,
+  ) {
+    this.#restored = vscode.window.registerWebviewPanelSerializer(VIEW_TYPE, this);
+  }
+
+  /** Shows the picture beside the text; with `play`, the wire starts to move. */
+  async open(argument: unknown, play: boolean): Promise<void> {
+    const uri = uriOf(argument) ?? this.front.document?.uri;
+    if (uri === undefined || !isOurs(await vscode.workspace.openTextDocument(uri))) {
+      void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
+      return;
+    }
+    if (this.#picture === undefined) {
+      const place = { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true };
+      this.#adopt(vscode.window.createWebviewPanel(VIEW_TYPE, "Picture", place, { retainContextWhenHidden: true }), uri);
+    } else {
+      this.#picture.show(uri);
+      this.#picture.panel.reveal(undefined, true);
+    }
+    if (play) {
+      this.#picture?.play();
+    }
+  }
+
+  /** After a reload of the window. */
+  async deserializeWebviewPanel(panel: vscode.WebviewPanel, state: unknown): Promise<void> {
+    const kept = typeof state === "object" && state !== null ? (state as { uri?: unknown }).uri : undefined;
+    const uri = typeof kept === "string" ? uriOf(kept) : undefined;
+    if (uri === undefined || this.#picture !== undefined) {
+      panel.dispose();
+      return;
+    }
+    try {
+      await vscode.workspace.openTextDocument(uri);
+      this.#adopt(panel, uri);
+    } catch {
+      // The file is gone.
+      panel.dispose();
+    }
+  }
+
+  #adopt(panel: vscode.WebviewPanel, uri: vscode.Uri): void {
+    this.#picture = new Picture(panel, uri, this.server, this.extension, () => {
+      this.#picture = undefined;
+    });
+  }
+
+  dispose(): void {
+    this.#picture?.panel.dispose();
+    this.#restored.dispose();
+  }
+}

@@ -1,0 +1,96 @@
+// The messages of the server's own name space, as docs/protocol.md has them.
+
+import type { Diagnostic, Position, Range } from "vscode-languageserver-protocol";
+
+/** Version of the name space that this extension speaks. */
+export const PROTOCOL = 1;
+
+/** Errors of the server that the user is shown as they are. */
+export const REFUSED = -32803;
+export const CONTENT_MODIFIED = -32801;
+export const INVALID_PARAMS = -32602;
+
+export type Point = [x: number, y: number];
+
+export interface Segment {
+  index: number;
+  kind: "line" | "arc" | "circle";
+  start: Point;
+  end: Point;
+  length: number;
+  center?: Point;
+  radius?: number;
+  /** Degrees, positive counter-clockwise. */
+  sweep?: number;
+  /** `ok`, or the names of the rules at fault with a comma between. */
+  verdict: string;
+}
+
+export interface InspectedEntity {
+  handle: string;
+  type: string;
+  layer: string;
+  closed: boolean;
+  segments: Segment[];
+}
+
+export interface Inspection {
+  unitsToMm: number;
+  entities: InspectedEntity[];
+}
+
+export interface Located {
+  handle: string;
+  segment?: number;
+  range: Range;
+}
+
+export interface SettingsInForce {
+  /** mm */
+  correction: number;
+  corrections: number[];
+  correctionFrom: "default" | "client" | "file";
+  side: string;
+  file?: string;
+}
+
+export type Format = "3b" | "4b" | "iso";
+
+export interface Generated {
+  program: string;
+  blocks: number;
+  /** mm */
+  length: number;
+  /** µm */
+  closure: { x: number; y: number };
+  minutes?: number;
+  warnings: Diagnostic[];
+}
+
+/** One block of a program as the controller runs it; points in µm. */
+export interface Block {
+  line: number;
+  number?: number;
+  kind: string;
+  start: Point;
+  end: Point;
+  deviation?: number;
+}
+
+export interface Simulation {
+  blocks: Block[];
+  closure: { x: number; y: number };
+  /** mm */
+  length: number;
+  minutes?: number;
+}
+
+/** Params and result of each request. */
+export interface Methods {
+  "wedm/inspect": [{ uri: string; handle?: string }, Inspection];
+  "wedm/picture": [{ uri: string; options?: object }, { svg: string }];
+  "wedm/locate": [{ uri: string; position: Position } | { uri: string; handle: string; segment?: number }, Located | null];
+  "wedm/settings": [{ uri: string }, SettingsInForce];
+  "wedm/generate": [{ uri: string; format: Format; options?: object; force?: boolean }, Generated];
+  "wedm/simulate": [{ uri: string }, Simulation];
+}

@@ -1,0 +1,164 @@
+// The radius list beside the text: vertex, radius, verdict; a click leads to the text.
+
+import * as vscode from "vscode";
+import { isDrawing, isOurs } from "../languages";
+import { reveal, segmentAt } from "../place";
+import type { Server } from "../server/server";
+import { type EntityRow, type Row, rows, summary } from "./rows";
+
+/** Edits come in bursts, and a long list is not made for each. */
+const CALM = 250;
+
+export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
+  readonly #changed = new vscode.EventEmitter<undefined>();
+  readonly onDidChangeTreeData = this.#changed.event;
+  readonly #view: vscode.TreeView<Row>;
+  readonly #subscriptions: vscode.Disposable[];
+  #document: vscode.Uri | undefined;
+  #rows: EntityRow[] = [];
+  #onlyFaults = false;
+  #stale = true;
+  #timer: NodeJS.Timeout | undefined;
+  /** What was asked before is no longer wanted. */
+  #asked = 0;
+
+  constructor(private readonly server: Server) {
+    this.#view = vscode.window.createTreeView("wedm.radii", { treeDataProvider: this, showCollapseAll: true });
+    this.#subscriptions = [
+      this.#view,
+      this.#changed,
+      server.onDidDiagnose((uri) => {
+        if (uri.toString() === this.#document?.toString()) {
+          this.#soon();
+        }
+      }),
+      server.onDidChangeState(() => {
+        this.#soon();
+      }),
+      this.#view.onDidChangeVisibility(({ visible }) => {
+        if (visible && this.#stale) {
+          void this.#refresh();
+        }
+      }),
+      vscode.window.onDidChangeActiveTextEditor((editor) => {
+        this.#follow(editor);
+      }),
+      vscode.workspace.onDidCloseTextDocument((document) => {
+        if (document.uri.toString() === this.#document?.toString()) {
+          this.#document = undefined;
+          this.#soon();
+        }
+      }),
+      vscode.window.onDidChangeTextEditorSelection((event) => {
+        if (event.kind !== undefined && event.textEditor.document.uri.toString() === this.#document?.toString()) {
+          void this.#select(event.textEditor);
+        }
+      }),
+    ];
+    this.#follow(vscode.window.activeTextEditor);
+  }
+
+  async show(): Promise<void> {
+    await vscode.commands.executeCommand("wedm.radii.focus");
+  }
+
+  async filter(onlyFaults: boolean): Promise<void> {
+    this.#onlyFaults = onlyFaults;
+    await vscode.commands.executeCommand("setContext", "wedm.radii.filtered", onlyFaults);
+    await this.#refresh();
+  }
+
+  /** A program or another text in front leaves the list of the last drawing. */
+  #follow(editor: vscode.TextEditor | undefined): void {
+    const document = editor?.document;
+    if (document !== undefined && isOurs(document) && isDrawing(document.languageId)) {
+      const isNew = document.uri.toString() !== this.#document?.toString();
+      this.#document = document.uri;
+      if (isNew) {
+        void this.#refresh();
+      }
+    }
+  }
+
+  #soon(): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => void this.#refresh(), CALM);
+  }
+
+  async #refresh(): Promise<void> {
+    this.#stale = true;
+    if (!this.#view.visible) {
+      return;
+    }
+    const asked = ++this.#asked;
+    const uri = this.#document;
+    try {
+      const list = uri === undefined ? [] : rows(await this.server.request("wedm/inspect", { uri: uri.toString() }), this.#onlyFaults);
+      if (asked !== this.#asked) {
+        return;
+      }
+      this.#rows = list;
+      this.#view.description = uri === undefined ? "" : `${uri.path.split("/").pop() ?? ""}: ${summary(list)}`;
+      this.#view.message = uri !== undefined && list.length === 0 ? (this.#onlyFaults ? "Every radius is ok." : "There is nothing to cut.") : "";
+    } catch {
+      // The text has changed meanwhile, and the next diagnostics bring the list; or the server is gone, which is said elsewhere.
+      if (asked !== this.#asked || this.server.state.kind === "running") {
+        return;
+      }
+      this.#rows = [];
+      this.#view.message = "The server is not running.";
+    }
+    this.#stale = false;
+    this.#changed.fire(undefined);
+  }
+
+  async #select(editor: vscode.TextEditor): Promise<void> {
+    if (!this.#view.visible) {
+      return;
+    }
+    const located = await segmentAt(this.server, editor.document.uri, editor.selection.active);
+    const entity = this.#rows.find((row) => row.handle === located?.handle);
+    const row = entity?.segments.find((segment) => segment.segment.index === located?.segment) ?? entity;
+    if (row !== undefined) {
+      await this.#view.reveal(row, { select: true, focus: false });
+    }
+  }
+
+  getTreeItem(row: Row): vscode.TreeItem {
+    const item = new vscode.TreeItem(row.label, vscode.TreeItemCollapsibleState.None);
+    item.id = row.kind === "entity" ? row.handle : `${row.handle}/${row.segment.index}`;
+    item.description = row.description;
+    const faulty = row.kind === "entity" ? row.faults > 0 : row.faulty;
+    if (row.kind === "entity") {
+      const open = faulty || this.#rows.length === 1;
+      item.collapsibleState = open ? vscode.TreeItemCollapsibleState.Expanded : vscode.TreeItemCollapsibleState.Collapsed;
+    }
+    item.iconPath = faulty
+      ? new vscode.ThemeIcon("error", new vscode.ThemeColor("problemsErrorIcon.foreground"))
+      : new vscode.ThemeIcon("pass", new vscode.ThemeColor("testing.iconPassed"));
+    item.command = { command: "wedm.radii.reveal", title: "Reveal in Text", arguments: [row.handle, row.kind === "segment" ? row.segment.index : undefined] };
+    return item;
+  }
+
+  getChildren(row?: Row): Row[] {
+    if (row === undefined) {
+      return this.#rows;
+    }
+    return row.kind === "entity" ? row.segments : [];
+  }
+
+  getParent(row: Row): Row | undefined {
+    return row.kind === "segment" ? this.#rows.find((entity) => entity.handle === row.handle) : undefined;
+  }
+
+  async revealInText(handle: unknown, segment: unknown): Promise<void> {
+    if (this.#document !== undefined && typeof handle === "string") {
+      await reveal(this.server, this.#document, handle, typeof segment === "number" ? segment : undefined, false);
+    }
+  }
+
+  dispose(): void {
+    clearTimeout(this.#timer);
+    vscode.Disposable.from(...this.#subscriptions).dispose();
+  }
+}

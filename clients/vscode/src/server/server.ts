@@ -1,0 +1,220 @@
+// The one server: found, started, watched, started again when it dies. Documents are opened again by the client with each start.
+
+import type { ChildProcessWithoutNullStreams } from "node:child_process";
+import { homedir } from "node:os";
+import * as vscode from "vscode";
+import { CloseAction, ErrorAction, LanguageClient, type LanguageClientOptions, State as ClientState } from "vscode-languageclient/node";
+import { selector } from "../languages";
+import type { Methods } from "../protocol";
+import { Backoff } from "./backoff";
+import { findServer } from "./find";
+import { misfit } from "./handshake";
+import { isProgram, launch } from "./process";
+import { forServer } from "./settings";
+
+/** A program that has not answered by then is no server. */
+const PATIENCE = 20_000;
+/** How long a server may take to end by itself. */
+const LAST_WORDS = 2_000;
+
+export type State =
+  | { kind: "stopped" | "starting" | "running" }
+  /** Dead, and about to be started again. */
+  | { kind: "waiting"; reason: string }
+  /** Nothing more is tried until the user does something. */
+  | { kind: "failed"; reason: string };
+
+export class Server implements vscode.Disposable {
+  #client: LanguageClient | undefined;
+  #child: ChildProcessWithoutNullStreams | undefined;
+  #state: State = { kind: "stopped" };
+  #timer: NodeJS.Timeout | undefined;
+  /** What belongs to an older start is no longer listened to. */
+  #start = 0;
+  readonly #backoff = new Backoff();
+  readonly #changed = new vscode.EventEmitter<State>();
+  readonly #diagnosed = new vscode.EventEmitter<vscode.Uri>();
+
+  readonly onDidChangeState = this.#changed.event;
+  /** The server has looked at a document again. */
+  readonly onDidDiagnose = this.#diagnosed.event;
+
+  constructor(
+    private readonly context: vscode.ExtensionContext,
+    private readonly log: vscode.LogOutputChannel,
+  ) {}
+
+  get state(): State {
+    return this.#state;
+  }
+
+  /** The program in use, or the one that would be. */
+  async find(): ReturnType<typeof findServer> {
+    const setting = vscode.workspace.getConfiguration("wedm").get<string | null>("server.path", null);
+    const suffix = process.platform === "win32" ? ".exe" : "";
+    const places = {
+      setting,
+      suffix,
+      extensionFolder: this.context.extensionPath,
+      path: process.env["PATH"] ?? "",
+      home: homedir(),
+    };
+    return findServer(places, isProgram);
+  }
+
+  /** Starts anew whatever was before; resolves when the server runs or has failed. */
+  async restart(): Promise<void> {
+    this.#backoff.reset();
+    await this.#launch();
+  }
+
+  async #launch(): Promise<void> {
+    const start = ++this.#start;
+    await this.#end();
+    this.#become({ kind: "starting" });
+    const found = await this.find();
+    if (start !== this.#start) {
+      return;
+    }
+    if (found.program === null) {
+      this.#fail(found.reason);
+      return;
+    }
+    try {
+      await this.#begin(start, found.program);
+    } catch (error) {
+      this.#died(start, `${found.program} could not be started: ${error instanceof Error ? error.message : String(error)}`);
+    }
+  }
+
+  async #begin(start: number, program: string): Promise<void> {
+    const child = await launch(program, vscode.workspace.getConfiguration("wedm").get("server.log", "warn"));
+    if (start !== this.#start) {
+      child.kill();
+      return;
+    }
+    this.#child = child;
+    child.once("exit", (code, signal) => {
+      this.log.info(`${program} (process ${child.pid ?? 0}) ended with ${signal ?? `code ${code ?? 0}`}`);
+    });
+    const client = new LanguageClient("wedm", "Wire EDM", () => Promise.resolve(child), this.#options());
+    this.#client = client;
+    const clock = setTimeout(() => {
+      this.log.error(`${program} has not answered within ${PATIENCE / 1_000} s`);
+      child.kill("SIGKILL");
+    }, PATIENCE);
+    try {
+      await client.start();
+    } finally {
+      clearTimeout(clock);
+    }
+    if (start !== this.#start) {
+      return;
+    }
+    const unfit = misfit(client.initializeResult, program);
+    if (unfit !== null) {
+      await this.#end();
+      this.#fail(unfit);
+      return;
+    }
+    client.onDidChangeState(({ newState }) => {
+      if (newState === ClientState.Stopped) {
+        this.#died(start, `${program} ended while it was in use`);
+      }
+    });
+    this.#backoff.started(Date.now());
+    this.log.info(`${program} (process ${child.pid ?? 0}) runs: ${client.initializeResult?.serverInfo?.version ?? ""}`);
+    this.#become({ kind: "running" });
+  }
+
+  #died(start: number, reason: string): void {
+    if (start !== this.#start) {
+      return;
+    }
+    this.log.error(reason);
+    const wait = this.#backoff.died(Date.now());
+    if (wait === null) {
+      this.#fail(`${reason}; it was started again five times`);
+      return;
+    }
+    this.#become({ kind: "waiting", reason: `${reason}; it is started again in ${wait / 1_000} s` });
+    this.#timer = setTimeout(() => void this.#launch(), wait);
+  }
+
+  #fail(reason: string): void {
+    this.log.error(reason);
+    this.#become({ kind: "failed", reason });
+  }
+
+  #become(state: State): void {
+    this.#state = state;
+    this.#changed.fire(state);
+  }
+
+  /** Ends what runs, and what waits to be started. */
+  async #end(): Promise<void> {
+    clearTimeout(this.#timer);
+    const [client, child] = [this.#client, this.#child];
+    this.#client = this.#child = undefined;
+    try {
+      if (client !== undefined && client.state !== ClientState.Stopped) {
+        await client.stop(LAST_WORDS);
+      }
+      await client?.dispose(LAST_WORDS);
+    } catch (error) {
+      this.log.debug(`the server did not end in order: ${String(error)}`);
+    }
+    child?.kill();
+  }
+
+  /** Asks the server. Rejects with its error, or when it does not run. */
+  async request<M extends keyof Methods>(method: M, params: Methods[M][0], token?: vscode.CancellationToken): Promise<Methods[M][1]> {
+    const client = this.#client;
+    if (client === undefined || this.#state.kind !== "running") {
+      throw new Error("the wedm server is not running");
+    }
+    // A token that is undefined would be sent as a second param.
+    return token === undefined
+      ? client.sendRequest<Methods[M][1]>(method, params)
+      : client.sendRequest<Methods[M][1]>(method, params, token);
+  }
+
+  #options(): LanguageClientOptions {
+    return {
+      documentSelector: selector(),
+      outputChannel: this.log,
+      traceOutputChannel: this.log,
+      initializationOptions: {},
+      progressOnInitialization: false,
+      // Deaths are dealt with here, with a wait that grows; the client's own way starts again at once, four times.
+      errorHandler: {
+        error: () => ({ action: ErrorAction.Continue, handled: true }),
+        closed: () => ({ action: CloseAction.DoNotRestart, handled: true }),
+      },
+      middleware: {
+        handleDiagnostics: (uri, diagnostics, next) => {
+          next(uri, diagnostics);
+          this.#diagnosed.fire(uri);
+        },
+        workspace: {
+          configuration: async (params, token, next) => {
+            const sections = await next(params, token);
+            return Array.isArray(sections) ? sections.map((section: unknown) => forServer(section)) : sections;
+          },
+          // The server then asks for the section, and gets it without the extension's own keys.
+          didChangeConfiguration: (_sections, next) => next(undefined),
+        },
+      },
+    };
+  }
+
+  async stop(): Promise<void> {
+    this.#start += 1;
+    await this.#end();
+    this.#become({ kind: "stopped" });
+  }
+
+  dispose(): void {
+    void this.stop();
+  }
+}

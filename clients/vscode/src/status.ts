@@ -1,0 +1,91 @@
+// The item in the status bar: the correction in force for the document in front, or what is wrong with the server.
+
+import * as vscode from "vscode";
+import type { Front } from "./front";
+import type { SettingsInForce } from "./protocol";
+import type { Server, State } from "./server/server";
+
+/** Answers to a burst of edits come in a burst. */
+const CALM = 150;
+
+export class Status implements vscode.Disposable {
+  readonly #item: vscode.StatusBarItem;
+  readonly #subscriptions: vscode.Disposable[];
+  #timer: NodeJS.Timeout | undefined;
+
+  constructor(
+    private readonly server: Server,
+    private readonly front: Front,
+  ) {
+    this.#item = vscode.window.createStatusBarItem("wedm.correction", vscode.StatusBarAlignment.Right, 110);
+    this.#item.name = "Wire EDM: Correction";
+    this.#subscriptions = [
+      this.#item,
+      server.onDidChangeState(() => void this.#refresh()),
+      server.onDidDiagnose(() => {
+        this.#soon();
+      }),
+      front.onDidChange(() => void this.#refresh()),
+      vscode.workspace.onDidChangeConfiguration((event) => {
+        if (event.affectsConfiguration("wedm")) {
+          this.#soon();
+        }
+      }),
+    ];
+    void this.#refresh();
+  }
+
+  #soon(): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => void this.#refresh(), CALM);
+  }
+
+  async #refresh(): Promise<void> {
+    const document = this.front.document;
+    if (document === undefined) {
+      this.#item.hide();
+      return;
+    }
+    if (this.server.state.kind !== "running") {
+      this.#trouble(this.server.state);
+      return;
+    }
+    try {
+      this.#show(await this.server.request("wedm/settings", { uri: document.uri.toString() }));
+    } catch {
+      // A server that does not know the method, or has just died: its state says what there is to say.
+      this.#item.hide();
+    }
+  }
+
+  #show(settings: SettingsInForce): void {
+    const passes = settings.corrections.length > 1 ? ` · ${settings.corrections.length} passes` : "";
+    this.#item.text = `$(record-small) ${settings.correction.toFixed(3)} mm${passes}`;
+    this.#item.backgroundColor = undefined;
+    this.#item.command = "wedm.changeCorrection";
+    const from = { default: "the default", client: "from the settings of VS Code", file: "from wedm.toml" }[settings.correctionFrom];
+    const list = settings.corrections.map((correction) => correction.toFixed(3)).join(", ");
+    const tooltip = new vscode.MarkdownString(
+      `**Correction ${settings.correction.toFixed(3)} mm**, ${from}\n\n` +
+        (passes === "" ? "" : `Passes: ${list} mm\n\n`) +
+        `Wire side: ${settings.side}\n\nInner arcs with a smaller radius cannot be cut. Click to change.`,
+    );
+    this.#item.tooltip = tooltip;
+    this.#item.accessibilityInformation = { label: `Wire EDM: correction ${settings.correction.toFixed(3)} millimetres` };
+    this.#item.show();
+  }
+
+  #trouble(state: State): void {
+    const failed = state.kind === "failed";
+    this.#item.text = failed ? "$(error) wedm" : "$(sync~spin) wedm";
+    this.#item.backgroundColor = failed ? new vscode.ThemeColor("statusBarItem.errorBackground") : undefined;
+    this.#item.tooltip = state.kind === "failed" || state.kind === "waiting" ? `Wire EDM: ${state.reason}` : `Wire EDM: ${state.kind}`;
+    this.#item.command = failed ? "wedm.restartServer" : "wedm.showLog";
+    this.#item.show();
+  }
+
+  dispose(): void {
+    clearTimeout(this.#timer);
+    vscode.Disposable.from(...this.#subscriptions).dispose();
+  }
+}

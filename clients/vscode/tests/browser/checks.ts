@@ -1,0 +1,51 @@
+// Counts what holds and what does not.
+
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { ARTIFACTS } from "./paths";
+
+const SOON = Number(process.env["PATIENCE"] ?? 30_000);
+
+export class Checks {
+  passed = 0;
+  failed = 0;
+  page: Page | undefined;
+
+  async check(name: string, act: () => Promise<void>): Promise<void> {
+    const began = Date.now();
+    try {
+      await act();
+      this.passed += 1;
+      console.log(`  ok      ${name} (${Date.now() - began} ms)`);
+    } catch (error) {
+      this.failed += 1;
+      console.log(`  FAILED  ${name}: ${error instanceof Error ? (error.stack ?? error.message) : String(error)}`);
+      await this.shot(`failed-${name.replaceAll(/\W+/g, "-")}`);
+    }
+  }
+
+  async shot(name: string): Promise<void> {
+    await this.page?.screenshot({ path: join(ARTIFACTS, `${name}.png`) }).catch(() => undefined);
+  }
+}
+
+/** Waits until something holds; `seen` tells what is there instead. */
+export async function expectSoon(what: string, holds: () => Promise<boolean>, seen: () => Promise<string> = () => Promise.resolve("not so")): Promise<void> {
+  const deadline = Date.now() + SOON;
+  for (;;) {
+    if (await holds().catch(() => false)) {
+      return;
+    }
+    if (Date.now() > deadline) {
+      throw new Error(`expected ${what}, seen: ${await seen().catch(String)}`);
+    }
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+export function expectEqual(what: string, seen: unknown, expected: unknown): void {
+  const [a, b] = [JSON.stringify(seen), JSON.stringify(expected)];
+  if (a !== b) {
+    throw new Error(`${what}: expected ${b}, seen ${a}`);
+  }
+}

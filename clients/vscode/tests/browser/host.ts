@@ -1,0 +1,131 @@
+// A real VS Code with the packed extension in it, served to a real browser.
+
+import { type ChildProcess, execFile, spawn } from "node:child_process";
+import { mkdir, mkdtemp, readdir, rm, writeFile } from "node:fs/promises";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { type Browser, chromium, type Page } from "playwright-core";
+import { ARTIFACTS, CHROMIUM, CODE_SERVER, EXTENSION } from "./paths";
+
+/** Longer than anything here takes on a busy machine. */
+export const PATIENCE = Number(process.env["PATIENCE"] ?? 30_000);
+
+const FLAGS = [
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
+
+const QUIET = {
+  "workbench.startupEditor": "none",
+  "workbench.colorTheme": "Default Dark Modern",
+  "workbench.tips.enabled": false,
+  "security.workspace.trust.enabled": false,
+  "telemetry.telemetryLevel": "off",
+  "update.mode": "none",
+  "extensions.autoUpdate": false,
+  "extensions.autoCheckUpdates": false,
+  "extensions.ignoreRecommendations": true,
+  "files.simpleDialog.enable": true,
+  "remote.autoForwardPorts": false,
+  "window.commandCenter": false,
+  "workbench.layoutControl.enabled": false,
+  "editor.fontFamily": "'DejaVu Sans Mono', monospace",
+};
+
+export class Host {
+  private constructor(
+    readonly folder: string,
+    readonly page: Page,
+    private readonly root: string,
+    private readonly browser: Browser,
+    private readonly server: ChildProcess,
+  ) {}
+
+  /** `files` are put into the folder that is opened; `settings` are the user's. */
+  static async start(settings: Record<string, unknown>, files: Record<string, string | Buffer>, path = process.env["PATH"] ?? ""): Promise<Host> {
+    const root = await mkdtemp(join(tmpdir(), "wedm-vscode-"));
+    const folder = join(root, "work");
+    const [data, extensions] = [join(root, "data"), join(root, "extensions")];
+    await mkdir(folder, { recursive: true });
+    await mkdir(join(data, "User"), { recursive: true });
+    await mkdir(ARTIFACTS, { recursive: true });
+    await writeFile(join(data, "User", "settings.json"), JSON.stringify({ ...QUIET, ...settings }));
+    for (const [name, content] of Object.entries(files)) {
+      await writeFile(join(folder, name), content);
+    }
+    const places = ["--user-data-dir", data, "--extensions-dir", extensions];
+    const environment = { ...process.env, PATH: path, HOME: root, XDG_DATA_HOME: root, XDG_CONFIG_HOME: root };
+    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, "--install-extension", await vsix()], { env: environment });
+    const port = await freePort();
+    const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust"];
+    const server = spawn(process.execPath, [CODE_SERVER, ...places, ...options, folder], { env: environment, stdio: ["ignore", "pipe", "pipe"], detached: true });
+    await listening(server);
+    const browser = await chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
+    const page = await browser.newPage({ viewport: { width: 1600, height: 960 }, colorScheme: "dark" });
+    page.setDefaultTimeout(PATIENCE);
+    const host = new Host(folder, page, root, browser, server);
+    await page.goto(`http://127.0.0.1:${port}/?folder=${encodeURIComponent(folder)}`);
+    await page.locator(".monaco-workbench .explorer-folders-view .monaco-list-row").first().waitFor();
+    return host;
+  }
+
+  async stop(): Promise<void> {
+    await this.browser.close();
+    if (this.server.pid !== undefined) {
+      // The group holds the extension host and our server.
+      process.kill(-this.server.pid, "SIGTERM");
+      await new Promise((done) => this.server.once("exit", done));
+    }
+    await rm(this.root, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+  }
+}
+
+async function vsix(): Promise<string> {
+  const names = (await readdir(EXTENSION)).filter((name) => name.endsWith(".vsix"));
+  if (names[0] === undefined || names.length > 1) {
+    throw new Error(`there are ${names.length} VSIX files in ${EXTENSION}, expected one: run ./build-vsix`);
+  }
+  return join(EXTENSION, names[0]);
+}
+
+function freePort(): Promise<number> {
+  return new Promise((resolve, reject) => {
+    const probe = createServer();
+    probe.once("error", reject);
+    probe.listen(0, "127.0.0.1", () => {
+      const address = probe.address();
+      probe.close(() => {
+        resolve(typeof address === "object" && address !== null ? address.port : 0);
+      });
+    });
+  });
+}
+
+function listening(server: ChildProcess): Promise<void> {
+  return new Promise((resolve, reject) => {
+    let said = "";
+    const clock = setTimeout(() => {
+      reject(new Error(`code-server does not listen: ${said}`));
+    }, PATIENCE);
+    const hear = (chunk: Buffer): void => {
+      said += chunk.toString();
+      if (said.includes("HTTP server listening")) {
+        clearTimeout(clock);
+        resolve();
+      }
+    };
+    server.stdout?.on("data", hear);
+    server.stderr?.on("data", hear);
+    server.once("exit", (code) => {
+      clearTimeout(clock);
+      reject(new Error(`code-server ended with ${code ?? "a signal"}: ${said}`));
+    });
+  });
+}

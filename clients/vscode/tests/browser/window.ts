@@ -1,0 +1,90 @@
+// What a person does in the window: open, type, look, click.
+
+import { expectSoon } from "./checks";
+import type { Frame, Locator, Page } from "playwright-core";
+
+export class Window {
+  constructor(readonly page: Page) {}
+
+  async open(name: string): Promise<void> {
+    await this.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first().dblclick();
+    await this.page.locator(".tabs-container .tab.active", { hasText: name }).waitFor();
+    await this.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
+  }
+
+  async command(title: string): Promise<void> {
+    await this.page.keyboard.press("F1");
+    const input = this.page.locator(".quick-input-widget input");
+    await input.fill(`>${title}`);
+    await this.page.locator(".quick-input-list .monaco-list-row", { hasText: title }).first().waitFor();
+    await this.page.keyboard.press("Enter");
+  }
+
+  async goToLine(line: number, column = 1): Promise<void> {
+    await this.page.keyboard.press("Control+1");
+    await this.page.keyboard.press("Control+g");
+    await this.page.locator(".quick-input-widget input").fill(`:${line},${column}`);
+    await this.page.keyboard.press("Enter");
+    await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
+  }
+
+  /** Answers the simple dialog for a file. */
+  async path(path: string): Promise<void> {
+    const input = this.page.locator(".quick-input-widget input");
+    await input.waitFor();
+    await input.fill(path);
+    await this.page.waitForTimeout(300);
+    await this.page.keyboard.press("Enter");
+  }
+
+  get squiggles(): Locator {
+    return this.page.locator(".squiggly-error");
+  }
+
+  async problems(): Promise<string[]> {
+    await this.command("Problems: Focus on Problems View");
+    await this.page.locator(".markers-panel").waitFor();
+    return this.page.locator(".markers-panel .monaco-list-row").allInnerTexts();
+  }
+
+  async hidePanel(): Promise<void> {
+    await this.command("View: Hide Panel");
+    await this.page.locator(".markers-panel").waitFor({ state: "hidden" });
+  }
+
+  get status(): Locator {
+    return this.page.locator('.statusbar-item[id$="wedm.correction"]');
+  }
+
+  notification(text: string): Locator {
+    return this.page.locator(".notification-list-item", { hasText: text });
+  }
+
+  /** The line of the cursor, from 1. */
+  async line(): Promise<number> {
+    return Number(await this.page.locator(".monaco-editor .line-numbers.active-line-number").first().innerText());
+  }
+
+  async picture(): Promise<Frame> {
+    const outer = await (await this.page.locator("iframe.webview.ready").elementHandle())?.contentFrame();
+    const inner = await (await outer?.locator("iframe#active-frame").elementHandle())?.contentFrame();
+    if (inner === null || inner === undefined) {
+      throw new Error("there is no picture");
+    }
+    await inner.locator("#stage > svg").waitFor();
+    return inner;
+  }
+
+  /** Clicks the middle of what is drawn, whatever of the same mark lies over it. */
+  async clickDrawn(drawn: Locator): Promise<void> {
+    const box = await drawn.boundingBox();
+    if (box === null) {
+      throw new Error("what is to be clicked is not drawn");
+    }
+    await this.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  }
+
+  async expectLine(line: number): Promise<void> {
+    await expectSoon(`the cursor in line ${line}`, async () => (await this.line()) === line, async () => `line ${await this.line()}`);
+  }
+}

@@ -1,0 +1,40 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Inspection } from "../../src/protocol";
+import { rows, summary } from "../../src/radii/rows";
+
+const inspection: Inspection = {
+  unitsToMm: 25.4,
+  entities: [
+    { handle: "1", type: "LINE", layer: "0", closed: false, segments: [{ index: 0, kind: "line", start: [0, 0], end: [1, 0], length: 1, verdict: "ok" }] },
+    {
+      handle: "2A",
+      type: "LWPOLYLINE",
+      layer: "DIE",
+      closed: true,
+      segments: [
+        { index: 0, kind: "line", start: [0, 0], end: [1, 0], length: 1, verdict: "ok" },
+        { index: 2, kind: "arc", start: [1, 0.5], end: [0, 0], length: 0.1, radius: 0.003, sweep: 90, verdict: "small-radius,gap" },
+      ],
+    },
+  ],
+};
+
+test("figures are mm whatever the drawing's unit, and vertices keep their numbers", () => {
+  const list = rows(inspection, false);
+  assert.deepEqual(list.map(({ label, description }) => [label, description]), [
+    ["LINE 1", "0 · 1 segment"],
+    ["LWPOLYLINE 2A", "DIE · 1 of 2 segments not ok"],
+  ]);
+  assert.deepEqual(list[1]?.segments.map(({ label, description }) => [label, description]), [
+    ["0   line 25.400", "0.000, 0.000"],
+    ["2   R 0.076", "small-radius,gap · 25.400, 12.700"],
+  ]);
+  assert.equal(summary(list), "1 not ok");
+});
+
+test("only faults leaves what is sound out", () => {
+  const list = rows(inspection, true);
+  assert.deepEqual(list.map(({ handle, segments }) => [handle, segments.length]), [["2A", 1]]);
+  assert.equal(summary([]), "all ok");
+});

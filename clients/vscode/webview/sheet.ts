@@ -1,0 +1,169 @@
+// Takes the server's SVG into the page, and knows which of its elements stand for which segment or line.
+
+import type { Box } from "./frame";
+
+export interface Picked {
+  handle?: string;
+  segment?: number;
+  line?: number;
+}
+
+export class Sheet {
+  readonly svg: SVGSVGElement;
+  readonly drawing: SVGGElement | null;
+  readonly #bySegment = new Map<string, SVGElement[]>();
+  readonly #byLine = new Map<number, SVGElement[]>();
+  #selected: SVGElement[] = [];
+
+  /** Throws when the text is no SVG. */
+  constructor(text: string) {
+    const parsed = new DOMParser().parseFromString(text, "image/svg+xml");
+    const root = parsed.documentElement;
+    if (!(root instanceof SVGSVGElement)) {
+      throw new Error("the server's picture is no SVG");
+    }
+    // The page has its own colours, those of the theme, and runs nothing that came with a drawing.
+    for (const foreign of root.querySelectorAll("style, script, foreignObject")) {
+      foreign.remove();
+    }
+    this.svg = document.adoptNode(root);
+    this.svg.removeAttribute("width");
+    this.svg.removeAttribute("height");
+    this.drawing = this.svg.querySelector<SVGGElement>("g.drawing");
+    this.#index();
+  }
+
+  #index(): void {
+    for (const element of this.svg.querySelectorAll<SVGElement>("[data-handle]")) {
+      const { handle, segment } = element.dataset;
+      add(this.#bySegment, key(handle, segment), element);
+      if (segment !== undefined) {
+        add(this.#bySegment, key(handle, undefined), element);
+      }
+    }
+    for (const element of this.svg.querySelectorAll<SVGElement>("[data-line]")) {
+      add(this.#byLine, Number(element.dataset["line"]), element);
+    }
+    for (const mark of this.svg.querySelectorAll<SVGElement>("[data-at]")) {
+      const [x, y] = (mark.dataset["at"] ?? "").split(" ").map(Number);
+      mark.style.transformOrigin = `${x ?? 0}px ${y ?? 0}px`;
+    }
+  }
+
+  /** What is written about the picture, for the page's own head. */
+  heading(): { title: string; note: string } {
+    const text = (selector: string): string => this.svg.querySelector(`.chrome ${selector}`)?.textContent ?? "";
+    return { title: text(".heading") || (this.svg.querySelector("title")?.textContent ?? ""), note: text(".note") };
+  }
+
+  /** The box of all that is drawn, in units of the sheet. */
+  extent(): Box {
+    const figure = this.svg.querySelector<SVGGElement>("g.figure") ?? this.drawing;
+    const box = (this.drawing ?? figure)?.getBBox();
+    if (this.drawing === null || box === undefined || (box.width === 0 && box.height === 0)) {
+      const { x, y, width, height } = this.svg.viewBox.baseVal;
+      return { x, y, width, height };
+    }
+    return this.#onSheet(this.drawing, box);
+  }
+
+  /** Every element that stands for the segment; with null, for the entity. */
+  ofSegment(handle: string, segment: number | null): SVGElement[] {
+    const exact = segment === null ? undefined : this.#bySegment.get(key(handle, String(segment)));
+    return exact ?? this.#bySegment.get(key(handle, undefined)) ?? [];
+  }
+
+  ofLine(line: number): SVGElement[] {
+    return this.#byLine.get(line) ?? [];
+  }
+
+  select(elements: SVGElement[]): void {
+    for (const element of this.#selected) {
+      element.classList.remove("selected");
+    }
+    this.#selected = elements;
+    for (const element of elements) {
+      element.classList.add("selected");
+    }
+  }
+
+  /** The box of the parts of the drawing among these. */
+  boxOf(elements: readonly SVGElement[]): Box | null {
+    const parts = elements.filter((element): element is SVGGraphicsElement => element instanceof SVGGraphicsElement);
+    const drawn = parts.filter((element) => this.drawing?.contains(element) === true && !element.classList.contains("fine"));
+    const boxes = drawn.map((element) => this.#onSheet(element, element.getBBox()));
+    return boxes.reduce<Box | null>((all, box) => (all === null ? box : joined(all, box)), null);
+  }
+
+  #onSheet(element: SVGGraphicsElement, box: DOMRect): Box {
+    const matrix = element.getCTM();
+    const own = this.svg.getCTM();
+    if (matrix === null || own === null) {
+      return box;
+    }
+    const toSheet = own.inverse().multiply(matrix);
+    const corners = [
+      [box.x, box.y],
+      [box.x + box.width, box.y + box.height],
+    ].map(([x, y]) => new DOMPoint(x, y).matrixTransform(toSheet));
+    const [a, b] = [corners[0] ?? new DOMPoint(), corners[1] ?? new DOMPoint()];
+    return { x: Math.min(a.x, b.x), y: Math.min(a.y, b.y), width: Math.abs(a.x - b.x), height: Math.abs(a.y - b.y) };
+  }
+
+  /** A point of the window in mm of the drawing. */
+  inMm(x: number, y: number): { x: number; y: number } | null {
+    const matrix = this.drawing?.getScreenCTM();
+    const { origin, scale, unitMm } = this.drawing?.dataset ?? {};
+    if (matrix === null || matrix === undefined || origin === undefined) {
+      return null;
+    }
+    const local = new DOMPoint(x, y).matrixTransform(matrix.inverse());
+    const [originX, originY] = origin.split(" ").map(Number);
+    const toMm = Number(unitMm ?? 1);
+    return { x: ((originX ?? 0) + local.x / Number(scale)) * toMm, y: ((originY ?? 0) + local.y / Number(scale)) * toMm };
+  }
+
+  /** Units of the sheet in 1 mm; 0 where nobody knows. */
+  get unitsPerMm(): number {
+    const { scale, unitMm } = this.drawing?.dataset ?? {};
+    return scale === undefined ? 0 : Number(scale) / Number(unitMm ?? 1);
+  }
+
+  /** The pieces of the wire's way, in the order in which it is travelled. */
+  wire(): SVGPathElement[] {
+    const blocks = [...this.svg.querySelectorAll<SVGPathElement>("g.drawing path[data-line]")];
+    return blocks.length > 0 ? blocks : [...this.svg.querySelectorAll<SVGPathElement>("g.drawing path.wire, g.drawing path.lead")];
+  }
+}
+
+/** What an element, or one that holds it, stands for. */
+export function pickedFrom(element: Element | null): Picked | null {
+  const named = element?.closest<SVGElement>("[data-handle], [data-line]");
+  if (named === null || named === undefined) {
+    return null;
+  }
+  const { handle, segment, line } = named.dataset;
+  return {
+    ...(handle === undefined ? {} : { handle }),
+    ...(segment === undefined ? {} : { segment: Number(segment) }),
+    ...(line === undefined ? {} : { line: Number(line) }),
+  };
+}
+
+function key(handle: string | undefined, segment: string | undefined): string {
+  return `${handle ?? ""}\n${segment ?? ""}`;
+}
+
+function add<K>(map: Map<K, SVGElement[]>, at: K, element: SVGElement): void {
+  const list = map.get(at);
+  if (list === undefined) {
+    map.set(at, [element]);
+  } else {
+    list.push(element);
+  }
+}
+
+function joined(a: Box, b: Box): Box {
+  const [x, y] = [Math.min(a.x, b.x), Math.min(a.y, b.y)];
+  return { x, y, width: Math.max(a.x + a.width, b.x + b.width) - x, height: Math.max(a.y + a.height, b.y + b.height) - y };
+}

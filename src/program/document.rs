@@ -1,0 +1,157 @@
+//! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
+
+use super::trace::{Step, Trace};
+use super::{iso, three_b};
+use crate::finding::{Finding, Fix, Severity};
+use crate::settings::Effective;
+use crate::text::{SourceText, TextEdit};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// The languages of programs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Language {
+    /// 3B, and 4B in the same text.
+    ThreeB,
+    /// ISO words (G code) of wire EDM.
+    Iso,
+}
+
+impl Language {
+    pub const ALL: [Language; 2] = [Language::ThreeB, Language::Iso];
+
+    /// `languageId` in the protocol.
+    pub fn id(self) -> &'static str {
+        match self {
+            Language::ThreeB => "3b",
+            Language::Iso => "wire-iso",
+        }
+    }
+
+    /// Endings of file names, lower-case, the usual one first.
+    pub fn endings(self) -> &'static [&'static str] {
+        match self {
+            Language::ThreeB => &["3b", "4b"],
+            Language::Iso => &["iso", "nc"],
+        }
+    }
+
+    pub fn of_id(id: &str) -> Option<Language> {
+        Language::ALL.into_iter().find(|language| language.id() == id)
+    }
+
+    /// The language of files with an ending (lower-case, without its dot).
+    pub fn of_ending(ending: &str) -> Option<Language> {
+        Language::ALL.into_iter().find(|language| language.endings().contains(&ending))
+    }
+}
+
+/// A program's text, what was read from it, and what is wrong with it.
+#[derive(Clone, Debug)]
+pub enum Document {
+    ThreeB(three_b::Document),
+    Iso(iso::Document),
+}
+
+impl Document {
+    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    pub fn read(language: Language, bytes: Vec<u8>, settings: &Effective) -> Document {
+        match language {
+            Language::ThreeB => Document::ThreeB(three_b::Document::read_with(bytes, settings)),
+            Language::Iso => Document::Iso(iso::Document::read_with(bytes, settings)),
+        }
+    }
+
+    pub fn language(&self) -> Language {
+        match self {
+            Document::ThreeB(_) => Language::ThreeB,
+            Document::Iso(_) => Language::Iso,
+        }
+    }
+
+    pub fn text(&self) -> &SourceText {
+        match self {
+            Document::ThreeB(document) => document.text(),
+            Document::Iso(document) => document.text(),
+        }
+    }
+
+    /// Replaces a range of bytes and reads again what it touched.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
+        match self {
+            Document::ThreeB(document) => document.edit(range, replacement),
+            Document::Iso(document) => document.edit(range, replacement),
+        }
+    }
+
+    /// Reads again where the settings change what a text means or what is a fault of it; costs nothing where they do not.
+    pub fn set_settings(&mut self, settings: &Effective) {
+        match self {
+            Document::ThreeB(document) => document.set_settings(settings),
+            Document::Iso(document) => document.set_settings(settings),
+        }
+    }
+
+    /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there
+    /// are in all.
+    pub fn findings(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
+        let of_reader = match self {
+            Document::ThreeB(document) => document.findings(),
+            Document::Iso(document) => document.findings(),
+        };
+        let mut findings: Vec<Finding> = Vec::new();
+        for finding in of_reader {
+            // The reader knows no severities but its own: the settings' are laid over them here.
+            if let Some(severity) = settings.severity_of(&finding) {
+                findings.push(Finding { severity, ..finding });
+            }
+        }
+        let count = findings.len();
+        findings.sort_by_key(|finding| finding.severity);
+        findings.truncate(limit);
+        (findings, count)
+    }
+
+    /// The fixes of one finding as edits of the text, the preferred one first.
+    pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+        match self {
+            Document::ThreeB(document) => document.fixes(finding),
+            Document::Iso(document) => document.fixes(finding),
+        }
+    }
+
+    /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where there is none.
+    pub fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
+        let (mut findings, _) = self.findings(settings, usize::MAX);
+        findings.retain(|finding| finding.severity <= Severity::Information);
+        let safe = |finding: &Finding| self.fixes(finding).into_iter().find(|fix| fix.preferred && fix.in_fix_all);
+        // By where they begin: an edit touches another one only if that is its neighbour.
+        let mut taken: BTreeMap<usize, TextEdit> = BTreeMap::new();
+        for fix in findings.iter().filter_map(safe) {
+            let is_free = |edit: &TextEdit| {
+                let before = taken.range(..=edit.range.end).next_back();
+                before.is_none_or(|(_, other)| other.range.end < edit.range.start)
+            };
+            if fix.edit.iter().all(is_free) {
+                taken.extend(fix.edit.into_iter().map(|edit| (edit.range.start, edit)));
+            }
+        }
+        (!taken.is_empty()).then(|| taken.into_values().collect())
+    }
+
+    /// Where the machine goes, block by block.
+    pub fn trace(&self) -> Trace {
+        match self {
+            Document::ThreeB(document) => document.trace(),
+            Document::Iso(document) => document.trace(),
+        }
+    }
+
+    /// The steps whose text overlaps or touches a range of bytes. Costs the range, not the program.
+    pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
+        match self {
+            Document::ThreeB(document) => document.steps_in(range),
+            Document::Iso(document) => document.steps_in(range),
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! What one line says to the machine: its modal words, coordinates and marks, typed. Lengths stay as they are written.
+
+use super::word::{Number, Token, WordFault, words};
+use std::ops::Range;
+
+/// G00 to G03.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    Rapid,
+    Line,
+    Clockwise,
+    CounterClockwise,
+}
+
+/// G40, G41, G42.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compensation {
+    Off,
+    /// The wire runs to the left of the direction of travel.
+    Left,
+    Right,
+}
+
+/// M00, M01, M02 and M30.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    Pause,
+    End,
+}
+
+/// What a line says. Of a word that stands twice the last one holds, as in controls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Block {
+    /// `N12`.
+    pub number: Option<u32>,
+    /// `O0001` or `:0001`.
+    pub program: Option<u32>,
+    pub motion: Option<Motion>,
+    /// True for G91, false for G90.
+    pub incremental: Option<bool>,
+    pub compensation: Option<Compensation>,
+    /// True for inches (G20, G70), false for millimetres (G21, G71).
+    pub inch: Option<bool>,
+    /// G92: the coordinates are those of the place where the wire stands.
+    pub sets_position: bool,
+    pub x: Option<Number>,
+    pub y: Option<Number>,
+    pub i: Option<Number>,
+    pub j: Option<Number>,
+    pub r: Option<Number>,
+    /// `D1` or `H1`: the place in the control's table that holds the correction.
+    pub offset: Option<Offset>,
+    pub stop: Option<Stop>,
+    /// `M98 P1`.
+    pub call: Option<u32>,
+    /// `L3`: how often the subprogram runs.
+    pub repeat: Option<u32>,
+    /// M99.
+    pub returns: bool,
+    /// A word that takes the coordinates for something else than a move, such as G04 or G28.
+    pub takes_coordinates: bool,
+    /// A word of the line could not be read, so that its coordinates are not known.
+    pub broken: bool,
+    /// Nothing but comments, marks and spaces stands in it.
+    pub empty: bool,
+}
+
+/// A place in the control's table of corrections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Offset {
+    pub letter: u8,
+    pub index: u32,
+}
+
+/// Something besides the block that a line shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Note {
+    /// A word that means on one machine what it does not on another.
+    Foreign {
+        code: Code,
+        range: Range<usize>,
+    },
+    /// `H001=110`
+    Definition {
+        offset: Offset,
+        value: Number,
+    },
+    Fault {
+        fault: WordFault,
+        range: Range<usize>,
+    },
+}
+
+/// What a foreign word is told apart by: its letter, and its number times 10 where that is G's or M's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Code(u32);
+
+impl Code {
+    const NAME: Code = Code(0);
+    const SKIP: Code = Code(1);
+
+    fn of(letter: u8, number: Number) -> Code {
+        let tenths = match (letter, number.decimals) {
+            (b'G' | b'M', 0) => number.mantissa.saturating_mul(10),
+            (b'G' | b'M', 1) => number.mantissa,
+            _ => 0,
+        };
+        Code(u32::from(letter) << 16 | (tenths.unsigned_abs().min(0xffff) as u32))
+    }
+}
+
+/// Reads one line, without its line end. Ranges are counted from `offset`.
+pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Block {
+    let mut block = Block { empty: true, ..Block::default() };
+    let (mut subprogram, mut calls, mut p_range) = (None, false, None);
+    let mut is_spare_p = false;
+    words(line, offset, |token| match token {
+        Token::Word { letter, number, range } => {
+            block.empty = false;
+            match letter {
+                b'X' => block.x = Some(number),
+                b'Y' => block.y = Some(number),
+                b'I' => block.i = Some(number),
+                b'J' => block.j = Some(number),
+                b'R' => block.r = Some(number),
+                b'G' => {
+                    if !block.prepare(number) {
+                        note(Note::Foreign { code: Code::of(letter, number), range });
+                    }
+                }
+                b'M' => match number.whole() {
+                    Some(0 | 1) => block.stop = Some(Stop::Pause),
+                    Some(2 | 30) => block.stop = Some(Stop::End),
+                    Some(98) => calls = true,
+                    Some(99) => block.returns = true,
+                    _ => note(Note::Foreign { code: Code::of(letter, number), range }),
+                },
+                b'N' => block.number = Some(index(number)),
+                b'O' => block.program = Some(index(number)),
+                b'D' | b'H' => block.offset = Some(Offset { letter, index: index(number) }),
+                b'P' => {
+                    (subprogram, p_range, is_spare_p) = (number.whole().and_then(|whole| u32::try_from(whole).ok()), Some(range), true);
+                }
+                b'L' => block.repeat = Some(index(number)),
+                // The feed does not change where the wire goes.
+                b'F' => {}
+                _ => note(Note::Foreign { code: Code::of(letter, number), range }),
+            }
+        }
+        Token::Definition { letter, index: place, value, range } => {
+            block.empty = false;
+            match value {
+                Some(value) if matches!(letter, b'D' | b'H') => {
+                    note(Note::Definition { offset: Offset { letter, index: index(place) }, value });
+                }
+                _ => note(Note::Foreign { code: Code::of(letter, place), range }),
+            }
+        }
+        Token::Foreign { range } => {
+            block.empty = false;
+            // X#101 is a coordinate that is not known.
+            block.broken |= range.len() > 1 && line.get(range.start - offset).is_some_and(|byte| b"XYIJRxyijr".contains(byte));
+            note(Note::Foreign { code: Code::NAME, range });
+        }
+        Token::Skip { range } => note(Note::Foreign { code: Code::SKIP, range }),
+        Token::Comment { .. } | Token::Tape { .. } => {}
+        Token::Fault { fault, range } => {
+            block.empty = false;
+            block.broken |= !matches!(fault, WordFault::OpenComment);
+            note(Note::Fault { fault, range });
+        }
+    });
+    if calls {
+        block.call = subprogram;
+    } else if is_spare_p
+        && !block.takes_coordinates
+        && let Some(range) = p_range
+    {
+        note(Note::Foreign { code: Code(u32::from(b'P') << 16), range });
+    }
+    block
+}
+
+fn index(number: Number) -> u32 {
+    number.whole().and_then(|whole| u32::try_from(whole).ok()).unwrap_or(u32::MAX)
+}
+
+impl Block {
+    /// Takes a G word; false where its meaning is a matter of the machine.
+    fn prepare(&mut self, number: Number) -> bool {
+        if number.decimals > 0 {
+            // G90.1 and G91.1 tell how I and J are meant, which is found from the arcs themselves.
+            return matches!((number.mantissa, number.decimals), (901 | 911, 1));
+        }
+        match number.mantissa {
+            0 => self.motion = Some(Motion::Rapid),
+            1 => self.motion = Some(Motion::Line),
+            2 => self.motion = Some(Motion::Clockwise),
+            3 => self.motion = Some(Motion::CounterClockwise),
+            4 => self.takes_coordinates = true,
+            20 | 70 => self.inch = Some(true),
+            21 | 71 => self.inch = Some(false),
+            40 => self.compensation = Some(Compensation::Off),
+            41 => self.compensation = Some(Compensation::Left),
+            42 => self.compensation = Some(Compensation::Right),
+            90 => self.incremental = Some(false),
+            91 => self.incremental = Some(true),
+            92 => self.sets_position = true,
+            17 => {}
+            10 | 27..=31 | 65..=67 => {
+                self.takes_coordinates = true;
+                return false;
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// True where the line has a coordinate of its own.
+    pub fn has_coordinates(&self) -> bool {
+        self.x.is_some() || self.y.is_some()
+    }
+}
+
+/// Bytes of the word with `letter` in a line; the last of them where it stands several times.
+pub fn word_range(line: &[u8], offset: usize, wanted: impl Fn(u8, Number) -> bool) -> Option<Range<usize>> {
+    let mut found = None;
+    words(line, offset, |token| {
+        if let Token::Word { letter, number, range } = token
+            && wanted(letter, number)
+        {
+            found = Some(range);
+        }
+    });
+    found
+}

@@ -1,0 +1,352 @@
+//! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
+
+use super::block::{Motion, Stop, read_line};
+use super::evidence::Evidence;
+use super::machine::{CenterRule, Course, Machine, Reading, micrometres};
+use super::order::{Order, order};
+use super::stretch::Stretch;
+use crate::finding::{Finding, Fix};
+use crate::geometry::Segment;
+use crate::program::trace::{Kind, Step, Trace};
+use crate::settings::Effective;
+use crate::text::{SourceText, TextEdit};
+use std::ops::Range;
+
+/// Lines that are run together: an edit costs as many, and a program has as many fewer stretches.
+const STRETCH: usize = 128;
+
+/// An ISO program as text, and what its lines do.
+///
+/// What a line does hangs on those before it, so a program is kept as stretches with what is in force before and behind each. An edit
+/// runs the stretches that it touched, and those behind for which something else is in force; one that has only been moved is shifted.
+/// A program that calls subprograms is run anew with each edit.
+#[derive(Clone, Debug)]
+pub struct Document {
+    text: SourceText,
+    stretches: Vec<Stretch>,
+    reading: Reading,
+    evidence: Evidence,
+    /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
+    order: Option<Order>,
+    /// What settings a fault is held against.
+    pub(super) limits: Limits,
+}
+
+/// The settings that decide what is a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Limits {
+    /// mm, where the program's own table does not say.
+    pub correction: f64,
+    pub side: crate::settings::SideSetting,
+    pub compensation: crate::settings::Compensation,
+    /// Words that the profile of the settings writes.
+    pub end: String,
+    /// Where full circles alone leave open how I and J are meant.
+    pub center: CenterRule,
+}
+
+impl Limits {
+    fn of(settings: &Effective) -> Limits {
+        Limits {
+            correction: settings.correction,
+            side: settings.side,
+            compensation: settings.compensation,
+            end: "M02".into(),
+            center: CenterRule::StartToCenter,
+        }
+    }
+}
+
+/// A stretch and the line of the text at which it begins.
+pub(super) struct Placed<'a> {
+    pub stretch: &'a Stretch,
+    pub first_line: usize,
+    /// Byte of the text from which the stretch's places count.
+    pub offset: usize,
+}
+
+impl Document {
+    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    pub fn read(bytes: Vec<u8>) -> Document {
+        Document::read_with(bytes, &Effective::default())
+    }
+
+    pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
+        let limits = Limits::of(settings);
+        let mut document = Document {
+            text: SourceText::new(bytes),
+            stretches: Vec::new(),
+            reading: Evidence::default().reading(limits.center),
+            evidence: Evidence::default(),
+            order: None,
+            limits,
+        };
+        document.guess_reading();
+        document.run_all();
+        document
+    }
+
+    pub fn text(&self) -> &SourceText {
+        &self.text
+    }
+
+    /// How the numbers of the program were found to be meant.
+    pub fn reading(&self) -> &Reading {
+        &self.reading
+    }
+
+    pub(super) fn evidence(&self) -> &Evidence {
+        &self.evidence
+    }
+
+    pub(super) fn order(&self) -> Option<&Order> {
+        self.order.as_ref()
+    }
+
+    /// Looks again under other settings.
+    pub fn set_settings(&mut self, settings: &Effective) {
+        let limits = Limits::of(settings);
+        if limits == self.limits {
+            return;
+        }
+        let center = limits.center != self.limits.center;
+        self.limits = limits;
+        if center {
+            self.settle();
+        }
+    }
+
+    /// What is wrong in the program, in the order of the text.
+    pub fn findings(&self) -> Vec<Finding> {
+        super::report::findings(self)
+    }
+
+    /// The fixes of one finding, the preferred one first.
+    pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+        super::fixes::fixes(self, finding)
+    }
+
+    /// The stretches in the order in which they run.
+    pub(super) fn placed(&self) -> impl Iterator<Item = Placed<'_>> {
+        let mut line = 0;
+        self.stretches.iter().enumerate().map(move |(index, stretch)| {
+            let first_line = match &self.order {
+                Some(order) => order.lines.get(index).map_or(0, |lines| lines.start),
+                None => line,
+            };
+            line = first_line + stretch.lines as usize;
+            Placed { stretch, first_line, offset: self.text.line_start(first_line) }
+        })
+    }
+
+    /// Replaces a range of bytes and runs again what it touched.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
+        let end = range.end.min(self.text.len());
+        let start = range.start.min(end);
+        // The byte before belongs to it: a CR there may become one line end with an inserted LF.
+        let first = self.text.line_of(start.saturating_sub(1));
+        let lines_behind = self.text.line_count() - 1 - self.text.line_of(end);
+        self.text.replace(start..end, replacement);
+        if self.order.is_some() {
+            self.guess_reading();
+            return self.run_all();
+        }
+        self.run_touched(first, lines_behind);
+    }
+
+    /// Runs the stretches that hold the lines from `first` up to the last `lines_behind` ones, and what hangs on them.
+    fn run_touched(&mut self, first: usize, lines_behind: usize) {
+        let all_lines = self.text.line_count();
+        let (mut from, mut line) = (0, 0);
+        while from + 1 < self.stretches.len() && line + self.stretches[from].lines as usize <= first {
+            line += self.stretches[from].lines as usize;
+            from += 1;
+        }
+        let (mut to, mut behind) = (self.stretches.len(), 0);
+        while to > from + 1 && behind + self.stretches[to - 1].lines as usize <= lines_behind {
+            to -= 1;
+            behind += self.stretches[to].lines as usize;
+        }
+        let before = self.stretches.get(from).map_or_else(Machine::default, |stretch| stretch.before);
+        let fresh = run_lines(&self.text, line..all_lines - behind, before, self.reading);
+        let mut next = from + fresh.len();
+        self.stretches.splice(from..to, fresh);
+        let mut line = all_lines - behind;
+        // What stands behind is run again for as long as something else is in force than was.
+        while let Some(before) = next.checked_sub(1).map(|last| self.stretches[last].after)
+            && let Some(stretch) = self.stretches.get_mut(next)
+            && stretch.before != before
+        {
+            let lines = line..line + stretch.lines as usize;
+            line = lines.end;
+            let moved = Machine { at: stretch.before.at, ..before } == stretch.before;
+            if moved && stretch.is_loose() {
+                stretch.shift([before.at[0].wrapping_sub(stretch.before.at[0]), before.at[1].wrapping_sub(stretch.before.at[1])]);
+            } else {
+                *stretch = run_stretch(&self.text, lines, before, self.reading);
+            }
+            next += 1;
+        }
+        self.settle();
+    }
+
+    /// A first guess of how the numbers are meant, from the beginning of the text: it spares running everything twice.
+    fn guess_reading(&mut self) {
+        let head = 0..self.text.line_count().min(16 * STRETCH);
+        let reading = Evidence::default().reading(self.limits.center);
+        let evidence = summed(&run_lines(&self.text, head.clone(), Machine::default(), reading));
+        let units = evidence.reading(self.limits.center);
+        let evidence = summed(&run_lines(&self.text, head, Machine::default(), units));
+        self.reading = evidence.reading(self.limits.center);
+    }
+
+    /// Runs the whole program.
+    fn run_all(&mut self) {
+        self.order = None;
+        self.run_stretches();
+        self.settle();
+    }
+
+    fn run_stretches(&mut self) {
+        self.stretches = match &self.order {
+            None => run_lines(&self.text, 0..self.text.line_count(), Machine::default(), self.reading),
+            Some(order) => {
+                let mut machine = Machine::default();
+                let run = order.lines.iter().map(|lines| {
+                    let stretch = run_stretch(&self.text, lines.clone(), machine, self.reading);
+                    machine = stretch.after;
+                    stretch
+                });
+                run.collect()
+            }
+        };
+    }
+
+    /// Holds the reading against what the whole program shows, and runs it again where it shows another one: first the unit and the
+    /// finest step, then, measured with these, where I and J lead.
+    fn settle(&mut self) {
+        if self.order.is_none() && self.stretches.iter().any(|stretch| stretch.calls) {
+            self.order = Some(order(&self.text));
+            self.run_stretches();
+        }
+        for _ in 0..2 {
+            self.evidence = summed(&self.stretches);
+            let reading = self.evidence.reading(self.limits.center);
+            if reading == self.reading {
+                return;
+            }
+            self.reading = reading;
+            self.run_stretches();
+        }
+        self.evidence = summed(&self.stretches);
+        self.reading = self.evidence.reading(self.limits.center);
+    }
+
+    /// Where the machine goes, move by move.
+    pub fn trace(&self) -> Trace {
+        let mut trace = Trace::default();
+        let mut contour = 0;
+        let mut start = None;
+        for placed in self.placed() {
+            let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
+            self.steps_of(lines, placed.stretch.before, &mut contour, &mut |step, states| {
+                start.get_or_insert((step.start, states));
+                trace.steps.push(step);
+            });
+        }
+        if let Some((start, is_known)) = start {
+            (trace.start, trace.start_is_known) = (start, is_known);
+        }
+        trace
+    }
+
+    /// The steps whose text overlaps or touches a range of bytes.
+    pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
+        let wanted = self.text.line_of(range.start)..self.text.line_of(range.end) + 1;
+        let mut steps = Vec::new();
+        let mut contour = 0;
+        for placed in self.placed() {
+            let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
+            if lines.start < wanted.end && wanted.start < lines.end {
+                let mut own = contour;
+                self.steps_of(lines, placed.stretch.before, &mut own, &mut |step, _| {
+                    if step.range.start <= range.end && range.start <= step.range.end {
+                        steps.push(step);
+                    }
+                });
+            }
+            contour += placed.stretch.pauses as usize;
+        }
+        steps
+    }
+
+    /// Runs lines and hands out their steps, each with whether the program has said before where it stands.
+    fn steps_of(&self, lines: Range<usize>, before: Machine, contour: &mut usize, each: &mut dyn FnMut(Step, bool)) {
+        let mut machine = before;
+        for line in lines {
+            if machine.ended {
+                return;
+            }
+            let range = self.text.line_range(line);
+            let bytes = &self.text.bytes()[range.clone()];
+            let block = read_line(bytes, range.start, |_| {});
+            if block.empty {
+                continue;
+            }
+            let made = machine.run(&block, &self.reading);
+            let words = super::stretch::words_of(bytes, range.start);
+            let words = words.0 as usize..words.1 as usize;
+            if let Some(made) = made {
+                let kind = match made.motion {
+                    Motion::Rapid => Kind::Rapid,
+                    Motion::Line => Kind::Line,
+                    Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
+                };
+                let ideal = match made.course(&self.reading) {
+                    Course::Line => Some(Segment::line(micrometres(made.from), micrometres(made.to))),
+                    Course::Arc(arc) => Some(Segment::Arc(arc)),
+                    Course::OffRadius { .. } | Course::NoRadius => None,
+                };
+                let (start, end) = (micrometres(made.from), micrometres(made.to));
+                let step = Step { range: words.clone(), line, number: block.number, kind, start, end, ideal, contour: *contour };
+                each(step, machine.stated);
+            }
+            if let Some(stop) = block.stop {
+                let kind = if stop == Stop::End { Kind::End } else { Kind::Pause };
+                let at = micrometres(machine.at);
+                let step = Step { range: words, line, number: block.number, kind, start: at, end: at, ideal: None, contour: *contour };
+                each(step, machine.stated);
+                *contour += usize::from(stop == Stop::Pause);
+            }
+        }
+    }
+}
+
+fn summed(stretches: &[Stretch]) -> Evidence {
+    let mut evidence = Evidence::default();
+    stretches.iter().for_each(|stretch| evidence.add(&stretch.evidence));
+    evidence
+}
+
+/// Runs lines in stretches of [`STRETCH`] to twice as many, so that lines inserted one by one do not leave ever shorter ones.
+fn run_lines(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Vec<Stretch> {
+    let mut machine = before;
+    let pieces = (lines.len() / STRETCH).max(1);
+    let run = (0..pieces).map(|piece| {
+        let at = |piece: usize| lines.start + lines.len() * piece / pieces;
+        let stretch = run_stretch(text, at(piece)..at(piece + 1), machine, reading);
+        machine = stretch.after;
+        stretch
+    });
+    run.collect()
+}
+
+fn run_stretch(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Stretch {
+    let start = text.line_start(lines.start);
+    let bytes = text.bytes();
+    let lines = lines.map(|line| {
+        let range = text.line_range(line);
+        (range.start, &bytes[range])
+    });
+    Stretch::run(lines, start, before, reading)
+}

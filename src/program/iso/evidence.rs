@@ -1,0 +1,130 @@
+//! What the lines of a program show about how its numbers are meant: the unit of whole numbers, the finest step, and where I and J lead.
+//!
+//! Nothing of it is assumed: the readings are held against the arcs, and the one that fits the most of them is taken.
+
+use super::block::Block;
+use super::machine::{CenterRule, MICROMETRE, Move, Reading};
+
+/// Ends of an arc lie no more unlike far from its centre than this many steps of the finest number: each of the three points may be
+/// off by half a step on both axes.
+const STEPS: i64 = 3;
+
+/// The coarsest tolerance, nm: a program of whole millimetres must fit better than its numbers are fine.
+const COARSEST: i64 = 20 * MICROMETRE;
+
+/// Counts over some lines of a program. They add up in any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Evidence {
+    /// Coordinates with a decimal point.
+    pub with_point: u32,
+    /// The most decimals of a coordinate.
+    pub decimals: u8,
+    pub inch: bool,
+    pub absolute: Arcs,
+    pub incremental: Arcs,
+}
+
+/// Arcs with I and J: how many of them do not fit under each rule, and how many fit under two rules about unlike centres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Arcs {
+    pub all: u32,
+    pub off: [u32; 3],
+    /// In the order of [`PAIRS`].
+    pub unclear: [u32; 3],
+}
+
+const RULES: [CenterRule; 3] = [CenterRule::StartToCenter, CenterRule::CenterToStart, CenterRule::Absolute];
+
+const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+impl Arcs {
+    fn add(&mut self, other: &Arcs) {
+        self.all += other.all;
+        for (count, more) in self.off.iter_mut().chain(&mut self.unclear).zip(other.off.into_iter().chain(other.unclear)) {
+            *count += more;
+        }
+    }
+
+    /// True where two rules fit equally many arcs, more than any other, and lead to unlike circles.
+    fn is_open(&self, rules: usize) -> bool {
+        let least = self.off[..rules].iter().copied().min().unwrap_or(0);
+        let open = |(&(a, b), &unclear): (&(usize, usize), &u32)| unclear > 0 && b < rules && self.off[a] == least && self.off[b] == least;
+        PAIRS.iter().zip(&self.unclear).any(open)
+    }
+
+    /// The arcs fit one rule better than the others.
+    fn tells(&self, rules: usize) -> bool {
+        self.all > 0 && !self.is_open(rules)
+    }
+
+    /// The rule that the fewest arcs are off under; `preferred` where others are no better, then the first.
+    fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
+        let off = |rule: CenterRule| self.off[rule as usize];
+        let least = rules.iter().copied().map(off).min().unwrap_or(0);
+        if rules.contains(&preferred) && off(preferred) == least {
+            return preferred;
+        }
+        rules.iter().copied().find(|&rule| off(rule) == least).unwrap_or(CenterRule::StartToCenter)
+    }
+}
+
+impl Evidence {
+    pub fn add(&mut self, other: &Evidence) {
+        self.with_point += other.with_point;
+        self.decimals = self.decimals.max(other.decimals);
+        self.inch |= other.inch;
+        self.absolute.add(&other.absolute);
+        self.incremental.add(&other.incremental);
+    }
+
+    /// Takes note of a line's numbers.
+    pub fn numbers(&mut self, block: &Block) {
+        for number in [block.x, block.y, block.i, block.j, block.r].into_iter().flatten() {
+            self.with_point += u32::from(number.point);
+            self.decimals = self.decimals.max(number.decimals);
+        }
+        self.inch |= block.inch == Some(true);
+    }
+
+    /// Takes note of an arc.
+    pub fn arc(&mut self, arc: &Move, tolerance: i64) {
+        let arcs = if arc.incremental { &mut self.incremental } else { &mut self.absolute };
+        if arc.center(CenterRule::StartToCenter).is_none() {
+            return;
+        }
+        arcs.all += 1;
+        let centers = RULES.map(|rule| arc.center(rule));
+        let off = RULES.map(|rule| arc.difference(rule).abs() > tolerance as f64);
+        // Under G91 nothing is absolute.
+        let compared = if arc.incremental { 2 } else { 3 };
+        for (count, &is_off) in arcs.off.iter_mut().zip(&off[..compared]) {
+            *count += u32::from(is_off);
+        }
+        for (count, (a, b)) in arcs.unclear.iter_mut().zip(PAIRS) {
+            *count += u32::from(b < compared && !off[a] && !off[b] && centers[a] != centers[b]);
+        }
+    }
+
+    /// How the program is to be read. `preferred` is what holds where its arcs fit under several rules.
+    pub fn reading(&self, preferred: CenterRule) -> Reading {
+        let whole_numbers_are_fine = self.with_point == 0;
+        let absolute = self.absolute.rule(preferred, &RULES);
+        // What the arcs under G90 show, those under G91 of the same program need not show again.
+        let shown = if self.absolute.tells(3) { absolute } else { preferred };
+        let incremental = self.incremental.rule(shown, &RULES[..2]);
+        let absolute =
+            if !self.absolute.tells(3) && self.incremental.tells(2) { self.absolute.rule(incremental, &RULES) } else { absolute };
+        let step = match (whole_numbers_are_fine, self.inch) {
+            (true, false) => MICROMETRE,
+            (true, true) => 2_540,
+            (false, inch) => (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals.min(7))),
+        };
+        Reading { whole_numbers_are_fine, absolute, incremental, tolerance: (STEPS * step).clamp(STEPS * MICROMETRE, COARSEST) }
+    }
+
+    /// True where the arcs fit under two rules equally well, as full circles do.
+    pub fn leaves_centers_open(&self) -> bool {
+        let told = self.absolute.tells(3) || self.incremental.tells(2);
+        !told && (self.absolute.is_open(3) || self.incremental.is_open(2))
+    }
+}

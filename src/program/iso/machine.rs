@@ -1,0 +1,362 @@
+//! The control as far as geometry goes: what stays in force from line to line, where the wire stands, and the move that a line makes.
+//!
+//! Places are whole nanometres, so that a micrometre, four decimals of an inch and six of a millimetre are all exact, and sums do not
+//! depend on the order in which they are made.
+
+use super::block::{Block, Compensation, Motion, Offset, Stop};
+use super::word::Number;
+use crate::finding::Side;
+use crate::geometry::{Arc, Point, Segment};
+
+/// Nanometres in a micrometre.
+pub const MICROMETRE: i64 = 1_000;
+
+/// A place in nm.
+pub type Place = [i64; 2];
+
+/// How I and J lead to an arc's centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CenterRule {
+    StartToCenter,
+    CenterToStart,
+    /// The centre itself in the coordinates of the program.
+    Absolute,
+}
+
+/// How the numbers of a program are to be read: found from the program as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reading {
+    /// A number without decimal point is in µm (tenths of a thousandth of an inch); else it is in mm (inches) like the others.
+    pub whole_numbers_are_fine: bool,
+    /// Of arcs under G90.
+    pub absolute: CenterRule,
+    /// Of arcs under G91; never [`CenterRule::Absolute`].
+    pub incremental: CenterRule,
+    /// By how much the ends of an arc may lie unlike far from its centre, nm.
+    pub tolerance: i64,
+}
+
+impl Reading {
+    pub fn rule(&self, incremental: bool) -> CenterRule {
+        if incremental { self.incremental } else { self.absolute }
+    }
+
+    /// A length as it is written, in nm.
+    pub fn length(&self, number: Number, inch: bool) -> i64 {
+        if !number.point && self.whole_numbers_are_fine {
+            return number.mantissa * if inch { 2_540 } else { MICROMETRE };
+        }
+        let unit: i128 = if inch { 25_400_000 } else { 1_000_000 };
+        let divisor = 10_i128.pow(u32::from(number.decimals));
+        let scaled = i128::from(number.mantissa) * unit;
+        if scaled % divisor == 0 {
+            return (scaled / divisor) as i64;
+        }
+        let half = if scaled < 0 { -divisor / 2 } else { divisor / 2 };
+        ((scaled + half) / divisor) as i64
+    }
+}
+
+/// Where an arc says that its centre is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bend {
+    /// I and J in nm, as written, and where they would lie as absolute coordinates.
+    Center { i: i64, j: i64, absolute: Place },
+    /// R in nm; negative for more than a half turn.
+    Radius(i64),
+    /// Neither.
+    Nothing,
+}
+
+/// One move of the wire.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Move {
+    pub motion: Motion,
+    pub from: Place,
+    pub to: Place,
+    pub bend: Bend,
+    /// It was written under G91.
+    pub incremental: bool,
+    /// The side of travel on which the control lets the wire run beside this move.
+    pub side: Option<Side>,
+    pub offset: Option<Offset>,
+    /// G41 or G42 (true) or G40 (false) takes effect with this move.
+    pub switches: Option<bool>,
+}
+
+/// Where an arc runs, or why it does not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Course {
+    Line,
+    /// µm.
+    Arc(Arc),
+    /// The ends are unlike far from the centre, µm.
+    OffRadius {
+        start: f64,
+        end: f64,
+        center: Point,
+    },
+    NoRadius,
+}
+
+impl Move {
+    pub fn is_arc(&self) -> bool {
+        matches!(self.motion, Motion::Clockwise | Motion::CounterClockwise)
+    }
+
+    pub fn is_cut(&self) -> bool {
+        self.motion != Motion::Rapid
+    }
+
+    /// The centre under a rule, nm; `None` where I and J do not stand.
+    pub fn center(&self, rule: CenterRule) -> Option<Place> {
+        let Bend::Center { i, j, absolute } = self.bend else { return None };
+        Some(match rule {
+            CenterRule::StartToCenter => [self.from[0].wrapping_add(i), self.from[1].wrapping_add(j)],
+            CenterRule::CenterToStart => [self.from[0].wrapping_sub(i), self.from[1].wrapping_sub(j)],
+            CenterRule::Absolute => absolute,
+        })
+    }
+
+    /// By how much further the start is from the centre than the end under a rule, nm. 0 where there is no centre.
+    pub fn difference(&self, rule: CenterRule) -> f64 {
+        self.center(rule).map_or(0.0, |center| distance(self.from, center) - distance(self.to, center))
+    }
+
+    /// Where the move runs.
+    pub fn course(&self, reading: &Reading) -> Course {
+        if !self.is_arc() {
+            return Course::Line;
+        }
+        let counter_clockwise = self.motion == Motion::CounterClockwise;
+        match self.bend {
+            Bend::Nothing => Course::NoRadius,
+            Bend::Radius(radius) => self.about_radius(radius, counter_clockwise, reading),
+            Bend::Center { .. } => {
+                let Some(center) = self.center(reading.rule(self.incremental)) else { return Course::NoRadius };
+                let (start, end) = (distance(self.from, center), distance(self.to, center));
+                if start == 0.0 || end == 0.0 {
+                    return Course::NoRadius;
+                }
+                if (start - end).abs() > reading.tolerance as f64 {
+                    return Course::OffRadius { start: start / 1e3, end: end / 1e3, center: micrometres(center) };
+                }
+                Course::Arc(Arc::about(micrometres(center), micrometres(self.from), micrometres(self.to), counter_clockwise))
+            }
+        }
+    }
+
+    /// The arc with a given radius: at most a half turn, or more where R is negative.
+    fn about_radius(&self, radius: i64, counter_clockwise: bool, reading: &Reading) -> Course {
+        let (from, to) = (micrometres(self.from), micrometres(self.to));
+        let chord = to - from;
+        let (half, given) = (chord.norm() / 2.0, radius.unsigned_abs() as f64 / 1e3);
+        if half == 0.0 || given == 0.0 {
+            return Course::NoRadius;
+        }
+        let middle = from + chord / 2.0;
+        if half - given > reading.tolerance as f64 / 1e3 {
+            return Course::OffRadius { start: given, end: half, center: middle };
+        }
+        let height = (given * given - half * half).max(0.0).sqrt();
+        let to_left = counter_clockwise != (radius < 0);
+        let normal = crate::geometry::left_normal(chord) / (2.0 * half);
+        Course::Arc(Arc::about(middle + normal * if to_left { height } else { -height }, from, to, counter_clockwise))
+    }
+
+    /// The line or arc in µm; the chord where an arc does not run.
+    pub fn segment(&self, reading: &Reading) -> Segment {
+        match self.course(reading) {
+            Course::Arc(arc) => Segment::Arc(arc),
+            _ => Segment::line(micrometres(self.from), micrometres(self.to)),
+        }
+    }
+
+    /// The same move, started at the zero of the plane.
+    pub fn at_origin(self) -> Move {
+        let back = [self.from[0].wrapping_neg(), self.from[1].wrapping_neg()];
+        let mut moved = self.shifted(back);
+        if let Bend::Center { absolute, .. } = &mut moved.bend {
+            *absolute = added(*absolute, back);
+        }
+        moved
+    }
+
+    /// The same move, started elsewhere. A centre in absolute coordinates stays.
+    pub fn shifted(mut self, by: Place) -> Move {
+        self.from = added(self.from, by);
+        self.to = added(self.to, by);
+        self
+    }
+}
+
+pub fn micrometres(place: Place) -> Point {
+    Point::new(place[0] as f64 / 1e3, place[1] as f64 / 1e3)
+}
+
+pub fn added(place: Place, by: Place) -> Place {
+    [place[0].wrapping_add(by[0]), place[1].wrapping_add(by[1])]
+}
+
+pub fn distance(a: Place, b: Place) -> f64 {
+    ((a[0].wrapping_sub(b[0])) as f64).hypot((a[1].wrapping_sub(b[1])) as f64)
+}
+
+/// What is in force, and where the wire stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Machine {
+    /// Where the wire stands, nm.
+    pub at: Place,
+    /// Where the zero of the program's coordinates lies: G92 moves it.
+    pub zero: Place,
+    /// Where the wire stands is not known, since a coordinate could not be read.
+    pub lost: [bool; 2],
+    /// It was not known at some time since the last rapid or stop.
+    pub torn: bool,
+    pub motion: Motion,
+    pub incremental: bool,
+    pub inch: bool,
+    pub side: Option<Side>,
+    pub offset: Option<Offset>,
+    /// What G40, G41 or G42 last said has not been followed by a move yet.
+    pub switches: Option<bool>,
+    /// The wire has moved since the beginning or the last stop.
+    pub moved: bool,
+    /// G92 has said where the wire stands.
+    pub stated: bool,
+    pub ended: bool,
+}
+
+impl Default for Machine {
+    fn default() -> Self {
+        Machine {
+            at: [0, 0],
+            zero: [0, 0],
+            lost: [false, false],
+            torn: false,
+            motion: Motion::Line,
+            incremental: false,
+            inch: false,
+            side: None,
+            offset: None,
+            switches: None,
+            moved: false,
+            stated: false,
+            ended: false,
+        }
+    }
+}
+
+impl Machine {
+    /// Does what a line says. The move it makes is given back; none where the wire stands still, or where it stands is not known.
+    pub fn run(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
+        if let Some(inch) = block.inch {
+            self.inch = inch;
+        }
+        if let Some(incremental) = block.incremental {
+            self.incremental = incremental;
+        }
+        if let Some(motion) = block.motion {
+            self.motion = motion;
+        }
+        if let Some(offset) = block.offset {
+            self.offset = Some(offset);
+        }
+        if let Some(compensation) = block.compensation {
+            let side = match compensation {
+                Compensation::Off => None,
+                Compensation::Left => Some(Side::Left),
+                Compensation::Right => Some(Side::Right),
+            };
+            if side != self.side {
+                self.switches = Some(side.is_some());
+            }
+            self.side = side;
+        }
+        let moved = if block.sets_position {
+            self.set_position(block, reading);
+            None
+        } else {
+            self.travel(block, reading)
+        };
+        match block.stop {
+            Some(Stop::End) => self.ended = true,
+            Some(Stop::Pause) => self.moved = false,
+            None => {}
+        }
+        let parts = block.stop.is_some() || moved.is_some_and(|moved| !moved.is_cut());
+        self.torn = self.lost != [false, false] || (self.torn && !parts);
+        moved
+    }
+
+    /// G92. At the beginning, and where the wire has not moved since a stop, it tells where the wire stands: it was taken there
+    /// by hand. Else the wire stays where it is and the zero moves.
+    fn set_position(&mut self, block: &Block, reading: &Reading) {
+        for (axis, number) in [block.x, block.y].into_iter().enumerate() {
+            if let Some(number) = number {
+                let stated = reading.length(number, self.inch);
+                self.stated = true;
+                if self.moved && !self.lost[axis] {
+                    self.zero[axis] = self.at[axis].wrapping_sub(stated);
+                } else {
+                    self.at[axis] = self.zero[axis].wrapping_add(stated);
+                    self.lost[axis] = false;
+                }
+            }
+        }
+        if block.broken {
+            self.lost = [true, true];
+        }
+    }
+
+    fn travel(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
+        if block.takes_coordinates {
+            return None;
+        }
+        if block.broken {
+            self.lost = [true, true];
+        }
+        let is_arc = matches!(self.motion, Motion::Clockwise | Motion::CounterClockwise);
+        let full_circle = is_arc && (block.i.is_some() || block.j.is_some());
+        if !block.has_coordinates() && !full_circle {
+            return None;
+        }
+        let length = |number: Option<Number>| number.map(|number| reading.length(number, self.inch));
+        let from = self.at;
+        let mut to = from;
+        let mut found = self.lost;
+        for (axis, coordinate) in [length(block.x), length(block.y)].into_iter().enumerate() {
+            match coordinate {
+                Some(by) if self.incremental => to[axis] = from[axis].wrapping_add(by),
+                Some(at) => {
+                    to[axis] = self.zero[axis].wrapping_add(at);
+                    found[axis] = false;
+                }
+                None => {}
+            }
+        }
+        let was_lost = self.lost != [false, false];
+        self.lost = if block.broken { [true, true] } else { found };
+        self.at = to;
+        self.moved = true;
+        let switches = self.switches.take();
+        if was_lost || block.broken {
+            return None;
+        }
+        let bend = match (length(block.i), length(block.j), length(block.r)) {
+            (None, None, Some(radius)) => Bend::Radius(radius),
+            (None, None, None) => Bend::Nothing,
+            // Of an absolute centre, the coordinate that is left out is that of the start.
+            (i, j, _) => Bend::Center {
+                i: i.unwrap_or(0),
+                j: j.unwrap_or(0),
+                absolute: match self.incremental {
+                    true => [0, 0],
+                    false => [i.map_or(from[0], |i| self.zero[0].wrapping_add(i)), j.map_or(from[1], |j| self.zero[1].wrapping_add(j))],
+                },
+            },
+        };
+        let bend = if is_arc { bend } else { Bend::Nothing };
+        Some(Move { motion: self.motion, from, to, bend, incremental: self.incremental, side: self.side, offset: self.offset, switches })
+    }
+}

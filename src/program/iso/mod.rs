@@ -1,0 +1,20 @@
+//! ISO programs for wire EDM: words of G code, read as a control runs them and written by profiles.
+//!
+//! How numbers and arc centres are meant differs from machine to machine and is found from the program itself, never assumed.
+
+mod block;
+mod document;
+mod evidence;
+mod fixes;
+mod machine;
+mod order;
+mod report;
+mod stretch;
+#[cfg(test)]
+mod tests;
+mod word;
+
+pub use block::{Block, Compensation, Motion, Note, Offset, Stop, read_line};
+pub use document::Document;
+pub use machine::{CenterRule, Course, Machine, Move, Reading};
+pub use word::{Number, Token, WordFault, words};

@@ -1,0 +1,443 @@
+//! What is wrong in a program, out of what its stretches have seen.
+
+use super::block::{Code, Offset, read_line, word_range};
+use super::document::{Document, Limits, Placed};
+use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
+use super::stretch::{Fault, Run, RunSide, Stretch, Tight};
+use super::word::{Number, WordFault};
+use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, Rule, Severity, Side, SmallRadius};
+use crate::geometry::{Arc, Point, cross};
+use crate::settings::{Compensation, SideSetting};
+use crate::text::SourceText;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::ops::Range;
+
+/// A radius this little below the correction is rounding on the grid, µm.
+const RADIUS_TOLERANCE: f64 = 1.5;
+
+/// Ends of a cut this near each other, and 1 µm more for each arc of it, are closed, µm.
+const CLOSED: f64 = 2.0;
+
+/// A run with fewer moves is no contour that could be closed.
+const FEWEST_MOVES: u32 = 3;
+
+/// How many lines before its cut the word that switches the correction is looked for.
+const SWITCH_REACH: usize = 1_000;
+
+/// All findings, in the order of the text.
+pub(super) fn findings(document: &Document) -> Vec<Finding> {
+    let mut report = Report::new(document);
+    let mut open: Option<OpenRun> = None;
+    let mut last_words = None;
+    let mut is_ended = false;
+    for placed in document.placed() {
+        let (stretch, offset) = (placed.stretch, placed.offset);
+        report.line_faults(stretch, offset);
+        report.note(stretch, offset);
+        report.follow(&mut open, &placed);
+        is_ended = stretch.after.ended;
+        if let Some(words) = stretch.last_words {
+            last_words = Some(at(offset, words));
+        }
+        if let Some(behind) = stretch.behind_end
+            && !std::mem::replace(&mut report.is_behind_end_said, true)
+        {
+            report.add(Rule::TextAfterEnd, at(offset, behind), IsoFault::BehindEnd);
+        }
+    }
+    if let Some(run) = open.take() {
+        report.judge(&run);
+    }
+    report.foreign_words();
+    report.block_numbers();
+    report.calls();
+    if let (false, Some(words)) = (is_ended, last_words)
+        && report.moves > 0
+    {
+        let word = document.limits.end.clone();
+        report.add(Rule::MissingEnd, words, IsoFault::NoEnd { word });
+    }
+    if document.evidence().leaves_centers_open()
+        && let Some(range) = report.first_center()
+    {
+        report.add(Rule::AmbiguousCenter, range, IsoFault::OpenCenters);
+    }
+    report.finish()
+}
+
+/// A cut with the place of its first and last line in the text, and its tight arcs.
+struct OpenRun {
+    run: Run,
+    range: Range<usize>,
+    last_range: Range<usize>,
+    tight: Vec<(Move, Range<usize>)>,
+}
+
+struct Report<'a> {
+    document: &'a Document,
+    text: &'a SourceText,
+    reading: &'a Reading,
+    limits: &'a Limits,
+    findings: Vec<Finding>,
+    foreign: FxHashMap<Code, (Range<usize>, usize)>,
+    definitions: FxHashMap<Offset, (Number, bool)>,
+    moves: u32,
+    is_behind_end_said: bool,
+}
+
+fn at(offset: usize, range: (u32, u32)) -> Range<usize> {
+    offset + range.0 as usize..offset + range.1 as usize
+}
+
+impl<'a> Report<'a> {
+    fn new(document: &'a Document) -> Report<'a> {
+        let mut report = Report {
+            document,
+            text: document.text(),
+            reading: document.reading(),
+            limits: &document.limits,
+            findings: Vec::new(),
+            foreign: FxHashMap::default(),
+            definitions: FxHashMap::default(),
+            moves: 0,
+            is_behind_end_said: false,
+        };
+        // The table may stand behind the cuts that use it.
+        for placed in document.placed() {
+            let definitions = placed.stretch.definitions.iter().map(|&(offset, value, inch)| (offset, (value, inch)));
+            report.definitions.extend(definitions);
+        }
+        report
+    }
+
+    fn add(&mut self, rule: Rule, range: Range<usize>, fault: IsoFault) {
+        self.push(rule, rule.default_severity(), range, Detail::Iso(fault));
+    }
+
+    fn push(&mut self, rule: Rule, severity: Severity, range: Range<usize>, detail: Detail) {
+        self.findings.push(Finding { rule, severity, place: Place::Text { range }, detail, related: Vec::new() });
+    }
+
+    fn line_faults(&mut self, stretch: &Stretch, offset: usize) {
+        for found in &stretch.faults {
+            let range = at(offset, (found.range.start, found.range.end));
+            match found.fault {
+                Fault::Word(WordFault::TooManyDigits { .. }) | Fault::Word(_) => {
+                    let Fault::Word(fault) = found.fault else { continue };
+                    let sentence = word_sentence(self.text, fault, &range);
+                    let rule = Rule::Syntax;
+                    let mild = matches!(fault, WordFault::OpenComment);
+                    let severity = if mild { Severity::Warning } else { rule.default_severity() };
+                    self.push(rule, severity, range, Detail::Syntax(sentence));
+                }
+                Fault::OffRadius { start, end } => self.add(Rule::ArcOffRadius, range, IsoFault::OffRadius { start, end }),
+                Fault::NoRadius => self.add(Rule::ArcWithoutRadius, range, IsoFault::NoRadius),
+                Fault::Switch { on, arc } => self.add(Rule::CompensationSwitch, range, IsoFault::Switch { on, arc }),
+            }
+        }
+    }
+
+    /// Adds up what concerns the program as a whole.
+    fn note(&mut self, stretch: &Stretch, offset: usize) {
+        self.moves = self.moves.saturating_add(stretch.moves);
+        for word in &stretch.foreign {
+            let known = self.foreign.entry(word.code).or_insert_with(|| (at(offset, word.range), 0));
+            known.1 += word.count as usize;
+        }
+    }
+
+    /// Puts together the cuts that go on from stretch to stretch, and judges those that end.
+    fn follow(&mut self, open: &mut Option<OpenRun>, placed: &Placed<'_>) {
+        let (stretch, offset) = (placed.stretch, placed.offset);
+        if let Some(whole) = stretch.ends_run_before
+            && let Some(mut run) = open.take()
+        {
+            run.run.whole &= whole;
+            self.judge(&run);
+        }
+        let mut tight = stretch.tight.iter().peekable();
+        for (index, run) in stretch.runs.iter().enumerate() {
+            match open {
+                Some(known) if run.continues => {
+                    known.run.append(run);
+                    known.last_range = at(offset, run.last_range);
+                }
+                _ => {
+                    if let Some(run) = open.take() {
+                        self.judge(&run);
+                    }
+                    let (range, last_range) = (at(offset, run.range), at(offset, run.last_range));
+                    *open = Some(OpenRun { run: *run, range, last_range, tight: Vec::new() });
+                }
+            }
+            if let Some(known) = open {
+                while let Some(&&Tight { arc, range, run }) = tight.peek()
+                    && run as usize <= index
+                {
+                    known.tight.push((arc, at(offset, range)));
+                    tight.next();
+                }
+            }
+            if !run.open
+                && let Some(run) = open.take()
+            {
+                self.judge(&run);
+            }
+        }
+    }
+
+    /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
+    fn judge(&mut self, open: &OpenRun) {
+        let run = &open.run;
+        let closed = self.closed(run);
+        if let (Err(distance), true) = (closed, run.whole) {
+            let fragment = run.moves < FEWEST_MOVES;
+            let severity = if fragment { Severity::Information } else { Rule::NotClosed.default_severity() };
+            self.push(Rule::NotClosed, severity, open.last_range.clone(), Detail::Iso(IsoFault::NotClosed { distance }));
+        }
+        // Contours that are only a line there and back have no inside.
+        let orientation = if closed.is_ok() && run.twice_area.abs() > 2_000_000 { run.twice_area.signum() } else { 0 };
+        let side = match run.side {
+            RunSide::One(side) if run.moves >= FEWEST_MOVES && orientation != 0 => Some(side),
+            _ => None,
+        };
+        if let Some(side) = side {
+            let inside = (side == Side::Left) == (orientation > 0);
+            let range = self.switch_range(open.range.start);
+            let is_wrong = match self.limits.side {
+                SideSetting::Opening => !inside,
+                SideSetting::Punch => inside,
+                SideSetting::Both | SideSetting::Auto => false,
+            };
+            if is_wrong {
+                self.add(Rule::WrongSide, range, IsoFault::RoleSide { side, punch: !inside });
+            } else if self.side_of_entry(run).is_some_and(|entry| entry != side) {
+                self.push(Rule::WrongSide, Severity::Warning, range, Detail::Iso(IsoFault::EntrySide { side }));
+            }
+        }
+        self.tight_arcs(open, orientation);
+    }
+
+    /// Whether a cut comes back to where it began, or to where its lead-in ended; else by how much it misses, µm.
+    ///
+    /// The way out may lead elsewhere than the way in, and the cut may go on past the place where it closes.
+    fn closed(&self, run: &Run) -> Result<(), f64> {
+        let tolerance = (CLOSED + f64::from(run.arcs)).max(self.reading.tolerance as f64 / 1e3);
+        let begins: [Spot; 2] = [run.first[0].from, run.first[0].to];
+        let ends: [Spot; 2] = [run.last[1].to, run.last[0].to];
+        let missed = |begin: Spot, end: Spot| distance(begin, end) / 1e3;
+        if run.moves == 1 {
+            let missed = missed(begins[0], ends[0]);
+            return if missed <= tolerance { Ok(()) } else { Err(missed) };
+        }
+        let pairs = begins.iter().flat_map(|&begin| ends.iter().map(move |&end| (begin, end)));
+        // The end of the way in and that of the way out are the same place in a cut of two moves.
+        let counts = |begin: Spot, end: Spot| run.moves > 2 || (begin == begins[0] && end == ends[0]);
+        if pairs.clone().any(|(begin, end)| counts(begin, end) && missed(begin, end) <= tolerance) {
+            return Ok(());
+        }
+        if run.moves > 2 {
+            let first = run.first[1].segment(self.reading);
+            if ends.iter().any(|&end| first.distance_to(micrometres(end)) <= tolerance) {
+                return Ok(());
+            }
+        }
+        Err(pairs.map(|(begin, end)| missed(begin, end)).take(if run.moves > 2 { 4 } else { 1 }).fold(f64::INFINITY, f64::min))
+    }
+
+    /// The side of the contour from which the way in comes, told by the contour's directions where it begins and ends; `None` where they
+    /// disagree, or the cut has no way in along which the correction goes on.
+    fn side_of_entry(&self, run: &Run) -> Option<Side> {
+        let lead = &run.first[0];
+        if lead.switches != Some(true) || lead.is_arc() || run.moves < FEWEST_MOVES {
+            return None;
+        }
+        let entry: Point = micrometres(lead.to);
+        let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= CLOSED + f64::from(run.arcs);
+        let last = run.last.iter().rev().find(|step| near(step.to))?;
+        let ahead = run.first[1].segment(self.reading).start_tangent();
+        let behind = last.segment(self.reading).end_tangent();
+        let way = micrometres(lead.from) - entry;
+        // A way in along the contour says nothing.
+        let clear = way.norm() * 0.02;
+        let sides = [cross(ahead, way), cross(behind, way)];
+        if sides.iter().all(|&side| side > clear) {
+            Some(Side::Left)
+        } else if sides.iter().all(|&side| side < -clear) {
+            Some(Side::Right)
+        } else {
+            None
+        }
+    }
+
+    /// The word that switched the correction on before the cut that begins at `start`; the cut's first line where it is not found.
+    fn switch_range(&self, start: usize) -> Range<usize> {
+        let line = self.text.line_of(start);
+        for line in (line.saturating_sub(SWITCH_REACH)..=line).rev() {
+            let range = self.text.line_range(line);
+            let found = word_range(&self.text.bytes()[range.clone()], range.start, |letter, number| {
+                letter == b'G' && matches!(number.whole(), Some(41 | 42))
+            });
+            if let Some(found) = found {
+                return found;
+            }
+        }
+        let range = self.text.line_range(line);
+        start..range.end.max(start)
+    }
+
+    /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
+    fn tight_arcs(&mut self, open: &OpenRun, orientation: i128) {
+        for (step, range) in &open.tight {
+            let Course::Arc(arc) = step.course(self.reading) else { continue };
+            let side_of_center = if arc.sweep > 0.0 { Side::Left } else { Side::Right };
+            let wire_side = match step.side {
+                Some(side) => side,
+                None if self.limits.compensation == Compensation::Path => continue,
+                None => match (self.limits.side, orientation) {
+                    (SideSetting::Opening, 1..) | (SideSetting::Punch, ..=-1) => Side::Left,
+                    (SideSetting::Opening, ..=-1) | (SideSetting::Punch, 1..) => Side::Right,
+                    _ => side_of_center,
+                },
+            };
+            let required = self.correction(step);
+            if wire_side == side_of_center && arc.radius < required - RADIUS_TOLERANCE {
+                self.push(
+                    Rule::SmallRadius,
+                    Rule::SmallRadius.default_severity(),
+                    range.clone(),
+                    Detail::SmallRadius(Box::new(small_radius(&arc, required, wire_side))),
+                );
+            }
+        }
+    }
+
+    /// The correction of a move in µm: what the program's own table says, else the settings.
+    fn correction(&self, step: &Move) -> f64 {
+        let stated = step.offset.and_then(|offset| self.definitions.get(&offset));
+        stated.map_or(self.limits.correction * 1e3, |&(value, inch)| (self.reading.length(value, inch) as f64 / 1e3).abs())
+    }
+
+    fn foreign_words(&mut self) {
+        let mut words: Vec<_> = std::mem::take(&mut self.foreign).into_values().collect();
+        words.sort_by_key(|(range, _)| range.start);
+        for (range, count) in words {
+            let word: String = self.shown(&range);
+            self.add(Rule::MachineDependent, range, IsoFault::Foreign { word, count });
+        }
+    }
+
+    /// The beginning of some bytes of the text.
+    fn shown(&self, range: &Range<usize>) -> String {
+        let bytes = self.text.bytes().get(range.clone()).unwrap_or_default();
+        String::from_utf8_lossy(&bytes[..bytes.len().min(48)]).chars().take(12).collect()
+    }
+
+    /// Numbers that stand twice. Those of a text in rising order do not.
+    fn block_numbers(&mut self) {
+        let mut last = None;
+        let mut rising = true;
+        for placed in self.document.placed() {
+            for &(number, _) in &placed.stretch.numbers {
+                rising &= last.is_none_or(|last| number > last);
+                last = Some(number);
+            }
+        }
+        if rising {
+            return;
+        }
+        let mut seen: FxHashMap<u32, usize> = FxHashMap::default();
+        for placed in self.document.placed() {
+            for &(number, place) in &placed.stretch.numbers {
+                let start = placed.offset + place as usize;
+                if *seen.entry(number).or_insert(start) != start {
+                    let line = self.text.line_of(start);
+                    let range = self.text.line_range(line);
+                    let word = word_range(&self.text.bytes()[range.clone()], range.start, |letter, _| letter == b'N').unwrap_or(range);
+                    self.add(Rule::BlockNumber, word, IsoFault::NumberTwice { number });
+                }
+            }
+        }
+    }
+
+    fn calls(&mut self) {
+        let Some(order) = self.document.order() else { return };
+        for &(line, number) in &order.missing {
+            self.add(Rule::MachineDependent, self.text.line_range(line), IsoFault::NoSubprogram { number });
+        }
+        if let Some(line) = order.endless {
+            let range = self.text.line_range(line);
+            self.push(Rule::MachineDependent, Severity::Warning, range, Detail::Iso(IsoFault::EndlessCalls));
+        }
+    }
+
+    /// The first I or J of the text.
+    fn first_center(&self) -> Option<Range<usize>> {
+        for placed in self.document.placed() {
+            let has_arcs = placed.stretch.evidence.absolute.all + placed.stretch.evidence.incremental.all > 0;
+            for line in placed.first_line..placed.first_line + if has_arcs { placed.stretch.lines as usize } else { 0 } {
+                let range = self.text.line_range(line);
+                let bytes = &self.text.bytes()[range.clone()];
+                let block = read_line(bytes, range.start, |_| {});
+                if block.i.is_some() || block.j.is_some() {
+                    return word_range(bytes, range.start, |letter, _| matches!(letter, b'I' | b'J'));
+                }
+            }
+        }
+        None
+    }
+
+    /// Sorted by place; a line that a subprogram runs several times is said once.
+    fn finish(mut self) -> Vec<Finding> {
+        let start = |finding: &Finding| match &finding.place {
+            Place::Text { range } => (range.start, range.end),
+            _ => (0, 0),
+        };
+        self.findings.sort_by_key(|finding| (start(finding), finding.rule));
+        if self.document.order().is_some() {
+            let mut said = FxHashSet::default();
+            self.findings.retain(|finding| said.insert((start(finding), finding.rule)));
+        }
+        self.findings
+    }
+}
+
+/// The numbers of a tight arc for a person, in mm.
+fn small_radius(arc: &Arc, required: f64, side: Side) -> SmallRadius {
+    let half = arc.sweep.abs() / 2.0;
+    let short = (required - arc.radius) / 1e3;
+    let overcut = if half.to_degrees() >= 90.0 { 2.0 * short } else { short * (1.0 - (2.0 * half).cos()) };
+    let stock_left = if half.to_degrees() >= 90.0 { f64::INFINITY } else { short * (1.0 / half.cos() - 1.0) };
+    SmallRadius {
+        radius: arc.radius / 1e3,
+        required: required / 1e3,
+        center: arc.center / 1e3,
+        start: arc.start / 1e3,
+        end: arc.end / 1e3,
+        sweep: arc.sweep,
+        side,
+        overcut,
+        stock_left,
+        pass: None,
+        no_fix: Some(NoFix::Program),
+    }
+}
+
+fn word_sentence(text: &SourceText, fault: WordFault, range: &Range<usize>) -> String {
+    let column = range.start - text.line_start(text.line_of(range.start)) + 1;
+    let bytes = text.bytes().get(range.clone()).unwrap_or_default();
+    let shown: String = String::from_utf8_lossy(&bytes[..bytes.len().min(48)]).chars().take(12).collect();
+    match fault {
+        WordFault::NoNumber { letter } => format!("column {column}: {} has no number", letter as char),
+        WordFault::NotANumber { letter } => {
+            format!(
+                "column {column}: {} is `{}`, expected a number with one decimal point",
+                letter as char,
+                shown.get(1..).unwrap_or_default()
+            )
+        }
+        WordFault::TooManyDigits { digits } => format!("column {column}: found a number of {digits} digits, expected at most 9"),
+        WordFault::OpenComment => format!("column {column}: the comment is not closed, expected `)`"),
+        WordFault::NoWord => format!("column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment"),
+    }
+}

@@ -1,0 +1,350 @@
+//! Some lines of a program, run: what they leave in force, what is wrong in them, and the cuts that they make.
+//!
+//! A program is kept as stretches of lines so that an edit runs again only the stretch that it touched, and those behind it for which
+//! something else is in force. One that has only been moved is shifted, not run.
+
+use super::block::{Code, Note, Offset, Stop, read_line};
+use super::evidence::Evidence;
+use super::machine::{Course, Machine, Move, Place, Reading, added};
+use super::word::{Number, WordFault};
+use crate::finding::Side;
+use std::ops::Range;
+
+/// A fault of one line. Places are bytes from the start of the stretch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineFault {
+    pub fault: Fault,
+    pub range: Range<u32>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    Word(WordFault),
+    /// The ends of an arc are unlike far from its centre, µm.
+    OffRadius {
+        start: f64,
+        end: f64,
+    },
+    NoRadius,
+    /// Compensation is switched on (or off) by an arc, or on by a rapid.
+    Switch {
+        on: bool,
+        arc: bool,
+    },
+}
+
+/// An arc that may be tighter than a correction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tight {
+    pub arc: Move,
+    /// Bytes from the start of the stretch; the whole line's words.
+    pub range: (u32, u32),
+    /// The run that it is part of, by its index in the stretch.
+    pub run: u32,
+}
+
+/// Arcs of a larger radius than this are not kept: no correction comes near, nm.
+const LARGEST_CORRECTION: f64 = 5e6;
+
+/// Consecutive cuts without rapid or stop between, or the part of them that lies in one stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// The first two and the last two moves that lead anywhere; the same one may be several of them.
+    pub first: [Move; 2],
+    pub last: [Move; 2],
+    pub moves: u32,
+    pub arcs: u32,
+    /// Twice the signed area in nm², about the place where the run begins.
+    pub twice_area: i128,
+    /// The line that begins it, bytes from the start of the stretch.
+    pub range: (u32, u32),
+    /// The line that ends it.
+    pub last_range: (u32, u32),
+    /// Nothing of it was lost to lines that could not be read.
+    pub whole: bool,
+    /// It goes on in the next stretch.
+    pub open: bool,
+    /// It is the continuation of the one before.
+    pub continues: bool,
+    /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
+    pub side: RunSide,
+}
+
+/// On which side of a run the wire was sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunSide {
+    None,
+    One(Side),
+    Both,
+}
+
+impl Run {
+    fn begin(first: Move, cap: f64, range: (u32, u32), continues: bool, whole: bool) -> Run {
+        let side = first.side.map_or(RunSide::None, RunSide::One);
+        let twice_area = cap as i128;
+        Run {
+            first: [first; 2],
+            last: [first; 2],
+            moves: 1,
+            arcs: u32::from(first.is_arc()),
+            twice_area,
+            range,
+            last_range: range,
+            whole,
+            open: true,
+            continues,
+            side,
+        }
+    }
+
+    fn start(&self) -> Place {
+        self.first[0].from
+    }
+
+    /// What a move adds to the area.
+    fn term(&self, step: &Move, cap: f64) -> i128 {
+        let origin = self.start();
+        let from = [step.from[0].wrapping_sub(origin[0]), step.from[1].wrapping_sub(origin[1])];
+        let to = [step.to[0].wrapping_sub(origin[0]), step.to[1].wrapping_sub(origin[1])];
+        i128::from(from[0]) * i128::from(to[1]) - i128::from(from[1]) * i128::from(to[0]) + cap as i128
+    }
+
+    fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
+        self.twice_area += self.term(&step, cap);
+        if self.moves == 1 {
+            self.first[1] = step;
+        }
+        self.last = [self.last[1], step];
+        self.moves += 1;
+        self.arcs += u32::from(step.is_arc());
+        self.last_range = range;
+        self.side = joined(self.side, step.side.map_or(RunSide::None, RunSide::One));
+    }
+
+    /// Appends the continuation of a run; the ranges stay those of the beginning.
+    pub fn append(&mut self, next: &Run) {
+        // The area of the continuation was taken about its own beginning.
+        let (origin, its) = (self.start(), next.start());
+        let shift = [its[0].wrapping_sub(origin[0]), its[1].wrapping_sub(origin[1])];
+        let along = [next.last[1].to[0].wrapping_sub(its[0]), next.last[1].to[1].wrapping_sub(its[1])];
+        self.twice_area += next.twice_area + i128::from(shift[0]) * i128::from(along[1]) - i128::from(shift[1]) * i128::from(along[0]);
+        if self.moves == 1 {
+            self.first[1] = next.first[0];
+        }
+        self.last = if next.moves == 1 { [self.last[1], next.last[1]] } else { next.last };
+        self.moves += next.moves;
+        self.arcs += next.arcs;
+        self.whole &= next.whole;
+        self.open = next.open;
+        self.side = joined(self.side, next.side);
+    }
+
+    fn shift(&mut self, by: Place) {
+        for step in self.first.iter_mut().chain(&mut self.last) {
+            *step = step.shifted(by);
+        }
+    }
+}
+
+fn joined(a: RunSide, b: RunSide) -> RunSide {
+    match (a, b) {
+        (RunSide::None, other) | (other, RunSide::None) => other,
+        (one, other) if one == other => one,
+        _ => RunSide::Both,
+    }
+}
+
+/// A word whose meaning is a matter of the machine, where it stands first, and how often.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foreign {
+    pub code: Code,
+    pub range: (u32, u32),
+    pub count: u32,
+}
+
+/// Lines that have been run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    pub lines: u32,
+    pub before: Machine,
+    pub after: Machine,
+    /// How the numbers were read.
+    pub reading: Reading,
+    pub evidence: Evidence,
+    pub faults: Vec<LineFault>,
+    pub tight: Vec<Tight>,
+    pub runs: Vec<Run>,
+    pub foreign: Vec<Foreign>,
+    pub definitions: Vec<(Offset, Number, bool)>,
+    /// N words with the byte at which they stand.
+    pub numbers: Vec<(u32, u32)>,
+    /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
+    pub ends_run_before: Option<bool>,
+    /// The first words behind the end.
+    pub behind_end: Option<(u32, u32)>,
+    /// The last line that says anything.
+    pub last_words: Option<(u32, u32)>,
+    /// A subprogram is called.
+    pub calls: bool,
+    /// Blocks that move the wire, and stops on the way.
+    pub moves: u32,
+    pub pauses: u32,
+    /// It holds coordinates under G90, or an absolute centre, or G92: what it does hangs on where the wire stands before.
+    fixed: bool,
+}
+
+impl Stretch {
+    /// Runs `lines`, each with the byte at which it begins, counted from `start`.
+    pub fn run<'a>(lines: impl Iterator<Item = (usize, &'a [u8])>, start: usize, before: Machine, reading: Reading) -> Stretch {
+        let mut stretch = Stretch {
+            lines: 0,
+            before,
+            after: before,
+            reading,
+            evidence: Evidence::default(),
+            faults: Vec::new(),
+            tight: Vec::new(),
+            runs: Vec::new(),
+            foreign: Vec::new(),
+            definitions: Vec::new(),
+            numbers: Vec::new(),
+            ends_run_before: None,
+            behind_end: None,
+            last_words: None,
+            calls: false,
+            moves: 0,
+            pauses: 0,
+            fixed: false,
+        };
+        for (offset, line) in lines {
+            stretch.line(line, offset - start);
+        }
+        stretch
+    }
+
+    fn line(&mut self, line: &[u8], offset: usize) {
+        self.lines += 1;
+        let Stretch { faults, foreign, definitions, after, .. } = &mut *self;
+        let (inch, known_faults) = (after.inch, faults.len());
+        let block = read_line(line, offset, |note| match note {
+            Note::Fault { fault, range } => {
+                // One fault a line is enough: the others may come of it.
+                if faults.len() == known_faults {
+                    faults.push(LineFault { fault: Fault::Word(fault), range: narrow(range) });
+                }
+            }
+            Note::Foreign { code, range } => match foreign.iter_mut().find(|word| word.code == code) {
+                Some(word) => word.count += 1,
+                None => foreign.push(Foreign { code, range: pair(range), count: 1 }),
+            },
+            Note::Definition { offset, value } => definitions.push((offset, value, inch)),
+        });
+        if block.empty {
+            return;
+        }
+        let range = words_of(line, offset);
+        self.last_words = Some(range);
+        if let Some(number) = block.number {
+            self.numbers.push((number, range.0));
+        }
+        self.calls |= block.call.is_some();
+        if self.after.ended {
+            self.behind_end.get_or_insert(range);
+            return;
+        }
+        self.evidence.numbers(&block);
+        self.fixed |= block.sets_position;
+        let torn = self.after.torn;
+        let made = self.after.run(&block, &self.reading);
+        match made {
+            Some(made) => self.made(made, range, torn),
+            None if self.after.torn => self.interrupt(false),
+            None => {}
+        }
+        if let Some(stop) = block.stop {
+            self.pauses += u32::from(stop == Stop::Pause);
+            self.interrupt(true);
+        }
+    }
+
+    /// What comes next is a cut of its own; `whole` is false where lines between cannot be read.
+    fn interrupt(&mut self, whole: bool) {
+        match self.runs.last_mut() {
+            Some(run) if run.open => (run.open, run.whole) = (false, run.whole && whole),
+            Some(_) => {}
+            None => _ = self.ends_run_before.get_or_insert(whole),
+        }
+    }
+
+    fn made(&mut self, made: Move, range: (u32, u32), torn: bool) {
+        self.moves += 1;
+        self.fixed |= !made.incremental;
+        if let Some(on) = made.switches
+            && (made.is_arc() || (on && !made.is_cut()))
+        {
+            self.faults.push(LineFault { fault: Fault::Switch { on, arc: made.is_arc() }, range: range.0..range.1 });
+        }
+        let mut cap = 0.0;
+        if made.is_arc() {
+            self.evidence.arc(&made, self.reading.tolerance);
+            // About its own start, so that it comes to the same to the last bit wherever it lies.
+            match made.at_origin().course(&self.reading) {
+                Course::Arc(arc) => {
+                    // µm² to nm².
+                    cap = (arc.twice_cap_area() * 1e6).round();
+                    if arc.radius * 1e3 < LARGEST_CORRECTION {
+                        let goes_on = self.runs.last().is_some_and(|run| run.open);
+                        let run = (self.runs.len() - usize::from(goes_on)) as u32;
+                        self.tight.push(Tight { arc: made, range, run });
+                    }
+                }
+                Course::OffRadius { start, end, .. } => {
+                    self.faults.push(LineFault { fault: Fault::OffRadius { start, end }, range: range.0..range.1 });
+                }
+                Course::NoRadius => self.faults.push(LineFault { fault: Fault::NoRadius, range: range.0..range.1 }),
+                Course::Line => {}
+            }
+        }
+        if !made.is_cut() {
+            return self.interrupt(true);
+        }
+        if made.from == made.to && !made.is_arc() {
+            return;
+        }
+        match self.runs.last_mut() {
+            Some(run) if run.open => run.push(made, cap, range),
+            last => {
+                let continues = last.is_none() && self.ends_run_before.is_none();
+                self.runs.push(Run::begin(made, cap, range, continues, !torn));
+            }
+        }
+    }
+
+    /// True when these lines do the same wherever the wire stands before them.
+    pub fn is_loose(&self) -> bool {
+        !self.fixed
+    }
+
+    /// Moves everything that these lines do by `by`.
+    pub fn shift(&mut self, by: Place) {
+        self.before.at = added(self.before.at, by);
+        self.after.at = added(self.after.at, by);
+        self.runs.iter_mut().for_each(|run| run.shift(by));
+        self.tight.iter_mut().for_each(|tight| tight.arc = tight.arc.shifted(by));
+    }
+}
+
+/// From the first to the last byte of a line that is no space.
+pub fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
+    let leading = line.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+    let trailing = line[leading..].iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
+    ((offset + leading) as u32, (offset + line.len() - trailing) as u32)
+}
+
+fn pair(range: Range<usize>) -> (u32, u32) {
+    (range.start as u32, range.end as u32)
+}
+
+fn narrow(range: Range<usize>) -> Range<u32> {
+    range.start as u32..range.end as u32
+}

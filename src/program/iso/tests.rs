@@ -1,0 +1,241 @@
+//! Reading ISO: what lines say, how centres are meant, what is wrong, and that an edited text is the one read afresh.
+
+use super::document::Document;
+use super::machine::CenterRule;
+use super::word::{Number, Token, WordFault, words};
+use crate::message::en;
+use crate::program::trace::Kind;
+use crate::settings::{Effective, SideSetting};
+use proptest::prelude::*;
+
+fn read(text: &str) -> Document {
+    Document::read(text.as_bytes().to_vec())
+}
+
+/// Line (from 1) and rule of each finding.
+fn faults(text: &str, settings: &Effective) -> Vec<(usize, &'static str)> {
+    let document = Document::read_with(text.as_bytes().to_vec(), settings);
+    let line = |finding: &crate::finding::Finding| match &finding.place {
+        crate::finding::Place::Text { range } => document.text().line_of(range.start) + 1,
+        _ => 0,
+    };
+    document.findings().iter().map(|finding| (line(finding), finding.rule.name())).collect()
+}
+
+fn check(text: &str, expected: &[(usize, &str)]) {
+    assert_eq!(faults(text, &Effective::default()), expected, "{text}");
+}
+
+#[test]
+fn words_have_their_numbers_and_places() {
+    let tokens = |line: &str| {
+        let mut tokens = Vec::new();
+        words(line.as_bytes(), 10, |token| tokens.push(token));
+        tokens
+    };
+    let word = |letter: u8, mantissa: i64, decimals: u8, point: bool, range: std::ops::Range<usize>| Token::Word {
+        letter,
+        number: Number { mantissa, decimals, point },
+        range,
+    };
+    assert_eq!(
+        tokens("g01X-1.50y +.5 (up) Z2. ; rest"),
+        [
+            word(b'G', 1, 0, false, 10..13),
+            word(b'X', -150, 2, true, 13..19),
+            word(b'Y', 5, 1, true, 19..24),
+            Token::Comment { range: 25..29 },
+            word(b'Z', 2, 0, true, 30..33),
+            Token::Comment { range: 34..40 },
+        ]
+    );
+    let definition = |index: i64, value: Option<i64>, range| Token::Definition {
+        letter: b'H',
+        index: Number { mantissa: index, decimals: 0, point: false },
+        value: value.map(|mantissa| Number { mantissa, decimals: 0, point: false }),
+        range,
+    };
+    assert_eq!(tokens("H001=110  H002 = +105 "), [definition(1, Some(110), 10..18), definition(2, Some(105), 20..31)]);
+    assert_eq!(tokens("H1= 5 2 G40"), [definition(1, None, 10..18), word(b'G', 40, 0, false, 18..21)]);
+    let fault = |fault, range| Token::Fault { fault, range };
+    assert_eq!(tokens("X Y1"), [fault(WordFault::NoNumber { letter: b'X' }, 10..11), word(b'Y', 1, 0, false, 12..14)]);
+    assert_eq!(tokens("X1,5"), [fault(WordFault::NotANumber { letter: b'X' }, 10..14)]);
+    assert_eq!(tokens("X1234567890"), [fault(WordFault::TooManyDigits { digits: 10 }, 10..21)]);
+    assert_eq!(tokens("(a(b)c) (open"), [Token::Comment { range: 10..17 }, fault(WordFault::OpenComment, 18..23)]);
+    assert_eq!(tokens("X#101 STOP"), [Token::Foreign { range: 10..15 }, Token::Foreign { range: 16..20 }]);
+    assert_eq!(tokens("é"), [fault(WordFault::NoWord, 10..12)]);
+}
+
+/// A square of 10 mm with one rounded corner, cut from outside: absolute, from start to centre, µm.
+const ROUNDED: &str =
+    "%\nN10 G92 X-5000 Y0\nN20 G90\nG41 D1\nG01 X0 Y0\nY-10000\nX10000\nY-5000\nG03 X5000 Y0 I-5000 J0\nG01 X0\nG40\nX-5000\nM02\n%\n";
+
+#[test]
+fn a_right_program_has_no_fault() {
+    check(ROUNDED, &[]);
+}
+
+#[test]
+fn centres_are_found_from_the_arcs() {
+    let check = |text: &str, expected: (CenterRule, CenterRule)| {
+        let document = read(text);
+        assert_eq!((document.reading().absolute, document.reading().incremental), expected, "{text}");
+        let faults = document.findings().into_iter().filter(|finding| finding.rule.name() == "arc-off-radius").count();
+        assert_eq!(faults, 0, "{text}");
+    };
+    use CenterRule::{Absolute, CenterToStart, StartToCenter};
+    check("G90 G03 X5000 Y5000 I0 J5000\nX0 Y10000 I-5000 J0", (StartToCenter, StartToCenter));
+    check("G90 G03 X5000 Y5000 I0 J-5000\nX0 Y10000 I5000 J0", (CenterToStart, CenterToStart));
+    check("G90 G03 X5000 Y5000 I0 J5000\nX0 Y10000 I0 J5000\nX-5000 Y5000 I0 J5000", (Absolute, StartToCenter));
+    check("G91 G03 X5000 Y5000 J5000\nX-5000 Y5000 I-5000", (StartToCenter, StartToCenter));
+    check("G91 G03 X5000 Y5000 J-5000\nX-5000 Y5000 I5000", (CenterToStart, CenterToStart));
+    // One wrong arc among right ones changes nothing.
+    let document = read("G90 G03 X5.0 Y5.0 I0 J5.0\nX0 Y10.0 I0 J5.0\nX-5.0 Y5.0 I0 J4.0\nX0 Y0 I0 J5.0");
+    assert_eq!(document.reading().absolute, Absolute);
+    assert_eq!(document.findings().iter().filter(|finding| finding.rule.name() == "arc-off-radius").count(), 1);
+}
+
+#[test]
+fn units_follow_from_the_numbers() {
+    let end = |text: &str| read(text).trace().end();
+    let check =
+        |text: &str, x: f64, y: f64| assert!((end(text) - crate::geometry::Point::new(x, y)).norm() < 1e-9, "{text}: {:?}", end(text));
+    check("G01 X1000 Y-5", 1000.0, -5.0);
+    check("G01 X1. Y-5", 1000.0, -5000.0);
+    check("G01 X1.2345678 Y0", 1234.568, 0.0);
+    check("G20 G01 X1. Y.5", 25_400.0, 12_700.0);
+    check("G20 G01 X10000", 25_400.0, 0.0);
+    check("G91 G01 X10 Y10\nX5\nG90 X1", 1.0, 10.0);
+    // G92 before the first move says where the wire stands, later it moves the zero, behind a stop it says where it was taken to.
+    check("G92 X100 Y50\nG91 G01 X10", 110.0, 50.0);
+    check("G90 G01 X100\nG92 X0 Y0\nG01 X10", 110.0, 0.0);
+    check("G90 G01 X100\nM00\nG92 X1000 Y0\nG01 X1010", 1010.0, 0.0);
+    // Words that take the coordinates for themselves.
+    check("G01 X10\nG04 X500\nG28 X0 Y0\nG01 Y5", 10.0, 5.0);
+}
+
+#[test]
+fn each_fault_is_named_at_its_line() {
+    let body = "G92 X0 Y0\nG91\n";
+    let with = |text: &str| format!("{body}{text}\nM02\n");
+    check(&with("G01 X1000\nG01 X1000 Y\nG01 Y1000\nG01 X-2000 Y-1000"), &[(4, "syntax")]);
+    check(&with("G01 X1000 Y0\nG02 X1000 Y0 I400 J0\nG01 X-2000 Y0"), &[(4, "arc-off-radius")]);
+    check(&with("G01 X1000\nG02 X1000\nG01 X-2000"), &[(4, "arc-without-radius")]);
+    check(&with("G01 X1000\nG02 X1000 I0 J0\nG01 X-2000"), &[(4, "arc-without-radius")]);
+    check(&with("G01 X1000\nG01 Y1000\nG01 X-500\nG01 X-300"), &[(6, "not-closed")]);
+    check("G92 X0 Y0\nG91\nG01 X1000\nG01 Y1000\nG01 X-1000 Y-1000\n", &[(5, "missing-end")]);
+    check(&(with("G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000") + "G01 X5\nG01 X-5\n%\n"), &[(7, "text-after-end")]);
+    check(&with("N1 G01 X1000\nN2 G01 Y1000\nN1 G01 X-1000 Y-1000"), &[(5, "block-number")]);
+    check(
+        &with("G60\nT84\nT85\nM50 G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000"),
+        &[(3, "machine-dependent"), (4, "machine-dependent"), (6, "machine-dependent")],
+    );
+    check(&with("G42 D1\nG03 X1000 I500 J0\nG01 Y1000\nG01 X-1000 Y-1000"), &[(4, "compensation-switch")]);
+    check(&with("G42 D1\nG00 X1000\nG01 Y1000\nG01 X1000\nG01 X-1000 Y-1000\nG40\nG00 X-1000"), &[(4, "compensation-switch")]);
+    // A whole turn fits whatever I and J mean.
+    check(&with("G01 X1000\nG03 X0 Y0 I-1000 J0\nG01 X-1000"), &[(4, "ambiguous-center")]);
+}
+
+#[test]
+fn the_wire_runs_where_the_role_and_its_way_in_say() {
+    let opening = Effective { side: SideSetting::Opening, ..Effective::default() };
+    let punch = Effective { side: SideSetting::Punch, ..Effective::default() };
+    // From the middle of a square hole, counter-clockwise, the wire on the left.
+    let hole = |word: &str| format!("G92 X0 Y0\nG90\n{word} D1\nG01 X5000 Y0\nY5000\nX-5000\nY-5000\nX5000\nY0\nG40\nX0\nM02\n");
+    let check = |text: &str, settings: &Effective, expected: &[(usize, &str)]| assert_eq!(faults(text, settings), expected, "{text}");
+    check(&hole("G41"), &Effective::default(), &[]);
+    check(&hole("G41"), &opening, &[]);
+    check(&hole("G41"), &punch, &[(3, "wrong-side")]);
+    check(&hole("G42"), &opening, &[(3, "wrong-side")]);
+    // Nobody said what it is, but the wire comes from inside.
+    check(&hole("G42"), &Effective::default(), &[(3, "wrong-side")]);
+    let document = Document::read_with(hole("G42").into_bytes(), &opening);
+    let finding = &document.findings()[0];
+    assert_eq!(
+        en::sentence(finding, 1.0),
+        "G42 lets the wire run on the right, which is outside this contour: the settings say opening, the wire cuts into the part"
+    );
+    let fix = &document.fixes(finding)[0];
+    let mut fixed = document.clone();
+    fixed.edit(fix.edit[0].range.clone(), &fix.edit[0].text);
+    assert_eq!(fixed.findings(), []);
+}
+
+#[test]
+fn arcs_are_held_against_the_correction_under_compensation_only() {
+    // A slot's end of R 0.09 mm, concave to a wire on the left.
+    let program = |word: &str, table: &str| {
+        format!(
+            "{table}G92 X0 Y0\nG90\n{word}\nG01 X90 Y0\nY1000\nG03 X-90 Y1000 I-90 J0\nG01 Y-1000\nG03 X90 Y-1000 I90\nG01 Y0\nG40\nG01 X0\nM02\n"
+        )
+    };
+    check(&program("G41 D1", ""), &[(6, "small-radius"), (8, "small-radius")]);
+    // The wire outside.
+    let outside = program("G42 D1", "").replace("X0 Y0\nG90", "X500 Y0\nG90").replace("G01 X0\n", "G01 X500\n");
+    check(&outside, &[]);
+    check(&program("G41 H1", "H1=80\n"), &[]);
+    check(&program("G41 H1", "H1=95\n"), &[(7, "small-radius"), (9, "small-radius")]);
+    check(&program("G40", ""), &[]);
+    let none = Effective { compensation: crate::settings::Compensation::None, ..Effective::default() };
+    assert_eq!(faults(&program("G40", ""), &none), [(6, "small-radius"), (8, "small-radius")]);
+    let punch = Effective { side: SideSetting::Punch, ..none };
+    assert_eq!(faults(&program("G40", ""), &punch), []);
+}
+
+#[test]
+fn subprograms_are_followed_where_they_are_called() {
+    let text = "H001=110\nG92X0Y0\nG90\nH001\nM98 P0001\nM00\nH001\nM98 P0001\nM00\nM02\n\nN0001\nG01X0Y2000\nG42\nG01X0Y5000\nX5000\nY-5000\nX-5000\nY5000\nX0\nG50\nG40\nG01X0Y2000\nG01X0Y0\nM99\n";
+    check(text, &[(21, "machine-dependent")]);
+    let trace = read(text).trace();
+    assert_eq!(trace.steps.iter().filter(|step| step.kind == Kind::Line).count(), 2 * 9);
+    assert_eq!(trace.end(), crate::geometry::Point::origin());
+    check("G92 X0 Y0\nM98 P7\nG01 X1000\nG01 X0\nM02\n", &[(2, "machine-dependent")]);
+    // Calls without end are cut off.
+    check("M98 P1\nM02\nN1 G91 G01 X1\nM98 P1\nM99\n", &[(3, "not-closed"), (4, "machine-dependent"), (4, "missing-end")]);
+}
+
+/// Lines that programs are made of, with some that are damaged.
+fn line() -> impl Strategy<Value = String> {
+    prop_oneof![
+        6 => (prop::sample::select(vec!["G01 ", "G00 ", "", "N5 G01 "]), -50_i32..50, -50_i32..50).prop_map(|(g, x, y)| format!("{g}X{x} Y{y}")),
+        3 => (-50_i32..50, -50_i32..50).prop_map(|(i, j)| format!("G02 X{} Y0 I{i} J{j}", 2 * i)),
+        2 => (-50_i32..50).prop_map(|x| format!("G01 X{x}.5")),
+        1 => prop::sample::select(vec![
+            "G90", "G91", "G92 X0 Y0", "G41 D1", "G42", "G40", "M00", "M02", "G20", "X1 Y", "(comment)", "", "G28 X0", "T84", "G03 X5 Y5 J5", "M30", "%",
+            "G03 X0 Y0 I5", "R5 G02 X5", "H1=80", "X#1",
+        ])
+        .prop_map(str::to_owned),
+        1 => "[GXYIJN0-9. (;%/-]{0,8}",
+    ]
+}
+
+proptest! {
+    #[test]
+    fn an_edited_document_is_the_one_read_afresh(
+        lines in prop::collection::vec(line(), 0..700),
+        edits in prop::collection::vec((0_usize..8000, 0_usize..12, prop::collection::vec(line(), 0..3)), 1..5),
+        with_calls in prop::bool::weighted(0.05),
+    ) {
+        let mut document = read(&lines.join("\n"));
+        for (start, length, replacement) in edits {
+            let mut replacement = replacement.join("\n");
+            if with_calls {
+                replacement += "\nM98 P5\n";
+            }
+            document.edit(start..start + length, &replacement);
+            let fresh = Document::read(document.text().bytes().to_vec());
+            prop_assert_eq!(document.text(), fresh.text());
+            prop_assert_eq!(document.reading(), fresh.reading());
+            prop_assert_eq!(document.findings(), fresh.findings());
+            prop_assert_eq!(document.trace(), fresh.trace());
+        }
+    }
+
+    #[test]
+    fn any_bytes_are_read(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let document = Document::read(bytes);
+        let trace = document.trace();
+        prop_assert!(document.findings().iter().all(|finding| !en::sentence(finding, 1.0).is_empty()));
+        prop_assert!(trace.steps.iter().all(|step| step.range.end <= document.text().len()));
+    }
+}

@@ -1,0 +1,32 @@
+//! `wedm/settings`: the settings that hold for a document, and which level the correction comes from.
+
+use crate::settings::SideSetting;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The level that has the last word on the correction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CorrectionSource {
+    /// Nobody has set one.
+    Default,
+    /// `initializationOptions`, `workspace/didChangeConfiguration` or `workspace/configuration`.
+    Client,
+    /// `wedm.toml`.
+    File,
+}
+
+/// Result of `wedm/settings`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct SettingsInForce {
+    /// mm; what radii are held against: the largest of `corrections`.
+    pub correction: f64,
+    /// mm; that of each pass.
+    pub corrections: Vec<f64>,
+    pub correction_from: CorrectionSource,
+    pub side: SideSetting,
+    /// URI of the `wedm.toml` that holds for the document, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+}

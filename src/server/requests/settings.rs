@@ -1,0 +1,37 @@
+//! `wedm/settings`: what holds for a document, open or not.
+
+use crate::protocol::{CorrectionSource, SettingsInForce};
+use crate::server::config::uri_of;
+use crate::server::state::State;
+use crate::settings::{Effective, Settings};
+
+pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInForce {
+    let file = state.file_for(uri);
+    let of_client = state.config.settings_for(None);
+    let of_file = file.as_deref().and_then(|file| state.config.project_file(file)).map(|project| project.settings.clone());
+    let effective = Effective::of(&state.config.settings_for(file.as_deref()));
+    SettingsInForce {
+        correction: effective.correction,
+        corrections: effective.corrections,
+        correction_from: source(&of_client, of_file.as_ref()),
+        side: effective.side,
+        file: file.as_deref().and_then(uri_of),
+    }
+}
+
+/// Passes stand in place of a single correction, whichever level they come from.
+fn source(of_client: &Settings, of_file: Option<&Settings>) -> CorrectionSource {
+    let has_passes = |settings: &Settings| settings.passes.as_ref().is_some_and(|passes| passes.corrections.is_some());
+    let has_single = |settings: &Settings| settings.correction.or(settings.wire_diameter).or(settings.gap).is_some();
+    if of_file.is_some_and(has_passes) {
+        CorrectionSource::File
+    } else if has_passes(of_client) {
+        CorrectionSource::Client
+    } else if of_file.is_some_and(has_single) {
+        CorrectionSource::File
+    } else if has_single(of_client) {
+        CorrectionSource::Client
+    } else {
+        CorrectionSource::Default
+    }
+}
