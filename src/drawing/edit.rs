@@ -254,17 +254,17 @@ impl Drawing {
         let vertices = self.vertices_mut(entity).ok_or(ChangeError::NotAPolyline)?;
         let mut fresh = Vec::with_capacity(end - first + moving.len());
         let mut at = 0;
-        for index in first..=end {
-            let mut is_removed = false;
+        for (index, &old) in (first..).zip(&vertices[first..end]) {
+            let mut stays = true;
             while let Some(&(_, vertex)) = moving.get(at).filter(|(other, _)| *other == index) {
                 fresh.extend(vertex);
-                is_removed |= vertex.is_none();
+                stays &= vertex.is_some();
                 at += 1;
             }
-            if index < end && !is_removed {
-                fresh.push(vertices[index]);
-            }
+            fresh.extend(stays.then_some(old));
         }
+        // What comes in behind the last vertex that goes, or behind all.
+        fresh.extend(moving.drain(at..).filter_map(|(_, vertex)| vertex));
         let inserted = fresh.len();
         vertices.splice(first..end, fresh);
         Ok(Touched::Vertices { entity, start: first, removed: end - first, inserted })

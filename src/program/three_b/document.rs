@@ -42,7 +42,8 @@ impl Document {
         }
     }
 
-    fn words(&self) -> Words<'_> {
+    /// The words between blocks.
+    pub(in crate::program) fn words(&self) -> Words<'_> {
         Words { pause: self.pause_word.trim(), end: self.end_word.trim() }
     }
 
