@@ -229,8 +229,7 @@ impl Analysis {
             None => analysis.roles(drawing, &[key]).first().copied().unwrap_or(Role::Both),
         };
         let side_of = |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
-        let loud: Vec<(ContourKey, Option<Side>)> =
-            self.loud_in_order(drawing).into_iter().map(|key| (key, side_of(self, key))).collect();
+        let loud: Vec<(ContourKey, Option<Side>)> = self.loud_in_order(drawing).into_iter().map(|key| (key, side_of(self, key))).collect();
         for &(key, wire_side) in &loud {
             self.report_small_radii(drawing, key, wire_side, &mut report);
         }

@@ -106,6 +106,7 @@ impl Pairs {
         let rules: Vec<(usize, f64)> =
             PAIR_RULES.iter().enumerate().filter(|(_, rule)| is_on(rule)).map(|(at, rule)| (at, (rule.reach)(limits))).collect();
         self.reach = rules.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
+        self.grid.reserve(runs.len());
         for &run in runs {
             if let Some(outlook) = outlook(run.0) {
                 let bounds = outlook.index.bounds_of_run(run.1 as usize);
