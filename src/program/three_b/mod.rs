@@ -16,6 +16,7 @@ mod proof;
 mod tests;
 mod write;
 
+pub use crate::program::write::{ProofError, ProvedProgram};
 pub use block::{Block, CountingAxis, LARGEST, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
 pub use document::Document;
@@ -23,4 +24,4 @@ pub use encode::{Encoded, encode, snap};
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};
 pub use parse::{Flaw, Item, StatedPoint, SyntaxFault, Word, Words, read, read_line};
-pub use write::{ProofError, ProvedProgram, write, write_with};
+pub use write::{write, write_with};
