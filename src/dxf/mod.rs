@@ -27,6 +27,7 @@ mod place;
 mod reader;
 mod record;
 mod shape;
+mod sleep;
 mod strings;
 mod table;
 #[cfg(test)]
@@ -61,6 +62,7 @@ pub struct Document {
     findings: Vec<Finding>,
     table: Box<Table>,
     layers: Box<Layers>,
+    sleeper: Option<Box<sleep::Sleeper>>,
     is_binary: bool,
     /// How near arcs lie to the curves that they stand for, in mm; the default where none is set.
     arc_fit: Option<f64>,
@@ -136,6 +138,7 @@ impl Document {
 
     /// Reads the whole text.
     fn read_all(&mut self) {
+        self.sleeper = None;
         self.findings.clear();
         *self.table = Table::default();
         if let Some(sentence) = foreign::recognise(self.text.bytes()) {
@@ -171,6 +174,8 @@ impl Document {
             };
             self.findings.insert(0, finding);
         }
+        drawing.shrink_to_fit();
+        self.table.shrink_to_fit();
         self.drawing = Arc::new(drawing);
         self.name_unsupported();
     }

@@ -49,11 +49,11 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
                 if *touches { "touches itself or another" } else { "crosses itself or another" }
             )
         }
-        Detail::ArcAsChords { chords, radius, deviation, .. } => format!(
-            "{chords} chords lie on one arc of R {} mm, within {} mm: the wire leaves facets",
-            mm(radius * unit_mm),
-            mm(deviation * unit_mm)
-        ),
+        Detail::ArcAsChords { chords, radius, deviation, .. } => {
+            // Less than a nanometre is rounding.
+            let within = if deviation * unit_mm < 1e-6 { String::new() } else { format!(", within {} mm", mm(deviation * unit_mm)) };
+            format!("{chords} chords lie on one arc of R {} mm{within}: the wire leaves facets", mm(radius * unit_mm))
+        }
         Detail::Iso(fault) => iso(fault),
         Detail::More { count } => format!("{count} more findings are not shown"),
         Detail::LeadIn(sentence) | Detail::Units(sentence) | Detail::Syntax(sentence) | Detail::Settings(sentence) => sentence.clone(),
