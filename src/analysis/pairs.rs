@@ -218,9 +218,8 @@ impl Pairs {
 
     /// What `narrow-slot` tells of one contour: the two segments, and the disc between them.
     pub fn slots_of(&self, key: ContourKey) -> Vec<([usize; 2], Option<(Point, f64)>)> {
-        let own = |each: &&Seen| {
-            PAIR_RULES[each.rule].rule == Rule::NarrowSlot && each.one.0 == key && each.other.0 == key && !each.blocked
-        };
+        let own =
+            |each: &&Seen| PAIR_RULES[each.rule].rule == Rule::NarrowSlot && each.one.0 == key && each.other.0 == key && !each.blocked;
         self.seen.values().flatten().filter(own).map(|each| ([each.one.1, each.other.1], each.disc)).collect()
     }
 
