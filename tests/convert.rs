@@ -213,7 +213,10 @@ fn the_command_converts_and_refuses() {
 #[test]
 fn what_is_drawn_is_opened_by_librecad() {
     let folder = tempfile::tempdir().unwrap();
-    if !Command::new("librecad").arg("--version").env("QT_QPA_PLATFORM", "offscreen").output().is_ok() {
+    // Asked for its version it opens a window and waits.
+    let is_installed =
+        std::env::var_os("PATH").is_some_and(|path| std::env::split_paths(&path).any(|folder| folder.join("librecad").is_file()));
+    if !is_installed {
         eprintln!("skipped: LibreCAD is not installed");
         return;
     }
