@@ -12,6 +12,7 @@ mod layout;
 mod machine;
 mod parse;
 mod proof;
+pub mod refactor;
 #[cfg(test)]
 mod tests;
 mod write;

@@ -9,6 +9,7 @@ pub(super) mod language;
 pub(super) mod locate;
 pub(super) mod picture;
 pub(super) mod probe;
+pub(super) mod scale;
 pub(super) mod settings;
 pub(super) mod toolpath;
 
@@ -129,7 +130,7 @@ impl Task {
 
     /// All findings under the task's settings; of the rules alone where the options made a document without its text.
     pub fn findings(&self) -> Vec<Finding> {
-        self.document.all_findings()
+        self.document.all_findings().to_vec()
     }
 }
 
@@ -140,15 +141,18 @@ pub(super) struct Target {
     pub encoding: Encoding,
     pub document_changes: bool,
     pub shows_related: bool,
+    /// Actions that cannot be done are shown with their reason.
+    pub shows_disabled: bool,
 }
 
 impl Target {
     pub fn of(state: &mut State, uri: &Uri) -> Result<Target> {
         let abilities = &state.client.abilities;
         let (document_changes, shows_related) = (abilities.document_changes, abilities.related_information);
+        let shows_disabled = abilities.disabled_actions;
         let encoding = state.encoding;
         let version = state.document(uri.as_str())?.version;
-        Ok(Target { uri: uri.clone(), version, encoding, document_changes, shows_related })
+        Ok(Target { uri: uri.clone(), version, encoding, document_changes, shows_related, shows_disabled })
     }
 }
 
@@ -168,6 +172,7 @@ pub(super) fn workspace_edit(target: &Target, edits: Vec<TextEdit>) -> Workspace
 pub(super) fn refusal(task: &Task, refusal: Refusal, encoding: Encoding) -> Error {
     match refusal {
         Refusal::Sentence(sentence) => refused(sentence),
+        Refusal::Cancelled => Error::request_cancelled(),
         Refusal::Findings(findings) => {
             let diagnostics = convert::diagnostics(&task.subject, &findings, encoding);
             let first = diagnostics.first().map_or_else(|| "no path can be made".into(), |first| first.message.clone());
