@@ -21,7 +21,7 @@ from pygls.protocol import default_converter
 SESSIONS = sorted((Path(__file__).parent / "sessions").glob("*.jsonl"))
 
 #: Clients of which there must be a session.
-CLIENTS = {"neovim-0.7", "neovim-0.11", "emacs", "helix", "python"}
+CLIENTS = {"neovim-0.7", "neovim-0.11", "emacs", "helix", "kate", "librecad-live", "python"}
 
 #: Keys whose values are sentences, addresses of pages, versions of programs, or drawn.
 FREE = {"message", "title", "href", "version", "svg", "label", "detail", "documentation", "value", "tooltip", "filterText", "sortText", "contents"}
