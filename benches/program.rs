@@ -1,6 +1,5 @@
 //! What a wire path and its proved 3B program cost: `cargo bench --bench program`.
 
-#[allow(dead_code)]
 mod generated;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
