@@ -24,11 +24,8 @@ fn main() {
     ] {
         text_session(name, &text, rounds);
     }
-    for (name, text) in [
-        ("50 MB DXF of LWPOLYLINE", generated::polylines(50_000_000)),
-        ("50 MB DXF of LINE and ARC", generated::lines_and_arcs(50_000_000)),
-    ] {
-        large_session(name, &text, rounds / 4);
+    if !quick {
+        large_sessions(rounds / 4);
     }
     drawing_session(rounds);
     generate_session(if quick { 200 } else { 1000 });
@@ -62,6 +59,15 @@ fn memory_row(name: &str, client: &Client, length: usize) {
         if let Some(bytes) = resident(client) {
             println!("{name}: resident memory{when} {:.1} times the text   goal 10 times", bytes as f64 / length as f64);
         }
+    }
+}
+
+fn large_sessions(rounds: usize) {
+    for (name, text) in [
+        ("50 MB DXF of LWPOLYLINE", generated::polylines(50_000_000)),
+        ("50 MB DXF of LINE and ARC", generated::lines_and_arcs(50_000_000)),
+    ] {
+        large_session(name, &text, rounds);
     }
 }
 
