@@ -42,7 +42,10 @@ fn in_use() -> usize {
 }
 
 fn main() {
-    println!("{:<32} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}   goal", "for each byte of text", "lines", "reader", "chains", "the rest", "in all", "most");
+    println!(
+        "{:<32} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}   goal",
+        "for each byte of text", "lines", "reader", "chains", "the rest", "in all", "most"
+    );
     for (name, text) in [
         ("5 MB of LWPOLYLINE", generated::polylines(5_000_000)),
         ("5 MB of LINE and ARC", generated::lines_and_arcs(5_000_000)),

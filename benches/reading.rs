@@ -27,7 +27,11 @@ fn main() {
         let bytes = text.as_bytes();
         row("wedm, to geometry", fastest(7, || bytes.to_vec(), |bytes| drop(black_box(wedm::dxf::Document::read(bytes)))), "");
         row("wedm, to contours", fastest(7, || bytes.to_vec(), |bytes| drop(black_box(contours(bytes)))), goal);
-        row("dxf crate, to geometry", fastest(1, || bytes, |mut bytes| drop(black_box(dxf::Drawing::load(&mut bytes).expect("it reads")))), "");
+        row(
+            "dxf crate, to geometry",
+            fastest(1, || bytes, |mut bytes| drop(black_box(dxf::Drawing::load(&mut bytes).expect("it reads")))),
+            "",
+        );
         let path = folder.join(file);
         std::fs::write(&path, bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         match ezdxf(&path) {

@@ -10,10 +10,7 @@
 mod figure;
 mod lens;
 mod marks;
-mod png;
 mod style;
-
-pub use png::png;
 
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};

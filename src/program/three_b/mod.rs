@@ -11,6 +11,7 @@ pub(in crate::program) mod language;
 mod layout;
 mod machine;
 mod parse;
+mod part;
 mod proof;
 pub mod refactor;
 #[cfg(test)]
@@ -25,4 +26,4 @@ pub use encode::{Encoded, encode, snap};
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};
 pub use parse::{Flaw, Item, StatedPoint, SyntaxFault, Word, Words, read, read_line};
-pub use write::{write, write_with};
+pub use write::{write, write_four_b, write_with};

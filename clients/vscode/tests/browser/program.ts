@@ -11,8 +11,12 @@ import { Window } from "./window";
 /** The hole with the axis on which the circle is counted mistaken. */
 const FIXABLE = HOLE.replace("GYNR1", "GXNR1");
 
+/** The same program as somebody types it. */
+const LOOSE = HOLE.toLowerCase().replaceAll("b", " b ");
+const SETTINGS = '[program]\nlayout = "compact"\n';
+
 export async function program(checks: Checks): Promise<void> {
-  const host = await Host.start({ "wedm.server.path": WEDM }, { "hole.3b": HOLE, "broken.3b": "B1000B0B1000GXL1\nQQQ\nDD\n", "fixable.3b": FIXABLE });
+  const host = await Host.start({ "wedm.server.path": WEDM }, { "hole.3b": HOLE, "broken.3b": "B1000B0B1000GXL1\nQQQ\nDD\n", "fixable.3b": FIXABLE, "loose.3b": LOOSE, "wedm.toml": SETTINGS });
   const window = new Window(host.page);
   checks.page = host.page;
   try {
@@ -31,6 +35,28 @@ export async function program(checks: Checks): Promise<void> {
       await window.squiggles.first().waitFor({ state: "hidden" });
       await host.page.keyboard.press("Control+s");
       await expectSoon("the program repaired", async () => (await readFile(join(host.folder, "fixable.3b"), "utf8")) === HOLE);
+    });
+    await checks.check("a program is formatted in the layout that is set", async () => {
+      await window.openOurs("loose.3b");
+      await window.command("Format Document");
+      await host.page.keyboard.press("Control+s");
+      await expectSoon("the same blocks", async () => (await readFile(join(host.folder, "loose.3b"), "utf8")) === HOLE, () =>
+        readFile(join(host.folder, "loose.3b"), "utf8"),
+      );
+    });
+    await checks.check("a program is scaled by a factor", async () => {
+      await window.command("Wire EDM: Scale Program…");
+      const box = host.page.locator(".quick-input-widget");
+      await box.getByText("Factor by which every length").waitFor();
+      await box.locator("input").fill("2");
+      await host.page.keyboard.press("Enter");
+      await host.page.locator(".view-lines", { hasText: "B19800" }).waitFor();
+    });
+    await checks.check("lenses above the first block play the wire and open the picture", async () => {
+      await window.openOurs("hole.3b");
+      await host.page.locator(".codelens-decoration a", { hasText: "Open picture" }).click();
+      await window.picture();
+      await checks.shot("lenses");
     });
     await checks.check("the wire is played along the program, and the text follows", async () => {
       await window.openOurs("hole.3b");
