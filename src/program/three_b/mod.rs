@@ -11,13 +11,15 @@ mod layout;
 mod machine;
 mod parse;
 mod proof;
+mod rules;
+mod run;
 #[cfg(test)]
 mod tests;
 mod write;
 
 pub use block::{Block, CountingAxis, LARGEST, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
-pub use document::Document;
+pub use document::{Document, PlacedBlock};
 pub use encode::{Encoded, encode, snap};
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};

@@ -289,7 +289,7 @@ impl Cursor<'_> {
                     return Ok(Some(Token::Coordinates(end)));
                 }
                 if !self.behind_block
-                    && let Some((number, length)) = row_number(rest)
+                    && let Some((number, length)) = row_number(rest).or_else(|| row_of_word(rest, words))
                 {
                     self.at += length;
                     return Ok(Some(Token::Number(number)));
@@ -424,6 +424,14 @@ fn row_number(text: &[u8]) -> Option<(u32, usize)> {
         _ => return None,
     };
     Some((number, open + length + mark))
+}
+
+/// The bare number of a row in which a word stands.
+fn row_of_word(text: &[u8], words: &Words<'_>) -> Option<(u32, usize)> {
+    let (number, length) = digits_of(text)?;
+    let behind = text[length..].trim_ascii_start();
+    let word = &behind[..behind.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(behind.len())];
+    (behind.len() < text.len() - length && words.meaning(word).is_some()).then_some((number, length))
 }
 
 fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
