@@ -117,7 +117,7 @@ fn commands_print_and_end_as_they_say() {
         ("fix tight.dxf --in-place --diff", 2, &["!cannot be used with"]),
         ("fix tight.dxf -o tight.dxf", 2, &["!is the input"]),
         ("fix tight.dxf -o ./tight.dxf", 2, &["!is the input"]),
-        ("fix hole.3b --diff", 2, &["!expected a drawing"]),
+        ("fix hole.3b --diff", 0, &["!nothing to repair"]),
         ("fix tight.dxf --diff", 0, &["--- tight.dxf", "@@ -", "-19.92", "+19.899", "!1 arc repaired"]),
         ("fix clean.dxf --diff", 0, &["!nothing to repair"]),
         ("fix narrow.dxf --diff", 1, &["!nothing could be repaired", "!left: narrow.dxf:34:1", "!narrow-slot"]),
@@ -147,6 +147,42 @@ fn commands_print_and_end_as_they_say() {
     for (arguments, code, texts) in cases {
         check(&desk, arguments, *code, texts);
     }
+}
+
+#[test]
+fn programs_are_formatted_where_they_are_told_to_be() {
+    let desk = Desk::new();
+    let untidy = "b9900b0b9900gxl1 ; in\r\nB9900B0B39600GYNR1\r\nB99B9900GXL3\r\n9900B0B9900GXL3\r\ndd\r\n";
+    desk.write("shop/untidy.3b", untidy);
+    desk.write("shop/tidy.3b", "B9900B0B9900GXL1\nDD\n");
+    desk.write("shop/plate.dxf", "0\nEOF\n");
+    let cases: &[(&str, i32, &[&str])] = &[
+        ("format hole.3b", 0, &["B9900B0B9900GXL1\nB9900B0B39600GYNR1\n"]),
+        ("format hole.3b --layout checking", 0, &["N    1: B   9900 B      0 B   9900 GX L1  ;      9.900 ,      0.000\n"]),
+        ("format --check hole.3b", 0, &["!0 programs would be formatted, 1 unchanged"]),
+        (
+            "format --check shop",
+            1,
+            &["would be formatted: shop/untidy.3b\n", "!1 program would be formatted, 1 unchanged", "!2 lines with a syntax error"],
+        ),
+        ("format --diff shop", 1, &["-b9900b0b9900gxl1 ; in", "+B9900B0B9900GXL1 ; in", " 9900B0B9900GXL3"]),
+        ("format shop", 2, &["!2 programs found, expected one"]),
+        ("format clean.dxf", 2, &["!clean.dxf: it is a drawing, expected a program"]),
+        ("format missing.3b --check", 2, &["!missing.3b: no such file"]),
+        ("format hole.3b -o hole.3b", 2, &["!is the input"]),
+        ("format hole.3b --check --diff", 2, &["!cannot be used with"]),
+        ("format hole.3b --layout wide", 2, &["!compact, aligned, checking"]),
+        ("format", 2, &["!PATH"]),
+    ];
+    for (arguments, code, texts) in cases {
+        check(&desk, arguments, *code, texts);
+    }
+    assert_eq!(desk.read("shop/untidy.3b"), untidy.as_bytes());
+    desk.write("shop/wedm.toml", "[program]\nlayout = \"compact\"\n");
+    check(&desk, "format --in-place shop", 0, &["!1 program formatted, 1 unchanged"]);
+    let tidy = "B9900B0B9900GXL1 ; in\r\nB9900B0B39600GYNR1\r\nB99B9900GXL3\r\n9900B0B9900GXL3\r\nDD\r\n";
+    assert_eq!(String::from_utf8(desk.read("shop/untidy.3b")).unwrap(), tidy);
+    check(&desk, "format --in-place shop --layout checking --pause D", 0, &["!2 programs formatted"]);
 }
 
 #[test]

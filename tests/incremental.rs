@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Delta, Drawing, Entity, Geometry, Role, Touched, Vertex};
+use wedm::finding::Place;
 use wedm::geometry::Point;
 use wedm::settings::{Effective, Settings, SideSetting};
 
@@ -165,4 +166,53 @@ proptest! {
             prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
         }
     }
+}
+
+/// Findings and where they lie, entities by their place in the machining order.
+fn told(drawing: &Drawing) -> Vec<String> {
+    let order = |id| drawing.order().iter().position(|&other| other == id);
+    let place = |place: &Place| match *place {
+        Place::Segment { entity, segment } => format!("{:?}/{segment}", order(entity)),
+        _ => String::new(),
+    };
+    let (findings, _) = Analysis::new(drawing, Arc::new(Effective::default())).findings(drawing, usize::MAX);
+    findings
+        .iter()
+        .map(|finding| format!("{:?} {} {:?}", finding.rule, place(&finding.place), finding.related.iter().map(place).collect::<Vec<_>>()))
+        .collect()
+}
+
+#[test]
+fn what_was_drawn_later_in_between_is_told_as_if_it_had_always_stood_there() {
+    let line = |x0: f64, y0: f64, x1: f64, y1: f64| entity(Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) }, None);
+    let lines = [line(0.0, 0.0, 4.0, 4.0), line(0.0, 4.0, 4.0, 0.0), line(1.0, -1.0, 1.0, 5.0), line(0.0, 0.0, 4.0, 4.0)];
+    let mut fresh = Drawing::new(None);
+    lines.iter().for_each(|line| {
+        fresh.push(line.clone());
+    });
+    for drawn in [[3, 2, 1, 0], [2, 3, 0, 1], [1, 3, 0, 2]] {
+        let mut drawing = Drawing::new(None);
+        let mut stand: Vec<usize> = Vec::new();
+        for at in drawn {
+            let position = stand.iter().filter(|&&other| other < at).count();
+            stand.push(at);
+            drawing.insert_at(position, lines[at].clone());
+        }
+        assert_eq!(told(&drawing), told(&fresh), "drawn as {drawn:?}");
+    }
+    assert!(told(&fresh).len() > 5);
+}
+
+#[test]
+fn ranks_rise_in_machining_order_however_often_something_goes_in_between() {
+    let mut drawing = Drawing::new(None);
+    let line = entity(Geometry::Line { start: Point::origin(), end: Point::new(1.0, 0.0) }, None);
+    for _ in 0..3 {
+        drawing.push(line.clone());
+    }
+    for at in 0..200 {
+        drawing.insert_at(1 + at % 2, line.clone());
+    }
+    let ranks: Vec<u64> = drawing.order().iter().map(|&id| drawing.rank(id)).collect();
+    assert!(ranks.windows(2).all(|pair| pair[0] < pair[1]), "{ranks:?}");
 }

@@ -19,6 +19,8 @@ mod language;
 mod locate;
 #[path = "server/panics.rs"]
 mod panics;
+#[path = "server/program_text.rs"]
+mod program_text;
 #[path = "server/programs.rs"]
 mod programs;
 #[path = "server/settings.rs"]

@@ -2,6 +2,8 @@
 
 #![allow(dead_code)]
 
+pub mod shapes;
+
 use std::fmt::Write;
 
 /// Vertices of one die opening near (x, y): a rounded rectangle, counter-clockwise, its first fillet of radius `tight`.

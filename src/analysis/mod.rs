@@ -24,6 +24,9 @@ use std::iter::once;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+/// Up to so many touched places are looked at one by one, however small the drawing is.
+const FEW: usize = 16;
+
 /// What is known of one drawing under one set of settings.
 #[derive(Clone, Debug)]
 pub struct Analysis {
@@ -63,7 +66,7 @@ impl Analysis {
     /// Looks again at what `delta` touched. Same result as a fresh [`Analysis::new`].
     pub fn update(&mut self, drawing: &Drawing, delta: &Delta) {
         let limits = Limits::new(&self.settings, self.settings.unit_of(drawing).mm);
-        if limits != self.limits || delta.touched.contains(&Touched::All) {
+        if limits != self.limits || delta.touched.contains(&Touched::All) || self.is_most(delta) {
             *self = Analysis::new(drawing, self.settings.clone());
             return;
         }
@@ -102,6 +105,22 @@ impl Analysis {
         self.learn(drawing, &rechained.new);
     }
 
+    /// What holds of `drawing` once `delta` has been made to the drawing that this is of.
+    fn updated(&self, drawing: &Drawing, delta: &Delta) -> Analysis {
+        if self.is_most(delta) {
+            return Analysis::new(drawing, self.settings.clone());
+        }
+        let mut analysis = self.clone();
+        analysis.update(drawing, delta);
+        analysis
+    }
+
+    /// True when a look at all that is touched costs more than a look at everything.
+    fn is_most(&self, delta: &Delta) -> bool {
+        let touched = delta.touched.len();
+        touched > FEW && touched * RUN > self.known.values().map(|known| known.index.len()).sum()
+    }
+
     /// The settings that the findings hold under.
     pub fn settings(&self) -> &Arc<Effective> {
         &self.settings
@@ -128,7 +147,7 @@ impl Analysis {
 
     /// How many findings of which kind there are.
     fn tally(&mut self, drawing: &Drawing) -> Tally {
-        self.report(drawing, 0).tally()
+        Tally { unseen: self.pairs.uncompared(), ..self.report(drawing, 0).tally() }
     }
 
     fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
@@ -149,7 +168,7 @@ impl Analysis {
         }
         self.report_contours(drawing, &ordered, &mut report);
         let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.iter().copied().zip(sides.iter().copied()).collect();
-        self.pairs.report(&|key| self.outlook(drawing, key), &side_of, &mut report);
+        self.pairs.report(drawing, &|key| self.outlook(drawing, key), &side_of, &mut report);
         self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
         report
     }
@@ -232,8 +251,7 @@ impl Analysis {
         if finding.rule != Rule::SmallRadius {
             return self.checked(drawing, finding.rule, self.other_fixes(drawing, finding, (*entity, *segment)).unwrap_or_default());
         }
-        let Some(key) = self.chains.contour_of(*entity) else { return Vec::new() };
-        let Some(index) = self.chains.get(key).and_then(|contour| contour.index_of(*entity, *segment)) else { return Vec::new() };
+        let Some((key, index)) = self.chains.index_of(*entity, *segment) else { return Vec::new() };
         let mut fixes = Vec::new();
         let found = self.attempt(drawing, key, index).and_then(|(travel, attempt)| Some((travel, attempt.outcome.ok()?)));
         let mut is_notch = false;
@@ -265,7 +283,7 @@ impl Analysis {
 
     /// The fixes of a finding of any rule but `small-radius`.
     fn other_fixes(&self, drawing: &Drawing, finding: &Finding, at: (EntityId, usize)) -> Option<Vec<Fix>> {
-        let (key, index) = self.locate(at)?;
+        let (key, index) = self.chains.index_of(at.0, at.1)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
             // A hint that stands for many corners is no place to mend one of them.
@@ -279,15 +297,9 @@ impl Analysis {
         }
         let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
         let Place::Segment { entity, segment } = finding.related.first()? else { return None };
-        let (other_key, other_index) = self.locate((*entity, *segment))?;
+        let (other_key, other_index) = self.chains.index_of(*entity, *segment)?;
         let theirs = self.outlook(drawing, other_key)?;
         Some((rule.fixes)(&Wall::new(&outlook, index)?, &Wall::new(&theirs, other_index)?))
-    }
-
-    /// The contour that holds a segment, and its index in there.
-    fn locate(&self, (entity, segment): (EntityId, usize)) -> Option<(ContourKey, usize)> {
-        let key = self.chains.contour_of(entity)?;
-        Some((key, self.chains.get(key)?.index_of(entity, segment)?))
     }
 
     fn outlook<'a>(&'a self, drawing: &'a Drawing, key: ContourKey) -> Option<Outlook<'a>> {
@@ -429,16 +441,14 @@ impl Analysis {
     fn look_again(&mut self, drawing: &Drawing, entity: EntityId, vertices: Option<(usize, usize, usize)>) -> bool {
         let Some(key) = self.chains.contour_of(entity) else { return drawing.get(entity).is_none_or(|e| e.geometry.segment_count() == 0) };
         let Some(geometry) = drawing.get(entity).map(|entity| &entity.geometry) else { return false };
-        let piece_of =
-            |chains: &Chains| chains.get(key).and_then(|contour| contour.pieces.iter().find(|piece| piece.entity == entity)).copied();
-        let Some(before) = piece_of(&self.chains) else { return false };
+        let Some(before) = self.chains.piece_of(entity) else { return false };
         let recounted = before.count != geometry.segment_count();
         if recounted {
             self.chains.recount(drawing, entity);
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
-        let (Some(piece), Some(mut known)) = (piece_of(&self.chains), self.known.remove(&key)) else { return false };
+        let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.known.remove(&key)) else { return false };
         let Some(contour) = self.chains.get(key) else { return false };
         if vertices.is_none() {
             known.stated = stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied());

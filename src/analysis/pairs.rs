@@ -1,12 +1,13 @@
 //! What the rules on pairs of segments have seen, by the runs of segments that the two lie in.
 
 use super::report::Report;
-use crate::drawing::{ContourIndex, ContourKey, EntityId};
+use crate::drawing::{ContourIndex, ContourKey, ContourSegment, Drawing, EntityId};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::geometry::{Bounds, Grid, Point, Segment, left_normal};
 use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Wall};
 use crate::settings::Effective;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::rc::Rc;
 
 /// A run of segments of one contour.
 pub type RunId = (ContourKey, u32);
@@ -34,6 +35,12 @@ struct Seen {
 /// More than this is not sought: a drawing in which so much lies on or across each other is no drawing to cut yet, and
 /// thousands of copies in one place would be compared for ever. Where that happened is reported.
 const MOST_SEEN: usize = 20_000;
+
+/// Segments of a run that have one box together.
+const GROUP: usize = 8;
+
+/// Runs whose segments are kept at hand while runs are compared.
+const KEPT: usize = 512;
 
 /// The runs of all contours by place, and what has been seen between them.
 #[derive(Clone, Debug, Default)]
@@ -102,6 +109,19 @@ impl Pairs {
         }
         let new: FxHashSet<RunId> = runs.iter().copied().collect();
         let (mut near, mut found) = (Vec::new(), Vec::new());
+        // Runs are met again and again by those about them.
+        let mut kept: FxHashMap<RunId, Rc<Walls>> = FxHashMap::default();
+        let mut walls_of = |run: RunId| {
+            if let Some(walls) = kept.get(&run) {
+                return Some(walls.clone());
+            }
+            if kept.len() >= KEPT {
+                kept.clear();
+            }
+            let walls = Rc::new(Walls::of(&outlook(run.0)?, run.1));
+            kept.insert(run, walls.clone());
+            Some(walls)
+        };
         for &run in runs {
             let Some(own) = outlook(run.0) else { continue };
             if self.seen_count >= MOST_SEEN {
@@ -116,12 +136,16 @@ impl Pairs {
                     near.push(other);
                 }
             });
-            let walls = walls_of(&own, run.1);
+            if near.is_empty() {
+                continue;
+            }
+            let Some(walls) = walls_of(run) else { continue };
             // A long line may have a box that holds half the drawing, and come near little of it.
             near.retain(|&other| {
                 let theirs = outlook(other.0).map_or(Bounds::EMPTY, |theirs| theirs.index.bounds_of_run(other.1 as usize));
                 other == run
                     || walls
+                        .each
                         .iter()
                         .any(|(wall, bounds)| bounds.grown(self.reach).touches(&theirs) && passes(wall.geometry(), &theirs, self.reach))
             });
@@ -133,8 +157,8 @@ impl Pairs {
                 let look = Look { rules: &rules, reach: self.reach, keys: (run.0, other.0) };
                 if other == run {
                     look.within(&walls, &mut found);
-                } else if let Some(theirs) = outlook(other.0) {
-                    look.between(&walls, &walls_of(&theirs, other.1), &mut found);
+                } else if let Some(theirs) = walls_of(other) {
+                    look.between(&walls, &theirs, &mut found);
                 }
                 if !found.is_empty() {
                     if found.iter().any(|seen: &Seen| seen.disc.is_some()) {
@@ -196,11 +220,16 @@ impl Pairs {
         doubled
     }
 
+    /// How many runs have not been compared with everything near them.
+    pub fn uncompared(&self) -> usize {
+        self.uncompared.len()
+    }
+
     /// Says where segments have not been compared.
-    fn report_uncompared(&self, outlook: Outlooks, report: &mut Report) {
+    fn report_uncompared(&self, drawing: &Drawing, outlook: Outlooks, report: &mut Report) {
         let first = self.uncompared.iter().filter_map(|&(key, run)| outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start));
         let rank = |place: &Place| match place {
-            Place::Segment { entity, segment } => Some((*entity, *segment)),
+            Place::Segment { entity, segment } => Some((drawing.rank(*entity), *segment)),
             _ => None,
         };
         if let Some(place) = first.min_by_key(rank)
@@ -210,9 +239,9 @@ impl Pairs {
         }
     }
 
-    /// Adds the findings, in the order of their entities.
-    pub fn report(&self, outlook: Outlooks, wire_sides: &FxHashMap<ContourKey, Option<Side>>, report: &mut Report) {
-        self.report_uncompared(outlook, report);
+    /// Adds the findings, in the machining order of their entities.
+    pub fn report(&self, drawing: &Drawing, outlook: Outlooks, wire_sides: &FxHashMap<ContourKey, Option<Side>>, report: &mut Report) {
+        self.report_uncompared(drawing, outlook, report);
         type Ends = ((EntityId, usize), (EntityId, usize));
         let wire_side = |key: ContourKey| wire_sides.get(&key).copied().flatten();
         let concerned = |key: ContourKey, side: Option<Side>| side.is_none() || wire_side(key).is_none() || side == wire_side(key);
@@ -227,7 +256,8 @@ impl Pairs {
                 seen.push((each.rule, (one, other), each));
             }
         }
-        seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, *ends));
+        let rank = |(entity, segment): (EntityId, usize)| (drawing.rank(entity), segment);
+        seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, rank(ends.0), rank(ends.1)));
         let is_double = |each: &&(usize, Ends, &Seen)| PAIR_RULES[each.0].rule == Rule::DuplicateEntity;
         let doubles: FxHashSet<(EntityId, EntityId)> = seen.iter().filter(is_double).map(|(_, ends, _)| (ends.0.0, ends.1.0)).collect();
         let merged = merged(&seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(), &|key| outlook(key).map(|it| it.contour.len()));
@@ -314,9 +344,33 @@ fn merged(seen: &[&Seen], count_of: &dyn Fn(ContourKey) -> Option<usize>) -> FxH
 }
 
 /// The segments of a run with their boxes.
-fn walls_of<'a>(outlook: &'a Outlook<'a>, run: u32) -> Vec<(Wall<'a>, Bounds)> {
-    let walls = outlook.index.range_of(run as usize).filter_map(|index| Wall::new(outlook, index));
-    walls.map(|wall| (wall, wall.geometry().bounds())).collect()
+struct Walls<'a> {
+    each: Vec<(Wall<'a>, Bounds)>,
+    /// The box of each [`GROUP`] of them, and that of all.
+    groups: Vec<Bounds>,
+    all: Bounds,
+}
+
+impl<'a> Walls<'a> {
+    fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
+        let range = outlook.index.range_of(run as usize);
+        let first = range.start;
+        let segments = outlook.contour.segments_in(outlook.drawing, range).enumerate();
+        let wall = |(along, segment): (usize, ContourSegment)| {
+            let bounds = segment.geometry.bounds();
+            (Wall { outlook: *outlook, index: first + along, segment }, bounds)
+        };
+        let each: Vec<(Wall, Bounds)> = segments.map(wall).collect();
+        let mut all = Bounds::EMPTY;
+        let groups = each.chunks(GROUP).map(|group| {
+            let mut bounds = Bounds::EMPTY;
+            group.iter().for_each(|(_, own)| bounds.merge(own));
+            all.merge(&bounds);
+            bounds
+        });
+        let groups = groups.collect();
+        Walls { each, groups, all }
+    }
 }
 
 /// One look at the pairs that two runs form.
@@ -328,36 +382,46 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn within(&self, walls: &[(Wall, Bounds)], found: &mut Vec<Seen>) {
-        for (at, one) in walls.iter().enumerate() {
+    fn within(&self, walls: &Walls, found: &mut Vec<Seen>) {
+        for (at, one) in walls.each.iter().enumerate() {
             let area = one.1.grown(self.reach);
-            walls[at + 1..].iter().filter(|other| area.touches(&other.1)).for_each(|other| self.at(one, other, found));
-        }
-    }
-
-    fn between(&self, walls: &[(Wall, Bounds)], others: &[(Wall, Bounds)], found: &mut Vec<Seen>) {
-        let mut all = Bounds::EMPTY;
-        others.iter().for_each(|(_, bounds)| all.merge(bounds));
-        for one in walls {
-            let area = one.1.grown(self.reach);
-            if area.touches(&all) && passes(one.0.geometry(), &all, self.reach) {
-                let near = |other: &&(Wall, Bounds)| area.touches(&other.1) && passes(one.0.geometry(), &other.1, self.reach);
-                others.iter().filter(near).for_each(|other| self.at(one, other, found));
+            for (group, _) in walls.groups.iter().enumerate().skip((at + 1) / GROUP).filter(|(_, bounds)| area.touches(bounds)) {
+                let others = walls.each.iter().enumerate().skip(group * GROUP).take(GROUP);
+                others.filter(|(other, (_, bounds))| *other > at && area.touches(bounds)).for_each(|(_, other)| self.at(one, other, found));
             }
         }
     }
 
-    /// Lets the rules look at two segments whose boxes come near each other. The one of the earlier entity comes first,
-    /// so that the answer does not depend on how contours are keyed.
+    fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Seen>) {
+        for one in &walls.each {
+            let area = one.1.grown(self.reach);
+            if !(area.touches(&others.all) && passes(one.0.geometry(), &others.all, self.reach)) {
+                continue;
+            }
+            for (group, _) in others.each.chunks(GROUP).zip(&others.groups).filter(|(_, bounds)| area.touches(bounds)) {
+                let near = |other: &&(Wall, Bounds)| area.touches(&other.1) && passes(one.0.geometry(), &other.1, self.reach);
+                group.iter().filter(near).for_each(|other| self.at(one, other, found));
+            }
+        }
+    }
+
+    /// Lets the rules look at two segments whose boxes come near each other. The one of the entity that is machined earlier
+    /// comes first, so that the answer depends neither on how contours are keyed nor on when an entity was drawn.
     fn at(&self, one: &(Wall, Bounds), other: &(Wall, Bounds), found: &mut Vec<Seen>) {
-        let place = |wall: &Wall| (wall.segment.entity, wall.segment.segment);
+        let place = |wall: &Wall| (wall.outlook.drawing.rank(wall.segment.entity), wall.segment.segment);
         let (own, theirs) = ((self.keys.0, one.0.index), (self.keys.1, other.0.index));
         let ((one, own), (other, theirs)) =
             if place(&one.0) <= place(&other.0) { ((one, own), (other, theirs)) } else { ((other, theirs), (one, own)) };
+        let mut is_double = false;
         for &(rule, reach) in self.rules {
+            // What is said of the two as doubles needs no other word. A contour that doubles itself also crosses itself.
+            if is_double && PAIR_RULES[rule].silent_for_doubles && own.0 != theirs.0 {
+                continue;
+            }
             if one.1.grown(reach).touches(&other.1)
                 && let Some(sight) = (PAIR_RULES[rule].look)(&one.0, &other.0, own.0 == theirs.0)
             {
+                is_double |= PAIR_RULES[rule].rule == Rule::DuplicateEntity;
                 let (sides, mildest, disc) = (sight.sides, sight.mildest, sight.disc);
                 found.push(Seen { rule, one: own, other: theirs, sides, mildest, disc, blocked: false });
             }

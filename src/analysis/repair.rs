@@ -19,18 +19,21 @@ impl Analysis {
             return fixes;
         }
         let before = self.clone().tally(drawing);
-        fixes.into_iter().filter(|fix| self.mends(drawing, rule, &before, &fix.edit)).collect()
+        fixes.into_iter().filter(|fix| self.mends(drawing, rule, &before, &fix.edit).is_some()).collect()
     }
 
-    /// True when the edit can be made, leaves no more errors and no more warnings, and fewer findings of `rule`.
-    fn mends(&self, drawing: &Drawing, rule: Rule, before: &Tally, edit: &DrawingEdit) -> bool {
-        let (mut edited, mut analysis) = (drawing.clone(), self.clone());
-        let Ok(delta) = edited.apply(edit) else { return false };
-        analysis.update(&edited, &delta);
-        let after = analysis.tally(&edited);
+    /// What is found behind an edit that can be made, leaves no more errors and no more warnings than `before`, and fewer
+    /// findings of `rule`; `None` for any other edit.
+    fn mends(&self, drawing: &Drawing, rule: Rule, before: &Tally, edit: &DrawingEdit) -> Option<Tally> {
+        let mut edited = drawing.clone();
+        let delta = edited.apply(edit).ok()?;
+        let after = self.updated(&edited, &delta).tally(&edited);
         // What one circle could not hold may leave a second sequence of chords behind.
-        let is_less = after.of(rule) < before.of(rule) || (rule == Rule::ArcAsChords && after.of(rule) <= before.of(rule));
-        is_less && after.is_no_worse_than(before)
+        let is_less = after.of(rule) < before.of(rule)
+            || (rule == Rule::ArcAsChords && after.of(rule) <= before.of(rule))
+            // Where there is more than is sought, others come into sight.
+            || after.unseen < before.unseen;
+        (is_less && after.is_no_worse_than(before)).then_some(after)
     }
 
     /// One edit that makes the safe repairs of one rule, as many as do not collide.
@@ -43,35 +46,39 @@ impl Analysis {
         }
         let (findings, _) = analysis.findings(drawing, usize::MAX);
         for rule in rules {
-            let mut tries_left = TRIES;
             let of_rule = findings.iter().filter(|finding| finding.rule == rule);
             let fixes = of_rule.filter_map(|finding| {
                 let crate::finding::Place::Segment { entity, segment } = finding.place else { return None };
                 let fixes = self.other_fixes(drawing, finding, (entity, segment))?;
-                fixes.into_iter().find(|fix| fix.preferred && fix.in_fix_all).map(|fix| fix.edit)
+                let fix = fixes.into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
+                // One that cannot be made must not stand in the way of the others.
+                fix.edit.changes.iter().all(|change| drawing.accepts(change).is_ok()).then_some(fix.edit)
             });
-            if let Some(edit) = self.most_of(drawing, rule, &before, &apart(fixes), &mut tries_left) {
+            if let Some(edit) = self.most_of(drawing, rule, &before, &apart(fixes)) {
                 return Some(edit);
             }
         }
         None
     }
 
-    /// All the edits as one; where that makes anything worse, the first half of them that does not.
-    fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit], tries_left: &mut usize) -> Option<DrawingEdit> {
-        if edits.is_empty() || *tries_left == 0 {
-            return None;
+    /// As many of the edits as one as go together without making anything worse: where all of them do not, each half is tried
+    /// beside what has been taken so far, then the halves of that half.
+    fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit]) -> Option<DrawingEdit> {
+        let mut best: Option<(DrawingEdit, Tally)> = None;
+        let mut waiting: Vec<&[DrawingEdit]> = [edits].into_iter().filter(|edits| !edits.is_empty()).collect();
+        for _ in 0..TRIES {
+            let Some(some) = waiting.pop() else { break };
+            let (taken, before) = best.as_ref().map_or((&[][..], before), |(edit, tally)| (&edit.changes, tally));
+            let changes = taken.iter().chain(some.iter().flat_map(|edit| &edit.changes)).cloned().collect();
+            let tried = DrawingEdit { changes };
+            if let Some(after) = self.mends(drawing, rule, before, &tried) {
+                best = Some((tried, after));
+            } else if some.len() > 1 {
+                let (first, second) = some.split_at(some.len() / 2);
+                waiting.extend([second, first]);
+            }
         }
-        *tries_left -= 1;
-        let all = DrawingEdit { changes: edits.iter().flat_map(|edit| edit.changes.iter().cloned()).collect() };
-        if self.mends(drawing, rule, before, &all) {
-            return Some(all);
-        }
-        if edits.len() == 1 {
-            return None;
-        }
-        let (first, second) = edits.split_at(edits.len() / 2);
-        self.most_of(drawing, rule, before, first, tries_left).or_else(|| self.most_of(drawing, rule, before, second, tries_left))
+        best.map(|(edit, _)| edit)
     }
 }
 

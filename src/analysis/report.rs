@@ -21,6 +21,8 @@ pub struct Tally {
     pub errors: usize,
     pub warnings: usize,
     pub of_rule: BTreeMap<Rule, usize>,
+    /// Runs of segments that have not been compared with everything near them.
+    pub unseen: usize,
 }
 
 impl Tally {

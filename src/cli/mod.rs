@@ -3,6 +3,7 @@
 //! One file a command. Nothing is decided here: reading, rules, fixes and programs are those of the floors below,
 //! and what is printed as JSON has the types of [`crate::protocol`].
 
+mod changes;
 mod check;
 mod completions;
 mod contours;
@@ -10,6 +11,7 @@ mod demo;
 mod draw;
 mod files;
 mod fix;
+mod format;
 mod generate;
 mod inspect;
 mod options;
@@ -39,6 +41,7 @@ Examples:
   wedm check --correction 0.12 drawings/   a whole folder, with another correction
   wedm fix plate.dxf -o fixed.dxf          repair what can be repaired
   wedm generate fixed.dxf --side opening -o plate.3b
+  wedm format plate.3b --layout checking   with block numbers and end points
   wedm demo                                a whole session, on a drawing that ships inside
 
 Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wrong usage.";
@@ -47,6 +50,7 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
 enum Command {
     Check(check::Arguments),
     Fix(fix::Arguments),
+    Format(format::Arguments),
     Generate(generate::Arguments),
     Inspect(inspect::Arguments),
     Draw(draw::Arguments),
@@ -89,6 +93,7 @@ pub fn run() -> ExitCode {
         Some(Command::Serve(arguments)) => return serve::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::Fix(arguments)) => fix::run(&arguments),
+        Some(Command::Format(arguments)) => format::run(&arguments),
         Some(Command::Generate(arguments)) => generate::run(&arguments),
         Some(Command::Inspect(arguments)) => inspect::run(&arguments),
         Some(Command::Draw(arguments)) => draw::run(&arguments),

@@ -79,7 +79,7 @@ impl Program {
 }
 
 /// Words that a setting may have, read as the setting's own type reads them.
-fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+pub fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
 {

@@ -4,13 +4,16 @@
 //! and layers. A *group* is what hangs together through shared end points: groups are chained independently of each other,
 //! so an edit chains again only the groups that it touches, and the result is that of a fresh start.
 
-use super::{Contour, Drawing, EntityId, Role};
+use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Side of a cell of the plane in join tolerances: end points that meet lie in one cell, or in two when a border runs
 /// between them.
 const CELL: f64 = 8.0;
+
+/// The ends of up to so many entities are moved one by one.
+const FEW: usize = 16;
 
 /// One free end of an open entity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +41,8 @@ pub struct Chains {
     contours: FxHashMap<Key, Contour>,
     contours_of_group: FxHashMap<Key, Vec<Key>>,
     contour_of: Vec<Option<Key>>,
+    /// The place of each entity among the pieces of its contour, by entity id.
+    piece_of: Vec<u32>,
     next_key: Key,
 }
 
@@ -60,6 +65,7 @@ impl Chains {
             contours: FxHashMap::default(),
             contours_of_group: FxHashMap::default(),
             contour_of: Vec::new(),
+            piece_of: Vec::new(),
             next_key: 0,
         };
         chains.grow(drawing);
@@ -83,6 +89,18 @@ impl Chains {
     /// The contour that holds an entity.
     pub fn contour_of(&self, entity: EntityId) -> Option<Key> {
         self.contour_of.get(entity.0 as usize).copied().flatten()
+    }
+
+    /// The piece of a contour that an entity is.
+    pub fn piece_of(&self, entity: EntityId) -> Option<Piece> {
+        let contour = self.get(self.contour_of(entity)?)?;
+        let place = *self.piece_of.get(entity.0 as usize)?;
+        contour.pieces.get(place as usize).filter(|piece| piece.entity == entity).copied()
+    }
+
+    /// The contour that holds a segment of an entity, and its index in there.
+    pub fn index_of(&self, entity: EntityId, segment: usize) -> Option<(Key, usize)> {
+        Some((self.contour_of(entity)?, self.piece_of(entity)?.index_of(segment)?))
     }
 
     /// Keys of all contours, in no order.
@@ -111,19 +129,30 @@ impl Chains {
         self.grow(drawing);
         let mut affected = FxHashSet::default();
         let mut entities = FxHashSet::default();
-        for &id in touched {
+        // Each end taken out or put in by itself moves all behind it.
+        let in_bulk = touched.len() > FEW;
+        let distinct: FxHashSet<EntityId> = touched.iter().copied().collect();
+        if in_bulk {
+            self.ends.retain(|end| !distinct.contains(&end.entity));
+        }
+        let mut fresh: Vec<End> = Vec::new();
+        for id in distinct {
             affected.extend(self.group_of[id.0 as usize]);
             let old = self.ends_of[id.0 as usize];
             let new = if is_cut(id) { free_ends(drawing, id) } else { None };
-            for end in old.map(|pair| self.ends_at(id, pair)).into_iter().flatten() {
+            for end in old.map(|pair| self.ends_at(id, pair)).into_iter().flatten().filter(|_| !in_bulk) {
                 if let Ok(at) = self.ends.binary_search_by(|other| compare(other, &end)) {
                     self.ends.remove(at);
                 }
             }
             for end in new.map(|pair| self.ends_at(id, pair)).into_iter().flatten() {
-                let at = self.ends.partition_point(|other| compare(other, &end).is_lt());
                 affected.extend(self.near(end.point).filter_map(|other| self.group_of[other.entity.0 as usize]));
-                self.ends.insert(at, end);
+                if in_bulk {
+                    fresh.push(end);
+                } else {
+                    let at = self.ends.partition_point(|other| compare(other, &end).is_lt());
+                    self.ends.insert(at, end);
+                }
             }
             self.ends_of[id.0 as usize] = new;
             self.group_of[id.0 as usize] = None;
@@ -131,6 +160,10 @@ impl Chains {
             if drawing.get(id).is_some() && is_cut(id) {
                 entities.insert(id);
             }
+        }
+        if in_bulk {
+            self.ends.append(&mut fresh);
+            self.ends.sort_unstable_by(compare);
         }
         let mut rechained = Rechained::default();
         for group in affected {
@@ -156,6 +189,7 @@ impl Chains {
         self.ends_of.resize(bound, None);
         self.group_of.resize(bound, None);
         self.contour_of.resize(bound, None);
+        self.piece_of.resize(bound, 0);
     }
 
     fn fresh_key(&mut self) -> Key {
@@ -227,8 +261,9 @@ impl Chains {
     fn enter(&mut self, key: Key, contour: &Contour, touching: &[EntityId]) {
         let groups: FxHashSet<Key> = touching.iter().filter_map(|id| self.group_of[id.0 as usize]).collect();
         let mut members: Vec<EntityId> = contour.pieces.iter().map(|piece| piece.entity).collect();
-        for member in &members {
+        for (place, member) in members.iter().enumerate() {
             self.contour_of[member.0 as usize] = Some(key);
+            self.piece_of[member.0 as usize] = place as u32;
         }
         let mut contours = vec![key];
         for group in groups {

@@ -1,7 +1,8 @@
 //! A contour: entities joined end to end, with a direction of travel.
 
-use super::{Drawing, EntityId};
+use super::{Drawing, EntityId, Geometry};
 use crate::geometry::{Bounds, Point, Segment};
+use std::ops::Range;
 
 /// One entity of a contour, as it is travelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +14,14 @@ pub struct Piece {
     pub first: usize,
     /// Number of segments of the piece.
     pub count: usize,
+}
+
+impl Piece {
+    /// The index within the contour of one of the piece's own segments.
+    pub fn index_of(&self, segment: usize) -> Option<usize> {
+        let along = if self.reversed { self.count.checked_sub(1 + segment)? } else { segment };
+        (along < self.count).then_some(self.first + along)
+    }
 }
 
 /// Entities joined end to end within the join tolerance.
@@ -61,23 +70,23 @@ impl Contour {
     /// Segment `index` in the direction of travel, `None` past the end.
     pub fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
         let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.first + piece.count <= index))?;
-        let along = index - piece.first;
-        let segment = if piece.reversed { piece.count - 1 - along } else { along };
-        let own = drawing.get(piece.entity)?.geometry.segment(segment)?;
-        let geometry = if piece.reversed { own.reversed() } else { own };
-        Some(ContourSegment { entity: piece.entity, segment, reversed: piece.reversed, geometry })
-    }
-
-    /// The index within the contour of an entity's segment.
-    pub fn index_of(&self, entity: EntityId, segment: usize) -> Option<usize> {
-        let piece = self.pieces.iter().find(|piece| piece.entity == entity)?;
-        let along = if piece.reversed { piece.count.checked_sub(1 + segment)? } else { segment };
-        (along < piece.count).then_some(piece.first + along)
+        segment_of(piece, &drawing.get(piece.entity)?.geometry, index - piece.first)
     }
 
     /// All segments in the direction of travel.
     pub fn segments<'a>(&'a self, drawing: &'a Drawing) -> impl Iterator<Item = ContourSegment> + 'a {
-        (0..self.len()).filter_map(|index| self.segment(drawing, index))
+        self.segments_in(drawing, 0..self.len())
+    }
+
+    /// The segments of a range of indices in the direction of travel.
+    pub fn segments_in<'a>(&'a self, drawing: &'a Drawing, range: Range<usize>) -> impl Iterator<Item = ContourSegment> + 'a {
+        let first = self.pieces.partition_point(|piece| piece.first + piece.count <= range.start);
+        let pieces = self.pieces[first..].iter().take_while(move |piece| piece.first < range.end);
+        pieces.flat_map(move |piece| {
+            let geometry = drawing.get(piece.entity).map(|entity| &entity.geometry);
+            let along = range.start.saturating_sub(piece.first)..range.end.min(piece.first + piece.count) - piece.first;
+            along.filter_map(move |along| segment_of(piece, geometry?, along))
+        })
     }
 
     /// Twice the signed area with the arcs counted in, positive counter-clockwise; meaningful for a closed contour.
@@ -103,4 +112,12 @@ impl Contour {
         });
         Contour { pieces: pieces.collect(), closed: self.closed }
     }
+}
+
+/// The segment `along` a piece in the direction of travel.
+fn segment_of(piece: &Piece, geometry: &Geometry, along: usize) -> Option<ContourSegment> {
+    let segment = if piece.reversed { piece.count.checked_sub(1 + along)? } else { along };
+    let own = geometry.segment(segment)?;
+    let geometry = if piece.reversed { own.reversed() } else { own };
+    Some(ContourSegment { entity: piece.entity, segment, reversed: piece.reversed, geometry })
 }

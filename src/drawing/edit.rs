@@ -2,6 +2,11 @@
 
 use super::{Drawing, Entity, EntityId, Geometry, Vertex};
 use crate::geometry::Point;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
+
+/// A vertex that comes in before the one at an index, or with `None` the one at that index, which goes.
+type Moving = (usize, Option<Vertex>);
 
 /// One change to one entity, by id. Indices are those of the drawing before the *whole* edit.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,6 +120,8 @@ pub enum ChangeError {
     NotFinite,
     /// A part of a block, or fitted to a curve.
     NotEditable,
+    /// A bulge for a polyline that can have lines only.
+    OnlyLines,
 }
 
 impl std::fmt::Display for ChangeError {
@@ -122,6 +129,7 @@ impl std::fmt::Display for ChangeError {
         match self {
             ChangeError::UnknownEntity => write!(f, "there is no such entity"),
             ChangeError::NotEditable => write!(f, "the entity is a part of a block or fitted to a curve, and cannot be edited"),
+            ChangeError::OnlyLines => write!(f, "the entity is a 3D polyline, whose vertices have no bulge"),
             ChangeError::NotAPolyline => write!(f, "the entity is not a polyline and has no vertices"),
             ChangeError::OutOfRange { index, count } => write!(f, "vertex {index} is out of range, the polyline has {count}"),
             ChangeError::NotFinite => write!(f, "a coordinate, radius or bulge is not a finite number, or a radius is not positive"),
@@ -161,17 +169,15 @@ impl Drawing {
         let mut result = self.clone();
         let mut delta = Delta::default();
         // Vertices that come and go, with the index before the edit; those that stay are changed first.
-        let mut moving: Vec<(EntityId, usize, Option<Vertex>)> = Vec::new();
+        let mut moving: BTreeMap<EntityId, Vec<Moving>> = BTreeMap::new();
         for change in &edit.changes {
             let id = change.entity();
             let old = result.get(id).ok_or(ChangeError::UnknownEntity)?;
-            if !result.is_editable(id) {
-                return Err(ChangeError::NotEditable);
-            }
+            result.accepts(change)?;
             match *change {
                 Change::SetVertex { entity, index, vertex } => delta.touched.push(result.splice(entity, index, 1, &[vertex])?),
-                Change::RemoveVertex { entity, index } => moving.push((entity, index, None)),
-                Change::InsertVertex { entity, index, vertex } => moving.push((entity, index, Some(vertex))),
+                Change::RemoveVertex { entity, index } => moving.entry(entity).or_default().push((index, None)),
+                Change::InsertVertex { entity, index, vertex } => moving.entry(entity).or_default().push((index, Some(vertex))),
                 Change::SetLine { start, end, .. } => {
                     let entity = Entity { geometry: Geometry::Line { start, end }, ..old.clone() };
                     result.replace_checked(id, entity, &mut delta)?;
@@ -188,45 +194,115 @@ impl Drawing {
                 Change::RemoveEntity { .. } | Change::AddEntity { .. } => {}
             }
         }
-        // From the last index to the first, so that the indices of the edit stay true.
-        moving.sort_by_key(|(entity, index, _)| std::cmp::Reverse((*entity, *index)));
-        for (entity, index, vertex) in moving {
-            delta.touched.push(match vertex {
-                Some(vertex) => result.splice(entity, index, 0, &[vertex])?,
-                None => result.splice(entity, index, 1, &[])?,
-            });
+        for (entity, moving) in moving {
+            delta.touched.push(result.move_vertices(entity, moving)?);
         }
-        for change in &edit.changes {
-            if let Change::AddEntity { after, geometry } = change {
-                let entity = result.add_next_to(*after, geometry.clone())?;
-                delta.touched.push(Touched::Entity { entity });
-            }
-        }
-        for change in &edit.changes {
-            if let Change::RemoveEntity { entity } = *change {
-                result.remove(entity);
-                delta.touched.push(Touched::Removed { entity });
-            }
-        }
+        let added = edit.changes.iter().filter_map(|change| match change {
+            Change::AddEntity { after, geometry } => Some((*after, geometry)),
+            _ => None,
+        });
+        result.add_all_next_to(added, &mut delta)?;
+        let gone: FxHashSet<EntityId> = edit
+            .changes
+            .iter()
+            .filter_map(|change| match change {
+                Change::RemoveEntity { entity } => Some(*entity),
+                _ => None,
+            })
+            .collect();
+        result.remove_all(&gone);
+        let removed = edit.changes.iter().filter(|change| matches!(change, Change::RemoveEntity { .. }));
+        delta.touched.extend(removed.map(|change| Touched::Removed { entity: change.entity() }));
         *self = result;
         Ok(delta)
     }
 
-    /// Adds an entity behind `after` in machining order, on its layer and with its role, under a handle made from its own.
-    fn add_next_to(&mut self, after: EntityId, geometry: Geometry) -> Result<EntityId, ChangeError> {
-        if !geometry.is_sound() {
-            return Err(ChangeError::NotFinite);
-        }
-        let model = self.get(after).ok_or(ChangeError::UnknownEntity)?.clone();
-        let kind = match geometry {
-            Geometry::Polyline { .. } => "LWPOLYLINE",
-            Geometry::Line { .. } => "LINE",
-            Geometry::Arc { .. } => "ARC",
-            Geometry::Circle { .. } => "CIRCLE",
-            Geometry::Text { .. } => "TEXT",
+    /// Whether an entity can take a change at all, whatever its numbers are.
+    pub fn accepts(&self, change: &Change) -> Result<(), ChangeError> {
+        let bulge = match change {
+            Change::SetVertex { vertex, .. } | Change::InsertVertex { vertex, .. } => vertex.bulge,
+            _ => 0.0,
         };
-        let position = self.order.iter().position(|&id| id == after).map_or(self.order.len(), |at| at + 1);
-        Ok(self.insert_at(position, Entity { geometry, kind, ..model }))
+        match change.entity() {
+            entity if !self.is_editable(entity) => Err(ChangeError::NotEditable),
+            entity if bulge != 0.0 && self.is_straight(entity) => Err(ChangeError::OnlyLines),
+            _ => Ok(()),
+        }
+    }
+
+    /// Vertices of one polyline come and go, in one pass over it. A vertex comes in before the one at its index; of several
+    /// in one place the last stands first.
+    fn move_vertices(&mut self, entity: EntityId, mut moving: Vec<Moving>) -> Result<Touched, ChangeError> {
+        let count = match self.get(entity).map(|entity| &entity.geometry) {
+            None => return Err(ChangeError::UnknownEntity),
+            Some(Geometry::Polyline { vertices, .. }) => vertices.len(),
+            Some(_) => return Err(ChangeError::NotAPolyline),
+        };
+        for &(index, vertex) in &moving {
+            let behind = index.saturating_add(usize::from(vertex.is_none()));
+            if behind > count {
+                return Err(ChangeError::OutOfRange { index: behind, count });
+            }
+            if vertex.is_some_and(|vertex| !vertex.is_finite()) {
+                return Err(ChangeError::NotFinite);
+            }
+        }
+        moving.reverse();
+        moving.sort_by_key(|(index, _)| *index);
+        let first = moving.first().map_or(0, |(index, _)| *index);
+        let end = moving.iter().map(|(index, vertex)| index + usize::from(vertex.is_none())).max().unwrap_or(0);
+        let vertices = self.vertices_mut(entity).ok_or(ChangeError::NotAPolyline)?;
+        let mut fresh = Vec::with_capacity(end - first + moving.len());
+        let mut at = 0;
+        for (index, &old) in (first..).zip(&vertices[first..end]) {
+            let mut stays = true;
+            while let Some(&(_, vertex)) = moving.get(at).filter(|(other, _)| *other == index) {
+                fresh.extend(vertex);
+                stays &= vertex.is_some();
+                at += 1;
+            }
+            fresh.extend(stays.then_some(old));
+        }
+        // What comes in behind the last vertex that goes, or behind all.
+        fresh.extend(moving.drain(at..).filter_map(|(_, vertex)| vertex));
+        let inserted = fresh.len();
+        vertices.splice(first..end, fresh);
+        Ok(Touched::Vertices { entity, start: first, removed: end - first, inserted })
+    }
+
+    /// Adds entities, each behind another in machining order (of several behind one the last comes first), on its layer and
+    /// with its role, under a handle made from its own.
+    fn add_all_next_to<'a>(&mut self, added: impl Iterator<Item = (EntityId, &'a Geometry)>, delta: &mut Delta) -> Result<(), ChangeError> {
+        let mut behind: FxHashMap<EntityId, Vec<EntityId>> = FxHashMap::default();
+        for (after, geometry) in added {
+            if !geometry.is_sound() {
+                return Err(ChangeError::NotFinite);
+            }
+            let model = self.get(after).ok_or(ChangeError::UnknownEntity)?.clone();
+            let kind = match geometry {
+                Geometry::Polyline { .. } => "LWPOLYLINE",
+                Geometry::Line { .. } => "LINE",
+                Geometry::Arc { .. } => "ARC",
+                Geometry::Circle { .. } => "CIRCLE",
+                Geometry::Text { .. } => "TEXT",
+            };
+            // At the end for now: a place in the middle costs the length of the order, for each.
+            let entity = self.push(Entity { geometry: geometry.clone(), kind, ..model });
+            behind.entry(after).or_default().push(entity);
+            delta.touched.push(Touched::Entity { entity });
+        }
+        let count: usize = behind.values().map(Vec::len).sum();
+        if count > 0 {
+            let old = std::mem::take(&mut self.order);
+            let kept = &old[..old.len() - count];
+            self.order.reserve(old.len());
+            for &id in kept {
+                self.order.push(id);
+                self.order.extend(behind.get(&id).into_iter().flatten().rev());
+            }
+            self.rank_anew();
+        }
+        Ok(())
     }
 
     fn replace_checked(&mut self, id: EntityId, entity: Entity, delta: &mut Delta) -> Result<(), ChangeError> {

@@ -40,6 +40,9 @@ impl Unit {
     pub const INCH: Unit = Unit { mm: 25.4 };
 }
 
+/// How far apart entities are ranked that come one after another: so often an entity goes in between without work.
+const RANK_STEP: u64 = 1 << 24;
+
 /// Entities by stable id, in machining order.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing {
@@ -47,9 +50,15 @@ pub struct Drawing {
     pub unit: Option<Unit>,
     slots: Vec<Option<Arc<Entity>>>,
     order: Vec<EntityId>,
+    /// By id: a number that rises in machining order, so that two entities are compared without a search.
+    ranks: Vec<u64>,
     by_handle: FxHashMap<Arc<str>, EntityId>,
+    /// The number given last to a handle that was taken, while none has become free.
+    last_number: FxHashMap<Arc<str>, u64>,
     /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
     fixed: FxHashSet<EntityId>,
+    /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
+    straight: FxHashSet<EntityId>,
 }
 
 impl Drawing {
@@ -101,13 +110,50 @@ impl Drawing {
         let id = EntityId(self.slots.len() as u32);
         if self.by_handle.contains_key(&entity.handle) {
             let base = entity.handle.clone();
-            let free = (2..).map(|n: u64| format!("{base}#{n}")).find(|name| !self.by_handle.contains_key(name.as_str()));
-            entity.handle = free.expect("a free number exists").into();
+            let mut number = self.last_number.get(&base).map_or(2, |last| last + 1);
+            while self.by_handle.contains_key(format!("{base}#{number}").as_str()) {
+                number += 1;
+            }
+            entity.handle = format!("{base}#{number}").into();
+            self.last_number.insert(base, number);
         }
         self.by_handle.insert(entity.handle.clone(), id);
         self.slots.push(Some(Arc::new(entity)));
-        self.order.insert(position.min(self.order.len()), id);
+        let position = position.min(self.order.len());
+        self.rank_at(position);
+        self.order.insert(position, id);
         id
+    }
+
+    /// Ranks a new entity, the one behind the last slot, between those that stand around `position` now.
+    fn rank_at(&mut self, position: usize) {
+        let rank_of = |position: Option<usize>| position.and_then(|at| self.ranks.get(self.order.get(at)?.0 as usize)).copied();
+        let before = rank_of(position.checked_sub(1)).unwrap_or(0);
+        let behind = rank_of(Some(position)).unwrap_or(before + 2 * RANK_STEP);
+        self.ranks.push(before + (behind - before) / 2);
+        if behind - before < 2 {
+            // No number is left between the two: all entities are ranked anew, with room for the new one.
+            for (at, id) in self.order.iter().enumerate() {
+                let rank = (at as u64 + 1 + u64::from(at >= position)) * RANK_STEP;
+                self.ranks[id.0 as usize] = rank;
+            }
+            if let Some(new) = self.ranks.last_mut() {
+                *new = (position as u64 + 1) * RANK_STEP;
+            }
+        }
+    }
+
+    /// Ranks all entities by the order as it stands.
+    fn rank_anew(&mut self) {
+        for (at, id) in self.order.iter().enumerate() {
+            self.ranks[id.0 as usize] = (at as u64 + 1) * RANK_STEP;
+        }
+    }
+
+    /// A number that is larger for what comes later in machining order. It may change with every edit; which of two
+    /// entities has the larger one does not while both stand.
+    pub fn rank(&self, id: EntityId) -> u64 {
+        self.ranks.get(id.0 as usize).copied().unwrap_or(u64::MAX)
     }
 
     /// Adds an entity at the end of the machining order that shares its handle with the entity that [`Drawing::find`]
@@ -116,6 +162,7 @@ impl Drawing {
         let id = EntityId(self.slots.len() as u32);
         self.by_handle.entry(entity.handle.clone()).or_insert(id);
         self.slots.push(Some(Arc::new(entity)));
+        self.rank_at(self.order.len());
         self.order.push(id);
         self.fixed.insert(id);
         id
@@ -135,6 +182,20 @@ impl Drawing {
         !self.fixed.contains(&id)
     }
 
+    /// Says whether a polyline can have lines only.
+    pub fn set_straight(&mut self, id: EntityId, straight: bool) {
+        if straight {
+            self.straight.insert(id);
+        } else {
+            self.straight.remove(&id);
+        }
+    }
+
+    /// True for a polyline that cannot take an arc: the source has no place for a bulge.
+    pub fn is_straight(&self, id: EntityId) -> bool {
+        self.straight.contains(&id)
+    }
+
     /// Puts another entity in the place of `id`, keeping id, handle and machining order.
     pub fn replace(&mut self, id: EntityId, entity: Entity) {
         if let Some(slot) = self.slots.get_mut(id.0 as usize)
@@ -147,12 +208,26 @@ impl Drawing {
 
     /// Removes the entity and gives it back. Costs the length of the machining order.
     pub fn remove(&mut self, id: EntityId) -> Option<Arc<Entity>> {
+        let entity = self.take(id)?;
+        self.order.retain(|&other| other != id);
+        Some(entity)
+    }
+
+    /// Removes entities. Costs the length of the machining order once, however many they are.
+    pub fn remove_all(&mut self, ids: &FxHashSet<EntityId>) {
+        if ids.iter().filter_map(|&id| self.take(id)).count() > 0 {
+            self.order.retain(|id| !ids.contains(id));
+        }
+    }
+
+    fn take(&mut self, id: EntityId) -> Option<Arc<Entity>> {
         let entity = self.slots.get_mut(id.0 as usize)?.take()?;
         if self.by_handle.get(&entity.handle) == Some(&id) {
             self.by_handle.remove(&entity.handle);
         }
+        self.last_number.clear();
         self.fixed.remove(&id);
-        self.order.retain(|&other| other != id);
+        self.straight.remove(&id);
         Some(entity)
     }
 

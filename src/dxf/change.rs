@@ -2,14 +2,16 @@
 
 use super::Document;
 use super::entity::{mirror, mirrored_angles};
-use super::lexer::Tag;
+use super::lexer::{LOOKAHEAD, Tag};
 use super::lines::Lines;
 use super::number::{self, Code, Number, written};
 use super::place::{own_tags, vertex_tags};
+use super::reader::range_key;
 use super::record::{self, Style};
 use crate::drawing::{Change, DrawingEdit, EntityId, Geometry, Vertex};
+use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, positive_angle};
-use crate::text::TextEdit;
+use crate::text::{SourceText, TextEdit};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -60,11 +62,15 @@ impl Document {
                     of_entity.arc = Some((center, radius, start_angle, end_angle));
                 }
                 Change::RemoveEntity { .. } => of_entity.removed = true,
-                // Of several in one place, the last comes first: each goes in before what stands there.
-                Change::InsertVertex { index, vertex, .. } => of_entity.inserted.insert(0, (index, vertex)),
+                Change::InsertVertex { index, vertex, .. } => of_entity.inserted.push((index, vertex)),
                 Change::SetClosed { closed, .. } => of_entity.closed = Some(closed),
-                Change::AddEntity { ref geometry, .. } => of_entity.added.insert(0, geometry.clone()),
+                Change::AddEntity { ref geometry, .. } => of_entity.added.push(geometry.clone()),
             }
+        }
+        // Of several in one place, the last comes first: each goes in before what stands there.
+        for of_entity in wanted.values_mut() {
+            of_entity.inserted.reverse();
+            of_entity.added.reverse();
         }
         let mut edits = Vec::new();
         let mut free_handle = None;
@@ -73,7 +79,24 @@ impl Document {
             self.add_entities(entity, &wanted.added, &mut free_handle, &mut edits)?;
         }
         edits.sort_by_key(|edit| (edit.range.start, edit.range.end));
+        if let Some(line) = edits.iter().find_map(|edit| self.fault_decided_by(edit)) {
+            return Err(format!("lines would come or go near line {}, which is damaged: mend that first", line + 1));
+        }
         Ok(edits)
+    }
+
+    /// The line of a fault of the text before an edit that adds or removes lines: how the text goes on there was told from the
+    /// lines behind it, and would perhaps be told otherwise.
+    fn fault_decided_by(&self, edit: &TextEdit) -> Option<usize> {
+        let ends = |bytes: &[u8]| SourceText::new(bytes.to_vec()).line_count();
+        if ends(self.text.bytes().get(edit.range.clone())?) == ends(edit.text.as_bytes()) {
+            return None;
+        }
+        let reach = self.text.line_start(self.text.line_of(edit.range.start).saturating_sub(LOOKAHEAD));
+        let behind = self.findings.partition_point(|finding| range_key(finding).0 <= edit.range.end);
+        let damage = |finding: &&Finding| finding.rule == Rule::Syntax && finding.severity == Severity::Error;
+        let near = self.findings.iter().take(behind).filter(damage).find(|finding| range_key(finding).1 >= reach)?;
+        Some(self.text.line_of(range_key(near).0))
     }
 
     fn edit_entity(&self, id: EntityId, wanted: &Wanted, edits: &mut Vec<TextEdit>) -> Result<(), String> {
@@ -212,6 +235,9 @@ impl Document {
                 self.remove_vertex(lines, range, edits);
                 continue;
             };
+            if table.in_space && vertex.bulge != 0.0 {
+                return Err(in_space(name));
+            }
             if table.mirrored {
                 mirror(&mut vertex);
             }
@@ -222,7 +248,7 @@ impl Document {
                 mirror(&mut vertex);
             }
             if table.in_space && vertex.bulge != 0.0 {
-                return Err(format!("{name} is a 3D polyline and cannot take the bulge"));
+                return Err(in_space(name));
             }
             self.insert_vertex(id, index, count, vertex, name, edits)?;
         }
@@ -398,6 +424,10 @@ impl Document {
 }
 
 /// The tag that counts: the last one of its code.
+fn in_space(name: &str) -> String {
+    format!("{name} is a 3D polyline and cannot take the bulge")
+}
+
 fn last(tags: &[Tag], code: i16) -> Option<Tag> {
     tags.iter().rfind(|tag| tag.code == code).copied()
 }

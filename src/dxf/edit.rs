@@ -274,6 +274,7 @@ impl Document {
                     let entity = Entity { handle, layer, role: None, kind, geometry };
                     let id = put(drawing, id, position, entity, &mut delta);
                     drawing.set_editable(id, !is_fitted(kind));
+                    drawing.set_straight(id, vertices.as_ref().is_some_and(|vertices| vertices.in_space));
                     position += 1;
                     item.became = Became::Entity(id);
                     table.set_item_of(id, (old.start + items.len()) as u32);

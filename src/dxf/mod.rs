@@ -195,6 +195,7 @@ impl Document {
                                 }
                                 item.became = Became::Entity(id);
                                 if let Some(vertices) = read.vertices {
+                                    reading.drawing.set_straight(id, vertices.in_space);
                                     table.vertices.insert(id, vertices);
                                 }
                             }

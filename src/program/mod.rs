@@ -5,6 +5,7 @@
 
 mod document;
 pub mod iso;
+pub mod language;
 pub mod three_b;
 pub mod trace;
 

@@ -159,27 +159,45 @@ fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail
 
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     let first = fact.index as usize;
-    let Some((chords, fit, points)) = sequence(outlook, first) else { return Vec::new() };
-    let places: Vec<ContourSegment> = (first..first + chords).filter_map(|index| outlook.segment(index as isize)).collect();
-    // All the way round, it takes two arcs.
-    let halves = if chords == outlook.contour.len() && outlook.contour.closed {
-        vec![0..chords / 2, chords / 2..chords]
-    } else {
-        std::iter::once(0..chords).collect()
+    let count = outlook.contour.len();
+    let Some((mut chords, fit, mut points)) = sequence(outlook, first) else { return Vec::new() };
+    let mut arcs: Vec<(Range<usize>, Arc)> = Vec::new();
+    let mut add = |range: Range<usize>, fit: &Fit, points: &[Point]| {
+        let arc = Arc::about(fit.center, points[range.start], points[range.end], fit.counter_clockwise);
+        arcs.push((range, arc));
     };
-    let arcs: Vec<(Range<usize>, Arc)> = halves
-        .into_iter()
-        .map(|range| {
-            let arc = Arc::about(fit.center, points[range.start], points[range.end], fit.counter_clockwise);
-            (range, arc)
-        })
-        .collect();
+    if chords == count && outlook.contour.closed {
+        // All the way round, it takes two arcs.
+        add(0..chords / 2, &fit, &points);
+        add(chords / 2..chords, &fit, &points);
+    } else {
+        add(0..chords, &fit, &points);
+        // What one finding does not hold goes on behind it: it would be the next finding.
+        let (mut last, limit) = (chords, if outlook.contour.closed { count } else { count - first });
+        while last == MOST
+            && chords < limit
+            && let Some((more, further, behind)) = sequence(outlook, (first + chords) % count)
+        {
+            last = more;
+            let more = more.min(limit - chords);
+            points.extend(behind.iter().skip(1).take(more));
+            add(chords..chords + more, &further, &points);
+            chords += more;
+        }
+    }
+    let places: Vec<ContourSegment> = (first..first + chords).filter_map(|index| outlook.segment(index as isize)).collect();
     let Some(changes) = in_polyline(outlook, &places, &arcs).or_else(|| in_chain(outlook, &places, &arcs)) else { return Vec::new() };
-    let longest = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
-    let half = (longest / (2.0 * fit.radius)).min(1.0).asin();
-    let moved = fit.radius * (1.0 - half.cos()) + fit.deviation;
+    let moved = arcs.iter().map(|(range, arc)| moved(&points[range.start..=range.end], arc)).fold(0.0, f64::max);
     let kind = FixKind::OneArc { chords, radius: fit.radius };
     vec![Fix { kind, preferred: true, in_fix_all: moved <= outlook.limits.tolerances.join, edit: DrawingEdit { changes } }]
+}
+
+/// How far an arc lies from the chords that it takes the place of: at the middle of the longest chord, and at its ends.
+fn moved(points: &[Point], arc: &Arc) -> f64 {
+    let longest = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+    let half = (longest / (2.0 * arc.radius)).min(1.0).asin();
+    let deviation = points.iter().map(|point| ((point - arc.center).norm() - arc.radius).abs()).fold(0.0, f64::max);
+    arc.radius * (1.0 - half.cos()) + deviation
 }
 
 /// Each arc takes the place of its chords' first vertex, the others go.

@@ -45,7 +45,7 @@ fn same(one: &Geometry, k: usize, other: &Geometry, l: usize, turned: bool, tole
 
 fn fixes(one: &Wall, other: &Wall) -> Vec<Fix> {
     let (a, b) = (one.segment, other.segment);
-    let rank = |id| one.outlook.drawing.order().iter().position(|&other| other == id);
+    let rank = |id| one.outlook.drawing.rank(id);
     let entity = if rank(a.entity) > rank(b.entity) { a.entity } else { b.entity };
     let edit = DrawingEdit { changes: vec![Change::RemoveEntity { entity }] };
     vec![Fix { kind: FixKind::DeleteDouble, preferred: true, in_fix_all: true, edit }]

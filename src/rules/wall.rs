@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// A segment of a contour in the contour's direction of travel.
 #[derive(Clone, Copy, Debug)]
 pub struct Wall<'a> {
-    pub outlook: &'a Outlook<'a>,
+    pub outlook: Outlook<'a>,
     pub index: usize,
     pub segment: ContourSegment,
 }
@@ -23,8 +23,8 @@ pub struct Corner {
 }
 
 impl<'a> Wall<'a> {
-    pub fn new(outlook: &'a Outlook<'a>, index: usize) -> Option<Wall<'a>> {
-        Some(Wall { outlook, index, segment: outlook.segment(index as isize)? })
+    pub fn new(outlook: &Outlook<'a>, index: usize) -> Option<Wall<'a>> {
+        Some(Wall { outlook: *outlook, index, segment: outlook.segment(index as isize)? })
     }
 
     pub fn geometry(&self) -> &Segment {

@@ -5,6 +5,7 @@ use super::config::{Level, path_of};
 use super::drawings::{self, Sent, SentChanges};
 use super::jobs::Cancel;
 use super::requests::code_action::FIX_ALL;
+use super::requests::language::formatting::Scope;
 use super::requests::language::navigate::{Question, navigate};
 use super::requests::{
     Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, settings, toolpath,
@@ -129,6 +130,13 @@ impl Backend {
         let act = move |state: &mut State, reply| navigate(state, &at, question, Errand { reply, cancel, token: None });
         let answer = self.ask(name, Some(about), act).await?;
         serde_json::from_slice(&answer).map_err(|error| internal(error.to_string()))
+    }
+
+    async fn formatted(&self, name: &'static str, uri: Uri, scope: Scope) -> Result<Option<Vec<TextEdit>>> {
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::formatting::formatting(state, &uri, scope, errand);
+        let token = self.written(name, &about, None, act).await?;
+        Ok(Some(language::formatting::standing_for(token)))
     }
 
     fn log(&self, message: String) {
@@ -342,6 +350,19 @@ impl LanguageServer for Backend {
         Ok(Some(language::folding::standing_for(token)))
     }
 
+    async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        self.formatted("textDocument/formatting", params.text_document.uri, Scope::Whole).await
+    }
+
+    async fn range_formatting(&self, params: DocumentRangeFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        self.formatted("textDocument/rangeFormatting", params.text_document.uri, Scope::Range(params.range)).await
+    }
+
+    async fn on_type_formatting(&self, params: DocumentOnTypeFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let at = params.text_document_position;
+        self.formatted("textDocument/onTypeFormatting", at.text_document.uri, Scope::Left(at.position)).await
+    }
+
     async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
         let about = shared(&params.text_document_position.text_document.uri);
         self.look("textDocument/completion", about, move |state| language::completion::completion(state, &params)).await
@@ -350,6 +371,16 @@ impl LanguageServer for Backend {
     async fn selection_range(&self, params: SelectionRangeParams) -> Result<Option<Vec<SelectionRange>>> {
         let about = shared(&params.text_document.uri);
         self.look("textDocument/selectionRange", about, move |state| language::selection::selection_range(state, &params)).await
+    }
+
+    async fn prepare_rename(&self, params: TextDocumentPositionParams) -> Result<Option<PrepareRenameResponse>> {
+        let about = shared(&params.text_document.uri);
+        self.look("textDocument/prepareRename", about, move |state| language::rename::prepare(state, &params)).await
+    }
+
+    async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
+        let about = shared(&params.text_document_position.text_document.uri);
+        self.look("textDocument/rename", about, move |state| language::rename::rename(state, &params)).await
     }
 
     async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
@@ -427,10 +458,17 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
             references_provider: Some(OneOf::Left(true)),
             document_highlight_provider: Some(OneOf::Left(true)),
             selection_range_provider: Some(SelectionRangeProviderCapability::Simple(true)),
+            rename_provider: Some(OneOf::Right(RenameOptions {
+                prepare_provider: Some(true),
+                work_done_progress_options: WorkDoneProgressOptions::default(),
+            })),
             inlay_hint_provider: Some(OneOf::Left(true)),
             semantic_tokens_provider: Some(language::tokens::capabilities()),
             hover_provider: Some(HoverProviderCapability::Simple(true)),
             document_symbol_provider: Some(OneOf::Left(true)),
+            document_formatting_provider: Some(OneOf::Left(true)),
+            document_range_formatting_provider: Some(OneOf::Left(true)),
+            document_on_type_formatting_provider: Some(language::formatting::on_type()),
             folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
             workspace: Some(WorkspaceServerCapabilities {
                 workspace_folders: Some(WorkspaceFoldersServerCapabilities {

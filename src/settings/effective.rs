@@ -23,6 +23,8 @@ pub struct Effective {
     /// The rules whose severity somebody has set.
     pub stated: BTreeSet<Rule>,
     pub layout: Layout,
+    /// The layout that somebody has set; without one, a program that is formatted stays in its own.
+    pub stated_layout: Option<Layout>,
     pub direction: Direction,
     pub corner: Corner,
     pub thread: Option<PointSetting>,
@@ -74,6 +76,7 @@ impl Effective {
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             layout: program.layout.unwrap_or_default(),
+            stated_layout: program.layout,
             direction: program.direction.unwrap_or_default(),
             corner: program.corner.unwrap_or_default(),
             thread: program.thread,

@@ -1,6 +1,6 @@
 //! What editors ask about DXF text, over the real process.
 
-use crate::support::{Client, TIGHT, capabilities, dxf_of};
+use crate::support::{Client, TIGHT, capabilities, dxf_of, tight_plate};
 use serde_json::{Value, json};
 
 const URI: &str = "file:///plate.dxf";
@@ -144,9 +144,9 @@ fn odd_texts_are_answered_too() {
 }
 
 #[test]
-fn what_is_no_dxf_is_answered_with_nothing() {
+fn what_is_neither_dxf_nor_program_is_answered_with_nothing() {
     let mut client = start();
-    client.open_text(URI, "3b", "B1B2B3GXL1\n");
+    client.open_drawing(URI, json!([tight_plate("2A")]));
     let answers = ask_all(&mut client, 0);
     assert!(answers.iter().all(|(_, answer)| answer.is_null()), "{answers:?}");
     client.shut_down();

@@ -6,6 +6,7 @@ import { convertToDxf } from "./commands/convert";
 import { changeCorrection } from "./commands/correction";
 import { fixAll } from "./commands/fixAll";
 import { generate } from "./commands/generate";
+import { Front } from "./front";
 import { watchLargeFiles } from "./large";
 import { Pictures } from "./picture/pictures";
 import { Radii } from "./radii/tree";
@@ -22,23 +23,24 @@ export function activate(context: vscode.ExtensionContext): void {
   const log = vscode.window.createOutputChannel("Wire EDM", { log: true });
   const server = new Server(context, log);
   running = server;
-  const pictures = new Pictures(server, context.extensionUri);
+  const front = new Front();
+  const pictures = new Pictures(server, front, context.extensionUri);
   const radii = new Radii(server);
   const check = new PathCheck(server);
   const commands: Record<string, (...given: unknown[]) => Promise<void> | void> = {
-    "wedm.generate3b": (uri) => generate(server, "3b", uri),
-    "wedm.generate4b": (uri) => generate(server, "4b", uri),
-    "wedm.generateIso": (uri) => generate(server, "iso", uri),
+    "wedm.generate3b": (uri) => generate(server, front, "3b", uri),
+    "wedm.generate4b": (uri) => generate(server, front, "4b", uri),
+    "wedm.generateIso": (uri) => generate(server, front, "iso", uri),
     "wedm.openPicture": (uri) => pictures.open(uri, false),
     "wedm.simulate": (uri) => pictures.open(uri, true),
-    "wedm.convertToDxf": (uri) => convertToDxf(server, uri),
-    "wedm.fixAll": () => fixAll(),
+    "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),
+    "wedm.fixAll": () => fixAll(front),
     "wedm.checkPath": (uri) => check.ask(uri),
     "wedm.showRadii": () => radii.show(),
     "wedm.radii.onlyFaults": () => radii.filter(true),
     "wedm.radii.all": () => radii.filter(false),
     "wedm.radii.reveal": (handle, segment) => radii.revealInText(handle, segment),
-    "wedm.changeCorrection": () => changeCorrection(server),
+    "wedm.changeCorrection": () => changeCorrection(server, front),
     "wedm.restartServer": () => server.restart(),
     "wedm.showLog": () => {
       log.show();
@@ -47,10 +49,11 @@ export function activate(context: vscode.ExtensionContext): void {
   context.subscriptions.push(
     log,
     server,
+    front,
     pictures,
     radii,
     check,
-    new Status(server),
+    new Status(server, front),
     sayWhatFails(server, log),
     watchLargeFiles(),
     vscode.workspace.onDidChangeConfiguration((event) => {

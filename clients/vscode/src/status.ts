@@ -1,7 +1,7 @@
 // The item in the status bar: the correction in force for the document in front, or what is wrong with the server.
 
 import * as vscode from "vscode";
-import { isOurs } from "./languages";
+import type { Front } from "./front";
 import type { SettingsInForce } from "./protocol";
 import type { Server, State } from "./server/server";
 
@@ -13,7 +13,10 @@ export class Status implements vscode.Disposable {
   readonly #subscriptions: vscode.Disposable[];
   #timer: NodeJS.Timeout | undefined;
 
-  constructor(private readonly server: Server) {
+  constructor(
+    private readonly server: Server,
+    private readonly front: Front,
+  ) {
     this.#item = vscode.window.createStatusBarItem("wedm.correction", vscode.StatusBarAlignment.Right, 110);
     this.#item.name = "Wire EDM: Correction";
     this.#subscriptions = [
@@ -22,7 +25,7 @@ export class Status implements vscode.Disposable {
       server.onDidDiagnose(() => {
         this.#soon();
       }),
-      vscode.window.onDidChangeActiveTextEditor(() => void this.#refresh()),
+      front.onDidChange(() => void this.#refresh()),
       vscode.workspace.onDidChangeConfiguration((event) => {
         if (event.affectsConfiguration("wedm")) {
           this.#soon();
@@ -38,8 +41,8 @@ export class Status implements vscode.Disposable {
   }
 
   async #refresh(): Promise<void> {
-    const document = vscode.window.activeTextEditor?.document;
-    if (document === undefined || !isOurs(document)) {
+    const document = this.front.document;
+    if (document === undefined) {
       this.#item.hide();
       return;
     }

@@ -71,9 +71,10 @@ pub fn tokens(text: &SourceText, limit: usize, stop: Stop<'_>) -> Option<Vec<Tok
 /// The tokens of some lines.
 pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
     let mut found = Vec::new();
-    let Some(spot) = spot(document, lines.start) else { return found };
-    let begin = spot.tag.map_or(spot.in_step, |tag| tag.line);
-    collect(&document.text, begin, spot.name, |token| {
+    // A text that is no DXF has no spots; it is looked at from its beginning.
+    let (begin, name) =
+        spot(document, lines.start).map_or((0, &b""[..]), |spot| (spot.tag.map_or(spot.in_step, |tag| tag.line), spot.name));
+    collect(&document.text, begin, name, |token| {
         if token.line >= lines.end {
             return Next::Enough;
         }

@@ -181,3 +181,31 @@ fn only_the_numbers_that_change_are_touched() {
     let beyond = DrawingEdit { changes: vec![Change::RemoveVertex { entity, index: 2 }] };
     assert_eq!(refused(&beyond), "vertex 2 of LWPOLYLINE A is out of range, the polyline has 2");
 }
+
+#[test]
+fn a_polyline_in_space_takes_no_bulge() {
+    let document =
+        Document::read(dxf("0 POLYLINE 5 A 70 8 0 VERTEX 10 0 20 0 42 0 0 VERTEX 10 1 20 0 0 VERTEX 10 1 20 1 0 SEQEND").into_bytes());
+    let entity = document.drawing().order()[0];
+    for change in [
+        Change::SetVertex { entity, index: 0, vertex: Vertex::new(0.0, 0.0, 0.5) },
+        Change::InsertVertex { entity, index: 1, vertex: Vertex::new(0.0, 0.0, 0.5) },
+    ] {
+        let edit = DrawingEdit { changes: vec![change] };
+        assert_eq!(document.text_edits(&edit).unwrap_err(), "POLYLINE A is a 3D polyline and cannot take the bulge");
+        assert!(Drawing::clone(document.drawing()).apply(&edit).is_err());
+    }
+}
+
+#[test]
+fn lines_neither_come_nor_go_where_the_text_is_damaged() {
+    // How the text goes on behind the damage is told from the lines that would go.
+    let damaged = dxf("0 LINE 5 A 10 1 20 2 11 3 2INE 0 LINE 5 B 10 1 20 2 11 3 21 4 0 LINE 5 C 10 1 20 2 11 3 21 4");
+    let document = Document::read(damaged.into_bytes());
+    let entity = document.drawing().find("B").unwrap();
+    let removal = DrawingEdit { changes: vec![Change::RemoveEntity { entity }] };
+    let refusal = document.text_edits(&removal).unwrap_err();
+    assert_eq!(refusal, "lines would come or go near line 25, which is damaged: mend that first");
+    let shift = Change::SetLine { entity, start: Point::new(0.0, 0.0), end: Point::new(3.0, 4.0) };
+    assert_eq!(document.text_edits(&DrawingEdit { changes: vec![shift] }).unwrap().len(), 2);
+}

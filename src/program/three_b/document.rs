@@ -128,6 +128,11 @@ impl Document {
         document
     }
 
+    /// The words between blocks.
+    pub(in crate::program) fn words(&self) -> Words<'_> {
+        self.words.words()
+    }
+
     pub fn text(&self) -> &SourceText {
         &self.text
     }
@@ -654,7 +659,7 @@ impl Document {
         let own = self.text.bytes().get(range.clone()).unwrap_or_default();
         let layout = if own.contains(&b' ') { Layout::Aligned } else { Layout::Compact };
         let mut text = missing_end::line_end_of(&self.text).as_bytes().to_vec();
-        push_fields(&mut text, layout, &block);
+        push_fields(&mut text, layout, &block, None);
         let behind = self.text.line_range(self.text.line_of(range.start)).end;
         let Ok(text) = String::from_utf8(text) else { return Vec::new() };
         let length = (x as f64).hypot(y as f64) / 1000.0;

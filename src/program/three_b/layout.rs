@@ -1,6 +1,6 @@
 //! What blocks look like as text: compact, aligned, checking.
 
-use super::block::{Block, CountingAxis, Motion, Node};
+use super::block::{Block, CountingAxis, Motion, Node, PartArc};
 use crate::settings::Layout;
 
 /// Appends one block with its line end. `number` (from 1) and the absolute end point stand in the checking layout only.
@@ -8,7 +8,7 @@ pub(super) fn push_block(out: &mut Vec<u8>, layout: Layout, number: usize, block
     if layout == Layout::Checking {
         push_block_number(out, number as u64);
     }
-    push_fields(out, layout, block);
+    push_fields(out, layout, block, None);
     if layout == Layout::Checking {
         push_to_comment_column(out, block);
         push_end_point(out, end);
@@ -23,11 +23,11 @@ pub(super) fn push_block_number(out: &mut Vec<u8>, number: u64) {
     out.extend_from_slice(b": ");
 }
 
-/// Appends the block itself, from its first `B` to the quadrant.
-pub(super) fn push_fields(out: &mut Vec<u8>, layout: Layout, block: &Block) {
+/// Appends the block itself, from its first `B` to the quadrant; with `part` it is one of 4B.
+pub(super) fn push_fields(out: &mut Vec<u8>, layout: Layout, block: &Block, part: Option<&PartArc>) {
     let width = if layout == Layout::Compact { 0 } else { 6 };
     let between: &[u8] = if layout == Layout::Compact { b"" } else { b" " };
-    for value in [block.x, block.y, block.j] {
+    for value in [block.x, block.y, block.j].into_iter().chain(part.map(|part| part.radius)) {
         out.push(b'B');
         out.extend_from_slice(between);
         push_number(out, value.unsigned_abs(), width);
@@ -38,6 +38,10 @@ pub(super) fn push_fields(out: &mut Vec<u8>, layout: Layout, block: &Block) {
         CountingAxis::Y => b"GY",
     });
     out.extend_from_slice(between);
+    if let Some(part) = part {
+        out.extend_from_slice(if part.concave { b"DD" } else { b"D" });
+        out.extend_from_slice(between);
+    }
     let (kind, quadrant): (&[u8], _) = match block.motion {
         Motion::Line(quadrant) => (b"L", quadrant),
         Motion::Clockwise(quadrant) => (b"SR", quadrant),

@@ -7,6 +7,7 @@ mod decode;
 mod document;
 mod encode;
 mod fields;
+pub(in crate::program) mod language;
 mod layout;
 mod machine;
 mod parse;

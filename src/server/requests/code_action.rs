@@ -1,6 +1,6 @@
 //! `textDocument/codeAction`: the fixes of findings, and one action that makes every safe fix.
 
-use super::{Errand, SMALL, Subject, run, subject_of};
+use super::{Errand, SMALL, Subject, Target, run, subject_of, workspace_edit};
 use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Fix, Place};
 use crate::message::en;
@@ -8,10 +8,7 @@ use crate::protocol::{self, Diagnostic, FindingData, method};
 use crate::server::convert;
 use crate::server::state::State;
 use crate::text::Encoding;
-use ls_types::{
-    CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, DocumentChanges,
-    OneOf, OptionalVersionedTextDocumentIdentifier, Range, TextDocumentEdit, TextEdit, Uri, WorkspaceEdit,
-};
+use ls_types::{CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, Range};
 use rustc_hash::FxHashSet;
 use tower_lsp::jsonrpc::Result;
 
@@ -36,22 +33,10 @@ pub(in crate::server) fn code_action(state: &mut State, params: CodeActionParams
     }
 }
 
-/// Where an edit goes.
-struct Target {
-    uri: Uri,
-    version: i64,
-    encoding: Encoding,
-    document_changes: bool,
-    shows_related: bool,
-}
-
 fn prepare(state: &mut State, params: &CodeActionParams) -> Result<Option<(Subject, Target)>> {
     let uri = &params.text_document.uri;
-    let encoding = state.encoding;
-    let document_changes = state.client.abilities.document_changes;
-    let shows_related = state.client.abilities.related_information;
+    let target = Target::of(state, uri)?;
     let open = state.document(uri.as_str())?;
-    let target = Target { uri: uri.clone(), version: open.version, encoding, document_changes, shows_related };
     let Some(document) = open.document() else { return Ok(None) };
     if document.program().is_some() {
         let small = document.text().is_none_or(|text| text.line_count() <= SMALL);
@@ -194,15 +179,4 @@ fn with_edit(document: &Document, target: &Target, action: CodeAction, edit: &Ed
         }
         (Source::Program(_), Edit::Drawing(_)) => None,
     }
-}
-
-fn workspace_edit(target: &Target, edits: Vec<TextEdit>) -> WorkspaceEdit {
-    if !target.document_changes {
-        return WorkspaceEdit { changes: Some([(target.uri.clone(), edits)].into()), ..WorkspaceEdit::default() };
-    }
-    let version = i32::try_from(target.version).ok();
-    let text_document = OptionalVersionedTextDocumentIdentifier { uri: target.uri.clone(), version };
-    let edits = edits.into_iter().map(OneOf::Left).collect();
-    let changes = DocumentChanges::Edits(vec![TextDocumentEdit { text_document, edits }]);
-    WorkspaceEdit { document_changes: Some(changes), ..WorkspaceEdit::default() }
 }

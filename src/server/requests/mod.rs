@@ -22,6 +22,7 @@ use crate::protocol::{Diagnostic, Refused};
 use crate::settings::{Effective, Settings, from_json};
 use crate::text::Encoding;
 use crate::toolpath::Refusal;
+use ls_types::{DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, TextDocumentEdit, TextEdit, Uri, WorkspaceEdit};
 use serde::Serialize;
 use serde_json::Value;
 use std::sync::Arc;
@@ -130,6 +131,37 @@ impl Task {
     pub fn findings(&self) -> Vec<Finding> {
         self.document.all_findings()
     }
+}
+
+/// Where an edit of a text goes.
+pub(super) struct Target {
+    pub uri: Uri,
+    pub version: i64,
+    pub encoding: Encoding,
+    pub document_changes: bool,
+    pub shows_related: bool,
+}
+
+impl Target {
+    pub fn of(state: &mut State, uri: &Uri) -> Result<Target> {
+        let abilities = &state.client.abilities;
+        let (document_changes, shows_related) = (abilities.document_changes, abilities.related_information);
+        let encoding = state.encoding;
+        let version = state.document(uri.as_str())?.version;
+        Ok(Target { uri: uri.clone(), version, encoding, document_changes, shows_related })
+    }
+}
+
+/// Edits of one text in the form that the client takes.
+pub(super) fn workspace_edit(target: &Target, edits: Vec<TextEdit>) -> WorkspaceEdit {
+    if !target.document_changes {
+        return WorkspaceEdit { changes: Some([(target.uri.clone(), edits)].into()), ..WorkspaceEdit::default() };
+    }
+    let version = i32::try_from(target.version).ok();
+    let text_document = OptionalVersionedTextDocumentIdentifier { uri: target.uri.clone(), version };
+    let edits = edits.into_iter().map(OneOf::Left).collect();
+    let changes = DocumentChanges::Edits(vec![TextDocumentEdit { text_document, edits }]);
+    WorkspaceEdit { document_changes: Some(changes), ..WorkspaceEdit::default() }
 }
 
 /// What `toolpath` refused, for the client.

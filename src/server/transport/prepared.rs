@@ -55,7 +55,7 @@ impl Prepared {
 fn string_of(result: &Value) -> Option<&str> {
     match result {
         Value::String(text) => Some(text),
-        Value::Array(list) => ["name", "collapsedText"].iter().find_map(|key| list.first()?.get(key)?.as_str()),
+        Value::Array(list) => ["name", "collapsedText", "newText"].iter().find_map(|key| list.first()?.get(key)?.as_str()),
         Value::Object(_) => result.get("resultId")?.as_str(),
         _ => None,
     }

@@ -4,6 +4,7 @@ import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { basename, extname, join } from "node:path";
 import * as vscode from "vscode";
+import type { Front } from "../front";
 import { isProgram } from "../languages";
 import type { Server } from "../server/server";
 import { write } from "./output";
@@ -12,8 +13,8 @@ import { subject } from "./subject";
 
 const EXTENSIONS: Record<string, string> = { "3b": ".3b", "wire-iso": ".iso" };
 
-export async function convertToDxf(server: Server, argument: unknown): Promise<void> {
-  const document = await subject(argument, isProgram);
+export async function convertToDxf(server: Server, front: Front, argument: unknown): Promise<void> {
+  const document = await subject(front, argument, isProgram);
   const found = await server.find();
   if (document === undefined) {
     return;
@@ -37,7 +38,8 @@ export async function convertToDxf(server: Server, argument: unknown): Promise<v
     return;
   }
   await write(target, drawing);
-  await vscode.window.showTextDocument(target, { viewColumn: vscode.ViewColumn.Beside, preview: false });
+  const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
+  await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
 }
 
 /** The text as it stands in the editor, saved or not, goes through a folder of its own. */

@@ -1,13 +1,14 @@
 // Changes the correction where it is set: in wedm.toml, or in the settings of VS Code.
 
 import * as vscode from "vscode";
+import type { Front } from "../front";
 import type { SettingsInForce } from "../protocol";
 import type { Server } from "../server/server";
 
 const KEYS = /^\s*(corrections?|wire[-_]?diameter|gap)\s*=/i;
 
-export async function changeCorrection(server: Server): Promise<void> {
-  const uri = vscode.window.activeTextEditor?.document.uri ?? vscode.workspace.workspaceFolders?.[0]?.uri;
+export async function changeCorrection(server: Server, front: Front): Promise<void> {
+  const uri = front.document?.uri ?? vscode.workspace.workspaceFolders?.[0]?.uri;
   let inForce: SettingsInForce | undefined;
   try {
     inForce = uri === undefined ? undefined : await server.request("wedm/settings", { uri: uri.toString() });

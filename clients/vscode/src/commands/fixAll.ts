@@ -1,21 +1,21 @@
 // Makes every safe repair in one undo step.
 
 import * as vscode from "vscode";
-import { isOurs } from "../languages";
+import type { Front } from "../front";
 
 const KIND = vscode.CodeActionKind.SourceFixAll.append("wedm");
 
-export async function fixAll(): Promise<void> {
-  const editor = vscode.window.activeTextEditor;
-  if (editor === undefined || !isOurs(editor.document)) {
+export async function fixAll(front: Front): Promise<void> {
+  const document = front.document;
+  if (document === undefined) {
     void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
     return;
   }
-  const { uri, version } = editor.document;
+  const { uri, version } = document;
   const actions = await vscode.commands.executeCommand<vscode.CodeAction[]>(
     "vscode.executeCodeActionProvider",
     uri,
-    new vscode.Range(0, 0, editor.document.lineCount, 0),
+    new vscode.Range(0, 0, document.lineCount, 0),
     KIND.value,
   );
   const edit = actions.find((action) => action.kind !== undefined && KIND.contains(action.kind))?.edit;
@@ -23,7 +23,7 @@ export async function fixAll(): Promise<void> {
     void vscode.window.showInformationMessage("Wire EDM: there is nothing that can be repaired safely.");
     return;
   }
-  if (editor.document.version !== version || !(await vscode.workspace.applyEdit(edit))) {
+  if (document.version !== version || !(await vscode.workspace.applyEdit(edit))) {
     void vscode.window.showWarningMessage("Wire EDM: the text has changed meanwhile, nothing was done.");
   }
 }

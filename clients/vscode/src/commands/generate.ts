@@ -2,6 +2,7 @@
 
 import * as vscode from "vscode";
 import { ResponseError } from "vscode-languageclient/node";
+import type { Front } from "../front";
 import { isDrawing } from "../languages";
 import { CONTENT_MODIFIED, type Format, type Generated, REFUSED } from "../protocol";
 import type { Server } from "../server/server";
@@ -19,8 +20,8 @@ interface How {
   force?: boolean;
 }
 
-export async function generate(server: Server, format: Format, argument: unknown): Promise<void> {
-  const document = await subject(argument, isDrawing);
+export async function generate(server: Server, front: Front, format: Format, argument: unknown): Promise<void> {
+  const document = await subject(front, argument, isDrawing);
   if (document === undefined) {
     return;
   }
@@ -38,7 +39,9 @@ export async function generate(server: Server, format: Format, argument: unknown
     return;
   }
   await write(target, generated.program);
-  await vscode.window.showTextDocument(target, { viewColumn: vscode.ViewColumn.Beside, preview: false });
+  // Where the drawing stands, so that its picture beside it becomes that of the program.
+  const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
+  await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
   void vscode.window.showInformationMessage(`${TITLES[format]}: ${told(generated)}`);
 }
 

@@ -1,11 +1,16 @@
 // Which document a command is about.
 
 import * as vscode from "vscode";
+import type { Front } from "../front";
 import { isOurs } from "../languages";
 
 /** Commands come from the palette, a menu, a code lens or another program: with a URI, with its text, or with nothing. */
-export async function subject(argument: unknown, accepts: (language: string) => boolean): Promise<vscode.TextDocument | undefined> {
-  const uri = uriOf(argument) ?? vscode.window.activeTextEditor?.document.uri;
+export async function subject(
+  front: Front,
+  argument: unknown,
+  accepts: (language: string) => boolean,
+): Promise<vscode.TextDocument | undefined> {
+  const uri = uriOf(argument) ?? front.document?.uri;
   if (uri === undefined) {
     void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
     return undefined;

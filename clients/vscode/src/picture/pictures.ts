@@ -2,6 +2,7 @@
 
 import * as vscode from "vscode";
 import { uriOf } from "../commands/subject";
+import type { Front } from "../front";
 import { isOurs } from "../languages";
 import type { Server } from "../server/server";
 import { Picture, VIEW_TYPE } from "./panel";
@@ -12,6 +13,7 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
 
   constructor(
     private readonly server: Server,
+    private readonly front: Front,
     private readonly extension: vscode.Uri,
   ) {
     this.#restored = vscode.window.registerWebviewPanelSerializer(VIEW_TYPE, this);
@@ -19,7 +21,7 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
 
   /** Shows the picture beside the text; with `play`, the wire starts to move. */
   async open(argument: unknown, play: boolean): Promise<void> {
-    const uri = uriOf(argument) ?? vscode.window.activeTextEditor?.document.uri;
+    const uri = uriOf(argument) ?? this.front.document?.uri;
     if (uri === undefined || !isOurs(await vscode.workspace.openTextDocument(uri))) {
       void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
       return;

@@ -174,8 +174,9 @@ export class Server implements vscode.Disposable {
       throw new Error("the wedm server is not running");
     }
     // A token that is undefined would be sent as a second param.
-    const given = token === undefined ? [params] : [params, token];
-    return client.sendRequest<Methods[M][1]>(method, ...given);
+    return token === undefined
+      ? client.sendRequest<Methods[M][1]>(method, params)
+      : client.sendRequest<Methods[M][1]>(method, params, token);
   }
 
   #options(): LanguageClientOptions {

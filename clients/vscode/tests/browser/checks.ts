@@ -4,7 +4,7 @@ import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { ARTIFACTS } from "./paths";
 
-const SOON = 20_000;
+const SOON = Number(process.env["PATIENCE"] ?? 30_000);
 
 export class Checks {
   passed = 0;

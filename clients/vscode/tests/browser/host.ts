@@ -10,7 +10,7 @@ import { type Browser, chromium, type Page } from "playwright-core";
 import { ARTIFACTS, CHROMIUM, CODE_SERVER, EXTENSION } from "./paths";
 
 /** Longer than anything here takes on a busy machine. */
-export const PATIENCE = 30_000;
+export const PATIENCE = Number(process.env["PATIENCE"] ?? 30_000);
 
 const FLAGS = [
   "--no-sandbox",

@@ -21,7 +21,7 @@ export class Window {
   }
 
   async goToLine(line: number, column = 1): Promise<void> {
-    await this.page.locator(".editor-group-container .monaco-editor .view-lines").first().click({ position: { x: 200, y: 40 } });
+    await this.page.keyboard.press("Control+1");
     await this.page.keyboard.press("Control+g");
     await this.page.locator(".quick-input-widget input").fill(`:${line},${column}`);
     await this.page.keyboard.press("Enter");
@@ -47,8 +47,13 @@ export class Window {
     return this.page.locator(".markers-panel .monaco-list-row").allInnerTexts();
   }
 
+  async hidePanel(): Promise<void> {
+    await this.command("View: Hide Panel");
+    await this.page.locator(".markers-panel").waitFor({ state: "hidden" });
+  }
+
   get status(): Locator {
-    return this.page.locator('.statusbar-item[id="wedm.wedm.correction"]');
+    return this.page.locator('.statusbar-item[id$="wedm.correction"]');
   }
 
   notification(text: string): Locator {
@@ -57,8 +62,7 @@ export class Window {
 
   /** The line of the cursor, from 1. */
   async line(): Promise<number> {
-    const text = await this.page.locator('.statusbar-item[id="status.editor.selection"]').innerText();
-    return Number(/Ln (\d+)/.exec(text)?.[1] ?? 0);
+    return Number(await this.page.locator(".monaco-editor .line-numbers.active-line-number").first().innerText());
   }
 
   async picture(): Promise<Frame> {
@@ -69,6 +73,15 @@ export class Window {
     }
     await inner.locator("#stage > svg").waitFor();
     return inner;
+  }
+
+  /** Clicks the middle of what is drawn, whatever of the same mark lies over it. */
+  async clickDrawn(drawn: Locator): Promise<void> {
+    const box = await drawn.boundingBox();
+    if (box === null) {
+      throw new Error("what is to be clicked is not drawn");
+    }
+    await this.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   }
 
   async expectLine(line: number): Promise<void> {

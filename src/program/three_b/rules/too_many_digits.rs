@@ -41,7 +41,7 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
         if index > 0 {
             text.extend_from_slice(line_end);
         }
-        push_fields(&mut text, layout, &piece.block);
+        push_fields(&mut text, layout, &piece.block, None);
     }
     let Ok(text) = String::from_utf8(text) else { return Vec::new() };
     vec![one_edit(FixKind::SplitBlock { pieces: pieces.len() }, vec![site.replace(&site.range, text)], true, true)]

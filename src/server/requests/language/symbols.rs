@@ -1,16 +1,27 @@
-//! `textDocument/documentSymbol`: sections, tables, layers, blocks, entities, contours.
+//! `textDocument/documentSymbol`: sections, tables, layers, blocks, entities, contours; contours and blocks of programs.
 
-use super::whole;
+use super::{program_in, whole, whole_program};
 use crate::drawing::{Drawing, Outline};
 use crate::dxf::language::{ContourNote, Node, NodeKind, outline, symbols};
+use crate::program;
 use crate::server::convert::{lsp_range, range_of};
 use crate::server::requests::{Errand, written};
 use crate::server::state::State;
 use crate::text::{Encoding, SourceText};
 use ls_types::{DocumentSymbol, DocumentSymbolResponse, Location, Range, SymbolInformation, SymbolKind, Uri};
+use std::ops::Range as Bytes;
+use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn document_symbol(state: &mut State, uri: Uri, errand: Errand) {
     let (encoding, hierarchical) = (state.encoding, state.client.abilities.hierarchical_symbols);
+    if state.documents.get(uri.as_str()).and_then(program_in).is_some() {
+        let name = uri.as_str().to_owned();
+        whole_program(state, "Listing symbols", &name, errand, move |program, _| {
+            let tree = program::language::symbols(program).into_iter().map(Listed::of_program).collect();
+            answer(program.text(), tree, hierarchical, &uri, encoding)
+        });
+        return;
+    }
     let snapshot = state.documents.get(uri.as_str()).and_then(|open| match &open.content {
         crate::server::open::Content::Read(document) => document.snapshot(),
         _ => None,
@@ -23,15 +34,49 @@ pub(in crate::server) fn document_symbol(state: &mut State, uri: Uri, errand: Er
         if stop() {
             return None;
         }
-        Some(match hierarchical {
-            true => written(&tree.into_iter().map(|node| nested(text, node, encoding)).collect::<Vec<_>>()),
-            false => {
-                let mut flat = Vec::new();
-                flatten(text, tree, None, &uri, encoding, &mut flat);
-                written(&flat)
-            }
-        })
+        Some(answer(text, tree.into_iter().map(Listed::of_dxf).collect(), hierarchical, &uri, encoding))
     });
+}
+
+/// A symbol as the protocol names it, with its places still in bytes.
+struct Listed {
+    name: String,
+    detail: String,
+    kind: SymbolKind,
+    range: Bytes<usize>,
+    selection: Bytes<usize>,
+    children: Vec<Listed>,
+}
+
+impl Listed {
+    fn of_dxf(node: Node) -> Listed {
+        let (name, kind) = (name_of(&node), kind_of(&node));
+        let children = node.children.into_iter().map(Listed::of_dxf).collect();
+        Listed { name, detail: node.detail, kind, range: node.range, selection: node.selection, children }
+    }
+
+    fn of_program(symbol: program::language::Symbol) -> Listed {
+        use program::language::SymbolKind as Of;
+        let kind = match symbol.kind {
+            Of::Contour => SymbolKind::CLASS,
+            Of::Lead => SymbolKind::CONSTRUCTOR,
+            Of::Way => SymbolKind::INTERFACE,
+            Of::Block => SymbolKind::METHOD,
+            Of::Run => SymbolKind::ARRAY,
+            Of::Word => SymbolKind::EVENT,
+        };
+        let children = symbol.children.into_iter().map(Listed::of_program).collect();
+        Listed { name: symbol.name, detail: symbol.detail, kind, range: symbol.range, selection: symbol.selection, children }
+    }
+}
+
+fn answer(text: &SourceText, tree: Vec<Listed>, hierarchical: bool, uri: &Uri, encoding: Encoding) -> Result<Vec<u8>> {
+    if hierarchical {
+        return written(&tree.into_iter().map(|node| nested(text, node, encoding)).collect::<Vec<_>>());
+    }
+    let mut flat = Vec::new();
+    flatten(text, tree, None, uri, encoding, &mut flat);
+    written(&flat)
 }
 
 fn notes(drawing: &Drawing, outlines: &[Outline]) -> Vec<ContourNote> {
@@ -67,13 +112,12 @@ fn kind_of(node: &Node) -> SymbolKind {
 }
 
 #[expect(deprecated, reason = "the type has a field of that kind")]
-fn nested(text: &SourceText, node: Node, encoding: Encoding) -> DocumentSymbol {
-    let (name, kind) = (name_of(&node), kind_of(&node));
+fn nested(text: &SourceText, node: Listed, encoding: Encoding) -> DocumentSymbol {
     let children: Vec<DocumentSymbol> = node.children.into_iter().map(|child| nested(text, child, encoding)).collect();
     DocumentSymbol {
-        name,
+        name: node.name,
         detail: (!node.detail.is_empty()).then_some(node.detail),
-        kind,
+        kind: node.kind,
         tags: None,
         deprecated: None,
         range: lsp_range(range_of(text, node.range, encoding)),
@@ -83,18 +127,17 @@ fn nested(text: &SourceText, node: Node, encoding: Encoding) -> DocumentSymbol {
 }
 
 #[expect(deprecated, reason = "the type has a field of that kind")]
-fn flatten(text: &SourceText, nodes: Vec<Node>, holder: Option<&str>, uri: &Uri, encoding: Encoding, flat: &mut Vec<SymbolInformation>) {
+fn flatten(text: &SourceText, nodes: Vec<Listed>, holder: Option<&str>, uri: &Uri, encoding: Encoding, flat: &mut Vec<SymbolInformation>) {
     for node in nodes {
-        let name = name_of(&node);
         flat.push(SymbolInformation {
-            name: name.clone(),
-            kind: kind_of(&node),
+            name: node.name.clone(),
+            kind: node.kind,
             tags: None,
             deprecated: None,
             location: Location { uri: uri.clone(), range: lsp_range(range_of(text, node.range, encoding)) },
             container_name: holder.map(str::to_owned),
         });
-        flatten(text, node.children, Some(&name), uri, encoding, flat);
+        flatten(text, node.children, Some(&node.name), uri, encoding, flat);
     }
 }
 

@@ -1,7 +1,9 @@
 //! `textDocument/semanticTokens`: of the whole text, and of the lines in sight.
 
-use super::{dxf_in, whole};
+use super::{dxf_in, program_in, whole, whole_program};
 use crate::dxf::language::{Token, TokenKind, tokens, tokens_in};
+use crate::program;
+use crate::program::language::{WordKind, words_of};
 use crate::server::requests::{Errand, written};
 use crate::server::state::State;
 use crate::text::{Encoding, SourceText};
@@ -40,8 +42,48 @@ fn type_of(kind: TokenKind) -> SemanticTokenType {
     }
 }
 
+/// The same colours for the words of programs.
+fn kind_of(kind: WordKind) -> Option<TokenKind> {
+    Some(match kind {
+        WordKind::Number => TokenKind::Handle,
+        WordKind::Lead => TokenKind::Name,
+        WordKind::Length => TokenKind::Number,
+        WordKind::Setting => TokenKind::Code,
+        WordKind::Motion => TokenKind::Record,
+        WordKind::Stop => TokenKind::Variable,
+        WordKind::Stated => TokenKind::Text,
+        WordKind::Comment => TokenKind::Comment,
+        WordKind::Strange => return None,
+    })
+}
+
+/// The tokens of some lines of a program, at most `limit`.
+fn tokens_of(program: &program::Document, lines: std::ops::Range<usize>, limit: usize) -> Vec<Token> {
+    let text = program.text();
+    let mut found = Vec::new();
+    for line in lines.start..lines.end.min(text.line_count()) {
+        let begin = text.line_start(line);
+        let token = |part: program::language::Part| {
+            Some(Token { line, start: part.range.start - begin, length: part.range.len(), kind: kind_of(part.kind)? })
+        };
+        found.extend(words_of(program, line).into_iter().filter_map(token));
+        if found.len() >= limit {
+            found.truncate(limit);
+            break;
+        }
+    }
+    found
+}
+
 pub(in crate::server) fn full(state: &mut State, uri: &Uri, errand: Errand) {
     let encoding = state.encoding;
+    if state.documents.get(uri.as_str()).and_then(program_in).is_some() {
+        whole_program(state, "Colouring", uri.as_str(), errand, move |program, _| {
+            let tokens = tokens_of(program, 0..program.text().line_count(), LIMIT);
+            written(&SemanticTokens { result_id: None, data: encoded(program.text(), &tokens, encoding) })
+        });
+        return;
+    }
     whole(state, "Colouring", uri.as_str(), errand, move |text, stop| {
         let tokens = tokens(text, LIMIT, stop)?;
         let answer = SemanticTokens { result_id: None, data: encoded(text, &tokens, encoding) };
@@ -56,12 +98,18 @@ pub(in crate::server) fn standing_for(token: serde_json::Value) -> SemanticToken
 
 pub(in crate::server) fn range(state: &mut State, uri: &Uri, range: Range) -> Result<Option<SemanticTokensRangeResult>> {
     let encoding = state.encoding;
-    let Some(dxf) = dxf_in(state.document(uri.as_str())?) else { return Ok(None) };
+    let open = state.document(uri.as_str())?;
     let first = range.start.line as usize;
     // A range that ends at the beginning of a line does not touch it.
     let end = range.end.line as usize + usize::from(range.end.character > 0);
-    let tokens = tokens_in(dxf, first..end.min(first.saturating_add(LINES)));
-    let data = encoded(dxf.text(), &tokens, encoding);
+    let lines = first..end.min(first.saturating_add(LINES));
+    let data = if let Some(program) = program_in(open).and_then(|document| document.program()) {
+        encoded(program.text(), &tokens_of(program, lines, usize::MAX), encoding)
+    } else if let Some(dxf) = dxf_in(open) {
+        encoded(dxf.text(), &tokens_in(dxf, lines), encoding)
+    } else {
+        return Ok(None);
+    };
     Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens { result_id: None, data })))
 }
 

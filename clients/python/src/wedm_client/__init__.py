@@ -1,0 +1,103 @@
+"""Checks and repairs wire-EDM drawings and writes their programs, by the language server ``wedm``.
+
+    from wedm_client import Polyline, Server
+
+    with Server(settings={"correction": 0.12}) as server:
+        drawing = server.open([Polyline([(0, 0), (19.92, 0, 0.41421356237), (20, 0.08), (20, 10), (0, 10)], handle="2A")])
+        for diagnostic in server.diagnostics(drawing):
+            print(diagnostic)
+        server.fix(drawing)
+        server.generate(drawing, "3b", options={"side": "opening"}).save("plate.3b")
+"""
+
+from .archive import Checked, check_many
+from .cad import UnsupportedEntity
+from .documents import Document, Drawing, TextDocument, write_back
+from .entities import Arc, Change, Circle, Delete, Entity, Line, Point, Polyline, Put, Splice, Text, Vertex
+from .errors import (
+    DoesNotApply,
+    NoAnswer,
+    NotOpen,
+    Outdated,
+    Refused,
+    RequestFailed,
+    ServerDied,
+    ServerNotFound,
+    WedmError,
+    WrongProtocol,
+)
+from .find import find
+from .results import (
+    Closure,
+    Contour,
+    ContourPiece,
+    Contours,
+    Diagnostic,
+    Fixed,
+    Gap,
+    InspectedEntity,
+    Inspection,
+    PathPiece,
+    Picture,
+    Program,
+    Segment,
+    Toolpath,
+    WirePath,
+)
+from .server import Action, Server
+from .settings import Passes, ProgramSettings, Settings
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Action",
+    "Arc",
+    "Change",
+    "Checked",
+    "Circle",
+    "Closure",
+    "Contour",
+    "ContourPiece",
+    "Contours",
+    "Delete",
+    "Diagnostic",
+    "Document",
+    "DoesNotApply",
+    "Drawing",
+    "Entity",
+    "Fixed",
+    "Gap",
+    "InspectedEntity",
+    "Inspection",
+    "Line",
+    "NoAnswer",
+    "NotOpen",
+    "Outdated",
+    "Passes",
+    "PathPiece",
+    "Picture",
+    "Point",
+    "Polyline",
+    "Program",
+    "ProgramSettings",
+    "Put",
+    "Refused",
+    "RequestFailed",
+    "Segment",
+    "Server",
+    "ServerDied",
+    "ServerNotFound",
+    "Settings",
+    "Splice",
+    "Text",
+    "TextDocument",
+    "Toolpath",
+    "UnsupportedEntity",
+    "Vertex",
+    "WedmError",
+    "WirePath",
+    "WrongProtocol",
+    "check_many",
+    "find",
+    "write_back",
+]

@@ -1,0 +1,145 @@
+"""Entities of ezdxf to entities of a drawing, and back after a repair. ezdxf itself is not needed to import this."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from .entities import Arc, Circle, Entity, Line, Polyline, Text, entity_from_json, with_handle
+
+
+class UnsupportedEntity(ValueError):
+    """An entity that the drawing model of the protocol does not have. As DXF text the server may well read it."""
+
+
+def entities_from(source: Iterable[Any] | Any) -> tuple[list[Entity], dict[str, Any]]:
+    """The entities of a list, and those of them that came from ezdxf, by handle.
+
+    The list holds entities of this package, dictionaries of the protocol's form, lists of vertices (closed polylines) and entities
+    of ezdxf, in any mixture; a single list of vertices is one closed polyline. Who has no handle gets one: its number in the list.
+    """
+    items = list(source)
+    if items and _is_vertex(items[0]):
+        items = [items]
+    entities: list[Entity] = []
+    sources: dict[str, Any] = {}
+    for number, item in enumerate(items, 1):
+        entity = _entity(item, number)
+        if not entity.handle:
+            entity = with_handle(entity, str(number))
+        if is_ezdxf(item):
+            sources[entity.handle] = item
+        entities.append(entity)
+    return entities, sources
+
+
+def is_ezdxf(item: Any) -> bool:
+    return hasattr(item, "dxftype") and hasattr(item, "dxf")
+
+
+def _is_vertex(item: Any) -> bool:
+    if not isinstance(item, Sequence) or isinstance(item, str) or not 2 <= len(item) <= 3:
+        return False
+    return all(isinstance(number, (int, float)) for number in item)
+
+
+def _entity(item: Any, number: int) -> Entity:
+    if isinstance(item, (Polyline, Line, Arc, Circle, Text)):
+        return item
+    if isinstance(item, Mapping):
+        return entity_from_json(item)
+    if is_ezdxf(item):
+        return _from_ezdxf(item)
+    if isinstance(item, Iterable) and not isinstance(item, (str, bytes)):
+        return Polyline(item)
+    raise TypeError(f"item {number} is of type {type(item).__name__}, expected an entity, a dictionary, vertices or an entity of ezdxf")
+
+
+def _from_ezdxf(entity: Any) -> Entity:
+    kind = entity.dxftype()
+    handle = str(entity.dxf.handle or "")
+    layer = str(entity.dxf.layer)
+    # A mirror about the y axis lies between the plane of an entity that is seen from below and the drawing's.
+    mirrored = kind != "LINE" and _is_seen_from_below(entity, kind, handle)
+    sign = -1.0 if mirrored else 1.0
+
+    def pair(point: Any) -> tuple[float, float]:
+        return (sign * float(point[0]), float(point[1]))
+
+    match kind:
+        case "LWPOLYLINE":
+            vertices = [(sign * x, y, sign * bulge) for x, y, bulge in entity.get_points("xyb")]
+            return Polyline(vertices, bool(entity.closed), handle, layer)
+        case "POLYLINE" if entity.is_2d_polyline:
+            bulged = [(*pair(vertex.dxf.location), sign * float(vertex.dxf.get("bulge", 0.0))) for vertex in entity.vertices]
+            return Polyline(bulged, bool(entity.is_closed), handle, layer)
+        case "LINE":
+            return Line(pair(entity.dxf.start), pair(entity.dxf.end), handle, layer)
+        case "ARC":
+            start, end = float(entity.dxf.start_angle), float(entity.dxf.end_angle)
+            if mirrored:
+                start, end = 180.0 - end, 180.0 - start
+            return Arc(pair(entity.dxf.center), float(entity.dxf.radius), start, end, handle, layer)
+        case "CIRCLE":
+            return Circle(pair(entity.dxf.center), float(entity.dxf.radius), handle, layer)
+        case "TEXT":
+            return Text(pair(entity.dxf.insert), str(entity.dxf.text), handle, layer)
+        case "MTEXT":
+            return Text((float(entity.dxf.insert[0]), float(entity.dxf.insert[1])), str(entity.plain_text()), handle, layer)
+    raise UnsupportedEntity(
+        f"{kind} {handle} is none of LWPOLYLINE, 2D POLYLINE, LINE, ARC, CIRCLE, TEXT, MTEXT: "
+        "save the drawing and open the file, or open the ezdxf document as a whole"
+    )
+
+
+def _is_seen_from_below(entity: Any, kind: str, handle: str) -> bool:
+    x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
+    if abs(x) > 1e-12 or abs(y) > 1e-12:
+        raise UnsupportedEntity(f"{kind} {handle} lies in a tilted plane")
+    return bool(z < 0)
+
+
+def write_back_to(entities: Mapping[str, Entity], sources: Mapping[str, Any]) -> int:
+    """Gives the ezdxf entities the geometry of the repaired ones; see :func:`wedm_client.write_back`."""
+    changed = 0
+    for handle, source in sources.items():
+        if not source.is_alive:
+            continue
+        entity = entities.get(handle)
+        if entity is None:
+            source.destroy()
+            changed += 1
+        elif with_handle(_from_ezdxf(source), handle) != entity:
+            _write(entity, source)
+            changed += 1
+    return changed
+
+
+def _write(entity: Entity, source: Any) -> None:
+    kind = source.dxftype()
+    sign = -1.0 if kind != "LINE" and _is_seen_from_below(source, kind, entity.handle) else 1.0
+    match entity, kind:
+        case Polyline(vertices=vertices), "LWPOLYLINE":
+            source.set_points([(sign * x, y, sign * bulge) for x, y, bulge in vertices], format="xyb")
+        case Polyline(vertices=vertices), "POLYLINE":
+            while len(source.vertices) > len(vertices):
+                source.vertices.pop().destroy()
+            if len(source.vertices) < len(vertices):
+                source.append_formatted_vertices([(0, 0)] * (len(vertices) - len(source.vertices)), format="xy")
+            elevation = source.dxf.elevation.z if source.dxf.hasattr("elevation") else 0.0
+            for (x, y, bulge), vertex in zip(vertices, source.vertices, strict=True):
+                vertex.dxf.location = (sign * x, y, elevation)
+                vertex.dxf.bulge = sign * bulge
+        case Line(start=start, end=end), "LINE":
+            source.dxf.start = (*start, source.dxf.start.z)
+            source.dxf.end = (*end, source.dxf.end.z)
+        case Arc(center=(x, y), radius=radius, start_angle=start_angle, end_angle=end_angle), "ARC":
+            if sign < 0:
+                start_angle, end_angle = 180.0 - end_angle, 180.0 - start_angle
+            source.dxf.center = (sign * x, y, source.dxf.center.z)
+            source.dxf.radius, source.dxf.start_angle, source.dxf.end_angle = radius, start_angle, end_angle
+        case Circle(center=(x, y), radius=radius), "CIRCLE":
+            source.dxf.center = (sign * x, y, source.dxf.center.z)
+            source.dxf.radius = radius
+        case _:
+            raise UnsupportedEntity(f"{kind} {entity.handle} became a {entity.kind}: take it from Drawing.entities")

@@ -1,0 +1,314 @@
+"""One process of the server, and the talk with it over its pipes. What is open in it is not known here."""
+
+from __future__ import annotations
+
+import asyncio
+import collections
+import os
+import threading
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as FutureTimeout
+from typing import Any, TypeVar
+
+import attrs
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+from pygls.lsp.client import LanguageClient
+from pygls.protocol import LanguageServerProtocol
+
+from .errors import NoAnswer, Outdated, Refused, RequestFailed, WedmError, WrongProtocol
+from .results import diagnostic_from_json
+
+#: The version of the name space wedm/ that this package speaks.
+PROTOCOL = 1
+
+CONTENT_MODIFIED = -32801
+REQUEST_FAILED = -32803
+
+T = TypeVar("T")
+
+
+class Died(Exception):
+    """The process has ended."""
+
+
+# Messages whose params or results stay as JSON gives them: the name space wedm/, and what is turned into own types.
+# No key has a default: the converter leaves out what equals one.
+@attrs.define
+class _Request:
+    id: int | str
+    method: str
+    params: Any
+    jsonrpc: str
+
+
+@attrs.define
+class _Notification:
+    method: str
+    params: Any
+    jsonrpc: str
+
+
+@attrs.define
+class _Response:
+    id: int | str
+    result: Any
+    jsonrpc: str
+
+
+class _Protocol(LanguageServerProtocol):
+    # pygls keeps its answers in a cache, which is no type that a method could have.
+    def get_message_type(self, method: str) -> type[Any] | None:  # type: ignore[override]
+        if method == types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS or method.startswith("wedm/did"):
+            return _Notification
+        # A code action is asked for with the diagnostics as they came.
+        if method.startswith("wedm/") or method == types.TEXT_DOCUMENT_CODE_ACTION:
+            return _Request
+        return super().get_message_type(method)
+
+    def get_result_type(self, method: str) -> type[Any] | None:  # type: ignore[override]
+        return _Response
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        # Results are left as they are; errors and what the server sends by itself go the usual way.
+        if "jsonrpc" in data and "result" in data and "id" in data:
+            return _Response(data["id"], data["result"], data["jsonrpc"])
+        if data.get("method") == types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS:
+            return _Notification(data["method"], data.get("params"), data["jsonrpc"])
+        if str(data.get("method", "")).startswith("wedm/") and "id" in data:
+            return _Request(data["id"], data["method"], data.get("params"), data["jsonrpc"])
+        return super().structure_message(data)
+
+
+class _Client(LanguageClient):
+    def __init__(self, on_end: Callable[[int], None]) -> None:
+        super().__init__("wedm-client", "0.1.0", protocol_cls=_Protocol)
+        self.said: collections.deque[str] = collections.deque(maxlen=20)
+        self._on_end = on_end
+
+    async def start_io(self, cmd: str, *args: Any, **kwargs: Any) -> None:
+        await super().start_io(cmd, *args, **kwargs)
+        # A pipe that nobody reads would stop the server.
+        self._async_tasks.append(asyncio.create_task(self._listen()))
+
+    async def _listen(self) -> None:
+        assert self._server is not None and self._server.stderr is not None
+        while chunk := await self._server.stderr.read(65536):
+            self.said.extend(chunk.decode("utf-8", "replace").splitlines())
+
+    async def server_exit(self, server: asyncio.subprocess.Process) -> None:
+        if server.stdin is not None:
+            server.stdin.close()
+        self._on_end(server.returncode if server.returncode is not None else -1)
+
+
+class Loop:
+    """A thread that runs coroutines, so that callers need none."""
+
+    def __init__(self) -> None:
+        self.loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self.loop.run_forever, name="wedm-client", daemon=True)
+        self._thread.start()
+
+    def run(self, work: Coroutine[Any, Any, T], timeout: float | None) -> T:
+        """Runs the coroutine on the thread and waits for it."""
+        future = asyncio.run_coroutine_threadsafe(work, self.loop)
+        try:
+            return future.result(timeout)
+        except FutureTimeout:
+            future.cancel()
+            raise
+
+    def soon(self, call: Callable[..., Any], *args: Any) -> None:
+        self.loop.call_soon_threadsafe(call, *args)
+
+    def close(self) -> None:
+        """Ends what still runs on the thread, and the thread."""
+        try:
+            self.run(_drain(), 5)
+        except FutureTimeout:
+            pass
+        self.loop.call_soon_threadsafe(self.loop.stop)
+        self._thread.join(5)
+        if not self._thread.is_alive():
+            self.loop.close()
+
+
+class Connection:
+    """A process of the server, from its start to its end."""
+
+    def __init__(
+        self,
+        loop: Loop,
+        command: Sequence[str],
+        on_publish: Callable[[Connection, Mapping[str, Any]], None],
+        on_resend: Callable[[str], dict[str, Any]],
+        on_end: Callable[[Connection], None],
+    ) -> None:
+        self._loop = loop
+        self._command = command
+        self.ended = False
+        self.exit_code: int | None = None
+        self.server_version = ""
+        self._on_end = on_end
+        self._client = _Client(self._end)
+        self._client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: on_publish(self, params))
+        self._client.feature("wedm/resendDrawing")(lambda params: on_resend(str(params["uri"])))
+        for unheard in (types.WINDOW_LOG_MESSAGE, types.WINDOW_SHOW_MESSAGE):
+            self._client.feature(unheard)(lambda params: self._hear(params))
+
+    def _hear(self, params: types.LogMessageParams | types.ShowMessageParams) -> None:
+        self._client.said.append(params.message)
+
+    def _end(self, exit_code: int) -> None:
+        self.ended, self.exit_code = True, exit_code
+        self._on_end(self)
+
+    @property
+    def said(self) -> list[str]:
+        """The last lines that the server wrote to its log."""
+        return list(self._client.said)
+
+    @property
+    def pid(self) -> int | None:
+        process = self._client._server
+        return process.pid if process is not None else None
+
+    def start(self, settings: dict[str, Any], folder: str | None, timeout: float) -> None:
+        """Starts the process and shakes hands.
+
+        :raises WrongProtocol: it is another version of wedm, or no wedm.
+        :raises Died: it ended before it had answered.
+        """
+        try:
+            self._loop.run(self._client.start_io(self._command[0], *self._command[1:]), timeout)
+        except OSError as reason:
+            raise WedmError(f"{self._command[0]} could not be started: {reason}") from None
+        capabilities = types.ClientCapabilities(
+            general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind.Utf8]),
+            workspace=types.WorkspaceClientCapabilities(workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True)),
+            experimental={"wedm": {"resendDrawing": True}},
+        )
+        folders = [types.WorkspaceFolder(uri=folder, name=folder.rsplit("/", 1)[-1])] if folder is not None else None
+        params = types.InitializeParams(
+            process_id=os.getpid(),
+            client_info=types.ClientInfo("wedm-client", "0.1.0"),
+            capabilities=capabilities,
+            initialization_options=settings,
+            workspace_folders=folders,
+            root_uri=folder,
+        )
+        try:
+            answer = self.request(types.INITIALIZE, params, timeout)
+        except NoAnswer:
+            raise WrongProtocol(f"{self._command[0]} does not answer as a language server") from None
+        self._agree(answer)
+        self.notify(types.INITIALIZED, types.InitializedParams())
+
+    def _agree(self, answer: Any) -> None:
+        answer = answer if isinstance(answer, dict) else {}
+        info = answer.get("serverInfo") or {}
+        self.server_version = str(info.get("version", ""))
+        capabilities = answer.get("capabilities") or {}
+        spoken = ((capabilities.get("experimental") or {}).get("wedm") or {}).get("protocol")
+        if info.get("name") != "wedm" or spoken is None:
+            raise WrongProtocol(f"{self._command[0]} is no wedm: it calls itself {info.get('name', 'nothing')!r}")
+        if spoken != PROTOCOL:
+            older = "the program" if isinstance(spoken, int) and spoken < PROTOCOL else "this package"
+            raise WrongProtocol(
+                f"{self._command[0]} is wedm {self.server_version} and speaks protocol {spoken}, "
+                f"wedm-client speaks {PROTOCOL}: {older} has to be updated"
+            )
+
+    def request(self, method: str, params: Any, timeout: float) -> Any:
+        """Sends a request and waits for its result.
+
+        :raises Died: the process ended before it had answered.
+        :raises NoAnswer: nothing came within ``timeout`` seconds.
+        :raises RequestFailed: the server answered with an error.
+        """
+        if self.ended:
+            raise Died
+        sent: Future[Future[Any]] = Future()
+
+        def send() -> None:
+            try:
+                sent.set_result(self._client.protocol.send_request(method, params))
+            except Exception as reason:
+                sent.set_exception(reason)
+
+        self._loop.soon(send)
+        try:
+            answer = sent.result(timeout)
+            # The end may have come between the look at it and the sending.
+            if self.ended and not answer.done():
+                raise Died
+            return answer.result(timeout)
+        except FutureTimeout:
+            raise NoAnswer(f"no answer to {method} within {timeout:g} s") from None
+        except JsonRpcException as error:
+            raise _failure(error) from None
+        except (RuntimeError, OSError):
+            # What pygls puts into the requests that wait when the process ends, and what a broken pipe gives.
+            raise Died from None
+
+    def notify(self, method: str, params: Any) -> None:
+        """Sends a notification. One that does not arrive shows in the end of the process."""
+
+        def send() -> None:
+            if not self.ended:
+                try:
+                    self._client.protocol.notify(method, params)
+                except OSError:
+                    pass
+
+        self._loop.soon(send)
+
+    def kill(self) -> None:
+        """Ends the process at once."""
+        process = self._client._server
+        if process is not None and process.returncode is None:
+            self._loop.soon(_kill, process)
+
+    def close(self) -> None:
+        """Ends the process as the protocol wants, and by force when it does not listen."""
+        try:
+            if not self.ended and self._client._server is not None:
+                self.request(types.SHUTDOWN, None, 5)
+                self.notify(types.EXIT, None)
+        except (Died, WedmError):
+            self.kill()
+        for _ in range(2):
+            stop: Coroutine[Any, Any, None] = self._client.stop()  # type: ignore[no-untyped-call]
+            try:
+                return self._loop.run(stop, 5)
+            except FutureTimeout:
+                self.kill()
+
+
+async def _drain() -> None:
+    rest = asyncio.all_tasks() - {asyncio.current_task()}
+    for task in rest:
+        task.cancel()
+    await asyncio.gather(*rest, return_exceptions=True)
+    # Pipes of a process that has just ended are closed by the loop's next turns.
+    await asyncio.sleep(0.02)
+
+
+def _kill(process: asyncio.subprocess.Process) -> None:
+    try:
+        process.kill()
+    except ProcessLookupError:
+        pass
+
+
+def _failure(error: JsonRpcException) -> RequestFailed:
+    code = error.code if error.code is not None else 0
+    data = error.data
+    if code == CONTENT_MODIFIED:
+        return Outdated(error.message, code, data)
+    if code == REQUEST_FAILED:
+        listed = data.get("diagnostics", []) if isinstance(data, dict) else []
+        return Refused(error.message, code, data, [diagnostic_from_json(one, None) for one in listed])
+    return RequestFailed(error.message, code, data)

@@ -1,0 +1,205 @@
+"""Open documents: what the server was told, held so that it can be told again. Nothing here speaks to a server."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .cad import write_back_to
+from .entities import Change, Delete, Entity, Polyline, Put, Splice, Vertex
+from .errors import DoesNotApply, WedmError
+from .results import write_beside
+from .settings import Units
+
+if TYPE_CHECKING:
+    from .server import Server
+
+#: Kind of text by the end of a file's name.
+LANGUAGES = {".dxf": "dxf", ".3b": "3b", ".4b": "3b", ".iso": "wire-iso", ".nc": "wire-iso"}
+
+_LINE_END = re.compile(rb"\r\n|\n|\r")
+_CODE_PAGE = re.compile(rb"\$DWGCODEPAGE\s+3\s+(\S+)")
+
+
+class Document:
+    """Something that is open in a server. In a notebook it shows its picture."""
+
+    def __init__(self, server: Server, uri: str) -> None:
+        self._server = server
+        self.uri = uri
+        #: Counts the states; a repair that was made for an older one is refused.
+        self.version = 1
+
+    def _repr_svg_(self) -> str | None:
+        try:
+            return self._server.picture(self).svg
+        except WedmError:
+            # A notebook then shows the text of the object.
+            return None
+
+
+class Drawing(Document):
+    """Geometry without text behind it: entities by handle, in machining order."""
+
+    def __init__(self, server: Server, uri: str, entities: Iterable[Entity], units: Units | None) -> None:
+        super().__init__(server, uri)
+        self.units = units
+        self._entities = {entity.handle: entity for entity in entities}
+        #: The ezdxf entities that the drawing was made from, by handle.
+        self.sources: dict[str, Any] = {}
+
+    @property
+    def entities(self) -> list[Entity]:
+        """The entities as they are now, repairs included."""
+        return list(self._entities.values())
+
+    def __getitem__(self, handle: str) -> Entity:
+        return self._entities[handle]
+
+    def __len__(self) -> int:
+        return len(self._entities)
+
+    def to_json(self) -> dict[str, Any]:
+        """The drawing as the protocol writes it."""
+        written: dict[str, Any] = {"uri": self.uri, "version": self.version}
+        if self.units is not None:
+            written["units"] = self.units
+        written["entities"] = [entity.to_json() for entity in self._entities.values()]
+        return written
+
+    def _changed(self, changes: Sequence[Change]) -> dict[str, Entity]:
+        """The entities after all the changes.
+
+        :raises DoesNotApply: one of them does not apply.
+        """
+        entities = dict(self._entities)
+        for number, change in enumerate(changes, 1):
+            try:
+                entities = _apply(entities, change)
+            except DoesNotApply as reason:
+                raise DoesNotApply(f"change {number} of {len(changes)}: {reason}") from None
+        return entities
+
+
+def write_back(drawing: Drawing) -> int:
+    """Gives the entities of ezdxf that the drawing was opened from the geometry that it has now.
+
+    Those that a repair has deleted are destroyed. Handles, layers, colours and all else stay. Returns how many were changed.
+    """
+    return write_back_to(drawing._entities, drawing.sources)
+
+
+def _apply(entities: dict[str, Entity], change: Change) -> dict[str, Entity]:
+    if isinstance(change, Put):
+        handle = change.entity.handle
+        if not handle:
+            raise DoesNotApply("the entity has no handle")
+        if handle in entities or change.before is None:
+            entities[handle] = change.entity
+            return entities
+        if change.before not in entities:
+            raise DoesNotApply(f"there is no entity {change.before} to put {handle} before")
+        ordered = {}
+        for other, entity in entities.items():
+            if other == change.before:
+                ordered[handle] = change.entity
+            ordered[other] = entity
+        return ordered
+    if change.handle not in entities:
+        raise DoesNotApply(f"there is no entity {change.handle}")
+    if isinstance(change, Delete):
+        del entities[change.handle]
+        return entities
+    entities[change.handle] = _splice(entities[change.handle], change)
+    return entities
+
+
+def _splice(entity: Entity, splice: Splice) -> Polyline:
+    if not isinstance(entity, Polyline):
+        raise DoesNotApply(f"{entity.handle} is a {entity.kind}, and only polylines have vertices")
+    count = len(entity.vertices)
+    end = splice.start + splice.delete
+    if splice.start < 0 or splice.delete < 0 or end > count:
+        raise DoesNotApply(f"{entity.handle} has {count} vertices, expected a range in them, found {splice.start} to {end}")
+    inserted = tuple(Vertex(*vertex) for vertex in splice.insert)
+    vertices = entity.vertices[: splice.start] + inserted + entity.vertices[end:]
+    return Polyline(vertices, entity.closed, entity.handle, entity.layer, entity.role)
+
+
+class TextDocument(Document):
+    """A text: DXF, 3B or wire ISO. ``path`` is the file that it came from, if any."""
+
+    def __init__(self, server: Server, uri: str, text: str, language: str, path: Path | None = None, encoding: str = "utf-8") -> None:
+        super().__init__(server, uri)
+        self.language = language
+        self.path = path
+        #: The encoding of the file, in which it is saved again.
+        self.encoding = encoding
+        self._bytes = text.encode("utf-8")
+
+    @property
+    def text(self) -> str:
+        """The text as it is now, repairs included."""
+        return self._bytes.decode("utf-8")
+
+    def save(self, path: str | os.PathLike[str] | None = None) -> Path:
+        """Writes the text to ``path``, without one to the file that it came from; in that file's encoding.
+
+        The new file is written beside the old one and renamed. Every byte that no edit has touched is as it was.
+        """
+        target = Path(path) if path is not None else self.path
+        if target is None:
+            raise ValueError("the text came from no file: say where to save it")
+        write_beside(target, self.text.encode(self.encoding))
+        return target
+
+    def _lines(self) -> list[bytes]:
+        return _LINE_END.split(self._bytes)
+
+    def _edited(self, edits: Sequence[Mapping[str, Any]]) -> bytes:
+        """The bytes after the edits, whose characters count UTF-8 bytes."""
+        starts = [0, *(match.end() for match in _LINE_END.finditer(self._bytes))]
+        ends = [*(match.start() for match in _LINE_END.finditer(self._bytes)), len(self._bytes)]
+
+        def offset(position: Mapping[str, int]) -> int:
+            line = position["line"]
+            if line >= len(starts):
+                return len(self._bytes)
+            return min(starts[line] + position["character"], ends[line])
+
+        content = bytearray(self._bytes)
+        placed = [(offset(edit["range"]["start"]), offset(edit["range"]["end"]), edit["newText"]) for edit in edits]
+        # From the last to the first, so that no edit moves another one; of several at one place the first comes first.
+        for start, end, new in sorted(reversed(placed), key=lambda edit: edit[:2], reverse=True):
+            content[start:end] = new.encode("utf-8")
+        return bytes(content)
+
+
+def read_text(path: Path) -> tuple[str, str]:
+    """The file's text and the encoding that gives back the same bytes.
+
+    UTF-8 where it is that, else the code page that a DXF file names, else one character for each byte.
+    """
+    content = path.read_bytes()
+    named = _CODE_PAGE.search(content[:65536])
+    for encoding in ("utf-8", _codec(named.group(1)) if named else None):
+        if encoding is None:
+            continue
+        try:
+            text = content.decode(encoding)
+            if text.encode(encoding) == content:
+                return text, encoding
+        except (UnicodeError, LookupError):
+            continue
+    return content.decode("latin-1"), "latin-1"
+
+
+def _codec(code_page: bytes) -> str | None:
+    name = code_page.decode("ascii", "replace").upper().replace("DOS", "ANSI_")
+    if not name.startswith("ANSI_"):
+        return None
+    number = name.removeprefix("ANSI_").strip("_")
+    return {"936": "gbk", "1361": "johab"}.get(number, f"cp{number}")

@@ -1,0 +1,219 @@
+"""Entities of a drawing, and changes of them, as values. Nothing here knows a server.
+
+Coordinates are drawing units, angles degrees counter-clockwise, a bulge is tan(sweep / 4), positive counter-clockwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, NamedTuple, Union
+
+from .settings import Role
+
+
+class Point(NamedTuple):
+    x: float
+    y: float
+
+
+class Vertex(NamedTuple):
+    """A vertex of a polyline with the bulge of the segment that starts in it; 0 is a line."""
+
+    x: float
+    y: float
+    bulge: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Entity:
+    kind: ClassVar[str]
+
+    def _json(self) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def to_json(self) -> dict[str, Any]:
+        """The entity as the protocol writes it."""
+        written: dict[str, Any] = {"handle": getattr(self, "handle"), "type": self.kind, **self._json()}
+        for key in ("layer", "role"):
+            value = getattr(self, key)
+            if value is not None:
+                written[key] = value
+        return written
+
+
+@dataclass(frozen=True)
+class Polyline(_Entity):
+    """A polyline of lines and arcs. Vertices may be given as (x, y) or (x, y, bulge)."""
+
+    kind: ClassVar[str] = "polyline"
+    vertices: tuple[Vertex, ...]
+    closed: bool = True
+    handle: str = ""
+    layer: str | None = None
+    role: Role | None = None
+
+    def __init__(
+        self,
+        vertices: Iterable[Sequence[float]],
+        closed: bool = True,
+        handle: str = "",
+        layer: str | None = None,
+        role: Role | None = None,
+    ) -> None:
+        object.__setattr__(self, "vertices", tuple(Vertex(*vertex) for vertex in vertices))
+        object.__setattr__(self, "closed", closed)
+        object.__setattr__(self, "handle", handle)
+        object.__setattr__(self, "layer", layer)
+        object.__setattr__(self, "role", role)
+
+    def _json(self) -> dict[str, Any]:
+        return {"closed": self.closed, "vertices": [list(vertex) for vertex in self.vertices]}
+
+
+@dataclass(frozen=True)
+class Line(_Entity):
+    kind: ClassVar[str] = "line"
+    start: tuple[float, float]
+    end: tuple[float, float]
+    handle: str = ""
+    layer: str | None = None
+    role: Role | None = None
+
+    def _json(self) -> dict[str, Any]:
+        return {"start": list(self.start), "end": list(self.end)}
+
+
+@dataclass(frozen=True)
+class Arc(_Entity):
+    """An arc, counter-clockwise from ``start_angle`` to ``end_angle``, as in DXF."""
+
+    kind: ClassVar[str] = "arc"
+    center: tuple[float, float]
+    radius: float
+    start_angle: float
+    end_angle: float
+    handle: str = ""
+    layer: str | None = None
+    role: Role | None = None
+
+    def _json(self) -> dict[str, Any]:
+        return {"center": list(self.center), "radius": self.radius, "startAngle": self.start_angle, "endAngle": self.end_angle}
+
+
+@dataclass(frozen=True)
+class Circle(_Entity):
+    kind: ClassVar[str] = "circle"
+    center: tuple[float, float]
+    radius: float
+    handle: str = ""
+    layer: str | None = None
+    role: Role | None = None
+
+    def _json(self) -> dict[str, Any]:
+        return {"center": list(self.center), "radius": self.radius}
+
+
+@dataclass(frozen=True)
+class Text(_Entity):
+    """A text; "O" beside a contour marks its thread hole."""
+
+    kind: ClassVar[str] = "text"
+    at: tuple[float, float]
+    text: str
+    handle: str = ""
+    layer: str | None = None
+    role: Role | None = None
+
+    def _json(self) -> dict[str, Any]:
+        return {"at": list(self.at), "text": self.text}
+
+
+Entity = Union[Polyline, Line, Arc, Circle, Text]
+
+
+def entity_from_json(written: Mapping[str, Any]) -> Entity:
+    """The entity that the protocol's form names.
+
+    :raises ValueError: a key is missing, or the type is none of the five.
+    """
+    common = {key: written.get(key) for key in ("layer", "role")}
+    handle = str(written.get("handle", ""))
+    try:
+        match written.get("type"):
+            case "polyline":
+                return Polyline(written["vertices"], bool(written["closed"]), handle, **common)
+            case "line":
+                return Line(_pair(written["start"]), _pair(written["end"]), handle, **common)
+            case "arc":
+                return Arc(_pair(written["center"]), written["radius"], written["startAngle"], written["endAngle"], handle, **common)
+            case "circle":
+                return Circle(_pair(written["center"]), written["radius"], handle, **common)
+            case "text":
+                return Text(_pair(written["at"]), written["text"], handle, **common)
+            case other:
+                raise ValueError(f"entity {handle!r} has type {other!r}, expected polyline, line, arc, circle or text")
+    except KeyError as missing:
+        raise ValueError(f"entity {handle!r} of type {written.get('type')!r} has no {missing}") from None
+
+
+def _pair(point: Sequence[float]) -> tuple[float, float]:
+    x, y = point
+    return (x, y)
+
+
+@dataclass(frozen=True)
+class Splice:
+    """Takes ``delete`` vertices out of the polyline from index ``start`` on and puts ``insert`` in their place.
+
+    Moving one vertex is ``Splice("2A", i, 1, [(x, y, bulge)])``: it costs the edit, not the drawing.
+    """
+
+    handle: str
+    start: int
+    delete: int = 0
+    insert: Sequence[Sequence[float]] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        inserted = [list(Vertex(*vertex)) for vertex in self.insert]
+        return {"handle": self.handle, "vertices": {"start": self.start, "deleteCount": self.delete, "insert": inserted}}
+
+
+@dataclass(frozen=True)
+class Put:
+    """Adds the entity, or replaces the one with its handle; ``before`` names the entity that a new one is put before."""
+
+    entity: Entity
+    before: str | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        written: dict[str, Any] = {"handle": self.entity.handle, "entity": self.entity.to_json()}
+        if self.before is not None:
+            written["before"] = self.before
+        return written
+
+
+@dataclass(frozen=True)
+class Delete:
+    handle: str
+
+    def to_json(self) -> dict[str, Any]:
+        return {"handle": self.handle, "entity": None}
+
+
+Change = Union[Splice, Put, Delete]
+
+
+def change_from_json(written: Mapping[str, Any]) -> Change:
+    """The change that the protocol's form names."""
+    handle = str(written["handle"])
+    splice = written.get("vertices")
+    if splice is not None:
+        return Splice(handle, splice["start"], splice["deleteCount"], tuple(Vertex(*vertex) for vertex in splice["insert"]))
+    if written["entity"] is None:
+        return Delete(handle)
+    return Put(entity_from_json({**written["entity"], "handle": handle}), written.get("before"))
+
+
+def with_handle(entity: Entity, handle: str) -> Entity:
+    return replace(entity, handle=handle)

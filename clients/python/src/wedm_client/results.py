@@ -1,0 +1,322 @@
+"""What the server answers, as typed values. Unknown keys of a newer server are passed over.
+
+Points, radii and lengths are drawing units, except where a line says mm; angles are degrees.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeVar, Union
+
+import cattrs
+from cattrs.gen import make_dict_structure_fn, override
+
+from .entities import Point
+
+SEVERITIES = {1: "error", 2: "warning", 3: "information", 4: "hint"}
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """A finding: the rule, its numbers, and the place.
+
+    ``line`` and ``column`` count from 1 and are there for text documents; in a drawing ``handle`` and ``segment`` say the place.
+    ``data`` holds everything that the protocol says of the finding.
+    """
+
+    rule: str
+    severity: str
+    message: str
+    line: int | None = None
+    column: int | None = None
+    end_line: int | None = None
+    end_column: int | None = None
+    page: str | None = None
+    data: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def handle(self) -> str | None:
+        """The entity's handle, of a finding on a segment."""
+        handle = self.data.get("handle")
+        return handle if isinstance(handle, str) else None
+
+    @property
+    def segment(self) -> int | None:
+        """The segment's index in its entity: that of the vertex it starts in."""
+        segment = self.data.get("segment")
+        return segment if isinstance(segment, int) else None
+
+    @property
+    def radius(self) -> float | None:
+        """The radius at fault."""
+        return self._number("radius")
+
+    @property
+    def required(self) -> float | None:
+        """The smallest radius that the wire can follow."""
+        return self._number("required")
+
+    def _number(self, key: str) -> float | None:
+        value = self.data.get(key)
+        return float(value) if isinstance(value, (int, float)) else None
+
+    def __str__(self) -> str:
+        place = f"line {self.line}: " if self.line is not None else ""
+        if self.handle is not None:
+            place += f"{self.handle} segment {self.segment}: " if self.segment is not None else f"{self.handle}: "
+        return f"{self.severity}[{self.rule}] {place}{self.message}"
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A line, arc or circle of an entity, with the names of the rules at fault or ``ok``."""
+
+    index: int
+    kind: str
+    start: Point
+    end: Point
+    length: float
+    verdict: str
+    center: Point | None = None
+    radius: float | None = None
+    sweep: float | None = None
+    bulge: float | None = None
+
+
+@dataclass(frozen=True)
+class InspectedEntity:
+    handle: str
+    type: str
+    layer: str
+    closed: bool
+    segments: list[Segment]
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """Every segment of a drawing with its radius and its verdict: the list of the "R minimum" tool."""
+
+    units_to_mm: float
+    entities: list[InspectedEntity]
+
+
+@dataclass(frozen=True)
+class ContourPiece:
+    """A segment as the contour travels it; ``reversed`` is against its entity's own direction."""
+
+    handle: str
+    segment: int
+    reversed: bool
+    kind: str
+    start: Point
+    end: Point
+    length: float
+    center: Point | None = None
+    radius: float | None = None
+    sweep: float | None = None
+    bulge: float | None = None
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Two ends that lay apart and were taken as one, behind the segment with index ``after``."""
+
+    after: int
+    distance: float
+
+
+@dataclass(frozen=True)
+class Contour:
+    closed: bool
+    role: str
+    length: float
+    segments: list[ContourPiece]
+    gaps: list[Gap]
+    direction: str | None = None
+    area: float | None = None
+
+
+@dataclass(frozen=True)
+class Contours:
+    units_to_mm: float
+    contours: list[Contour]
+
+
+@dataclass(frozen=True)
+class PathPiece:
+    """A piece of the wire's path; ``source`` is ``lead-in``, ``segment``, ``corner`` or ``lead-out``."""
+
+    source: str
+    kind: str
+    start: Point
+    end: Point
+    length: float
+    handle: str | None = None
+    segment: int | None = None
+    center: Point | None = None
+    radius: float | None = None
+    sweep: float | None = None
+    bulge: float | None = None
+
+
+@dataclass(frozen=True)
+class WirePath:
+    """The way of the wire's centre along one contour. ``correction`` is mm."""
+
+    contour: int
+    correction: float
+    thread_hole: Point
+    length: float
+    segments: list[PathPiece]
+    # `pass` in the protocol.
+    pass_number: int = 1
+
+
+@dataclass(frozen=True)
+class Toolpath:
+    units_to_mm: float
+    paths: list[WirePath]
+
+
+@dataclass(frozen=True)
+class Closure:
+    """What a controller that counts J has drifted at the end of a program, µm."""
+
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program for the machine, decoded again by the server before it was handed out. ``length`` is mm, ``deviation`` µm."""
+
+    text: str
+    blocks: int
+    length: float
+    closure: Closure
+    deviation: float = 0.0
+    minutes: float | None = None
+    warnings: list[Diagnostic] = field(default_factory=list)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the program beside ``path`` and renames it."""
+        write_beside(Path(path), self.text.encode("utf-8"))
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Contours, faults and, where it can be made, the wire's path, as SVG. A notebook shows it as it is."""
+
+    svg: str
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the picture beside ``path`` and renames it."""
+        write_beside(Path(path), self.svg.encode("utf-8"))
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+
+@dataclass(frozen=True)
+class Fixed:
+    """What stood in the document before and after the repairs."""
+
+    before: list[Diagnostic]
+    after: list[Diagnostic]
+
+    @property
+    def changed(self) -> bool:
+        return self.before != self.after
+
+
+def write_beside(path: Path, content: bytes) -> None:
+    """Writes the content to a new file beside ``path`` and renames it: nobody ever sees half a file."""
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "wb") as beside:
+            beside.write(content)
+            beside.flush()
+            os.fsync(beside.fileno())
+        # A new file of `mkstemp` is for its owner only; take the rights that the old one has, or those of any new file.
+        mode = path.stat().st_mode & 0o7777 if path.exists() else 0o666 & ~_umask()
+        os.chmod(name, mode)
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+def _umask() -> int:
+    now = os.umask(0)
+    os.umask(now)
+    return now
+
+
+# Where a key of the protocol is not the camelCase form of the field.
+_KEYS = {("WirePath", "pass_number"): "pass", ("Program", "text"): "program"}
+
+
+def _camel(name: str) -> str:
+    first, *rest = name.split("_")
+    return first + "".join(word.capitalize() for word in rest)
+
+
+@lru_cache(maxsize=1)
+def _converter() -> cattrs.Converter:
+    converter = cattrs.Converter()
+
+    def structure(cls: type[Any]) -> Any:
+        keys = {f.name: override(rename=_KEYS.get((cls.__name__, f.name), _camel(f.name))) for f in fields(cls)}
+        return make_dict_structure_fn(cls, converter, **keys)  # type: ignore[arg-type]
+
+    converter.register_structure_hook_factory(is_dataclass, structure)
+    converter.register_structure_hook(Point, lambda value, _: Point(float(value[0]), float(value[1])))
+    converter.register_structure_hook(Diagnostic, lambda value, _: diagnostic_from_json(value, None))
+    return converter
+
+
+def from_json(value: Any, cls: type[T]) -> T:
+    """The value of the protocol as one of the types above."""
+    return _converter().structure(value, cls)
+
+
+TextLines = Union[list[bytes], None]
+
+
+def diagnostic_from_json(value: Mapping[str, Any], lines: TextLines) -> Diagnostic:
+    """A diagnostic of the protocol; ``lines`` are those of the text that it stands in, in UTF-8, None for a drawing."""
+    place: dict[str, int] = {}
+    if lines is not None:
+        start, end = value["range"]["start"], value["range"]["end"]
+        place = {
+            "line": start["line"] + 1,
+            "column": _column(lines, start),
+            "end_line": end["line"] + 1,
+            "end_column": _column(lines, end),
+        }
+    description = value.get("codeDescription") or {}
+    return Diagnostic(
+        rule=str(value.get("code", "")),
+        severity=SEVERITIES.get(value.get("severity", 1), "error"),
+        message=str(value["message"]),
+        page=description.get("href"),
+        data=value.get("data") or {},
+        **place,
+    )
+
+
+def _column(lines: list[bytes], position: Mapping[str, int]) -> int:
+    line, character = position["line"], position["character"]
+    if line >= len(lines):
+        return character + 1
+    return len(lines[line][:character].decode("utf-8", "replace")) + 1

@@ -1,0 +1,495 @@
+"""A server and what is open in it: the package's front door.
+
+Every method blocks until its answer is there. A server that dies is started again and told everything again, so that its answers
+are right again; requests are repeated. Methods may be called from several threads.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import threading
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import TimeoutError as FutureTimeout
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Literal, Union
+
+from lsprotocol import types
+
+from . import cad
+from .connection import CONTENT_MODIFIED, Connection, Died, Loop
+from .documents import LANGUAGES, Document, Drawing, TextDocument, read_text
+from .entities import Change, Delete, Put, Splice, change_from_json
+from .errors import NoAnswer, NotOpen, Outdated, ServerDied, WedmError
+from .find import find
+from .results import Contours, Diagnostic, Fixed, Inspection, Picture, Program, Toolpath, diagnostic_from_json, from_json
+from .settings import Settings, Units, to_json
+
+#: What a drawing can be opened from.
+Source = Union[str, "os.PathLike[str]", Iterable[Any], Any]
+
+# Seconds before the second start after a death, the third and so on; the first is at once.
+_BACK_OFF = (0.0, 0.1, 0.5, 1.0, 2.0)
+# Deaths that are further apart have nothing to do with each other.
+_FORGIVEN_AFTER = 120.0
+# A repair may make room for the next one; no drawing has needed more than a few rounds.
+_MOST_ROUNDS = 50
+
+@dataclass(frozen=True)
+class Action:
+    """A repair that the server offers for the version of the document that it looked at."""
+
+    title: str
+    preferred: bool
+    document: Document
+    version: int
+    _what: Mapping[str, Any]
+
+
+@dataclass
+class _Published:
+    version: int | None
+    diagnostics: list[Mapping[str, Any]]
+
+
+class Server:
+    """A language server of wedm, as a context manager.
+
+    :param command: the program, or the program with its arguments; without it see :func:`wedm_client.find`.
+    :param settings: settings for all documents; a ``wedm.toml`` above a file wins over them.
+    :param folder: where ``wedm.toml`` is looked for on behalf of drawings that are no files; the current folder by default.
+    :param timeout: seconds that an answer may take.
+    :raises ServerNotFound: there is no program.
+    :raises WrongProtocol: the program is another version.
+    """
+
+    def __init__(
+        self,
+        command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | None = None,
+        *,
+        settings: Settings | None = None,
+        folder: str | os.PathLike[str] | None = None,
+        timeout: float = 60.0,
+    ) -> None:
+        self.command = find(command)
+        self.timeout = timeout
+        self._settings = to_json(settings or {})
+        self._folder = Path(folder if folder is not None else ".").resolve().as_uri()
+        self._numbers = itertools.count(1)
+        # Held while a process is started; never taken by the thread that reads messages.
+        self._starting = threading.Lock()
+        # Held for moments: documents, what was published for them, and the order of what is sent.
+        self._state = threading.Condition(threading.RLock())
+        self._documents: dict[str, Document] = {}
+        self._published: dict[str, _Published] = {}
+        self._closed_at: dict[str, int] = {}
+        self._connection: Connection | None = None
+        self._loop: Loop | None = None
+        self._deaths: list[float] = []
+        self._closed = False
+
+    def __enter__(self) -> Server:
+        self._live()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    @property
+    def version(self) -> str:
+        """The version that the server gives itself."""
+        return self._live().server_version
+
+    @property
+    def pid(self) -> int | None:
+        """The number of the server's process."""
+        return self._live().pid
+
+    def close(self) -> None:
+        """Ends the server. Documents are no longer open; what they hold stays readable."""
+        with self._starting:
+            with self._state:
+                self._closed = True
+                connection, self._connection = self._connection, None
+                loop, self._loop = self._loop, None
+                self._documents.clear()
+                self._state.notify_all()
+            if connection is not None:
+                connection.close()
+            if loop is not None:
+                loop.close()
+
+    # Opening
+
+    def open(self, source: Source, *, units: Units | None = None, uri: str | None = None) -> Document:
+        """Opens a drawing, or a file.
+
+        :param source: the path of a DXF, 3B or ISO file; or a list of entities (of this package, dictionaries of the protocol's form,
+            lists of vertices, entities of ezdxf) in machining order; or one list of vertices; or a document of ezdxf as a whole.
+        :param units: of a list; without it those of the settings hold.
+        :raises OSError: the file cannot be read.
+        """
+        if isinstance(source, (str, os.PathLike)):
+            path = Path(source).resolve()
+            text, encoding = read_text(path)
+            language = LANGUAGES.get(path.suffix.lower(), "dxf")
+            return self._opened(TextDocument(self, uri or path.as_uri(), text, language, path, encoding))
+        if hasattr(source, "modelspace") and hasattr(source, "write"):
+            written = StringIO()
+            source.write(written)
+            return self.open_text(written.getvalue(), "dxf", uri=uri)
+        entities, sources = cad.entities_from(source)
+        doubled = len(entities) - len({entity.handle for entity in entities})
+        if doubled:
+            raise ValueError(f"{doubled} entities have a handle that another one has")
+        drawing = Drawing(self, uri or f"wedm-client:drawing-{next(self._numbers)}", entities, units)
+        drawing.sources = sources
+        return self._opened(drawing)
+
+    def open_text(self, text: str, language: Literal["dxf", "3b", "wire-iso"] = "dxf", *, uri: str | None = None) -> TextDocument:
+        """Opens a text that is in no file."""
+        document = TextDocument(self, uri or f"untitled:wedm-client-{next(self._numbers)}", text, language)
+        self._opened(document)
+        return document
+
+    def _opened(self, document: Document) -> Document:
+        connection = self._live()
+        with self._state:
+            if document.uri in self._documents:
+                raise ValueError(f"{document.uri} is open already")
+            # What was published for another document of this name may still be on its way.
+            document.version = self._closed_at.pop(document.uri, 0) + 1
+            self._documents[document.uri] = document
+            self._send_open(connection, document)
+        return document
+
+    def close_document(self, document: Document) -> None:
+        """Closes the document in the server."""
+        with self._state:
+            if self._documents.pop(document.uri, None) is None:
+                return
+            self._published.pop(document.uri, None)
+            self._closed_at[document.uri] = document.version
+            if self._connection is None:
+                return
+            if isinstance(document, Drawing):
+                self._connection.notify("wedm/didCloseDrawing", {"drawing": {"uri": document.uri}})
+            else:
+                params = types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(document.uri))
+                self._connection.notify(types.TEXT_DOCUMENT_DID_CLOSE, params)
+
+    # Editing
+
+    def change(self, document: Document, change: str | Change | Sequence[Change]) -> None:
+        """Changes a drawing by :class:`Splice`, :class:`Put` and :class:`Delete`, all of them or none; a text by the new text.
+
+        :raises DoesNotApply: an entity or vertex is not there; nothing was changed.
+        """
+        if isinstance(document, TextDocument):
+            if not isinstance(change, str):
+                raise TypeError("a text is changed by its new text")
+            with self._state:
+                self._check_open(document)
+                document._bytes = change.encode("utf-8")
+                self._send_text_changes(document, [types.TextDocumentContentChangeWholeDocument(text=change)])
+            return
+        if isinstance(change, str) or not isinstance(document, Drawing):
+            raise TypeError("a drawing is changed by Splice, Put and Delete")
+        changes: list[Change] = [change] if isinstance(change, (Splice, Put, Delete)) else list(change)
+        with self._state:
+            self._check_open(document)
+            self._change_drawing(document, changes)
+
+    def _change_drawing(self, drawing: Drawing, changes: Sequence[Change]) -> None:
+        drawing._entities = drawing._changed(changes)
+        drawing.version += 1
+        if self._connection is not None:
+            params = {"drawing": {"uri": drawing.uri, "version": drawing.version}, "changes": [change.to_json() for change in changes]}
+            self._connection.notify("wedm/didChangeDrawing", params)
+
+    def _send_text_changes(self, document: TextDocument, changes: Sequence[types.TextDocumentContentChangeEvent]) -> None:
+        document.version += 1
+        if self._connection is not None:
+            identifier = types.VersionedTextDocumentIdentifier(uri=document.uri, version=document.version)
+            self._connection.notify(types.TEXT_DOCUMENT_DID_CHANGE, types.DidChangeTextDocumentParams(identifier, changes))
+
+    # Asking
+
+    def diagnostics(self, document: Document) -> list[Diagnostic]:
+        """What is wrong with the document as it is now; at most 500 findings, then one ``more`` that counts the rest."""
+        published = self._wait_for_publish(document)
+        lines = document._lines() if isinstance(document, TextDocument) else None
+        return [diagnostic_from_json(one, lines) for one in published.diagnostics]
+
+    def inspect(self, document: Document, handle: str | None = None) -> Inspection:
+        """Every segment with its radius and its verdict; of one entity, or of all."""
+        params = {"uri": document.uri} if handle is None else {"uri": document.uri, "handle": handle}
+        return from_json(self._ask(document, "wedm/inspect", params), Inspection)
+
+    def contours(self, document: Document) -> Contours:
+        """What is chained to what."""
+        return from_json(self._ask(document, "wedm/contours", {"uri": document.uri}), Contours)
+
+    def toolpath(self, document: Document, options: Settings | None = None) -> Toolpath:
+        """The path of the wire's centre. :raises Refused: there is none; the message says why."""
+        return from_json(self._ask(document, "wedm/toolpath", self._with(document, options)), Toolpath)
+
+    def picture(self, document: Document, options: Settings | None = None) -> Picture:
+        """Contours, faults and wire path as SVG."""
+        return from_json(self._ask(document, "wedm/picture", self._with(document, options)), Picture)
+
+    def generate(
+        self,
+        document: Document,
+        format: str = "3b",
+        *,
+        handles: Sequence[str] | None = None,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> Program:
+        """The program for the machine.
+
+        :param handles: only the contours that hold one of these entities.
+        :param options: settings for this request only.
+        :param force: also with errors in the drawing.
+        :raises Refused: errors stand in the drawing (its ``diagnostics``), or no path can be made.
+        """
+        params = self._with(document, options)
+        params["format"] = format
+        if handles is not None:
+            params["handles"] = list(handles)
+        if force:
+            params["force"] = True
+        return from_json(self._ask(document, "wedm/generate", params), Program)
+
+    @staticmethod
+    def _with(document: Document, options: Settings | None) -> dict[str, Any]:
+        params: dict[str, Any] = {"uri": document.uri}
+        if options is not None:
+            params["options"] = to_json(options)
+        return params
+
+    # Repairing
+
+    def actions(self, document: Document, diagnostic: Diagnostic) -> list[Action]:
+        """The repairs for one finding, the preferred one first."""
+        published = self._wait_for_publish(document)
+        lines = document._lines() if isinstance(document, TextDocument) else None
+        meant = [one for one in published.diagnostics if diagnostic_from_json(one, lines) == diagnostic]
+        if not meant:
+            raise Outdated(f"the finding does not stand in version {document.version} of {document.uri}", CONTENT_MODIFIED)
+        found = self._offered(document, meant[0]["range"], meant[:1], "quickfix")
+        return sorted(found, key=lambda action: not action.preferred)
+
+    def apply(self, action: Action) -> None:
+        """Applies a repair to the document.
+
+        :raises Outdated: the document has changed since the repair was made; nothing was changed.
+        """
+        document = action.document
+        with self._state:
+            self._check_open(document)
+            if action.version != document.version:
+                raise Outdated(
+                    f"the repair was made for version {action.version} of {document.uri}, which is now at {document.version}", CONTENT_MODIFIED
+                )
+            if isinstance(document, Drawing):
+                (edit,) = action._what["command"]["arguments"]
+                if edit["version"] != document.version:
+                    raise Outdated(f"the server made the repair for version {edit['version']} of {document.uri}", CONTENT_MODIFIED)
+                self._change_drawing(document, [change_from_json(change) for change in edit["changes"]])
+            elif isinstance(document, TextDocument):
+                self._apply_text_edit(document, action._what["edit"])
+
+    def _apply_text_edit(self, document: TextDocument, edit: Mapping[str, Any]) -> None:
+        edits: list[Mapping[str, Any]] = []
+        for part in edit["documentChanges"]:
+            identifier = part["textDocument"]
+            if identifier["uri"] != document.uri or identifier.get("version") not in (None, document.version):
+                raise Outdated(f"the repair is for version {identifier.get('version')} of {identifier['uri']}", CONTENT_MODIFIED)
+            edits.extend(part["edits"])
+        document._bytes = document._edited(edits)
+
+        def position(at: Mapping[str, int]) -> types.Position:
+            return types.Position(at["line"], at["character"])
+
+        # From the last to the first, so that each one's range is still that of the old text.
+        ordered = sorted(reversed(edits), key=lambda one: (one["range"]["start"]["line"], one["range"]["start"]["character"]), reverse=True)
+        changes = [
+            types.TextDocumentContentChangePartial(
+                range=types.Range(position(one["range"]["start"]), position(one["range"]["end"])), text=one["newText"]
+            )
+            for one in ordered
+        ]
+        self._send_text_changes(document, changes)
+
+    def fix(self, document: Document, diagnostic: Diagnostic | None = None) -> Fixed:
+        """Repairs what can be repaired safely: everything, or the one finding by its preferred repair.
+
+        Each repair moves the contour by no more than the correction, and is proved by the server before it is offered. Repairs that
+        would leave more errors than there were are taken back. A file is not written: see :meth:`TextDocument.save`.
+        """
+        before = self.diagnostics(document)
+        if diagnostic is not None:
+            offered = self.actions(document, diagnostic)
+            if not offered:
+                return Fixed(before, before)
+            self.apply(offered[0])
+            return Fixed(before, self.diagnostics(document))
+        after = before
+        for _ in range(_MOST_ROUNDS):
+            whole = {"start": {"line": 0, "character": 0}, "end": {"line": 2**31 - 1, "character": 0}}
+            offered = self._offered(document, whole, [], "source.fixAll.wedm")
+            if not offered:
+                break
+            old = self._content(document)
+            self.apply(offered[0])
+            found = self.diagnostics(document)
+            if _errors(found) > _errors(after):
+                self._restore(document, old)
+                break
+            after = found
+        return Fixed(before, after)
+
+    def _content(self, document: Document) -> Any:
+        with self._state:
+            return dict(document._entities) if isinstance(document, Drawing) else getattr(document, "_bytes")
+
+    def _restore(self, document: Document, content: Any) -> None:
+        with self._state:
+            if isinstance(document, TextDocument):
+                self.change(document, content.decode("utf-8"))
+            elif isinstance(document, Drawing):
+                document._entities = content
+                document.version += 1
+                if self._connection is not None:
+                    self._connection.notify("wedm/didOpenDrawing", {"drawing": document.to_json()})
+
+    def _offered(self, document: Document, range: Mapping[str, Any], meant: list[Mapping[str, Any]], kind: str) -> list[Action]:
+        params = {"textDocument": {"uri": document.uri}, "range": range, "context": {"diagnostics": meant, "only": [kind]}}
+        for _ in _BACK_OFF:
+            version = document.version
+            try:
+                found = self._ask(document, types.TEXT_DOCUMENT_CODE_ACTION, params)
+            except Outdated:
+                continue
+            break
+        else:
+            raise Outdated(f"{document.uri} changes faster than repairs can be made", CONTENT_MODIFIED)
+        return [
+            Action(action["title"], bool(action.get("isPreferred")), document, version, action)
+            for action in found or []
+            if action.get("edit") or action.get("command")
+        ]
+
+    # The process
+
+    def _check_open(self, document: Document) -> None:
+        if self._documents.get(document.uri) is not document:
+            raise NotOpen(f"{document.uri} is not open in this server")
+
+    def _ask(self, document: Document, method: str, params: Any) -> Any:
+        """Sends a request until a living server has answered it."""
+        with self._state:
+            self._check_open(document)
+        while True:
+            connection = self._live()
+            try:
+                return connection.request(method, params, self.timeout)
+            except Died:
+                continue
+
+    def _wait_for_publish(self, document: Document) -> _Published:
+        deadline = time.monotonic() + self.timeout
+        while True:
+            connection = self._live()
+            with self._state:
+                while self._connection is connection and not connection.ended:
+                    self._check_open(document)
+                    published = self._published.get(document.uri)
+                    if published is not None and published.version == document.version:
+                        return published
+                    left = deadline - time.monotonic()
+                    if left <= 0 or not self._state.wait(left):
+                        raise NoAnswer(f"no diagnostics of {document.uri} within {self.timeout:g} s")
+
+    def _live(self) -> Connection:
+        """The connection to a living server; a dead one is replaced by a new one that knows all documents.
+
+        :raises ServerDied: it has died too often of late.
+        """
+        with self._starting:
+            with self._state:
+                if self._closed:
+                    raise WedmError("the server was closed")
+                connection = self._connection
+                if connection is not None and not connection.ended:
+                    return connection
+                if self._loop is None:
+                    self._loop = Loop()
+            if connection is not None:
+                self._count_death(connection)
+            while True:
+                # A timed-out start leaves a process behind; it is ended before the error is passed on.
+                started = Connection(self._loop, self.command, self._publish, self._resend, self._ended)
+                try:
+                    started.start(self._settings, self._folder, self.timeout)
+                except Died:
+                    self._count_death(started)
+                    continue
+                except (WedmError, FutureTimeout):
+                    started.kill()
+                    raise
+                with self._state:
+                    self._connection = started
+                    self._published.clear()
+                    for document in self._documents.values():
+                        self._send_open(started, document)
+                return started
+
+    def _count_death(self, connection: Connection) -> None:
+        now = time.monotonic()
+        self._deaths = [death for death in self._deaths if now - death < _FORGIVEN_AFTER] + [now]
+        if len(self._deaths) > len(_BACK_OFF):
+            said = "".join(f"\n  {line}" for line in connection.said)
+            raise ServerDied(
+                f"{self.command[0]} has ended {len(self._deaths)} times within {_FORGIVEN_AFTER:g} s, "
+                f"the last time with code {connection.exit_code}; its last words:{said or ' none'}"
+            )
+        time.sleep(_BACK_OFF[len(self._deaths) - 1])
+
+    def _send_open(self, connection: Connection, document: Document) -> None:
+        self._published.pop(document.uri, None)
+        if isinstance(document, Drawing):
+            connection.notify("wedm/didOpenDrawing", {"drawing": document.to_json()})
+        elif isinstance(document, TextDocument):
+            item = types.TextDocumentItem(document.uri, document.language, document.version, document.text)
+            connection.notify(types.TEXT_DOCUMENT_DID_OPEN, types.DidOpenTextDocumentParams(item))
+
+    # Called on the thread that reads messages; only `_state` may be taken there.
+
+    def _publish(self, connection: Connection, params: Mapping[str, Any]) -> None:
+        with self._state:
+            # What a server that has died still had in its pipe is about documents that were opened anew since.
+            if connection is self._connection and params["uri"] in self._documents:
+                self._published[params["uri"]] = _Published(params.get("version"), params["diagnostics"])
+                self._state.notify_all()
+
+    def _resend(self, uri: str) -> dict[str, Any]:
+        with self._state:
+            document = self._documents.get(uri)
+            if not isinstance(document, Drawing):
+                raise LookupError(f"{uri} is not open")
+            return {"drawing": document.to_json()}
+
+    def _ended(self, connection: Connection) -> None:
+        with self._state:
+            self._state.notify_all()
+
+
+def _errors(diagnostics: Iterable[Diagnostic]) -> int:
+    return sum(diagnostic.severity == "error" for diagnostic in diagnostics)

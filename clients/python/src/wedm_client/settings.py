@@ -1,0 +1,60 @@
+"""The settings of wedm as typed dictionaries, and their form in the protocol. What they mean: docs/protocol.md of wedm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, TypedDict, Union
+
+Role = Literal["opening", "punch", "both", "ignore"]
+Side = Literal["both", "auto", "opening", "punch"]
+Units = Literal["mm", "inch"]
+RuleSeverity = Literal["error", "warning", "information", "hint", "off"]
+Place = Union[Sequence[float], Mapping[str, Sequence[float]]]
+"""A point (x, y) in drawing units, or one for each contour by the handle of one of its entities."""
+
+
+class Passes(TypedDict, total=False):
+    corrections: Sequence[float]
+
+
+class ProgramSettings(TypedDict, total=False):
+    layout: Literal["compact", "aligned", "checking"]
+    direction: Literal["ccw", "cw", "as-drawn"]
+    corner: Literal["arc", "intersection"]
+    thread: Place
+    entry: Place
+    lead_in: float
+    jumps: Literal["blocks", "none"]
+    compensation: Literal["path", "controller", "none"]
+    end: str
+    pause: str
+
+
+class Settings(TypedDict, total=False):
+    """Only what is set counts; lengths are mm, thread and entry are drawing units."""
+
+    correction: float
+    wire_diameter: float
+    gap: float
+    side: Side
+    units: Units
+    margin: float
+    passes: Passes
+    layers: Mapping[str, Role]
+    rules: Mapping[str, RuleSeverity]
+    program: ProgramSettings
+
+
+def to_json(settings: Settings) -> dict[str, Any]:
+    """The settings with the keys of the protocol. Names of layers, rules and handles stay as they are."""
+    return _camel(settings, {"passes", "program"})
+
+
+def _camel(table: Mapping[str, Any], within: set[str]) -> dict[str, Any]:
+    written = {}
+    for key, value in table.items():
+        if key in within and isinstance(value, Mapping):
+            value = _camel(value, set())
+        first, *rest = key.split("_")
+        written[first + "".join(word.capitalize() for word in rest)] = value
+    return written

@@ -1,0 +1,185 @@
+"""The server is missing, is another one, dies, or does not answer."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import sysconfig
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from wedm_client import (
+    NoAnswer,
+    Polyline,
+    Put,
+    Server,
+    ServerDied,
+    ServerNotFound,
+    Splice,
+    WedmError,
+    WrongProtocol,
+    find,
+)
+
+from .plates import QUARTER, ROUND, TIGHT
+
+STAND_IN = [sys.executable, str(Path(__file__).with_name("stand_in.py"))]
+
+
+@pytest.fixture
+def nowhere(program: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """No program in the environment nor on the PATH."""
+    monkeypatch.delenv("WEDM")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    return tmp_path
+
+
+def _program_at(path: Path, program: str) -> str:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.symlink_to(program)
+    return str(path)
+
+
+def test_found_by_argument_environment_neighbourhood_and_path(nowhere: Path, program: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    on_path = _program_at(nowhere / "wedm", program)
+    assert find() == [on_path]
+    scripts = nowhere / "scripts"
+    beside = _program_at(scripts / "wedm", program)
+    with monkeypatch.context() as patched:
+        patched.setattr(sysconfig, "get_path", lambda _: str(scripts))
+        assert find() == [beside]
+    monkeypatch.setenv("WEDM", program)
+    assert find() == [program]
+    assert find(beside) == [beside]
+    assert find(["wedm", "serve"]) == [on_path, "serve"]
+    with Server([on_path, "serve", "--no-parent-watch"]) as server:
+        assert server.version
+
+
+@pytest.mark.parametrize(
+    ("command", "variable", "said"),
+    [
+        (None, None, "no program wedm in .* nor on the PATH"),
+        ("/no/such/wedm", None, "the command names /no/such/wedm"),
+        (None, "/no/such/wedm", "the environment variable WEDM names /no/such/wedm"),
+        ([], None, "the command is empty"),
+    ],
+)
+def test_missing_says_how_to_get_it(
+    nowhere: Path, monkeypatch: pytest.MonkeyPatch, command: Any, variable: str | None, said: str
+) -> None:
+    if variable is not None:
+        monkeypatch.setenv("WEDM", variable)
+    with pytest.raises(ServerNotFound, match=said) as missing:
+        Server(command)
+    assert "cargo install --path ." in str(missing.value) and "WEDM" in str(missing.value)
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        ([*STAND_IN, "protocol", "2"], "speaks protocol 2, wedm-client speaks 1: this package has to be updated"),
+        ([*STAND_IN, "protocol", "0"], "speaks protocol 0, wedm-client speaks 1: the program has to be updated"),
+        (["sleep", "60"], "does not answer as a language server"),
+    ],
+)
+def test_another_server_is_said(command: list[str], said: str) -> None:
+    server = Server(command, timeout=3)
+    with pytest.raises(WrongProtocol, match=said):
+        server.__enter__()
+    server.close()
+
+
+def test_no_server_at_all_is_given_up() -> None:
+    with pytest.raises(ServerDied, match=r"true has ended 6 times within 120 s, the last time with code 0"), Server("true"):
+        pass
+
+
+def rules(server: Server, drawing: Any) -> list[str]:
+    return [f"{one.handle} {one.rule}" for one in server.diagnostics(drawing) if one.severity == "error"]
+
+
+def kill(server: Server) -> None:
+    pid = server.pid
+    assert pid is not None
+    os.kill(pid, signal.SIGKILL)
+
+
+def test_killed_between_two_edits_the_state_is_right_again(server: Server, data: Path) -> None:
+    drawing = server.open([Polyline(TIGHT, handle="2A")])
+    text = server.open(data / "tight.dxf")
+    assert rules(server, drawing) == rules(server, text) == ["2A small-radius"]
+    first = server.pid
+    kill(server)
+    server.change(drawing, Splice("2A", 1, 2, [(19.0, 0.0, QUARTER), (20.0, 1.0)]))
+    server.change(drawing, Put(Polyline([(x, y + 40, *b) for x, y, *b in TIGHT], handle="2B")))
+    assert rules(server, drawing) == ["2B small-radius"]
+    assert rules(server, text) == ["2A small-radius"]
+    assert server.pid != first
+    kill(server)
+    server.fix(text)
+    kill(server)
+    assert rules(server, text) == []
+    assert rules(server, drawing) == ["2B small-radius"]
+
+
+def test_killed_while_many_threads_edit_and_ask(server: Server) -> None:
+    """Each thread has a drawing of its own; at the end every drawing is what its thread made of it."""
+    rounds, failed = 15, []
+
+    def work(number: int) -> None:
+        try:
+            drawing = server.open([Polyline(ROUND, handle="2A")])
+            for turn in range(rounds):
+                radius = 0.05 if turn % 2 else 2.0
+                vertices = [(20 - radius, 0.0, QUARTER), (20.0, radius)]
+                server.change(drawing, Splice("2A", 1, 2, vertices))
+                segment = server.inspect(drawing).entities[0].segments[1]
+                assert segment.radius == pytest.approx(radius), f"thread {number}, turn {turn}"
+                assert segment.verdict == ("small-radius" if turn % 2 else "ok"), f"thread {number}, turn {turn}"
+        except BaseException as error:
+            failed.append(error)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for _ in range(3):
+        time.sleep(0.1)
+        kill(server)
+    for thread in threads:
+        thread.join(60)
+    assert failed == []
+
+
+def test_a_server_that_dies_of_a_question_is_given_up_with_its_last_words() -> None:
+    with Server([*STAND_IN, "dies", "wedm/contours"]) as server:
+        drawing = server.open([Polyline(TIGHT, handle="2A")])
+        assert rules(server, drawing) == ["2A small-radius"]
+        with pytest.raises(ServerDied, match="(?s)has ended 6 times.*code 3.*the roof fell in"):
+            server.contours(drawing)
+
+
+def test_no_answer_in_time() -> None:
+    with Server([*STAND_IN, "deaf", "wedm/contours"], timeout=1) as server:
+        drawing = server.open([Polyline(TIGHT, handle="2A")])
+        with pytest.raises(NoAnswer, match="no answer to wedm/contours within 1 s"):
+            server.contours(drawing)
+        # The others are answered all the same.
+        assert rules(server, drawing) == ["2A small-radius"]
+
+
+def test_the_process_is_gone_at_the_end() -> None:
+    with Server() as server:
+        pid = server.pid
+        drawing = server.open([Polyline(TIGHT, handle="2A")])
+    assert pid is not None
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+    for ask in (lambda: server.open([]), lambda: server.diagnostics(drawing), lambda: server.pid):
+        with pytest.raises(WedmError):
+            ask()

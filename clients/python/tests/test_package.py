@@ -1,0 +1,92 @@
+"""The package as it is handed out: typed, complete, and of one mind with the protocol's schema."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
+
+import pytest
+
+from wedm_client import results, settings
+from wedm_client.results import _KEYS, _camel
+
+
+@pytest.fixture
+def schema(root: Path) -> dict[str, Any]:
+    loaded: dict[str, Any] = json.loads((root / "docs/protocol.schema.json").read_text())
+    return loaded
+
+
+# Which type of the package stands for which of the schema, and what it leaves to the reader's own code.
+RESULTS = [
+    ("Inspection", "Inspection"),
+    ("InspectedEntity", "InspectedEntity"),
+    ("Segment", "InspectedSegment"),
+    ("Contours", "Contours"),
+    ("Contour", "ContoursContour"),
+    ("ContourPiece", "ContourPiece"),
+    ("Gap", "Gap"),
+    ("Toolpath", "Toolpath"),
+    ("WirePath", "ToolpathPath"),
+    ("PathPiece", "PathPiece"),
+    ("Picture", "Picture"),
+    ("Program", "Program"),
+    ("Closure", "Closure"),
+]
+
+
+@pytest.mark.parametrize(("ours", "theirs"), RESULTS)
+def test_results_have_every_key_of_the_schema(schema: dict[str, Any], ours: str, theirs: str) -> None:
+    held = {_KEYS.get((ours, field.name), _camel(field.name)) for field in dataclasses.fields(getattr(results, ours))}
+    assert held >= set(schema["$defs"][theirs]["properties"])
+
+
+@pytest.mark.parametrize("name", ["Settings", "Passes", "ProgramSettings"])
+def test_settings_have_the_keys_of_the_schema(schema: dict[str, Any], name: str) -> None:
+    assert {_camel(key) for key in get_type_hints(getattr(settings, name))} == set(schema["$defs"][name]["properties"])
+
+
+@pytest.mark.parametrize(
+    ("ours", "theirs"),
+    [("Role", "Role"), ("Side", "SideSetting"), ("Units", "UnitSetting"), ("RuleSeverity", "RuleSeverity")],
+)
+def test_words_of_the_settings(schema: dict[str, Any], ours: str, theirs: str) -> None:
+    assert set(get_args(getattr(settings, ours))) == _words(schema["$defs"][theirs])
+
+
+def _words(definition: dict[str, Any]) -> set[str]:
+    own = {*definition.get("enum", []), *([definition["const"]] if "const" in definition else [])}
+    return own.union(*(_words(one) for one in definition.get("oneOf", [])))
+
+
+def test_settings_reach_the_protocol_in_its_spelling() -> None:
+    written = settings.to_json(
+        {"wire_diameter": 0.2, "layers": {"MY_LAYER": "punch"}, "program": {"lead_in": 2, "thread": {"A_1": (1, 2)}}, "passes": {"corrections": [0.1]}}
+    )
+    assert written == {
+        "wireDiameter": 0.2,
+        "layers": {"MY_LAYER": "punch"},
+        "program": {"leadIn": 2, "thread": {"A_1": (1, 2)}},
+        "passes": {"corrections": [0.1]},
+    }
+
+
+def test_types_are_sound() -> None:
+    folder = Path(__file__).parents[1]
+    ended = subprocess.run([sys.executable, "-m", "mypy"], cwd=folder, capture_output=True, text=True, timeout=110, check=False)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
+def test_the_wheel_holds_the_package_and_its_types(tmp_path: Path) -> None:
+    folder = Path(__file__).parents[1]
+    words = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)]
+    subprocess.run(words, cwd=folder, capture_output=True, timeout=60, check=True)
+    (wheel,) = tmp_path.glob("wedm_client-*.whl")
+    names = zipfile.ZipFile(wheel).namelist()
+    modules = {f"wedm_client/{path.name}" for path in (folder / "src/wedm_client").iterdir() if path.is_file()}
+    assert modules <= set(names) and "wedm_client/py.typed" in names

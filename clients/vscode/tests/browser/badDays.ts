@@ -1,0 +1,127 @@
+// What bad days look like: no server, a server of another version, one that dies in the middle of an edit, a file too large for VS Code.
+
+import { execFile } from "node:child_process";
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { type Checks, expectEqual, expectSoon } from "./checks";
+import { FILLET, large, lineOf } from "./drawings";
+import { Host } from "./host";
+import { FAKE_SERVER, WEDM } from "./paths";
+import { Window } from "./window";
+
+const BULGE = "0.41421356237309503";
+
+export async function badDays(checks: Checks): Promise<void> {
+  await missing(checks);
+  await killed(checks);
+}
+
+/** No server anywhere, then one of another version, then the right one: each by a change of the setting. */
+async function missing(checks: Checks): Promise<void> {
+  const settings = (path: string | null): string => JSON.stringify({ "wedm.server.path": path, "security.workspace.trust.enabled": false });
+  const host = await Host.start({}, { "plate.dxf": FILLET }, "/usr/bin:/bin");
+  const window = new Window(host.page);
+  checks.page = host.page;
+  const user = join(host.folder, "../data/User/settings.json");
+  try {
+    await window.open("plate.dxf");
+    await checks.check("a server that is missing is said, with the way to get it", async () => {
+      const notice = window.notification("neither beside the extension");
+      await notice.waitFor();
+      expectEqual("advice", (await notice.innerText()).includes("cargo install --path ."), true);
+      await notice.getByRole("button", { name: "How to Get It" }).waitFor();
+      await expectSoon("a red item", async () => (await window.status.innerText()).includes("wedm"), () => window.status.innerText());
+      await checks.shot("server-missing");
+      await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("a setting that leads nowhere is said", async () => {
+      await writeFile(user, settings("/nowhere/wedm"));
+      await window.notification('the setting wedm.server.path is "/nowhere/wedm"').waitFor();
+      await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("a server of another protocol is refused with both versions", async () => {
+      await writeFile(user, settings(FAKE_SERVER));
+      const notice = window.notification("speaks protocol 2 of wedm, this extension speaks 1: update the extension");
+      await notice.waitFor();
+      expectEqual("version", (await notice.innerText()).includes("wedm 9.9.9"), true);
+      await checks.shot("other-protocol");
+      await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("the right server is taken at once when the setting names it", async () => {
+      await writeFile(user, settings(WEDM));
+      await window.squiggles.first().waitFor();
+      await expectSoon("0.100 mm", async () => (await window.status.innerText()).includes("0.100 mm"), () => window.status.innerText());
+    });
+  } finally {
+    await host.stop();
+  }
+}
+
+async function killed(checks: Checks): Promise<void> {
+  const big = large(51 * 1024 * 1024);
+  const host = await Host.start({ "wedm.server.path": WEDM, "workbench.editorLargeFileConfirmation": 1024 }, { "plate.dxf": FILLET, "large.dxf": big });
+  const window = new Window(host.page);
+  checks.page = host.page;
+  const line = lineOf(FILLET, BULGE);
+  try {
+    await window.open("plate.dxf");
+    await window.squiggles.first().waitFor();
+    await checks.check("a server that is killed in the middle of an edit comes back, and knows the text as it is", async () => {
+      await window.goToLine(line - 5, 1);
+      const before = await servers(host.folder);
+      expectEqual("servers", before.length, 1);
+      // Nine edits, the server dies between them: the radius becomes 0.4 in the end.
+      await host.page.keyboard.press("End");
+      for (let edit = 0; edit < 9; edit += 1) {
+        if (edit === 4) {
+          process.kill(before[0] ?? 0, "SIGKILL");
+        }
+        await host.page.keyboard.type("0");
+      }
+      await expectSoon("another server", async () => {
+        const now = await servers(host.folder);
+        return now.length === 1 && now[0] !== before[0];
+      }, async () => JSON.stringify(await servers(host.folder)));
+      await window.squiggles.first().waitFor();
+      await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
+      await window.squiggles.first().waitFor({ state: "hidden" });
+      await checks.shot("restarted");
+    });
+    await checks.check("the state is right again: what is edited after the restart is judged", async () => {
+      await host.page.keyboard.press("Control+z");
+      await window.squiggles.first().waitFor();
+    });
+    await checks.check("a drawing over 50 MB is said to be too large, and is checked by its path", async () => {
+      await host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: "large.dxf" }).first().dblclick();
+      const notice = window.notification("VS Code hands files over 50 MB to no extension");
+      await notice.waitFor();
+      await checks.shot("too-large");
+      await notice.getByRole("button", { name: "Check It by Path" }).click();
+      await window.notification("large.dxf: 1 error").waitFor({ timeout: 60_000 });
+      await expectSoon("the finding under Problems", async () => (await window.problems()).some((row) => row.includes("wedm check")), async () => (await window.problems()).join("\n"));
+      await checks.shot("checked-by-path");
+    });
+  } finally {
+    await host.stop();
+  }
+}
+
+/** The processes of our server that serve this window. */
+async function servers(folder: string): Promise<number[]> {
+  const { stdout } = await promisify(execFile)("ps", ["-eo", "pid,args"]);
+  const lines = stdout.split("\n").filter((line) => line.trim().endsWith(`${WEDM} serve`));
+  const pids = lines.map((line) => Number(line.trim().split(" ")[0]));
+  const owned = await Promise.all(pids.map((pid) => isOf(pid, folder)));
+  return pids.filter((_pid, index) => owned[index]);
+}
+
+/** Others may run the same program on this machine: ours has our window's home. */
+async function isOf(pid: number, folder: string): Promise<boolean> {
+  try {
+    const { stdout } = await promisify(execFile)("cat", [`/proc/${pid}/environ`]);
+    return stdout.includes(join(folder, ".."));
+  } catch {
+    return false;
+  }
+}

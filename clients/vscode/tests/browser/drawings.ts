@@ -1,0 +1,33 @@
+// Drawings and programs that the tests look at.
+
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { PROJECT } from "./paths";
+
+/** A plate of 20 × 10 mm with one fillet of R 0.05, whose bulge stands in line 36. */
+export const FILLET = await readFile(join(PROJECT, "tests/data/tight_fillet.dxf"), "utf8");
+/** A round hole as a program. */
+export const HOLE = await readFile(join(PROJECT, "tests/data/hole.3b"), "utf8");
+
+/** Line, from 1, of the n-th line that is exactly this. */
+export function lineOf(text: string, wanted: string, nth = 1): number {
+  const lines = text.split(/\r?\n/);
+  let found = 0;
+  for (const [index, line] of lines.entries()) {
+    if (line.trim() === wanted) {
+      found += 1;
+      if (found === nth) {
+        return index + 1;
+      }
+    }
+  }
+  throw new Error(`there is no line ${wanted}`);
+}
+
+/** A sound drawing of more than `bytes` bytes: lines on a layer that nobody cuts, and one fillet too tight at its end. */
+export function large(bytes: number): Buffer {
+  const head = "0\nSECTION\n2\nENTITIES\n";
+  const note = `0\nTEXT\n5\nF0\n8\nNOTE\n10\n0\n20\n0\n40\n1\n1\n${"x".repeat(2000)}\n`;
+  const entities = FILLET.slice(FILLET.indexOf("LWPOLYLINE")).replace(/^/, "0\n");
+  return Buffer.from(head + note.repeat(Math.ceil(bytes / note.length)) + entities);
+}

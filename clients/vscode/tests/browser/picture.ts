@@ -1,0 +1,110 @@
+// The live picture and the radius list: seen, clicked, and at one with the cursor in both directions; programs generated.
+
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { type Checks, expectEqual, expectSoon } from "./checks";
+import { FILLET, lineOf } from "./drawings";
+import { Host } from "./host";
+import { PROJECT, WEDM } from "./paths";
+import { Window } from "./window";
+
+const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
+
+export async function picture(checks: Checks): Promise<void> {
+  const host = await Host.start({ "wedm.server.path": WEDM }, { "plate.dxf": FILLET, "small-radius.dxf": SMALL });
+  const window = new Window(host.page);
+  checks.page = host.page;
+  const bulges = [...SMALL.matchAll(/^ *42\r?\n/gm)].map((match) => SMALL.slice(0, match.index).split("\n").length + 1);
+  try {
+    await window.open("small-radius.dxf");
+    await window.squiggles.first().waitFor();
+    await window.command("Wire EDM: Open Picture Beside");
+    const page = await window.picture();
+    await checks.check("the picture stands beside the text, with a mark and a chip for each fault", async () => {
+      await expectSoon("four faults", async () => (await page.locator("svg .drawing .fault").count()) === 4);
+      expectEqual("marks", await page.locator("svg .mark").count(), 4);
+      expectEqual("chips", await page.locator("#faults .chip").count(), 4);
+      expectEqual("title", await page.locator("#title").innerText(), "4 arcs are tighter than the correction");
+      await checks.shot("picture");
+    });
+    await checks.check("a fault that is clicked in the picture is selected in the text", async () => {
+      await window.clickDrawn(page.locator("svg .mark").nth(1).locator(".badge"));
+      await window.expectLine(bulges[2] ?? 0);
+      expectEqual("selected", await page.locator("svg .fault.selected").getAttribute("data-segment"), "4");
+    });
+    await checks.check("a line of the contour that is clicked is selected in the text", async () => {
+      await window.clickDrawn(page.locator('svg .contour[data-segment="1"]'));
+      await expectSoon("segment 1 selected", async () => (await page.locator("svg .contour.selected").getAttribute("data-segment")) === "1");
+    });
+    await checks.check("the cursor in the text selects in the picture", async () => {
+      await window.goToLine(bulges[1] ?? 0);
+      await expectSoon("segment 2 selected", async () => (await page.locator("svg .fault.selected").getAttribute("data-segment")) === "2");
+      await window.goToLine(lineOf(SMALL, "LWPOLYLINE"));
+      await expectSoon("all of the entity selected", async () => (await page.locator("svg .contour.selected").count()) === 14);
+    });
+    await checks.check("wheel, drag, keys and buttons move the view", async () => {
+      const view = async (): Promise<number[]> => ((await page.locator("#stage > svg").getAttribute("viewBox")) ?? "").split(" ").map(Number);
+      await page.locator("#fit").click();
+      const all = await view();
+      const stage = await page.locator("#stage").boundingBox();
+      await host.page.mouse.move((stage?.x ?? 0) + 200, (stage?.y ?? 0) + 200);
+      await host.page.mouse.wheel(0, -400);
+      await expectSoon("a closer view", async () => ((await view())[2] ?? 0) < (all[2] ?? 0) * 0.5);
+      const close = await view();
+      await host.page.mouse.down();
+      await host.page.mouse.move((stage?.x ?? 0) + 260, (stage?.y ?? 0) + 240, { steps: 4 });
+      await host.page.mouse.up();
+      await expectSoon("a view that was moved", async () => ((await view())[0] ?? 0) < (close[0] ?? 0));
+      await page.locator("#stage").focus();
+      await host.page.keyboard.press("0");
+      await expectSoon("everything in view", async () => (await view()).every((value, index) => Math.abs(value - (all[index] ?? 0)) < 1e-6));
+    });
+    await checks.check("a chip comes close enough to see the circle of the correction", async () => {
+      await page.locator("#faults .chip").first().click();
+      await page.locator("svg.close .correction.fine").first().waitFor();
+      await checks.shot("picture-close");
+      await page.locator("#fit").click();
+    });
+    await checks.check("the radius list has vertex, radius and verdict, and leads to the text", async () => {
+      await window.command("Wire EDM: Show Radius List");
+      const row = host.page.locator(".pane-body .monaco-list-row", { hasText: "R 0.040" });
+      await row.waitFor();
+      expectEqual("row", (await row.innerText()).replaceAll(/\s+/g, ""), "4R0.040small-radius·3.200,0.983");
+      expectEqual("rows", await host.page.locator(".pane-body .monaco-list-row").count(), 15);
+      await row.click();
+      await window.expectLine(bulges[2] ?? 0);
+      await checks.shot("radii");
+    });
+    await checks.check("the list can be narrowed to the faults", async () => {
+      await host.page.locator('.pane-header [aria-label="Show Only Faults"], .composite.title [aria-label="Show Only Faults"]').first().click();
+      await expectSoon("five rows", async () => (await host.page.locator(".pane-body .monaco-list-row").count()) === 5, async () => String(await host.page.locator(".pane-body .monaco-list-row").count()));
+      await host.page.locator('.composite.title [aria-label="Show All Segments"]').first().click();
+      await expectSoon("fifteen rows", async () => (await host.page.locator(".pane-body .monaco-list-row").count()) === 15);
+    });
+    await checks.check("with errors in the drawing a program is refused with a sentence", async () => {
+      await window.command("Wire EDM: Generate 3B Program…");
+      await window.notification("No program: 4 errors stand in the drawing").waitFor();
+      await checks.shot("refused");
+      await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("the picture follows an edit", async () => {
+      await window.goToLine(1);
+      await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
+      await expectSoon("no faults", async () => (await page.locator("svg .drawing .fault").count()) === 0);
+      expectEqual("chips", await page.locator("#faults").isVisible(), false);
+    });
+    await checks.check("a clean drawing gives its 3B program, once the side is known", async () => {
+      await window.command("Wire EDM: Generate 3B Program…");
+      await window.notification("is not known").waitFor();
+      await window.notification("is not known").getByRole("button", { name: "Opening: Wire Inside" }).click();
+      const target = join(host.folder, "made.3b");
+      await window.path(target);
+      await expectSoon("a program", async () => /^(B\d+B\d+B\d+G[XY](L|SR|NR)[1-4]\n){17}DD\n$/.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
+      await host.page.locator(".tabs-container .tab", { hasText: "made.3b" }).waitFor();
+      await window.notification("wire path").waitFor();
+      await checks.shot("generated");
+    });
+  } finally {
+    await host.stop();
+  }
+}

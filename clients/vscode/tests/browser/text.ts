@@ -1,0 +1,100 @@
+// A drawing as text: squiggle, Problems, hover, hints, quick fix, undo, fix all, the correction in the status bar.
+
+import { readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { type Checks, expectEqual, expectSoon } from "./checks";
+import { FILLET, lineOf } from "./drawings";
+import { Host } from "./host";
+import { WEDM } from "./paths";
+import { Window } from "./window";
+
+const BULGE = "0.41421356237309503";
+
+export async function text(checks: Checks): Promise<void> {
+  const host = await Host.start({ "wedm.server.path": WEDM, "wedm.side": "opening" }, { "plate.dxf": FILLET });
+  const window = new Window(host.page);
+  const file = join(host.folder, "plate.dxf");
+  const line = lineOf(FILLET, BULGE);
+  checks.page = host.page;
+  try {
+    await checks.check("an arc too tight is underlined", async () => {
+      await window.open("plate.dxf");
+      await window.squiggles.first().waitFor();
+      expectEqual("squiggles", await window.squiggles.count(), 1);
+      const label = await host.page.locator(".tabs-container .tab.active").getAttribute("aria-label");
+      expectEqual("tab", label?.includes("plate.dxf"), true);
+    });
+    await checks.check("the language has its name and its colours", async () => {
+      await host.page.locator('.statusbar-item[id="status.editor.mode"]', { hasText: "DXF" }).waitFor();
+      const colours = await host.page.locator(".view-line span span").evaluateAll((spans) => new Set(spans.map((span) => getComputedStyle(span).color)).size);
+      expectEqual("colours", colours >= 4, true);
+    });
+    await checks.check("the radius stands beside the bulge", async () => {
+      await host.page.locator(".view-lines", { hasText: "R 0.05 mm" }).waitFor();
+    });
+    await checks.check("it is listed under Problems", async () => {
+      await expectSoon("one problem of small-radius", async () => (await window.problems()).some((row) => row.includes("arc R 0.050 mm is below the correction 0.100 mm") && row.includes("small-radius")), async () => (await window.problems()).join("\n"));
+      await checks.shot("problems");
+      await window.hidePanel();
+      await window.goToLine(line);
+    });
+    await checks.check("the status bar has the correction in force, and changes it", async () => {
+      await expectSoon("0.100 mm", async () => (await window.status.innerText()).includes("0.100 mm"), () => window.status.innerText());
+      await window.status.click();
+      await host.page.locator(".quick-input-widget input").fill("0.04");
+      await host.page.keyboard.press("Enter");
+      await window.squiggles.first().waitFor({ state: "hidden" });
+      await expectSoon("0.040 mm", async () => (await window.status.innerText()).includes("0.040 mm"), () => window.status.innerText());
+      await window.status.click();
+      await host.page.locator(".quick-input-widget input").fill("");
+      await host.page.keyboard.press("Enter");
+      await window.squiggles.first().waitFor();
+    });
+    await checks.check("wedm.toml wins over the settings, and the status bar says so", async () => {
+      await writeFile(join(host.folder, "wedm.toml"), "correction = 0.03\n");
+      await expectSoon("0.030 mm", async () => (await window.status.innerText()).includes("0.030 mm"), () => window.status.innerText());
+      await window.squiggles.first().waitFor({ state: "hidden" });
+      await writeFile(join(host.folder, "wedm.toml"), "");
+      await window.squiggles.first().waitFor();
+    });
+    await checks.check("hover says what the number is", async () => {
+      await window.goToLine(line, 3);
+      await host.page.keyboard.press("Control+k");
+      await host.page.keyboard.press("Control+i");
+      await host.page.locator(".monaco-hover", { hasText: "bulge" }).first().waitFor();
+      await host.page.keyboard.press("Escape");
+    });
+    await checks.check("the quick fix is applied and saved, and nothing else is changed", async () => {
+      await window.goToLine(line, 3);
+      await host.page.keyboard.press("Control+.");
+      const first = host.page.locator(".action-widget .monaco-list-row.action").first();
+      await first.waitFor();
+      await checks.shot("quick-fix");
+      expectEqual("first fix", (await first.innerText()).includes("R 0.101 mm"), true);
+      await host.page.keyboard.press("Enter");
+      await window.squiggles.first().waitFor({ state: "hidden" });
+      await host.page.keyboard.press("Control+s");
+      await expectSoon("the file saved", async () => (await readFile(file, "utf8")) !== FILLET);
+      const [before, after] = [FILLET.split("\n"), (await readFile(file, "utf8")).split("\n")];
+      expectEqual("lines", after.length, before.length);
+      const changed = after.filter((text, index) => text !== before[index]);
+      expectEqual("changed lines", changed.length, 2);
+    });
+    await checks.check("undo brings the old numbers and the finding back", async () => {
+      await host.page.keyboard.press("Control+z");
+      await window.squiggles.first().waitFor();
+      await host.page.keyboard.press("Control+s");
+      await expectSoon("the old file", async () => (await readFile(file, "utf8")) === FILLET);
+    });
+    await checks.check("fix all repairs in one undo step", async () => {
+      await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
+      await window.squiggles.first().waitFor({ state: "hidden" });
+      await host.page.keyboard.press("Control+z");
+      await window.squiggles.first().waitFor();
+      await host.page.keyboard.press("Control+s");
+      await expectSoon("the old file", async () => (await readFile(file, "utf8")) === FILLET);
+    });
+  } finally {
+    await host.stop();
+  }
+}

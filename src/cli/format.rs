@@ -1,0 +1,145 @@
+//! `wedm format`: programs in their layout, with the same blocks.
+
+use super::changes::{diff, edited};
+use super::options::{Common, words};
+use super::output::{self, STRONG, counted, styled};
+use super::{Failure, Verdict, files};
+use crate::finding::Rule;
+use crate::program::{Language, language};
+use crate::settings::{Layout, ProgramSettings, Settings};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Bring programs into one layout
+///
+/// Blocks, words, comments and block numbers stay, and so does what the machine does: every line is read again before it is taken.
+/// Lines that cannot be read stay as they are. Without a layout, here or in the settings, a program keeps the one in which most of
+/// its blocks stand. Ends with 1 when `--check` or `--diff` find something to change.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm format plate.3b                     the formatted program, to stdout
+  wedm format --check programs/            which ones are not in their layout
+  wedm format --in-place --layout compact plate.3b")]
+pub struct Arguments {
+    /// Programs, and folders that are searched for them
+    #[arg(value_name = "PATH", required = true)]
+    paths: Vec<PathBuf>,
+    #[command(flatten)]
+    target: Target,
+    /// Form of the blocks [default: `program.layout` where it is set, else the program's own]
+    #[arg(long, value_parser = words::<Layout>(&["compact", "aligned", "checking"]))]
+    layout: Option<Layout>,
+    /// Word that ends the program [default: DD]
+    #[arg(long, value_name = "WORD")]
+    end: Option<String>,
+    /// Word that pauses it, to thread the wire [default: D]
+    #[arg(long, value_name = "WORD")]
+    pause: Option<String>,
+    /// Settings file, laid over the `wedm.toml` found upwards from the input
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+#[group(multiple = false)]
+struct Target {
+    /// Write the formatted program there (`-` is stdout); one PATH
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Write formatted programs over the inputs
+    #[arg(long)]
+    in_place: bool,
+    /// Name the programs that would change, and write nothing
+    #[arg(long)]
+    check: bool,
+    /// Print what would change, and write nothing
+    #[arg(long)]
+    diff: bool,
+}
+
+impl Target {
+    /// One program goes out as a whole.
+    fn is_one(&self) -> bool {
+        !(self.in_place || self.check || self.diff)
+    }
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let target = &arguments.target;
+    let files::Found { mut files, failures } = files::search(&arguments.paths);
+    // Folders hold drawings, too; a drawing that is named itself is refused.
+    files.retain(|path| arguments.paths.contains(path) || is_program(path));
+    if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {
+        return Err(Failure(format!("{} found, expected one, or --in-place, --check or --diff", counted(files.len(), "program"))));
+    }
+    if let (Some(out), [file]) = (&target.output, &files[..]) {
+        output::refuse_input(out, file)?;
+    }
+    let mut verdict = Verdict::Clean;
+    for Failure(sentence) in &failures {
+        output::complain(sentence);
+        verdict = Verdict::Failed;
+    }
+    let (mut changed, mut unchanged) = (0, 0);
+    for path in &files {
+        match format(arguments, path) {
+            Ok(true) => changed += 1,
+            Ok(false) => unchanged += 1,
+            Err(Failure(sentence)) => {
+                output::complain(&sentence);
+                verdict = Verdict::Failed;
+            }
+        }
+    }
+    if !target.is_one() {
+        let verb = if target.in_place { "formatted" } else { "would be formatted" };
+        output::say(&format!("{} {verb}, {unchanged} unchanged", counted(changed, "program")));
+    }
+    let differs = changed > 0 && (target.check || target.diff);
+    Ok(verdict.max(if differs { Verdict::Errors } else { Verdict::Clean }))
+}
+
+fn is_program(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| Language::of_ending(&ending.to_string_lossy().to_ascii_lowercase()).is_some())
+}
+
+/// Formats one program and delivers it; true where it was not in its layout.
+fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
+    let common = Common { config: arguments.config.clone(), ..Common::default() };
+    let program = ProgramSettings {
+        layout: arguments.layout,
+        end: arguments.end.clone(),
+        pause: arguments.pause.clone(),
+        ..ProgramSettings::default()
+    };
+    let mut opened = files::open(path, &common, &Settings { program: Some(program), ..Settings::default() })?;
+    files::refuse_faulty_settings(&opened)?;
+    let settings = opened.document.settings().clone();
+    let Some(program) = opened.document.program() else {
+        return Err(Failure(format!("{}: it is a drawing, expected a program", path.display())));
+    };
+    let text = program.text();
+    let edits = language::format(program, &settings, 0..text.line_count());
+    let before = text.bytes();
+    let after = edited(before, &edits).ok_or_else(|| Failure(format!("{}: internal error: the edits overlap", path.display())))?;
+    let is_changed = after != before;
+    let target = &arguments.target;
+    if target.diff {
+        output::print(diff(path, before, &after))?;
+    } else if target.check {
+        if is_changed {
+            output::print(format!("{} {}\n", styled(STRONG, "would be formatted:"), path.display()))?;
+        }
+    } else if !target.in_place {
+        output::write(target.output.as_deref(), &after)?;
+    } else if is_changed {
+        output::write(Some(path), &after)?;
+    }
+    let (findings, _) = opened.document.findings(usize::MAX);
+    let damaged = findings.iter().filter(|finding| finding.rule == Rule::Syntax).count();
+    if damaged > 0 {
+        output::say(&format!("{}: left as they stand: {} with a syntax error, see wedm check", path.display(), counted(damaged, "line")));
+    }
+    Ok(is_changed)
+}
