@@ -18,6 +18,7 @@ mod options;
 mod output;
 mod report;
 mod serve;
+mod simulate;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
@@ -55,6 +56,7 @@ enum Command {
     Inspect(inspect::Arguments),
     Draw(draw::Arguments),
     Contours(contours::Arguments),
+    Simulate(simulate::Arguments),
     Demo(demo::Arguments),
     Serve(serve::Arguments),
     Completions(completions::Arguments),
@@ -98,6 +100,7 @@ pub fn run() -> ExitCode {
         Some(Command::Inspect(arguments)) => inspect::run(&arguments),
         Some(Command::Draw(arguments)) => draw::run(&arguments),
         Some(Command::Contours(arguments)) => contours::run(&arguments),
+        Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
         Some(Command::Completions(arguments)) => completions::run(&arguments, &mut CommandLine::command()),
     };

@@ -292,7 +292,7 @@ impl Document {
 
     fn judge_open(&self, view: &mut View, index: usize) {
         let section = &view.sections[index];
-        let Some(last) = self.blocks_of(section).last() else { return };
+        let Some(last) = self.blocks_of(section).last().filter(|_| section.sum.unread == 0) else { return };
         let is_fragment = view.end.is_none() || section.sum.blocks <= not_closed::FRAGMENT;
         let fault = not_closed::fault(&section.sum);
         let severity = if is_fragment { Severity::Information } else { fault.rule().default_severity() };

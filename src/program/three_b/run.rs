@@ -151,6 +151,8 @@ pub(super) struct Sum {
     pub twice_area: f64,
     /// Faults that change where the way leads.
     pub errors: usize,
+    /// Blocks that could not be read: where the way leads is not known.
+    pub unread: usize,
     /// Tells two stretches apart: equal ways have equal marks.
     pub mark: u64,
     pub first: Option<Move>,
@@ -159,7 +161,7 @@ pub(super) struct Sum {
 
 impl Default for Sum {
     fn default() -> Self {
-        Sum { blocks: 0, arcs: 0, travel: Move::default(), twice_area: 0.0, errors: 0, mark: 0, first: None, last: None }
+        Sum { blocks: 0, arcs: 0, travel: Move::default(), twice_area: 0.0, errors: 0, unread: 0, mark: 0, first: None, last: None }
     }
 }
 
@@ -167,7 +169,7 @@ impl Sum {
     /// This stretch and then the next.
     pub fn then(&self, next: &Sum) -> Sum {
         if next.blocks == 0 {
-            return Sum { errors: self.errors + next.errors, ..*self };
+            return Sum { errors: self.errors + next.errors, unread: self.unread + next.unread, ..*self };
         }
         let (a, b) = (self.travel.meant_um(), next.travel.meant_um());
         Sum {
@@ -176,6 +178,7 @@ impl Sum {
             travel: self.travel.plus(next.travel),
             twice_area: self.twice_area + next.twice_area + a[0] * b[1] - a[1] * b[0],
             errors: self.errors + next.errors,
+            unread: self.unread + next.unread,
             mark: self.mark.wrapping_mul(POLYNOMIAL.wrapping_pow(next.blocks as u32)).wrapping_add(next.mark),
             first: self.first.or(next.first),
             last: next.last.or(self.last),
@@ -190,6 +193,7 @@ impl Sum {
             travel: entry.travel,
             twice_area: segment.and_then(Segment::as_arc).map_or(0.0, |arc| Segment::Arc(*arc).twice_area(origin)),
             errors: 0,
+            unread: 0,
             mark: mark_of(entry),
             first: Some(entry.travel),
             last: Some(entry.travel),
@@ -297,6 +301,7 @@ impl Run {
             }
             Item::Fault(fault) => {
                 open.sum.errors += 1;
+                open.sum.unread += usize::from(matches!(fault.flaw, Flaw::Unreadable(_)));
                 let sentence = || Detail::Syntax(fault.sentence());
                 let program = |fault| Detail::Program(Box::new(fault));
                 let (rule, detail) = match fault.flaw {
