@@ -5,7 +5,7 @@ use super::output::{self, counted, styled};
 use super::{Failure, Verdict, files, report};
 use crate::document::Document;
 use crate::finding::{Finding, Severity};
-use crate::program::three_b::{self, ProvedProgram};
+use crate::program::{Format, ProofError, ProvedProgram};
 use crate::settings::Settings;
 use crate::toolpath::{self, Refusal, WirePath};
 use clap::Args;
@@ -19,15 +19,16 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   wedm generate plate.dxf --side opening -o plate.3b
+  wedm generate plate.dxf --side opening --format iso --profile robofil --compensation controller -o plate.iso
   wedm generate plate.dxf --handle 2A --thread -115,-10 --layout checking
   wedm generate plate.dxf --side punch --correction 0.12 --corner intersection --direction cw")]
 pub struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Language of the program: 3b
-    #[arg(long, default_value = "3b", value_parser = format)]
-    format: String,
+    /// Language of the program: 3b, iso
+    #[arg(long, default_value = "3b", value_parser = Format::of)]
+    format: Format,
     /// Write the program there [default: stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
@@ -41,13 +42,6 @@ pub struct Arguments {
     program: Program,
     #[command(flatten)]
     common: Common,
-}
-
-fn format(text: &str) -> Result<String, String> {
-    match text.to_ascii_lowercase().as_str() {
-        "3b" => Ok("3b".into()),
-        _ => Err("there is: 3b".into()),
-    }
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
@@ -64,8 +58,14 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let Some(paths) = planned(arguments, &document)? else { return Ok(Verdict::Errors) };
     let unit_mm = document.drawing().map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
-    let program = three_b::write(&paths, unit_mm, document.settings())
-        .map_err(|error| Failure(format!("{}: internal error, no program is written: {error}", path.display())))?;
+    let program = match arguments.format.write(&paths, unit_mm, document.settings(), &mut |_, _| true) {
+        Ok(program) => program,
+        Err(ProofError::Refused(sentence)) => {
+            output::complain(&format!("{}: {sentence}", path.display()));
+            return Ok(Verdict::Errors);
+        }
+        Err(error) => return Err(Failure(format!("{}: internal error, no program is written: {error}", path.display()))),
+    };
     output::write(arguments.output.as_deref(), program.text.as_bytes())?;
     summarise(arguments, &program, paths.len());
     Ok(Verdict::Clean)
@@ -129,8 +129,9 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         counted(contours, "contour"),
         program.length
     ));
-    output::say(&format!(
-        "decoded again: at most {:.2} µm from the path; a controller that counts J drifts by {x:.2}, {y:.2} µm",
-        program.deviation
-    ));
+    let drift = match arguments.format {
+        Format::ThreeB => format!("; a controller that counts J drifts by {x:.2}, {y:.2} µm"),
+        Format::Iso => String::new(),
+    };
+    output::say(&format!("decoded again: at most {:.2} µm from the path{drift}", program.deviation));
 }

@@ -46,6 +46,9 @@ pub struct Program {
     /// Where the correction is applied
     #[arg(long, value_parser = words::<Compensation>(&["path", "controller", "none"]))]
     pub compensation: Option<Compensation>,
+    /// How an ISO program is written: fast-wire, robofil, generic, or one of the settings' [profiles]
+    #[arg(long, value_name = "NAME")]
+    pub profile: Option<String>,
     /// Word that ends the program [default: DD]
     #[arg(long, value_name = "WORD")]
     pub end: Option<String>,
@@ -71,6 +74,7 @@ impl Program {
             entry: self.entry.map(PointSetting::One),
             lead_in: self.lead_in,
             compensation: self.compensation,
+            profile: self.profile.clone(),
             end: self.end.clone(),
             pause: self.pause.clone(),
             ..ProgramSettings::default()

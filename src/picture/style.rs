@@ -93,7 +93,8 @@ pub(super) fn program_legend(sheet: &mut String, top: f64, has_ways: bool, has_f
         entries.push((r#"<path class="lead" d="M0 0h24"/>"#, "way without a cut"));
     }
     if has_faults {
-        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, "block with a finding"));
+        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, "error"));
+        entries.push((r#"<path class="other" d="M0 0h24"/>"#, "warning"));
     }
     let mut x = MARGIN;
     let _ = writeln!(sheet, r#"<g class="chrome">"#);

@@ -57,7 +57,7 @@ fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
         .map(|ends| PathSegment { geometry: Segment::line(ends[0], ends[1]), source: Source::Segment { entity: id, segment: 0 } })
         .collect();
     segments[0].source = Source::LeadIn;
-    let path = WirePath { outline: 0, correction: 0.1, thread_hole: at(20.0, 15.0), segments };
+    let path = WirePath { outline: 0, correction: 0.1, thread_hole: at(20.0, 15.0), side: None, segments };
     (drawing, vec![Outline { contour, role: Role::Opening, twice_area }], findings, vec![path])
 }
 

@@ -4,9 +4,14 @@
 //! machine goes. What a language alone knows stands in its own folder.
 
 mod document;
+mod format;
+pub mod grid;
 pub mod iso;
 pub mod language;
 pub mod three_b;
 pub mod trace;
+pub mod write;
 
 pub use document::{Document, Language};
+pub use format::Format;
+pub use write::{ProofError, ProvedProgram};

@@ -1,7 +1,7 @@
 //! `wedm/generate`: a program for the machine.
 
 use super::diagnostic::Diagnostic;
-use crate::program::three_b::ProvedProgram;
+use crate::program::ProvedProgram;
 use crate::settings::Settings;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "camelCase")]
 pub struct Generate {
     pub uri: String,
-    /// Language of the program: `3b`.
+    /// Language of the program: `3b` or `iso`.
     pub format: String,
     /// Only the contours that hold one of these entities.
     #[serde(default, skip_serializing_if = "Option::is_none")]

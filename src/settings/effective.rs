@@ -1,6 +1,7 @@
 //! Settings with every default filled in.
 
-use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, RuleSeverity, Settings, SideSetting, UnitSetting};
+use super::profile::DEFAULT_PROFILE;
+use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting};
 use crate::drawing::{Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
@@ -32,6 +33,8 @@ pub struct Effective {
     pub lead_in: f64,
     pub jumps: Jumps,
     pub compensation: Compensation,
+    /// How ISO programs are written; the sentence that says which profiles there are, where the one that is named is not among them.
+    pub profile: Result<Profile, String>,
     pub end: String,
     pub pause: String,
     pub tolerances: Tolerances,
@@ -84,6 +87,7 @@ impl Effective {
             lead_in: program.lead_in.unwrap_or(3.0),
             jumps: program.jumps.unwrap_or_default(),
             compensation: program.compensation.unwrap_or_default(),
+            profile: Profile::of(program.profile.as_deref().unwrap_or(DEFAULT_PROFILE), settings.profiles.as_ref()),
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),
             tolerances: Tolerances::default(),

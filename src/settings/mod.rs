@@ -5,12 +5,14 @@
 mod effective;
 mod from_json;
 mod from_toml;
+mod profile;
 mod reader;
 mod value;
 
 pub use effective::Effective;
 pub use from_json::from_json;
 pub use from_toml::{FILE_NAME, from_toml};
+pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Profile, ProfileSettings, Zero, shipped_profiles};
 
 use crate::drawing::Role;
 use crate::finding::Severity;
@@ -158,6 +160,9 @@ pub struct ProgramSettings {
     pub jumps: Option<Jumps>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compensation: Option<Compensation>,
+    /// How ISO programs are written: a profile that ships, or one of `profiles`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<String>,
     /// Word that ends the program.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end: Option<String>,
@@ -197,6 +202,9 @@ pub struct Settings {
     pub rules: Option<BTreeMap<String, RuleSeverity>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramSettings>,
+    /// Profiles of ISO programs by name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profiles: Option<BTreeMap<String, ProfileSettings>>,
 }
 
 impl Settings {
@@ -224,6 +232,16 @@ impl Settings {
                 (Some(earlier), Some(later)) => Some(earlier.overlaid(later)),
                 (earlier, later) => later.clone().or(earlier),
             },
+            profiles: match (earlier.profiles, &later.profiles) {
+                (Some(mut earlier), Some(later)) => {
+                    for (name, profile) in later {
+                        let merged = earlier.get(name).map_or_else(|| profile.clone(), |known| known.overlaid(profile));
+                        earlier.insert(name.clone(), merged);
+                    }
+                    Some(earlier)
+                }
+                (earlier, later) => later.clone().or(earlier),
+            },
         }
     }
 }
@@ -239,6 +257,7 @@ impl ProgramSettings {
             lead_in: later.lead_in.or(self.lead_in),
             jumps: later.jumps.or(self.jumps),
             compensation: later.compensation.or(self.compensation),
+            profile: later.profile.clone().or(self.profile.clone()),
             end: later.end.clone().or(self.end.clone()),
             pause: later.pause.clone().or(self.pause.clone()),
         }

@@ -1,7 +1,8 @@
 //! One level of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
 
+use super::profile::DECIMALS;
 use super::value::{Entry, Node, Value};
-use super::{Passes, PointSetting, ProgramSettings, RuleSeverity, Settings, SettingsError};
+use super::{Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings, SettingsError, shipped_profiles};
 use crate::drawing::Role;
 use crate::finding::Rule;
 use serde::de::value::{Error, StrDeserializer};
@@ -35,7 +36,12 @@ impl Reader {
                 "layers" => settings.layers = reader.layers(key, node),
                 "rules" => settings.rules = reader.rules(key, node),
                 "program" => settings.program = reader.program(key, node),
-                _ => reader.unknown(key, entry, "correction, wire-diameter, gap, side, units, margin, passes, layers, rules or program"),
+                "profiles" => settings.profiles = reader.profiles(key, node),
+                _ => reader.unknown(
+                    key,
+                    entry,
+                    "correction, wire-diameter, gap, side, units, margin, passes, layers, rules, program or profiles",
+                ),
             }
         });
         if settings.correction.is_some() && settings.wire_diameter.is_some() {
@@ -43,6 +49,18 @@ impl Reader {
             let message = "wire-diameter stands beside correction, expected one of the two; correction holds".into();
             self.errors.push(SettingsError { key: "wire-diameter".into(), message, range });
             settings.wire_diameter = None;
+        }
+        if let Some(program) = &mut settings.program {
+            let own = settings.profiles.iter().flat_map(|profiles| profiles.keys().cloned());
+            let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
+            names.sort_unstable();
+            names.dedup();
+            if let Some(entry) = entry_of(root, "program").and_then(|entry| entry_of(&entry.node, "profile"))
+                && program.profile.as_deref().is_some_and(|profile| !names.iter().any(|name| name == profile))
+            {
+                self.misfit::<()>("program.profile", &entry.node, &names.join(", "));
+                program.profile = None;
+            }
         }
         settings
     }
@@ -110,15 +128,121 @@ impl Reader {
                 "leadIn" => program.lead_in = reader.number_above_zero(key, node),
                 "jumps" => program.jumps = reader.name(key, node),
                 "compensation" => program.compensation = reader.name(key, node),
+                "profile" => program.profile = reader.text(key, node, "the name of a profile"),
                 "end" => program.end = reader.word(key, node),
                 "pause" => program.pause = reader.word(key, node),
                 _ => {
-                    let expected = "layout, direction, corner, thread, entry, lead-in, jumps, compensation, end or pause";
+                    let expected = "layout, direction, corner, thread, entry, lead-in, jumps, compensation, profile, end or pause";
                     reader.unknown(key, entry, expected);
                 }
             }
         })
         .then_some(program)
+    }
+
+    fn profiles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, ProfileSettings>> {
+        let mut profiles = BTreeMap::new();
+        self.table(key, node, |reader, key, entry| {
+            if let Some(profile) = reader.profile(key, &entry.node) {
+                profiles.insert(entry.key.clone(), profile);
+            }
+        })
+        .then_some(profiles)
+    }
+
+    fn profile(&mut self, key: &str, node: &Node) -> Option<ProfileSettings> {
+        let mut profile = ProfileSettings::default();
+        self.table(key, node, |reader, key, entry| {
+            let node = &entry.node;
+            match camel_case(&entry.key).as_str() {
+                "base" => profile.base = reader.base(key, node),
+                "coordinates" => profile.coordinates = reader.name(key, node),
+                "zero" => profile.zero = reader.name(key, node),
+                "unit" => profile.unit = reader.name(key, node),
+                "decimals" => {
+                    let range = (f64::from(*DECIMALS.start()), f64::from(*DECIMALS.end()));
+                    profile.decimals = reader.whole(key, node, range).map(|number| number as u8);
+                }
+                "center" => profile.center = reader.name(key, node),
+                "fullCircles" => profile.full_circles = reader.truth(key, node),
+                "modal" => profile.modal = reader.truth(key, node),
+                "spaces" => profile.spaces = reader.truth(key, node),
+                "numbers" => profile.numbers = reader.whole(key, node, (0.0, 1000.0)).map(|number| number as u32),
+                "lineEnd" => profile.line_end = reader.name(key, node),
+                "begin" => profile.begin = reader.lines(key, node),
+                "contourBegin" => profile.contour_begin = reader.lines(key, node),
+                "contourEnd" => profile.contour_end = reader.lines(key, node),
+                "pause" => profile.pause = reader.lines(key, node),
+                "end" => profile.end = reader.lines(key, node),
+                _ => {
+                    let expected = "base, coordinates, zero, unit, decimals, center, full-circles, modal, spaces, numbers, line-end, begin, \
+                                    contour-begin, contour-end, pause or end";
+                    reader.unknown(key, entry, expected);
+                }
+            }
+        })
+        .then_some(profile)
+    }
+
+    /// The name of a profile that ships.
+    fn base(&mut self, key: &str, node: &Node) -> Option<String> {
+        let name = self.text(key, node, "the name of a profile")?;
+        // The shipped profiles themselves are read by this reader and have no base.
+        if shipped_profiles().any(|shipped| shipped == name) {
+            return Some(name);
+        }
+        self.misfit(key, node, &shipped_profiles().collect::<Vec<_>>().join(", "))
+    }
+
+    /// Lines of a program in which `{x}`, `{y}` and `{side}` stand for something.
+    fn lines(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
+        let items = match &node.value {
+            Value::Null => return None,
+            Value::List(items) => items,
+            _ => return self.misfit(key, node, "a list of lines such as [\"G90\"]"),
+        };
+        let lines: Vec<Option<String>> =
+            items.iter().enumerate().map(|(index, item)| self.line(&format!("{key}[{index}]"), item)).collect();
+        lines.into_iter().collect()
+    }
+
+    fn line(&mut self, key: &str, node: &Node) -> Option<String> {
+        let line = self.text(key, node, "one line of text")?;
+        if line.chars().any(char::is_control) {
+            return self.misfit(key, node, "one line without control characters");
+        }
+        let mut rest = line.as_str();
+        while let Some(open) = rest.find('{') {
+            let end = rest[open..].find('}').map_or(rest.len(), |close| open + close + 1);
+            let name = &rest[open..end];
+            if !["{x}", "{y}", "{side}"].contains(&name) {
+                return self.complain(key, node, format!("{key} holds {name}, expected {{x}}, {{y}} or {{side}}"));
+            }
+            rest = &rest[end..];
+        }
+        Some(line)
+    }
+
+    fn text(&mut self, key: &str, node: &Node, expected: &str) -> Option<String> {
+        match &node.value {
+            Value::Null => None,
+            Value::Text(text) => Some(text.clone()),
+            _ => self.misfit(key, node, expected),
+        }
+    }
+
+    fn truth(&mut self, key: &str, node: &Node) -> Option<bool> {
+        match node.value {
+            Value::Null => None,
+            Value::Truth(truth) => Some(truth),
+            _ => self.misfit(key, node, "true or false"),
+        }
+    }
+
+    fn whole(&mut self, key: &str, node: &Node, (least, most): (f64, f64)) -> Option<f64> {
+        self.number(key, node, &format!("a whole number from {least} to {most}"), |number| {
+            number.fract() == 0.0 && (least..=most).contains(&number)
+        })
     }
 
     /// Hands each entry with its dotted key to `each`; false when there is no table.

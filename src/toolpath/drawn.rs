@@ -51,7 +51,7 @@ pub(super) fn one_path(
     if asked.iter().any(|point| (point - begin).norm() > join) {
         return None;
     }
-    Some(WirePath { outline: *chosen.first()?, correction: 0.0, thread_hole: begin, segments })
+    Some(WirePath { outline: *chosen.first()?, correction: 0.0, thread_hole: begin, side: None, segments })
 }
 
 fn is_circle(geometry: &Geometry) -> bool {

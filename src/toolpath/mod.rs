@@ -13,7 +13,7 @@ mod order;
 mod tests;
 
 use crate::drawing::{Drawing, EntityId, Outline};
-use crate::finding::{Finding, Rule, Severity};
+use crate::finding::{Finding, Rule, Severity, Side};
 use crate::geometry::{Point, Segment};
 use crate::settings::{Compensation, Effective};
 use clearance::Walls;
@@ -55,6 +55,8 @@ pub struct WirePath {
     pub correction: f64,
     /// Where the wire is threaded and comes back to.
     pub thread_hole: Point,
+    /// The side of travel on which the control is to let the wire run; `None` where the path is that of the wire.
+    pub side: Option<Side>,
     /// In order of travel, lead-in and lead-out included.
     pub segments: Vec<PathSegment>,
 }
@@ -72,11 +74,6 @@ const ROUNDING: f64 = 1e-6;
 
 /// The paths of all `outlines`, or of those that hold one of `handles`, in machining order.
 pub fn plan(drawing: &Drawing, outlines: &[Outline], settings: &Effective, handles: Option<&[String]>) -> Result<Vec<WirePath>, Refusal> {
-    if settings.compensation == Compensation::Controller {
-        return Err(Refusal::Sentence(
-            "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path".into(),
-        ));
-    }
     let chosen = order::chosen(drawing, outlines, handles)?;
     let join = settings.tolerances.join / settings.unit_of(drawing).mm;
     if settings.compensation == Compensation::None
@@ -93,7 +90,8 @@ pub fn plan(drawing: &Drawing, outlines: &[Outline], settings: &Effective, handl
     for (&index, wanted) in chosen.iter().zip(&wanted) {
         let path = match settings.compensation {
             Compensation::None => job.as_drawn(index, wanted),
-            Compensation::Path | Compensation::Controller => job.compensated(index, wanted, &all),
+            Compensation::Path => job.compensated(index, wanted, &all),
+            Compensation::Controller => job.controlled(index, wanted, &all),
         };
         match path {
             Ok(path) => paths.push(path),
@@ -209,6 +207,23 @@ impl Job<'_> {
         Ok(self.with_leads(index, correction, thread, begin_at(path, element, begin), true))
     }
 
+    /// The part's contour, which the control offsets, with the thread hole of the path that comes of it.
+    ///
+    /// That path is made all the same: where it cannot be, the control would cut into the part or stop.
+    fn controlled(&self, index: usize, wanted: &Wanted, all: &Walls) -> Result<WirePath, Refusal> {
+        let offset = self.compensated(index, wanted, all)?;
+        let outline = &self.outlines[index];
+        let (contour, turned) = directed(outline, self.settings.direction);
+        let side = outline.wire_side().map(|side| if turned { side.reversed() } else { side });
+        let walls = walls(contour.segments(self.drawing), true, self.units(self.settings.tolerances.zero_length));
+        let Some(entry) = self.entry(outline, &walls, wanted)?.or_else(|| default_entry(&walls)) else {
+            return Err(Refusal::Sentence(format!("contour {} has no length", name(self.drawing, outline))));
+        };
+        let path = walls.iter().enumerate().map(|(wall, w)| Element { geometry: w.geometry, source: w.source, wall }).collect();
+        let path = begin_at(path, entry.wall, entry.point);
+        Ok(WirePath { side, ..self.with_leads(index, 0.0, offset.thread_hole, path, true) })
+    }
+
     /// The entry that is asked for, or the one nearest to the thread hole; `None` where neither is given.
     fn entry(&self, outline: &Outline, walls: &[Wall], wanted: &Wanted) -> Result<Option<Entry>, Refusal> {
         let tie = self.units(ROUNDING);
@@ -238,7 +253,7 @@ impl Job<'_> {
         if thread_hole != begin && closed {
             segments.push(PathSegment { geometry: Segment::line(end, thread_hole), source: Source::LeadOut });
         }
-        WirePath { outline, correction, thread_hole, segments }
+        WirePath { outline, correction, thread_hole, side: None, segments }
     }
 }
 

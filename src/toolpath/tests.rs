@@ -261,12 +261,6 @@ fn what_cannot_be_planned_is_refused_in_a_sentence() {
     check_refused(
         SQUARE,
         Some(Role::Opening),
-        Effective { compensation: Compensation::Controller, ..defaults() },
-        "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path",
-    );
-    check_refused(
-        SQUARE,
-        Some(Role::Opening),
         Effective { correction: 5.5, ..defaults() },
         "the wire with a correction of 5.500 mm does not fit along contour 2A near (0.000, 0.000): its path would cut into the part",
     );

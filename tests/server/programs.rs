@@ -44,8 +44,10 @@ fn what_cannot_be_asked_for_is_refused_and_what_can_is_named() {
         assert_eq!(error["code"], code, "{error}");
         assert!(error["message"].as_str().unwrap().contains(message), "{error}");
     };
-    check(json!({ "uri": URI, "format": "iso" }), -32602, "expected \"3b\"");
-    check(json!({ "uri": URI, "format": "4b" }), -32602, "expected \"3b\"");
+    check(json!({ "uri": URI, "format": "5x" }), -32602, "expected \"3b\"");
+    check(json!({ "uri": URI, "format": "step" }), -32602, "\"iso\"");
+    let options = json!({ "side": "opening", "program": { "profile": "none" } });
+    check(json!({ "uri": URI, "format": "iso", "options": options }), -32602, "expected fast-wire, generic, robofil");
     check(json!({ "uri": URI }), -32602, "format");
     check(json!({ "uri": "cad:///none", "format": "3b" }), -32602, "is not open");
     check(json!({ "uri": URI, "format": "3b" }), -32803, "side of contour 2A is not known");

@@ -1,4 +1,4 @@
--- wedm for Neovim, 0.7 and later. No plugin is needed.
+-- wedm for Neovim 0.7 to 0.10. No plugin is needed. For 0.11 and later see lsp/wedm.lua.
 --
 --   :luafile /path/to/wedm.lua            or, in init.lua:
 --   dofile('/path/to/wedm.lua').setup { settings = { correction = 0.12 } }
@@ -7,8 +7,13 @@
 
 local M = {}
 
-local languages = { dxf = 'dxf', ['3b'] = '3b' }
+local languages = { dxf = 'dxf', ['3b'] = '3b', iso = 'wire-iso', nc = 'wire-iso' }
 local clients = {} -- root folder -> client id
+
+-- Deaths within this many seconds count together; after as many as there are delays (ms) the server stays down.
+local forgiven_after = 120
+local delays = { 0, 500, 1000, 2000, 4000 }
+local deaths = {}
 
 -- The folder of the nearest wedm.toml or .git above the file, else the file's own folder.
 local function root_of(path)
@@ -36,14 +41,40 @@ local function start(options, root)
         workspace_folders = { { uri = vim.uri_from_fname(root), name = root } },
         init_options = options.settings or {},
         settings = { wedm = options.settings or {} },
-        get_language_id = function(_, filetype)
-            return languages[filetype] or filetype
-        end,
         on_attach = options.on_attach,
-        on_exit = function()
+        on_exit = function(code, signal)
             clients[root] = nil
+            if code ~= 0 or signal ~= 0 then
+                vim.schedule(function() M.again(options, root) end)
+            end
         end,
     }
+end
+
+-- Starts a server that has died again. What is in its buffers now is opened in the new one.
+function M.again(options, root)
+    local buffers = vim.tbl_filter(function(buffer)
+        return vim.api.nvim_buf_is_loaded(buffer) and vim.tbl_contains(vim.tbl_values(languages), vim.bo[buffer].filetype)
+            and root_of(vim.api.nvim_buf_get_name(buffer)) == root
+    end, vim.api.nvim_list_bufs())
+    if #buffers == 0 or vim.v.exiting ~= vim.NIL then
+        return
+    end
+    local now = vim.loop.now() / 1000
+    deaths = vim.tbl_filter(function(death) return now - death < forgiven_after end, deaths)
+    deaths[#deaths + 1] = now
+    if not delays[#deaths] then
+        vim.notify('wedm has ended ' .. #deaths .. ' times within two minutes and is not started again; its log: ' .. vim.lsp.get_log_path(),
+            vim.log.levels.ERROR)
+        return
+    end
+    vim.defer_fn(function()
+        for _, buffer in ipairs(buffers) do
+            if vim.api.nvim_buf_is_loaded(buffer) then
+                M.attach(options, buffer)
+            end
+        end
+    end, delays[#deaths])
 end
 
 function M.attach(options, buffer)
@@ -57,6 +88,11 @@ function M.attach(options, buffer)
     end
     if clients[root] then
         vim.lsp.buf_attach_client(buffer, clients[root])
+        if vim.fn.has('nvim-0.8') == 0 then
+            -- 0.7 stops to follow a buffer that is edited while it has no client, and does not start again. With the number of a client
+            -- that there never is, it has one.
+            vim.lsp.buf_attach_client(buffer, 0)
+        end
     end
 end
 
@@ -69,7 +105,7 @@ function M.setup(options)
     local group = vim.api.nvim_create_augroup('wedm', { clear = true })
     vim.api.nvim_create_autocmd({ 'BufRead', 'BufNewFile' }, {
         group = group,
-        pattern = { '*.dxf', '*.DXF', '*.3b', '*.3B' },
+        pattern = { '*.dxf', '*.DXF', '*.3b', '*.3B', '*.iso', '*.ISO', '*.nc', '*.NC' },
         callback = function(event)
             local extension = vim.fn.fnamemodify(event.match, ':e'):lower()
             vim.bo[event.buf].filetype = languages[extension]

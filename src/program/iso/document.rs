@@ -1,6 +1,6 @@
 //! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
 
-use super::block::{Motion, Stop, read_line};
+use super::block::{Code, Motion, Note, Stop, read_line};
 use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Reading, micrometres};
 use super::order::{Order, order};
@@ -8,9 +8,11 @@ use super::stretch::Stretch;
 use crate::finding::{Finding, Fix};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
-use crate::settings::Effective;
+use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::{SourceText, TextEdit};
+use std::collections::BTreeSet;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// Lines that are run together: an edit costs as many, and a program has as many fewer stretches.
 const STRETCH: usize = 128;
@@ -39,8 +41,10 @@ pub(super) struct Limits {
     pub correction: f64,
     pub side: crate::settings::SideSetting,
     pub compensation: crate::settings::Compensation,
-    /// Words that the profile of the settings writes.
+    /// The word that ends a program of the settings' profile.
     pub end: String,
+    /// Words that profiles write: whoever has a profile for a machine knows what they mean there.
+    pub known: BTreeSet<Code>,
     /// Where full circles alone leave open how I and J are meant.
     pub center: CenterRule,
 }
@@ -51,10 +55,40 @@ impl Limits {
             correction: settings.correction,
             side: settings.side,
             compensation: settings.compensation,
-            end: "M02".into(),
-            center: CenterRule::StartToCenter,
+            end: end_word(settings),
+            known: known_words(settings),
+            center: settings.profile.as_ref().map_or(CenterRule::StartToCenter, |profile| profile.center),
         }
     }
+}
+
+static SHIPPED_WORDS: LazyLock<BTreeSet<Code>> = LazyLock::new(|| {
+    shipped_profiles().filter_map(|name| Profile::of(name, None).ok()).flat_map(|profile| words_of_profile(&profile)).collect()
+});
+
+fn known_words(settings: &Effective) -> BTreeSet<Code> {
+    let own = settings.profile.iter().flat_map(words_of_profile);
+    SHIPPED_WORDS.iter().copied().chain(own).collect()
+}
+
+/// The words of a profile's lines that are a matter of the machine.
+fn words_of_profile(profile: &Profile) -> Vec<Code> {
+    let mut codes = Vec::new();
+    for line in [&profile.begin, &profile.contour_begin, &profile.contour_end, &profile.pause, &profile.end].into_iter().flatten() {
+        read_line(line.replace(['{', '}'], " ").as_bytes(), 1, |note| {
+            if let Note::Foreign { code, .. } = note {
+                codes.push(code);
+            }
+        });
+    }
+    codes
+}
+
+/// M02 or M30, as the settings' profile has it.
+fn end_word(settings: &Effective) -> String {
+    let lines = settings.profile.iter().flat_map(|profile| &profile.end);
+    let mut ends = lines.filter(|line| read_line(line.as_bytes(), 1, |_| {}).stop == Some(Stop::End));
+    ends.next_back().map_or_else(|| "M02".into(), |line| line.trim().into())
 }
 
 /// A stretch and the line of the text at which it begins.

@@ -7,21 +7,13 @@ use super::block::{Block, Compensation, Motion, Offset, Stop};
 use super::word::Number;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
+pub use crate::settings::CenterRule;
 
 /// Nanometres in a micrometre.
 pub const MICROMETRE: i64 = 1_000;
 
 /// A place in nm.
 pub type Place = [i64; 2];
-
-/// How I and J lead to an arc's centre.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CenterRule {
-    StartToCenter,
-    CenterToStart,
-    /// The centre itself in the coordinates of the program.
-    Absolute,
-}
 
 /// How the numbers of a program are to be read: found from the program as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

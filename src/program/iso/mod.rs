@@ -4,6 +4,7 @@
 
 mod block;
 mod document;
+mod encode;
 mod evidence;
 mod fixes;
 mod machine;
@@ -13,8 +14,10 @@ mod stretch;
 #[cfg(test)]
 mod tests;
 mod word;
+mod write;
 
 pub use block::{Block, Compensation, Motion, Note, Offset, Stop, read_line};
 pub use document::Document;
 pub use machine::{CenterRule, Course, Machine, Move, Reading};
 pub use word::{Number, Token, WordFault, words};
+pub use write::{write, write_with};

@@ -319,7 +319,9 @@ impl<'a> Report<'a> {
     }
 
     fn foreign_words(&mut self) {
-        let mut words: Vec<_> = std::mem::take(&mut self.foreign).into_values().collect();
+        let mut words = std::mem::take(&mut self.foreign);
+        words.retain(|code, _| !self.limits.known.contains(code));
+        let mut words: Vec<_> = words.into_values().collect();
         words.sort_by_key(|(range, _)| range.start);
         for (range, count) in words {
             let word: String = self.shown(&range);

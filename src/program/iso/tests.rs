@@ -1,5 +1,7 @@
 //! Reading ISO: what lines say, how centres are meant, what is wrong, and that an edited text is the one read afresh.
 
+mod writing;
+
 use super::document::Document;
 use super::machine::CenterRule;
 use super::word::{Number, Token, WordFault, words};
@@ -127,8 +129,8 @@ fn each_fault_is_named_at_its_line() {
     check(&(with("G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000") + "G01 X5\nG01 X-5\n%\n"), &[(7, "text-after-end")]);
     check(&with("N1 G01 X1000\nN2 G01 Y1000\nN1 G01 X-1000 Y-1000"), &[(5, "block-number")]);
     check(
-        &with("G60\nT84\nT85\nM50 G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000"),
-        &[(3, "machine-dependent"), (4, "machine-dependent"), (6, "machine-dependent")],
+        &with("G61\nG60\nT84\nT85\nM50 G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000"),
+        &[(3, "machine-dependent"), (5, "machine-dependent"), (7, "machine-dependent")],
     );
     check(&with("G42 D1\nG03 X1000 I500 J0\nG01 Y1000\nG01 X-1000 Y-1000"), &[(4, "compensation-switch")]);
     check(&with("G42 D1\nG00 X1000\nG01 Y1000\nG01 X1000\nG01 X-1000 Y-1000\nG40\nG00 X-1000"), &[(4, "compensation-switch")]);

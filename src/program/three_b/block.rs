@@ -1,14 +1,9 @@
 //! One block of 3B as typed numbers in micrometres; what it looks like as text is in `layout` and `parse`.
 
+pub use crate::program::grid::Node;
+
 /// The largest number that a six-digit controller takes, in µm: longer blocks are split.
 pub const LARGEST: i64 = 999_999;
-
-/// A node of a program on its µm grid, in absolute coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Node {
-    pub x: i64,
-    pub y: i64,
-}
 
 /// G: the axis whose projections the controller counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

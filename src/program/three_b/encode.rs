@@ -2,7 +2,9 @@
 
 use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
 use super::decode::{decode, phase};
-use crate::geometry::{Arc, Line, Point, Segment};
+use crate::geometry::{Arc, Line, Segment};
+use crate::program::grid::{best_center, chord_count, grid_centers, in_pieces, sagitta};
+pub use crate::program::grid::{point_of, snap};
 use std::f64::consts::{PI, TAU};
 
 /// How far a decoded block may end from its node, µm.
@@ -24,17 +26,6 @@ pub struct Encoded {
     pub from: Node,
     pub to: Node,
     pub piece: Segment,
-}
-
-/// The grid point nearest to a point in µm; `None` beyond what a program can address exactly.
-pub fn snap(point: Point) -> Option<Node> {
-    const FAR: f64 = 1e12;
-    let fits = |value: f64| value.abs() <= FAR;
-    (fits(point.x) && fits(point.y)).then(|| Node { x: point.x.round() as i64, y: point.y.round() as i64 })
-}
-
-pub(super) fn point_of(node: Node) -> Point {
-    Point::new(node.x as f64, node.y as f64)
 }
 
 /// Appends the blocks of `piece` (µm) from `from` to `to`, the snapped ends of it.
@@ -59,23 +50,6 @@ fn encode_line(line: &Line, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> 
         blocks.push(Encoded { block: line_block(from, to), from, to, piece });
         Some(())
     })
-}
-
-/// Cuts `whole` into `count` pieces of equal length with snapped nodes between them; pieces without length are left out.
-fn in_pieces(whole: &Segment, from: Node, to: Node, count: i64, mut each: impl FnMut(Segment, Node, Node) -> Option<()>) -> Option<()> {
-    if count <= 1 {
-        return each(*whole, from, to);
-    }
-    let (mut node, mut share) = (from, 0.0);
-    for number in 1..=count {
-        let next_share = number as f64 / count as f64;
-        let next = if number == count { to } else { snap(whole.point_at(next_share))? };
-        if next != node {
-            each(whole.part(share, next_share), node, next)?;
-            (node, share) = (next, next_share);
-        }
-    }
-    Some(())
 }
 
 /// The block of a straight line between two different nodes.
@@ -128,21 +102,10 @@ fn encode_arc(arc: &Arc, from: Node, to: Node, depth: u32, blocks: &mut Vec<Enco
     }
 }
 
-fn sagitta(arc: &Arc) -> f64 {
-    arc.radius * (1.0 - (arc.sweep.abs() / 2.0).min(PI).cos())
-}
-
 /// Lines whose sagitta stays below [`CHORD_SAGITTA`].
 fn chords(arc: &Arc, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> Option<()> {
-    let half_step = (1.0 - (CHORD_SAGITTA / arc.radius).min(1.0)).acos();
-    // Where the radius is so large that the step vanishes in rounding, s = l² / 8r gives it.
-    let step = if half_step > 1e-6 { 2.0 * half_step } else { (8.0 * CHORD_SAGITTA / arc.radius).sqrt() };
-    let length = arc.radius * arc.sweep.abs();
-    let count = (arc.sweep.abs() / step).ceil();
-    if !count.is_finite() || !length.is_finite() || count > 1e7 {
-        return None;
-    }
-    in_pieces(&Segment::Arc(*arc), from, to, (count as i64).max(1), |piece, from, to| {
+    let count = chord_count(arc, CHORD_SAGITTA)?;
+    in_pieces(&Segment::Arc(*arc), from, to, count, |piece, from, to| {
         let mut straight = Vec::new();
         encode_line(&Line { start: piece.start(), end: piece.end() }, from, to, &mut straight)?;
         blocks.extend(straight);
@@ -234,39 +197,4 @@ fn projections(first: f64, last: f64, radius: f64, phase: f64, sweep: f64) -> f6
     // The counted coordinate is R cos(phase): at the end of an even half turn it is −R.
     let extreme = |half_turn: f64| if half_turn % 2.0 == 0.0 { -radius } else { radius };
     (extreme(half_turn) - first).abs() + 2.0 * radius * (crossings - 1.0) + (last - extreme(half_turn + crossings - 1.0)).abs()
-}
-
-#[derive(Clone, Copy)]
-struct GridCenter {
-    node: Node,
-    /// By how much it is further from the arc's start than from its end, or nearer.
-    difference: f64,
-    /// From the true centre.
-    away: f64,
-}
-
-/// The nine grid points around the true centre.
-fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
-    let nearest = Node { x: arc.center.x.round() as i64, y: arc.center.y.round() as i64 };
-    std::array::from_fn(|index| {
-        let node = Node { x: nearest.x + index as i64 / 3 - 1, y: nearest.y + index as i64 % 3 - 1 };
-        let difference = (distance(from, node) - distance(to, node)).abs();
-        GridCenter { node, difference, away: (point_of(node) - arc.center).norm() }
-    })
-}
-
-/// The grid centre that is most nearly as far from the start as from the end; the nearest one where they are equally good.
-fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
-    let [mut best, others @ ..] = grid_centers(arc, from, to);
-    for center in others {
-        let nearer = center.difference < best.difference + 1e-9 && center.away < best.away;
-        if center.difference < best.difference - 1e-9 || nearer {
-            best = center;
-        }
-    }
-    best.node
-}
-
-fn distance(a: Node, b: Node) -> f64 {
-    (point_of(a) - point_of(b)).norm()
 }

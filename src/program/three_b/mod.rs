@@ -18,6 +18,7 @@ mod run;
 mod tests;
 mod write;
 
+pub use crate::program::write::{ProofError, ProvedProgram};
 pub use block::{Block, CountingAxis, LARGEST, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
 pub use document::{Document, PlacedBlock};
@@ -25,4 +26,4 @@ pub use encode::{Encoded, encode, snap};
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};
 pub use parse::{Flaw, Item, StatedPoint, SyntaxFault, Word, Words, read, read_line};
-pub use write::{ProofError, ProvedProgram, write, write_with};
+pub use write::{write, write_with};

@@ -3,10 +3,11 @@
 use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
 use super::encode::{END_TOLERANCE, Encoded, encode, point_of, snap};
 use super::parse::{Item, StatedPoint, Word, Words, read};
-use super::write::{ProofError, ProvedProgram, write, write_with};
+use super::write::{write, write_with};
 use super::{DecodeFault, decode};
 use crate::drawing::EntityId;
 use crate::geometry::{Arc, Point, Segment, Vector, direction};
+use crate::program::{ProofError, ProvedProgram};
 use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use proptest::prelude::*;
@@ -16,7 +17,7 @@ fn path_of(segments: Vec<Segment>) -> WirePath {
     let source = Source::Segment { entity: EntityId(0), segment: 0 };
     let thread_hole = segments.first().map_or_else(Point::origin, Segment::start);
     let segments = segments.into_iter().map(|geometry| PathSegment { geometry, source }).collect();
-    WirePath { outline: 0, correction: 0.0, thread_hole, segments }
+    WirePath { outline: 0, correction: 0.0, thread_hole, side: None, segments }
 }
 
 fn written(segments: Vec<Segment>) -> ProvedProgram {

@@ -3,7 +3,7 @@
 use super::{Errand, Subject, Task, internal, refusal, refused, refused_with, run, subject_of, with_options, written};
 use crate::document::{Document, Source};
 use crate::finding::{Finding, Severity};
-use crate::program::three_b::{self, ProofError};
+use crate::program::{Format, ProofError};
 use crate::protocol::{Diagnostic, Program};
 use crate::server::convert;
 use crate::server::jobs::{Cancel, Progress};
@@ -15,9 +15,6 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
-
-/// The languages that can be written.
-const FORMATS: [&str; 1] = ["3b"];
 
 /// Params of the request; the options are read by the settings' own reader, which names a misfit.
 #[derive(Deserialize)]
@@ -36,12 +33,13 @@ pub(in crate::server) fn generate(state: &mut State, params: Params, errand: Err
         }
         Ok(job) => {
             let stamp = job.stamp;
-            run(state, "Generating 3B", &params.uri, (stamp, false), errand, move |cancel, progress| job.run(cancel, progress));
+            run(state, "Generating the program", &params.uri, (stamp, false), errand, move |cancel, progress| job.run(cancel, progress));
         }
     }
 }
 
 struct Job {
+    format: Format,
     document: Arc<Document>,
     stamp: u64,
     options: Option<Arc<Effective>>,
@@ -52,10 +50,7 @@ struct Job {
 
 fn prepare(state: &mut State, params: &Params) -> Result<Job> {
     let uri = &params.uri;
-    if !FORMATS.contains(&params.format.as_str()) {
-        let message = format!("format is \"{}\", expected {}", params.format, FORMATS.map(|format| format!("\"{format}\"")).join(" or "));
-        return Err(Error::invalid_params(message));
-    }
+    let format = Format::of(&params.format).map_err(Error::invalid_params)?;
     let options = with_options(state, uri, params.options.as_ref())?;
     let Subject { document, stamp, .. } = subject_of(state, uri)?;
     for handle in params.handles.iter().flatten() {
@@ -64,7 +59,7 @@ fn prepare(state: &mut State, params: &Params) -> Result<Job> {
         }
     }
     let force = params.force.unwrap_or(false);
-    Ok(Job { document, stamp, options, handles: params.handles.clone(), force, encoding: state.encoding })
+    Ok(Job { format, document, stamp, options, handles: params.handles.clone(), force, encoding: state.encoding })
 }
 
 impl Job {
@@ -95,7 +90,8 @@ impl Job {
             progress.share("writing and proving the program", done, all);
             !cancel.is_cancelled()
         };
-        let program = three_b::write_with(&paths, task.unit_mm(), &task.settings, &mut go_on).map_err(|error| match error {
+        let program = self.format.write(&paths, task.unit_mm(), &task.settings, &mut go_on).map_err(|error| match error {
+            ProofError::Refused(sentence) => refused(sentence),
             ProofError::Cancelled => Error::request_cancelled(),
             ProofError::Mismatch(reason) => internal(format!("the program does not hold its proof: {reason}")),
         })?;

@@ -1,0 +1,275 @@
+#!/usr/bin/env python3
+"""Runs a session in each editor named and says what was seen; prints one line of counts at the end.
+
+Each editor opens a drawing with one fault, shows it, applies the fix that the server offers, and saves. Nothing is taken from the
+editor's word alone: the file that it wrote is compared with the one it was given, and checked by `wedm check`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+WEDM = os.environ.get("WEDM", str(ROOT / "target/release/wedm"))
+DRAWING = ROOT / "tests/data/tight_fillet.dxf"
+ARTIFACTS = ROOT / "target/artifacts/editors"
+TOOLS = HERE / ".tools"
+#: Folder in which what editor and server say to each other is written down, or nothing.
+RECORD = os.environ.get("WEDM_RECORD_SESSIONS")
+
+FAULT = "arc R 0.050 mm is below the correction 0.100 mm"
+OFFERED = "Replace the arc by one of R 0.101 mm"
+
+
+class Failed(Exception):
+    """What was expected and not seen."""
+
+
+def expect(holds: bool, what: str) -> None:
+    if not holds:
+        raise Failed(what)
+
+
+class Place:
+    """A folder with a drawing, a home, and a PATH on which `wedm` stands."""
+
+    def __init__(self, editor: str) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix=f"wedm-{editor}-"))
+        self.drawing = self.folder / "die.dxf"
+        shutil.copy(DRAWING, self.drawing)
+        (self.folder / "home/.config").mkdir(parents=True)
+        programs = self.folder / "programs"
+        programs.mkdir()
+        server = programs / "wedm"
+        if RECORD:
+            target = Path(RECORD).resolve() / f"{editor}.jsonl"
+            server.write_text(f'#!/bin/sh\nWEDM_RECORD="{target}" WEDM="{WEDM}" exec python3 "{ROOT}/tests/protocol/record.py" "$@"\n')
+            server.chmod(0o755)
+        else:
+            server.symlink_to(WEDM)
+        # No desktop, no settings of the one who runs the tests.
+        kept = {key: value for key, value in os.environ.items() if not key.startswith(("XDG_", "DBUS_", "WAYLAND_"))}
+        self.environment = {
+            **kept,
+            "HOME": str(self.folder / "home"),
+            "XDG_CONFIG_HOME": str(self.folder / "home/.config"),
+            "XDG_DATA_HOME": str(self.folder / "home/.local/share"),
+            "PATH": f"{programs}:{os.environ['PATH']}",
+            "LANG": "C.UTF-8",
+            "TERM": "xterm-256color",
+            "WEDM_DRAWING": str(self.drawing),
+        }
+
+    def run(self, words: list[str], limit: float = 90, **environment: str) -> str:
+        try:
+            ended = subprocess.run(
+                words, cwd=self.folder, env={**self.environment, **environment}, stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=limit, check=False,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired as late:
+            raise Failed(f"{words[0]} did not end within {limit:g} s\n{(late.stdout or b'').decode(errors='replace')}") from None
+        said = ended.stdout.decode(errors="replace").replace("\r", "")
+        expect(ended.returncode == 0 and "\nFAIL" not in f"\n{said}", f"{words[0]} ended with {ended.returncode}:\n{said}")
+        return said
+
+    def check_drawing(self) -> None:
+        """Only numbers of the arc's two vertices have changed, and the drawing is clean."""
+        old, new = DRAWING.read_bytes().split(b"\n"), self.drawing.read_bytes().split(b"\n")
+        expect(len(old) == len(new), f"the file had {len(old)} lines and has {len(new)}")
+        changed = [number for number, pair in enumerate(zip(old, new, strict=True), 1) if pair[0] != pair[1]]
+        expect(bool(changed) and set(changed) <= set(range(37, 49)), f"lines {changed} differ")
+        ended = subprocess.run([WEDM, "check", str(self.drawing)], capture_output=True, text=True, timeout=20, check=False)
+        expect(ended.returncode == 0, f"the repaired drawing has errors:\n{ended.stdout}")
+
+    def log(self, name: str, content: str) -> None:
+        ARTIFACTS.mkdir(parents=True, exist_ok=True)
+        (ARTIFACTS / name).write_text(content)
+
+
+def saw(said: str, *expected: str) -> None:
+    for line in expected:
+        expect(line in said, f"no {line!r} in:\n{said}")
+
+
+def neovim(program: str, native: bool, editor: str) -> None:
+    place = Place(editor)
+    words = [program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(HERE / "neovim/session.lua")]
+    said = place.run(words, WEDM_CONFIGURATION=str(HERE / "neovim"), WEDM_NATIVE="1" if native else "0")
+    place.log(f"{editor}.txt", said)
+    saw(said, FAULT, f"offered: {OFFERED}", "fixed and written", "the server was killed and started again: 1 fault")
+    place.check_drawing()
+
+
+def neovim_without_server(program: str, native: bool, editor: str) -> None:
+    place = Place(editor + "-without")
+    (place.folder / "programs/wedm").unlink()
+    paths = [path for path in place.environment["PATH"].split(":") if not os.path.exists(f"{path}/wedm")]
+    if native:
+        start = f"vim.opt.runtimepath:append('{HERE}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
+    else:
+        start = f"dofile('{HERE}/neovim/wedm.lua').setup {{}}"
+    script = place.folder / "start.lua"
+    script.write_text(start + "\nvim.cmd('edit ' .. vim.env.WEDM_DRAWING)\nvim.wait(300)\nvim.cmd('qall!')\n")
+    said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=":".join(paths))
+    saw(said, "cargo install --path .")
+
+
+def emacs(program: str, editor: str) -> None:
+    place = Place(editor)
+    seen = place.folder / "seen.txt"
+    # A terminal of its own: as a batch Emacs has no command loop, and does not hear of the server's death.
+    words = ["script", "-qec", f"stty rows 40 cols 120; {program} -nw -q -l {HERE}/emacs/session.el", "/dev/null"]
+    try:
+        place.run(words, WEDM_CONFIGURATION=str(HERE / "emacs"), WEDM_SEEN=str(seen), TERM="xterm")
+    except Failed as failed:
+        raise Failed(f"{seen.read_text() if seen.exists() else ''}{failed}") from None
+    said = seen.read_text()
+    place.log(f"{editor}.txt", said)
+    saw(said, FAULT, "mode: dxf-mode", f"offered: {OFFERED}", "fixed and written", "the server was killed and started again: 1 fault")
+    place.check_drawing()
+
+
+class Terminal:
+    """A program in a terminal that keys are typed into and whose screen is read."""
+
+    def __init__(self, place: Place, words: list[str]) -> None:
+        self._socket = f"{place.folder}/tmux"
+        self._place = place
+        self._tmux("new-session", "-d", "-x", "140", "-y", "40", "--", *words)
+
+    def _tmux(self, *words: str) -> str:
+        command = ["tmux", "-S", self._socket, "-f", "/dev/null", *words]
+        ended = subprocess.run(command, env=self._place.environment, cwd=self._place.folder, capture_output=True, text=True, timeout=20, check=False)
+        return ended.stdout
+
+    def type(self, *keys: str) -> None:
+        self._tmux("send-keys", *keys)
+        time.sleep(0.2)
+
+    def screen(self) -> str:
+        return self._tmux("capture-pane", "-p")
+
+    def wait(self, what: str, holds: Callable[[str], bool], limit: float = 20) -> str:
+        end = time.monotonic() + limit
+        while time.monotonic() < end:
+            screen = self.screen()
+            if holds(screen):
+                return screen
+            time.sleep(0.1)
+        raise Failed(f"no {what} within {limit:g} s; on the screen:\n{self.screen()}")
+
+    def server(self) -> int | None:
+        """The process of the server that runs on this terminal."""
+        pane = self._tmux("display-message", "-p", "#{pane_pid}").strip()
+        children = subprocess.run(["pgrep", "-P", pane], capture_output=True, text=True, check=False).stdout.split()
+        return int(children[0]) if children else None
+
+    def close(self) -> None:
+        self._tmux("kill-server")
+
+
+def helix(program: str, editor: str) -> None:
+    place = Place(editor)
+    configuration = place.folder / "home/.config/helix"
+    configuration.mkdir()
+    shutil.copy(HERE / "helix/languages.toml", configuration)
+    # Messages stand beside the lines, so that they are on the screen.
+    (configuration / "config.toml").write_text('[editor.inline-diagnostics]\ncursor-line = "hint"\n')
+    runtime = Path(program).parent / "runtime"
+    health = place.run([program, "--health", "dxf"], HELIX_RUNTIME=str(runtime))
+    saw(health, "wedm")
+    terminal = Terminal(place, ["env", f"HELIX_RUNTIME={runtime}", program, str(place.drawing)])
+    try:
+        terminal.wait("the file", lambda screen: "SECTION" in screen)
+        # To the next finding, and what it is.
+        end = time.monotonic() + 20
+        while FAULT not in re.sub(r"\s+", " ", terminal.screen()) and time.monotonic() < end:
+            terminal.type("]", "d")
+        screen = terminal.wait("diagnostic", lambda screen: FAULT in re.sub(r"\s+", " ", screen))
+        terminal.type("Space", "a")
+        screen += terminal.wait("code actions", lambda screen: OFFERED in screen)
+        # The first of the menu.
+        terminal.type("Enter")
+        terminal.type("Enter")
+        terminal.type("Escape")
+        screen += terminal.wait("repaired numbers", lambda screen: "19.899" in screen and FAULT not in re.sub(r"\s+", " ", screen))
+        terminal.type(":", "w", "Enter")
+        screen += terminal.wait("written file", lambda screen: "written" in screen)
+        place.check_drawing()
+        # The server is killed, the text edited, and the server started again with Helix's own command.
+        terminal.type("u")
+        terminal.wait("undo", lambda screen: "19.95" in screen)
+        first = terminal.server()
+        if first is not None:
+            os.kill(first, 9)
+        terminal.type(":", "l", "s", "p", "-", "r", "e", "s", "t", "a", "r", "t", "Enter")
+        terminal.type("g", "g")
+        end = time.monotonic() + 20
+        while FAULT not in re.sub(r"\s+", " ", terminal.screen()) and time.monotonic() < end:
+            terminal.type("]", "d")
+        screen += terminal.wait("fault from the new server", lambda screen: FAULT in re.sub(r"\s+", " ", screen))
+        terminal.type(":", "q", "!", "Enter")
+        time.sleep(0.5)
+    finally:
+        terminal.close()
+    place.log(f"{editor}.txt", screen)
+
+
+def tool(name: str) -> str | None:
+    """A program that `test` has put into .tools, else one on the PATH."""
+    own = {"nvim-0.11": TOOLS / "neovim/bin/nvim", "hx": TOOLS / "helix/hx"}.get(name)
+    if own is not None:
+        return str(own) if own.exists() else None
+    return shutil.which(name)
+
+
+def checks() -> list[tuple[str, str, Callable[[str], None]]]:
+    """What is checked: a name, the program that it needs, and the session."""
+    return [
+        ("Neovim 0.7, wedm.lua: repair, death of the server", "nvim", lambda program: neovim(program, False, "neovim-0.7")),
+        ("Neovim 0.7, wedm.lua: no server", "nvim", lambda program: neovim_without_server(program, False, "neovim-0.7")),
+        ("Neovim 0.11, vim.lsp.config: repair, death of the server", "nvim-0.11", lambda program: neovim(program, True, "neovim-0.11")),
+        ("Neovim 0.11, vim.lsp.config: no server", "nvim-0.11", lambda program: neovim_without_server(program, True, "neovim-0.11")),
+        ("Emacs, eglot: repair, death of the server", "emacs", lambda program: emacs(program, "emacs")),
+        ("Helix: repair, death of the server", "hx", lambda program: helix(program, "helix")),
+    ]
+
+
+def main() -> int:
+    wanted = sys.argv[1:]
+    passed = failed = skipped = 0
+    for name, program, session in checks():
+        if wanted and not any(word.lower() in name.lower() for word in wanted):
+            continue
+        found = tool(program)
+        if found is None:
+            print(f"!! {name}: {program} is not there")
+            if os.environ.get("CI") == "true":
+                failed += 1
+            else:
+                skipped += 1
+            continue
+        started = time.monotonic()
+        try:
+            session(found)
+        except Failed as reason:
+            failed += 1
+            print(f"FAILED {name}: {reason}", flush=True)
+        else:
+            passed += 1
+            print(f"ok {name} ({time.monotonic() - started:.1f} s)", flush=True)
+    print(f"{passed} passed, {failed} failed, {skipped} skipped")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

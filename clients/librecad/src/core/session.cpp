@@ -1,0 +1,494 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "session.h"
+
+#include <QCoreApplication>
+#include <QFileInfo>
+#include <QDir>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QSaveFile>
+
+namespace wedm {
+
+namespace {
+
+/// When more entities than this change at once, and most of the drawing, it is sent whole.
+constexpr int MANY_CHANGES = 1000;
+/// A list of radii is asked for again after a rest of so many times what the last one took, so that long lists do not
+/// keep the server busy.
+constexpr int REST = 3;
+constexpr int SHORTEST_REST = 30;
+/// How long the server may take to end.
+constexpr int PATIENCE_AT_END = 800;
+
+QByteArray compact(const QJsonObject &object)
+{
+    return QJsonDocument(object).toJson(QJsonDocument::Compact);
+}
+
+QByteArray uriOnly(const QString &uri)
+{
+    return "{\"uri\":" + toJson(uri) + "}";
+}
+
+} // namespace
+
+void registerSessionTypes()
+{
+    qRegisterMetaType<wedm::ProgramSearch>("wedm::ProgramSearch");
+    qRegisterMetaType<wedm::Units>("wedm::Units");
+    qRegisterMetaType<wedm::Repair>("wedm::Repair");
+    qRegisterMetaType<wedm::Program>("wedm::Program");
+    qRegisterMetaType<wedm::Session::State>("wedm::Session::State");
+    qRegisterMetaType<QVector<wedm::Entity>>("QVector<wedm::Entity>");
+    qRegisterMetaType<QVector<wedm::Finding>>("QVector<wedm::Finding>");
+    qRegisterMetaType<QSharedPointer<wedm::Inspection>>("QSharedPointer<wedm::Inspection>");
+}
+
+Session::Session(QObject *parent)
+    : QObject(parent)
+    , m_restart(this)
+    , m_handshake(this)
+{
+    m_restart.setSingleShot(true);
+    connect(&m_restart, &QTimer::timeout, this, &Session::launch);
+    m_handshake.setSingleShot(true);
+    connect(&m_handshake, &QTimer::timeout, this, [this] {
+        emit said(tr("%1 does not answer; it is started again.").arg(m_program));
+        if (m_connection)
+            m_connection->kill();
+    });
+}
+
+Session::~Session()
+{
+    drop();
+}
+
+void Session::start(const ProgramSearch &search)
+{
+    const bool other = search.setting != m_search.setting;
+    m_search = search;
+    if (m_connection && other) {
+        m_connection->stop(PATIENCE_AT_END);
+        drop();
+        setState(State::Stopped, QString());
+    }
+    if (!m_connection) {
+        m_delay = 0;
+        launch();
+    }
+}
+
+void Session::stop()
+{
+    m_restart.stop();
+    m_handshake.stop();
+    if (m_connection)
+        m_connection->stop(PATIENCE_AT_END);
+    drop();
+    m_documents.clear();
+    setState(State::Stopped, QString());
+}
+
+void Session::setSettings(const QJsonObject &settings)
+{
+    if (settings == m_settings)
+        return;
+    m_settings = settings;
+    if (m_state != State::Ready)
+        return;
+    sendSettings();
+    // New settings change verdicts without a new version.
+    for (auto each = m_documents.begin(); each != m_documents.end(); ++each)
+        each.value()->inspectedVersion = -1;
+}
+
+void Session::look(const QString &uri, const QVector<Entity> &entities, Units units)
+{
+    QSharedPointer<Document> &document = m_documents[uri];
+    if (!document) {
+        document.reset(new Document);
+        document->drawing.uri = uri;
+    }
+    const bool fresh = document->drawing.version == 0;
+    const Difference difference = wedm::difference(document->drawing.entities, entities, document->handles);
+    const bool otherUnits = units != document->drawing.units;
+    const bool changed = fresh || otherUnits || !difference.changes.isEmpty();
+    const int size = document->drawing.entities.size();
+    // The host's numbers may have changed even where no geometry has.
+    document->drawing.entities = difference.entities;
+    document->drawing.units = units;
+    if (changed)
+        ++document->drawing.version;
+    emit looked(uri, document->drawing.version, changed);
+    if (!changed || m_state != State::Ready)
+        return;
+    const bool whole = fresh || otherUnits || (difference.changes.size() > MANY_CHANGES && difference.changes.size() > size / 2);
+    if (whole)
+        open(*document);
+    else
+        m_connection->notify("wedm/didChangeDrawing", toJson(uri, document->drawing.version, difference.changes));
+}
+
+void Session::close(const QString &uri)
+{
+    if (!m_documents.remove(uri) || m_state != State::Ready)
+        return;
+    m_connection->notify("wedm/didCloseDrawing", "{\"drawing\":" + uriOnly(uri) + "}");
+}
+
+void Session::watchRadii(const QString &uri, bool on)
+{
+    const QSharedPointer<Document> document = m_documents.value(uri);
+    if (!document)
+        return;
+    document->watched = on;
+    if (on && document->inspectedVersion != document->drawing.version)
+        inspect(uri);
+}
+
+void Session::requestRepair(const QString &uri, const QString &handle, int segment)
+{
+    if (m_state == State::Starting) {
+        whenSettled([=] { requestRepair(uri, handle, segment); });
+        return;
+    }
+    const QSharedPointer<Document> document = m_documents.value(uri);
+    if (!document || m_state != State::Ready) {
+        emit repairFailed(uri, tr("The server is not there; nothing was changed."));
+        return;
+    }
+    QJsonArray diagnostics;
+    QJsonArray only{QStringLiteral("source.fixAll.wedm")};
+    if (!handle.isEmpty()) {
+        only = QJsonArray{QStringLiteral("quickfix")};
+        for (const Finding &finding : document->findings) {
+            if (finding.handle == handle && finding.segment == segment)
+                diagnostics += finding.diagnostic;
+        }
+        if (diagnostics.isEmpty()) {
+            emit repairFailed(uri, tr("Nothing was found at this segment; nothing was changed."));
+            return;
+        }
+    }
+    const int line = qMax(segment, 0);
+    const int lastLine = handle.isEmpty() ? 0x7fffffff : line;
+    const QJsonObject params{
+        {"textDocument", QJsonObject{{"uri", uri}}},
+        {"range",
+         QJsonObject{{"start", QJsonObject{{"line", line}, {"character", 0}}}, {"end", QJsonObject{{"line", lastLine}, {"character", 0}}}}},
+        {"context", QJsonObject{{"diagnostics", diagnostics}, {"only", only}}},
+    };
+    m_connection->request("textDocument/codeAction", compact(params), [this, uri](const Answer &answer) {
+        if (answer.code == Connection::ENDED)
+            emit repairFailed(uri, tr("The server ended before it answered; nothing was changed."));
+        else if (answer.failed)
+            emit repairFailed(uri, tr("No repair: %1. Nothing was changed.").arg(answer.message));
+        else
+            takeRepair(uri, answer.result.toArray());
+    });
+}
+
+void Session::generate(const QString &uri, const QString &path, bool force)
+{
+    if (m_state == State::Starting) {
+        whenSettled([=] { generate(uri, path, force); });
+        return;
+    }
+    const QSharedPointer<Document> document = m_documents.value(uri);
+    if (!document || m_state != State::Ready) {
+        emit generateFailed(uri, path, tr("The server is not there; nothing was written."), QStringList());
+        return;
+    }
+    QByteArray params = "{\"uri\":" + toJson(uri) + ",\"format\":\"3b\"";
+    params += force ? ",\"force\":true}" : "}";
+    m_connection->request("wedm/generate", params, [this, uri, path](const Answer &answer) {
+        if (!answer.failed) {
+            takeProgram(uri, path, answer.result.toObject());
+            return;
+        }
+        QStringList findings;
+        const QJsonArray diagnostics = answer.data.value("diagnostics").toArray();
+        for (const QJsonValue &each : diagnostics)
+            findings += each.toObject().value("message").toString();
+        const QString reason = answer.code == Connection::ENDED ? tr("the server ended before it answered") : answer.message;
+        emit generateFailed(uri, path, tr("No program was written: %1.").arg(reason), findings);
+    });
+}
+
+void Session::setState(State state, const QString &text)
+{
+    m_state = state;
+    emit stateChanged(state, text);
+    // A server that is ready hears of the drawings first; `initialized` goes on with what has waited.
+    if (state != State::Starting && state != State::Ready)
+        settled();
+}
+
+void Session::whenSettled(std::function<void()> call)
+{
+    m_waitingCalls += call;
+}
+
+void Session::settled()
+{
+    const QVector<std::function<void()>> calls = m_waitingCalls;
+    m_waitingCalls.clear();
+    for (const std::function<void()> &call : calls)
+        call();
+}
+
+void Session::launch()
+{
+    m_restart.stop();
+    QString message;
+    m_program = findProgram(m_search, &message);
+    if (m_program.isEmpty()) {
+        setState(State::Missing, message);
+        return;
+    }
+    drop();
+    m_connection = new Connection(this);
+    connect(m_connection, &Connection::started, this, &Session::initialize);
+    connect(m_connection, &Connection::ended, this, &Session::ended);
+    connect(m_connection, &Connection::notified, this, &Session::take);
+    connect(m_connection, &Connection::requested, this, &Session::answer);
+    setState(State::Starting, tr("Starting %1").arg(QDir::toNativeSeparators(m_program)));
+    m_life.start();
+    m_handshake.start(m_patience.answerToInitialize);
+    m_connection->start(m_program);
+}
+
+void Session::initialize()
+{
+    emit serverStarted(m_connection->processId());
+    const QJsonObject params{
+        {"processId", QCoreApplication::applicationPid()},
+        {"clientInfo", QJsonObject{{"name", "wedm for LibreCAD"}, {"version", WEDM_PLUGIN_VERSION}}},
+        {"rootUri", QJsonValue()},
+        {"capabilities", QJsonObject{{"experimental", QJsonObject{{"wedm", QJsonObject{{"resendDrawing", true}}}}}}},
+    };
+    m_connection->request("initialize", compact(params), [this](const Answer &answer) { initialized(answer); });
+}
+
+void Session::initialized(const Answer &answer)
+{
+    if (answer.code == Connection::ENDED)
+        return;
+    m_handshake.stop();
+    if (answer.failed) {
+        refuse(tr("%1 refuses to start: %2").arg(QDir::toNativeSeparators(m_program), answer.message));
+        return;
+    }
+    const QJsonObject result = answer.result.toObject();
+    const QJsonObject info = result.value("serverInfo").toObject();
+    const QString version = info.value("version").toString();
+    const QJsonValue protocol =
+        result.value("capabilities").toObject().value("experimental").toObject().value("wedm").toObject().value("protocol");
+    if (!protocol.isDouble()) {
+        refuse(tr("%1 is no wedm server (it calls itself \"%2\"). Choose the right program with the button \"Server…\".")
+                   .arg(QDir::toNativeSeparators(m_program), info.value("name").toString()));
+        return;
+    }
+    if (protocol.toInt() != PROTOCOL) {
+        refuse(tr("wedm %1 at %2 speaks protocol %3, this plugin speaks protocol %4. Install the server and the plugin of the same "
+                  "release, or choose another server with the button \"Server…\".")
+                   .arg(version, QDir::toNativeSeparators(m_program))
+                   .arg(protocol.toInt())
+                   .arg(PROTOCOL));
+        return;
+    }
+    m_connection->notify("initialized", "{}");
+    setState(State::Ready, tr("wedm %1").arg(version));
+    sendSettings();
+    for (auto each = m_documents.begin(); each != m_documents.end(); ++each) {
+        each.value()->inspecting = false;
+        each.value()->inspectedVersion = -1;
+        open(*each.value());
+    }
+    settled();
+}
+
+void Session::refuse(const QString &text)
+{
+    m_connection->stop(PATIENCE_AT_END);
+    drop();
+    setState(State::Refused, text);
+}
+
+void Session::ended(const QString &reason)
+{
+    m_handshake.stop();
+    if (m_life.elapsed() >= m_patience.soundLife)
+        m_delay = 0;
+    m_delay = m_delay == 0 ? m_patience.firstRestart : qMin(2 * m_delay, m_patience.longestRestart);
+    drop();
+    for (auto each = m_documents.begin(); each != m_documents.end(); ++each)
+        each.value()->inspecting = false;
+    setState(State::Waiting,
+             tr("The wedm server has ended (%1). It is started again in %2 s.").arg(reason).arg(m_delay / 1000.0, 0, 'g', 3));
+    m_restart.start(m_delay);
+}
+
+void Session::take(const QString &method, const QJsonObject &params)
+{
+    if (method == "window/logMessage" || method == "window/showMessage") {
+        if (method == "window/showMessage" || params.value("type").toInt() <= 2)
+            emit said(params.value("message").toString());
+        return;
+    }
+    if (method != "textDocument/publishDiagnostics")
+        return;
+    const QString uri = params.value("uri").toString();
+    const QSharedPointer<Document> document = m_documents.value(uri);
+    const int version = params.value("version").toInt(-1);
+    // What is said of an older version would be shown at the wrong segments.
+    if (!document || version != document->drawing.version)
+        return;
+    document->findings.clear();
+    const QJsonArray diagnostics = params.value("diagnostics").toArray();
+    for (const QJsonValue &each : diagnostics)
+        document->findings += findingFromJson(each.toObject());
+    emit found(uri, version, document->findings);
+    if (document->watched)
+        inspect(uri);
+}
+
+void Session::answer(const QJsonValue &id, const QString &method, const QJsonObject &params)
+{
+    if (method == "wedm/resendDrawing") {
+        const QSharedPointer<Document> document = m_documents.value(params.value("uri").toString());
+        if (document) {
+            m_connection->reply(id, "{\"drawing\":" + toJson(document->drawing) + "}");
+            return;
+        }
+    }
+    if (method == "window/workDoneProgress/create" || method == "client/registerCapability") {
+        m_connection->reply(id, "null");
+        return;
+    }
+    m_connection->replyUnknown(id, method);
+}
+
+void Session::open(Document &document)
+{
+    if (document.drawing.version == 0)
+        return;
+    m_connection->notify("wedm/didOpenDrawing", "{\"drawing\":" + toJson(document.drawing) + "}");
+}
+
+void Session::sendSettings()
+{
+    const QJsonObject params{{"settings", QJsonObject{{"wedm", m_settings}}}};
+    m_connection->notify("workspace/didChangeConfiguration", compact(params));
+}
+
+void Session::inspect(const QString &uri)
+{
+    const QSharedPointer<Document> document = m_documents.value(uri);
+    if (!document || m_state != State::Ready || !document->watched)
+        return;
+    if (document->inspecting) {
+        document->stale = true;
+        return;
+    }
+    document->inspecting = true;
+    document->stale = false;
+    const int version = document->drawing.version;
+    QElapsedTimer clock;
+    clock.start();
+    m_connection->request("wedm/inspect", uriOnly(uri), [this, uri, version, clock](const Answer &answer) {
+        const QSharedPointer<Document> document = m_documents.value(uri);
+        if (!document || answer.code == Connection::ENDED)
+            return;
+        if (!answer.failed) {
+            document->inspectedVersion = version;
+            const QSharedPointer<Inspection> inspection(new Inspection(inspectionFromJson(answer.result.toObject())));
+            if (version == document->drawing.version)
+                emit inspected(uri, version, inspection);
+        }
+        const int rest = qMax(SHORTEST_REST, int(clock.elapsed()) * REST);
+        QTimer::singleShot(rest, this, [this, uri] {
+            const QSharedPointer<Document> document = m_documents.value(uri);
+            if (!document)
+                return;
+            document->inspecting = false;
+            if (document->stale || document->inspectedVersion != document->drawing.version)
+                inspect(uri);
+        });
+    });
+}
+
+void Session::takeRepair(const QString &uri, const QJsonArray &actions)
+{
+    QJsonObject chosen;
+    for (const QJsonValue &each : actions) {
+        const QJsonObject action = each.toObject();
+        if (chosen.isEmpty() || action.value("isPreferred").toBool())
+            chosen = action;
+        if (action.value("isPreferred").toBool())
+            break;
+    }
+    if (chosen.isEmpty()) {
+        emit repairFailed(uri, tr("There is nothing that can be repaired safely; nothing was changed."));
+        return;
+    }
+    const QJsonObject edit = chosen.value("command").toObject().value("arguments").toArray().at(0).toObject();
+    const QSharedPointer<Document> document = m_documents.value(uri);
+    if (!document || edit.value("version").toInt(-1) != document->drawing.version) {
+        emit repairFailed(uri, tr("The drawing has changed while the repair was on its way; nothing was changed. Ask for it again."));
+        return;
+    }
+    QString failure;
+    const QVector<Change> changes = changesFromJson(edit.value("changes").toArray(), &failure);
+    Drawing after;
+    if (failure.isEmpty())
+        after = applied(document->drawing, changes, &failure);
+    if (!failure.isEmpty()) {
+        emit repairFailed(uri, tr("The repair does not fit the drawing: %1. Nothing was changed.").arg(failure));
+        return;
+    }
+    Repair repair;
+    repair.uri = uri;
+    repair.version = document->drawing.version;
+    repair.title = chosen.value("title").toString();
+    repair.before = document->drawing.entities;
+    repair.after = after.entities;
+    emit repairReady(repair);
+}
+
+void Session::takeProgram(const QString &uri, const QString &path, const QJsonObject &result)
+{
+    const QByteArray text = result.value("program").toString().toUtf8();
+    QSaveFile file(path);
+    const bool written = !text.isEmpty() && file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit();
+    if (!written) {
+        const QString reason = text.isEmpty() ? tr("the server sent none") : file.errorString();
+        emit generateFailed(uri, path, tr("No program was written to %1: %2.").arg(QDir::toNativeSeparators(path), reason), QStringList());
+        return;
+    }
+    Program program;
+    program.path = path;
+    program.blocks = result.value("blocks").toInt();
+    program.length = result.value("length").toDouble();
+    program.deviation = result.value("deviation").toDouble();
+    program.closureX = result.value("closure").toObject().value("x").toDouble();
+    program.closureY = result.value("closure").toObject().value("y").toDouble();
+    const QJsonArray warnings = result.value("warnings").toArray();
+    for (const QJsonValue &each : warnings)
+        program.warnings += each.toObject().value("message").toString();
+    emit generated(uri, program);
+}
+
+void Session::drop()
+{
+    if (!m_connection)
+        return;
+    // It may be one of its own signals that has led here.
+    disconnect(m_connection, nullptr, this, nullptr);
+    m_connection->deleteLater();
+    m_connection = nullptr;
+}
+
+} // namespace wedm

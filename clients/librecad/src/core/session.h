@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The talk with the server: finds and starts it, keeps its picture of every drawing up to date, asks for lists, repairs and
+// programs, and starts it again when it dies. Lives in a thread of its own, so that no list however long holds up the host.
+// Knows nothing of LibreCAD.
+#pragma once
+
+#include "connection.h"
+#include "difference.h"
+#include "messages.h"
+#include "program_search.h"
+
+#include <QElapsedTimer>
+#include <QSharedPointer>
+#include <QTimer>
+
+namespace wedm {
+
+/// What a repair is made of: the drawing that it was made for, and the drawing as it is to be.
+struct Repair {
+    QString uri;
+    int version = 0;
+    QString title;
+    QVector<Entity> before;
+    QVector<Entity> after;
+};
+
+/// What a program came to.
+struct Program {
+    QString path;
+    int blocks = 0;
+    double length = 0;
+    double deviation = 0;
+    double closureX = 0;
+    double closureY = 0;
+    QStringList warnings;
+};
+
+class Session : public QObject {
+    Q_OBJECT
+public:
+    /// The version of the name space `wedm/` that this client speaks.
+    static constexpr int PROTOCOL = 1;
+
+    enum class State { Stopped, Missing, Starting, Ready, Waiting, Refused };
+    Q_ENUM(State)
+
+    /// Times in ms.
+    struct Patience {
+        int answerToInitialize = 10000;
+        int firstRestart = 250;
+        int longestRestart = 30000;
+        /// A server that lived so long begins again with the first delay.
+        int soundLife = 20000;
+    };
+
+    explicit Session(QObject *parent = nullptr);
+    ~Session() override;
+
+    void setPatience(const Patience &patience) { m_patience = patience; }
+
+public slots:
+    /// Starts the server, unless it runs. Also looks again for one that was missing, or was of another version.
+    void start(const wedm::ProgramSearch &search);
+    /// Ends the server and forgets all drawings.
+    void stop();
+    /// `{correction, side, …}`; see "Settings" in the protocol.
+    void setSettings(const QJsonObject &settings);
+    /// The drawing as it is now; only differences go to the server. `looked` follows.
+    void look(const QString &uri, const QVector<wedm::Entity> &entities, wedm::Units units);
+    void close(const QString &uri);
+    /// Asks for the radius list, now and after every change from now on.
+    void watchRadii(const QString &uri, bool on);
+    /// Asks for the repair of one finding, or, with an empty handle, of all that can be repaired safely.
+    void requestRepair(const QString &uri, const QString &handle, int segment);
+    /// Writes the 3B program beside `path` and renames it.
+    void generate(const QString &uri, const QString &path, bool force);
+
+signals:
+    void stateChanged(wedm::Session::State state, const QString &text);
+    void serverStarted(qint64 processId);
+    void looked(const QString &uri, int version, bool changed);
+    void found(const QString &uri, int version, const QVector<wedm::Finding> &findings);
+    void inspected(const QString &uri, int version, const QSharedPointer<wedm::Inspection> &inspection);
+    void repairReady(const wedm::Repair &repair);
+    void repairFailed(const QString &uri, const QString &reason);
+    void generated(const QString &uri, const wedm::Program &program);
+    /// `findings` are the errors that stand in the way; only with some of them would `force` help.
+    void generateFailed(const QString &uri, const QString &path, const QString &reason, const QStringList &findings);
+    void said(const QString &text);
+
+private:
+    struct Document {
+        Drawing drawing;
+        HandleGiver handles;
+        QVector<Finding> findings;
+        bool watched = false;
+        bool inspecting = false;
+        bool stale = false;
+        int inspectedVersion = -1;
+    };
+
+    void setState(State state, const QString &text);
+    void launch();
+    void initialize();
+    void initialized(const Answer &answer);
+    void ended(const QString &reason);
+    void refuse(const QString &text);
+    void take(const QString &method, const QJsonObject &params);
+    void answer(const QJsonValue &id, const QString &method, const QJsonObject &params);
+    void open(Document &document);
+    void sendSettings();
+    void inspect(const QString &uri);
+    void takeRepair(const QString &uri, const QJsonArray &actions);
+    void takeProgram(const QString &uri, const QString &path, const QJsonObject &result);
+    void drop();
+    /// Does `call` now, or as soon as a server that is starting is ready or is not going to be.
+    void whenSettled(std::function<void()> call);
+    void settled();
+
+    Patience m_patience;
+    ProgramSearch m_search;
+    QString m_program;
+    Connection *m_connection = nullptr;
+    State m_state = State::Stopped;
+    QHash<QString, QSharedPointer<Document>> m_documents;
+    QJsonObject m_settings;
+    QVector<std::function<void()>> m_waitingCalls;
+    QTimer m_restart;
+    QTimer m_handshake;
+    QElapsedTimer m_life;
+    int m_delay = 0;
+};
+
+/// Makes the types above known to queued signals. Called once, by whoever makes a session.
+void registerSessionTypes();
+
+} // namespace wedm
+
+Q_DECLARE_METATYPE(wedm::Entity)
+Q_DECLARE_METATYPE(wedm::Finding)
+Q_DECLARE_METATYPE(QSharedPointer<wedm::Inspection>)
+Q_DECLARE_METATYPE(wedm::ProgramSearch)
+Q_DECLARE_METATYPE(wedm::Repair)
+Q_DECLARE_METATYPE(wedm::Program)
+Q_DECLARE_METATYPE(wedm::Units)

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "live_check.h"
+
+#include "host.h"
+
+#include <QCoreApplication>
+#include <QEvent>
+
+namespace wedm {
+
+namespace {
+
+/// ms between two looks at the clock.
+constexpr int TICK = 150;
+/// A look is followed by a rest of so many times what it took, so that it never takes more than a tenth of the time.
+constexpr int REST = 9;
+/// A look that costs more than this, in ms, waits for a moment in which the user does nothing.
+constexpr qint64 NOTICEABLE = 80;
+/// That moment: so many times what a look costs, but no longer than this, in ms.
+constexpr qint64 QUIET_PER_COST = 3;
+constexpr qint64 LONGEST_QUIET = 2000;
+/// ms after which a look is taken even though nobody has touched anything: another plugin may have drawn.
+constexpr qint64 LONGEST_SLEEP = 5000;
+/// As much as this per ms of cost, for large drawings.
+constexpr qint64 SLEEP_PER_COST = 100;
+
+} // namespace
+
+LiveCheck::LiveCheck(QObject *parent)
+    : QObject(parent)
+    , m_timer(this)
+{
+    m_timer.setInterval(TICK);
+    connect(&m_timer, &QTimer::timeout, this, &LiveCheck::tick);
+    m_sinceLook.start();
+    m_sinceInput.start();
+}
+
+void LiveCheck::setOn(bool on)
+{
+    if (on == isOn())
+        return;
+    if (on) {
+        m_touched = true;
+        m_timer.start();
+        QCoreApplication::instance()->installEventFilter(this);
+    } else {
+        m_timer.stop();
+        QCoreApplication::instance()->removeEventFilter(this);
+    }
+}
+
+void LiveCheck::looked(qint64 milliseconds)
+{
+    m_cost = milliseconds;
+    m_sinceLook.restart();
+}
+
+bool LiveCheck::eventFilter(QObject *, QEvent *event)
+{
+    switch (event->type()) {
+    case QEvent::MouseMove:
+    case QEvent::Wheel:
+        m_sinceInput.restart();
+        break;
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonRelease:
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease:
+    case QEvent::Drop:
+        m_touched = true;
+        m_sinceInput.restart();
+        break;
+    default:
+        break;
+    }
+    return false;
+}
+
+void LiveCheck::tick()
+{
+    const qint64 rested = m_sinceLook.elapsed();
+    const bool slept = rested > qMax(LONGEST_SLEEP, m_cost * SLEEP_PER_COST);
+    if ((!m_touched && !slept) || rested < m_cost * REST)
+        return;
+    if (m_cost > NOTICEABLE && m_sinceInput.elapsed() < qMin(LONGEST_QUIET, m_cost * QUIET_PER_COST))
+        return;
+    if (!host::currentWindow() || host::userIsBusy())
+        return;
+    if (host::redoIsPossible()) {
+        emit held(tr("waits: a look would end Redo"));
+        return;
+    }
+    m_touched = false;
+    emit held(QString());
+    emit due();
+}
+
+} // namespace wedm

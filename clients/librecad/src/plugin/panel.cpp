@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "panel.h"
+
+#include <QBoxLayout>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSplitter>
+#include <QTableView>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wedm {
+
+namespace {
+
+constexpr double LARGEST_CORRECTION = 5.0;
+constexpr int CORRECTION_DECIMALS = 4;
+constexpr double CORRECTION_STEP = 0.005;
+/// So many findings are listed, errors first: the layout of wrapped lines holds LibreCAD up.
+constexpr int MOST_LISTED = 100;
+
+const char *severityName(Severity severity)
+{
+    switch (severity) {
+    case Severity::Error:
+        return "error";
+    case Severity::Warning:
+        return "warning";
+    case Severity::Information:
+        return "note";
+    case Severity::Hint:
+        return "hint";
+    }
+    return "";
+}
+
+QLabel *wrapped(const char *name)
+{
+    QLabel *label = new QLabel;
+    label->setObjectName(QString::fromLatin1(name));
+    label->setWordWrap(true);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    label->hide();
+    return label;
+}
+
+void say(QLabel *label, const QString &text, const char *colours)
+{
+    label->setText(text);
+    label->setStyleSheet(QStringLiteral("padding: 3px; %1").arg(QString::fromLatin1(colours)));
+    label->setVisible(!text.isEmpty());
+}
+
+const char PLAIN[] = "";
+const char GOOD[] = "background: #d8f0d8; color: #064006;";
+const char BAD[] = "background: #ffd9d0; color: #6a1000;";
+
+/// The middle of an arc or line, from its ends, its centre and the sign of its sweep.
+QPointF middleOf(const Row &row)
+{
+    if (!row.hasCentre)
+        return (row.start + row.end) / 2;
+    const double from = std::atan2(row.start.y() - row.centre.y(), row.start.x() - row.centre.x());
+    const double half = row.sweep * M_PI / 360;
+    return row.centre + row.radius * QPointF(std::cos(from + half), std::sin(from + half));
+}
+
+} // namespace
+
+Panel::Panel(QWidget *parent)
+    : QDockWidget(tr("Wire EDM"), parent)
+    , m_table(new RadiusTable(this))
+    , m_view(new QTableView)
+    , m_list(new QListWidget)
+    , m_server(wrapped("wedm_server"))
+    , m_message(wrapped("wedm_message"))
+    , m_live(new QLabel)
+    , m_unchecked(wrapped("wedm_unchecked"))
+    , m_count(new QLabel)
+    , m_show(new QComboBox)
+    , m_side(new QComboBox)
+    , m_correction(new QDoubleSpinBox)
+    , m_fixOne(new QPushButton(tr("Fix this")))
+{
+    setObjectName(QStringLiteral("wedm_dock"));
+
+    m_correction->setObjectName(QStringLiteral("wedm_correction"));
+    m_correction->setDecimals(CORRECTION_DECIMALS);
+    m_correction->setRange(0, LARGEST_CORRECTION);
+    m_correction->setSingleStep(CORRECTION_STEP);
+    m_correction->setSuffix(tr(" mm"));
+    m_correction->setSpecialValueText(tr("as set elsewhere"));
+    m_correction->setKeyboardTracking(false);
+    m_correction->setToolTip(tr("Wire radius + spark gap. A wedm.toml beside the drawing comes first; without either it is 0.1 mm."));
+    m_side->setObjectName(QStringLiteral("wedm_side"));
+    m_side->addItem(tr("as set elsewhere"), QString());
+    m_side->addItem(tr("opening: the wire runs inside"), QStringLiteral("opening"));
+    m_side->addItem(tr("punch: the wire runs outside"), QStringLiteral("punch"));
+    m_side->addItem(tr("by nesting"), QStringLiteral("auto"));
+    m_side->addItem(tr("both sides"), QStringLiteral("both"));
+    m_side->setToolTip(tr("Where the wire runs. A program can be made only where that is known."));
+
+    m_show->setObjectName(QStringLiteral("wedm_show"));
+    m_show->addItem(tr("Faults"), int(RadiusTable::Show::Faults));
+    m_show->addItem(tr("Arcs and faults"), int(RadiusTable::Show::Arcs));
+    m_show->addItem(tr("All vertices"), int(RadiusTable::Show::All));
+    m_show->setCurrentIndex(1);
+    m_count->setObjectName(QStringLiteral("wedm_count"));
+    m_live->setObjectName(QStringLiteral("wedm_live"));
+    m_live->setWordWrap(true);
+
+    m_view->setObjectName(QStringLiteral("wedm_radii"));
+    m_view->setModel(m_table);
+    m_view->setSelectionBehavior(QAbstractItemView::SelectRows);
+    m_view->setSelectionMode(QAbstractItemView::SingleSelection);
+    m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_view->setWordWrap(false);
+    m_view->verticalHeader()->hide();
+    // With a fixed height LibreCAD is not held up by measuring 200,000 rows.
+    m_view->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
+    m_view->verticalHeader()->setDefaultSectionSize(m_view->fontMetrics().height() + 5);
+    m_view->horizontalHeader()->setStretchLastSection(true);
+    const int digit = m_view->fontMetrics().horizontalAdvance(QLatin1Char('0'));
+    const QVector<int> widths{7, 14, 8, 10, 10, 6, 9, 9, 14};
+    for (int i = 0; i < widths.size(); ++i)
+        m_view->setColumnWidth(i, widths.at(i) * digit);
+    m_list->setObjectName(QStringLiteral("wedm_findings"));
+    m_list->setWordWrap(true);
+    m_list->setUniformItemSizes(false);
+
+    QPushButton *check = new QPushButton(tr("Check"));
+    QPushButton *fix = new QPushButton(tr("Fix all"));
+    QPushButton *generate = new QPushButton(tr("3B…"));
+    QPushButton *mark = new QPushButton(tr("Mark"));
+    QPushButton *unmark = new QPushButton(tr("Clear marks"));
+    QPushButton *server = new QPushButton(tr("Server…"));
+    check->setToolTip(tr("Look at the drawing now"));
+    fix->setToolTip(tr("Make every repair that is safe, in one undo step"));
+    m_fixOne->setToolTip(tr("Repair the selected segment"));
+    generate->setToolTip(tr("Write the 3B program to a file"));
+    mark->setToolTip(tr("Draw a circle about each fault, on the layer WEDM_MARKS"));
+    server->setToolTip(tr("Choose the program of the wedm server"));
+    m_fixOne->setObjectName(QStringLiteral("wedm_fix_one"));
+    m_fixOne->setEnabled(false);
+
+    QWidget *content = new QWidget;
+    QVBoxLayout *layout = new QVBoxLayout(content);
+    layout->setContentsMargins(4, 4, 4, 4);
+    layout->addWidget(m_server);
+    QFormLayout *form = new QFormLayout;
+    form->addRow(tr("Correction"), m_correction);
+    form->addRow(tr("Wire side"), m_side);
+    layout->addLayout(form);
+    QHBoxLayout *buttons = new QHBoxLayout;
+    for (QPushButton *button : {check, fix, m_fixOne, generate})
+        buttons->addWidget(button);
+    layout->addLayout(buttons);
+    layout->addWidget(m_message);
+    QHBoxLayout *filter = new QHBoxLayout;
+    filter->addWidget(m_count, 1);
+    filter->addWidget(m_show);
+    layout->addLayout(filter);
+    QSplitter *splitter = new QSplitter(Qt::Vertical);
+    splitter->addWidget(m_view);
+    splitter->addWidget(m_list);
+    splitter->setStretchFactor(0, 3);
+    splitter->setStretchFactor(1, 2);
+    layout->addWidget(splitter, 1);
+    layout->addWidget(m_unchecked);
+    QHBoxLayout *foot = new QHBoxLayout;
+    foot->addWidget(m_live, 1);
+    for (QPushButton *button : {mark, unmark, server})
+        foot->addWidget(button);
+    layout->addLayout(foot);
+    setWidget(content);
+
+    connect(check, &QPushButton::clicked, this, &Panel::checkWanted);
+    connect(fix, &QPushButton::clicked, this, &Panel::fixWanted);
+    connect(generate, &QPushButton::clicked, this, &Panel::generateWanted);
+    connect(mark, &QPushButton::clicked, this, &Panel::marksWanted);
+    connect(unmark, &QPushButton::clicked, this, &Panel::marksUnwanted);
+    connect(server, &QPushButton::clicked, this, &Panel::serverWanted);
+    connect(m_fixOne, &QPushButton::clicked, this, [this] {
+        if (const Row *row = m_table->row(m_view->currentIndex().row()))
+            emit fixOneWanted(row->handle, row->segment);
+    });
+    connect(m_correction, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &Panel::settingsChanged);
+    connect(m_side, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &Panel::settingsChanged);
+    connect(m_show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+        m_table->setShow(RadiusTable::Show(m_show->currentData().toInt()));
+    });
+    connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &Panel::showDetails);
+    connect(m_table, &QAbstractItemModel::modelReset, this, &Panel::showDetails);
+    connect(m_view, &QTableView::doubleClicked, this, [this](const QModelIndex &index) {
+        if (const Row *row = m_table->row(index.row()))
+            placeOf(*row);
+    });
+    connect(m_list, &QListWidget::itemDoubleClicked, this, [this](QListWidgetItem *item) {
+        const Finding finding = m_findings.value(m_list->row(item));
+        const int row = m_table->find(finding.handle, finding.segment);
+        if (row >= 0) {
+            m_view->selectRow(row);
+            placeOf(*m_table->row(row));
+        } else if (finding.placed) {
+            const QPointF along = finding.end - finding.start;
+            emit placeWanted((finding.start + finding.end) / 2, std::hypot(along.x(), along.y()));
+        }
+    });
+}
+
+void Panel::setServer(Session::State state, const QString &text)
+{
+    const bool bad = state == Session::State::Missing || state == Session::State::Refused || state == Session::State::Waiting;
+    say(m_server, text, bad ? BAD : PLAIN);
+}
+
+void Panel::setMessage(const QString &text, Tone tone)
+{
+    say(m_message, text, tone == Tone::Bad ? BAD : tone == Tone::Good ? GOOD : PLAIN);
+}
+
+void Panel::setLive(const QString &text)
+{
+    m_live->setText(text);
+}
+
+void Panel::setUnchecked(const QString &text)
+{
+    say(m_unchecked, text, PLAIN);
+}
+
+void Panel::setFindings(const QVector<Finding> &findings)
+{
+    m_findings = findings;
+    std::stable_sort(m_findings.begin(), m_findings.end(), [](const Finding &a, const Finding &b) { return a.severity < b.severity; });
+    const int unlisted = m_findings.size() - MOST_LISTED;
+    if (unlisted > 0)
+        m_findings.resize(MOST_LISTED);
+    m_list->clear();
+    for (const Finding &finding : qAsConst(m_findings)) {
+        const QString place = finding.handle.isEmpty() ? QString() : tr(", %1 vertex %2").arg(finding.handle).arg(finding.segment);
+        QListWidgetItem *item =
+            new QListWidgetItem(QStringLiteral("%1%2: %3").arg(QString::fromLatin1(severityName(finding.severity)), place, finding.message));
+        item->setToolTip(finding.rule);
+        if (finding.severity == Severity::Error)
+            item->setForeground(QColor(150, 0, 0));
+        m_list->addItem(item);
+    }
+    if (unlisted > 0)
+        m_list->addItem(tr("and more: %1 that were sent are not listed").arg(unlisted));
+    int errors = 0;
+    int warnings = 0;
+    for (const Finding &finding : findings) {
+        errors += finding.severity == Severity::Error;
+        warnings += finding.severity == Severity::Warning;
+    }
+    const bool clean = errors == 0 && warnings == 0;
+    m_count->setText(clean ? tr("no fault found") : tr("errors: %1   warnings: %2").arg(errors).arg(warnings));
+    m_count->setStyleSheet(errors > 0 ? QStringLiteral("font-weight: bold; color: #a00000")
+                                      : QStringLiteral("font-weight: bold; color: %1").arg(clean ? "#066006" : "#805000"));
+    showDetails();
+}
+
+void Panel::setInspection(const QSharedPointer<Inspection> &inspection)
+{
+    const Row *chosen = m_table->row(m_view->currentIndex().row());
+    const QString handle = chosen ? chosen->handle : QString();
+    const int segment = chosen ? chosen->segment : -1;
+    m_table->setInspection(inspection);
+    const int row = handle.isEmpty() ? -1 : m_table->find(handle, segment);
+    if (row >= 0)
+        m_view->selectRow(row);
+}
+
+void Panel::clear()
+{
+    m_findings.clear();
+    m_list->clear();
+    m_count->clear();
+    m_table->setInspection(QSharedPointer<Inspection>());
+    setMessage(QString(), Tone::Plain);
+    setUnchecked(QString());
+}
+
+void Panel::setSettings(double correction, const QString &side)
+{
+    const QSignalBlocker one(m_correction);
+    const QSignalBlocker other(m_side);
+    m_correction->setValue(correction);
+    m_side->setCurrentIndex(qMax(0, m_side->findData(side)));
+}
+
+double Panel::correction() const
+{
+    return m_correction->value();
+}
+
+QString Panel::side() const
+{
+    return m_side->currentData().toString();
+}
+
+void Panel::placeOf(const Row &row)
+{
+    const QPointF along = row.end - row.start;
+    const double size = std::max(row.radius, std::hypot(along.x(), along.y()));
+    emit placeWanted(middleOf(row), size);
+}
+
+void Panel::showDetails()
+{
+    const Row *row = m_table->row(m_view->currentIndex().row());
+    bool repairable = false;
+    for (int i = 0; row && i < m_findings.size(); ++i) {
+        if (m_findings.at(i).handle == row->handle && m_findings.at(i).segment == row->segment) {
+            repairable = true;
+            const QSignalBlocker blocker(m_list);
+            m_list->setCurrentRow(i);
+            break;
+        }
+    }
+    m_fixOne->setEnabled(repairable);
+}
+
+} // namespace wedm

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The dock: the radius list, what was found, the settings, the buttons. Knows neither the drawing nor the server.
+#pragma once
+
+#include "core/session.h"
+#include "radius_table.h"
+
+#include <QDockWidget>
+
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QListWidget;
+class QPushButton;
+class QTableView;
+
+namespace wedm {
+
+class Panel : public QDockWidget {
+    Q_OBJECT
+public:
+    enum class Tone { Plain, Good, Bad };
+
+    explicit Panel(QWidget *parent);
+
+    /// What the server is doing; shown until the next.
+    void setServer(Session::State state, const QString &text);
+    /// What the last command came to.
+    void setMessage(const QString &text, Tone tone);
+    void setLive(const QString &text);
+    void setFindings(const QVector<Finding> &findings);
+    void setInspection(const QSharedPointer<Inspection> &inspection);
+    /// What of the drawing is not looked at; empty for nothing.
+    void setUnchecked(const QString &text);
+    /// Everything that belongs to a drawing goes.
+    void clear();
+
+    void setSettings(double correction, const QString &side);
+    double correction() const;
+    QString side() const;
+
+signals:
+    void checkWanted();
+    void fixWanted();
+    void fixOneWanted(const QString &handle, int segment);
+    void generateWanted();
+    void marksWanted();
+    void marksUnwanted();
+    void serverWanted();
+    void settingsChanged();
+    void placeWanted(const QPointF &middle, double size);
+
+private:
+    void placeOf(const Row &row);
+    void showDetails();
+
+    RadiusTable *m_table;
+    QTableView *m_view;
+    QListWidget *m_list;
+    QLabel *m_server;
+    QLabel *m_message;
+    QLabel *m_live;
+    QLabel *m_unchecked;
+    QLabel *m_count;
+    QComboBox *m_show;
+    QComboBox *m_side;
+    QDoubleSpinBox *m_correction;
+    QPushButton *m_fixOne;
+    QVector<Finding> m_findings;
+};
+
+} // namespace wedm

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "plugin.h"
+
+#include "controller.h"
+
+namespace {
+
+/// LibreCAD finds or makes a menu of this name.
+const char MENU[] = "Wire EDM";
+
+} // namespace
+
+WedmPlugin::WedmPlugin()
+    : m_controller(new wedm::Controller(this))
+{
+}
+
+QString WedmPlugin::name() const
+{
+    return QStringLiteral("wedm");
+}
+
+PluginCapabilities WedmPlugin::getCapabilities() const
+{
+    PluginCapabilities capabilities;
+    for (const char *command : {wedm::command::CHECK, wedm::command::LIVE, wedm::command::FIX, wedm::command::GENERATE, wedm::command::MARK,
+                                wedm::command::CLEAR, wedm::command::LOOK, wedm::command::APPLY})
+        capabilities.menuEntryPoints << PluginMenuLocation(QString::fromLatin1(MENU), QString::fromUtf8(command));
+    return capabilities;
+}
+
+void WedmPlugin::execComm(Document_Interface *drawing, QWidget *, QString command)
+{
+    if (drawing)
+        m_controller->run(command, *drawing);
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "radius_table.h"
+
+#include <QColor>
+
+namespace wedm {
+
+namespace {
+
+const char OK[] = "ok";
+constexpr int DECIMALS = 4;
+constexpr int DEGREE_DECIMALS = 2;
+const QColor FAULT_BACKGROUND(255, 205, 205);
+const QColor FAULT_TEXT(120, 0, 0);
+
+} // namespace
+
+RadiusTable::RadiusTable(QObject *parent)
+    : QAbstractTableModel(parent)
+{
+}
+
+void RadiusTable::setInspection(const QSharedPointer<Inspection> &inspection)
+{
+    beginResetModel();
+    m_inspection = inspection;
+    choose();
+    endResetModel();
+}
+
+void RadiusTable::setShow(Show show)
+{
+    beginResetModel();
+    m_show = show;
+    choose();
+    endResetModel();
+}
+
+const Row *RadiusTable::row(int index) const
+{
+    if (!m_inspection || index < 0 || index >= m_shown.size())
+        return nullptr;
+    return &m_inspection->rows.at(m_shown.at(index));
+}
+
+int RadiusTable::find(const QString &handle, int segment) const
+{
+    for (int i = 0; i < m_shown.size(); ++i) {
+        const Row *each = row(i);
+        if (each->segment == segment && each->handle == handle)
+            return i;
+    }
+    return -1;
+}
+
+int RadiusTable::rowCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : m_shown.size();
+}
+
+int RadiusTable::columnCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : Columns;
+}
+
+QVariant RadiusTable::data(const QModelIndex &index, int role) const
+{
+    const Row *each = row(index.row());
+    if (!each)
+        return QVariant();
+    const bool fault = each->verdict != QLatin1String(OK);
+    if (role == Qt::BackgroundRole)
+        return fault ? QVariant(FAULT_BACKGROUND) : QVariant();
+    if (role == Qt::ForegroundRole)
+        return fault ? QVariant(FAULT_TEXT) : QVariant();
+    const bool text = index.column() == Entity || index.column() == Layer || index.column() == Kind || index.column() == Verdict;
+    if (role == Qt::TextAlignmentRole)
+        return int((text ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+    if (role != Qt::DisplayRole)
+        return QVariant();
+    switch (index.column()) {
+    case Vertex:
+        return each->segment;
+    case Entity:
+        return QStringLiteral("%1 %2").arg(each->handle, each->type.toLower());
+    case Layer:
+        return each->layer;
+    case X:
+        return QString::number(each->start.x(), 'f', DECIMALS);
+    case Y:
+        return QString::number(each->start.y(), 'f', DECIMALS);
+    case Kind:
+        return each->kind;
+    case Radius:
+        return each->hasRadius ? QString::number(each->radius, 'f', DECIMALS) : QString();
+    case Sweep:
+        return each->hasRadius ? QString::number(each->sweep, 'f', DEGREE_DECIMALS) : QString();
+    case Verdict:
+        return each->verdict;
+    }
+    return QVariant();
+}
+
+QVariant RadiusTable::headerData(int section, Qt::Orientation orientation, int role) const
+{
+    if (role != Qt::DisplayRole || orientation != Qt::Horizontal)
+        return QVariant();
+    switch (section) {
+    case Vertex:
+        return tr("Vertex");
+    case Entity:
+        return tr("Entity");
+    case Layer:
+        return tr("Layer");
+    case X:
+        return QStringLiteral("X");
+    case Y:
+        return QStringLiteral("Y");
+    case Kind:
+        return tr("Kind");
+    case Radius:
+        return tr("Radius");
+    case Sweep:
+        return tr("Sweep °");
+    case Verdict:
+        return tr("Verdict");
+    }
+    return QVariant();
+}
+
+void RadiusTable::choose()
+{
+    m_shown.clear();
+    m_faults = 0;
+    if (!m_inspection)
+        return;
+    for (int i = 0; i < m_inspection->rows.size(); ++i) {
+        const Row &each = m_inspection->rows.at(i);
+        const bool fault = each.verdict != QLatin1String(OK);
+        m_faults += fault;
+        if (m_show == Show::All || fault || (m_show == Show::Arcs && each.hasRadius))
+            m_shown += i;
+    }
+}
+
+} // namespace wedm

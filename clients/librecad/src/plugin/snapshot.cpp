@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "snapshot.h"
+
+#include "document_interface.h"
+
+#include <QHash>
+#include <QtMath>
+
+#include <memory>
+#include <vector>
+
+namespace wedm {
+
+const char MARK_LAYER[] = "WEDM_MARKS";
+
+namespace {
+
+using Data = QHash<int, QVariant>;
+
+/// The colour of marks, 24 bits.
+constexpr int MARK_COLOUR = 0xff00ff;
+/// Starting points are marked by the letter O: longer texts are none.
+constexpr int LONGEST_START_MARK = 64;
+/// Adding one vertex to a polyline makes LibreCAD 2.2.0 look at all before it, so a polyline takes the square of its size:
+/// so many ns for each pair. Measured, see the README.
+constexpr double NS_PER_PAIR = 20;
+/// Values of $INSUNITS.
+constexpr int INSUNITS_INCH = 1;
+constexpr int INSUNITS_MM = 4;
+
+/// The wrappers that the host hands out belong to whoever asked for them.
+class Entities {
+public:
+    explicit Entities(Document_Interface &drawing) { drawing.getAllEntities(&m_list, true); }
+    ~Entities() { qDeleteAll(m_list); }
+    Entities(const Entities &) = delete;
+    Entities &operator=(const Entities &) = delete;
+
+    const QList<Plug_Entity *> &list() const { return m_list; }
+
+private:
+    QList<Plug_Entity *> m_list;
+};
+
+double number(const Data &data, int key)
+{
+    return data.value(key).toDouble();
+}
+
+double toDegrees(double radians)
+{
+    double degrees = std::fmod(qRadiansToDegrees(radians), 360.0);
+    return degrees < 0 ? degrees + 360.0 : degrees;
+}
+
+const char *uncheckedKind(int type)
+{
+    switch (type) {
+    case DPI::ELLIPSE:
+        return "ellipse";
+    case DPI::SPLINE:
+    case DPI::SPLINEPOINTS:
+        return "spline";
+    case DPI::INSERT:
+        return "block";
+    case DPI::HATCH:
+        return "hatch";
+    case DPI::IMAGE:
+        return "image";
+    case DPI::SOLID:
+        return "solid";
+    default:
+        // Points, texts and dimensions are no contour.
+        return nullptr;
+    }
+}
+
+QVector<Vertex> verticesOf(Plug_Entity &entity)
+{
+    QList<Plug_VertexData> list;
+    entity.getPolylineData(&list);
+    QVector<Vertex> vertices;
+    vertices.reserve(list.size());
+    for (const Plug_VertexData &vertex : list)
+        vertices += Vertex{vertex.point.x(), vertex.point.y(), vertex.bulge};
+    return vertices;
+}
+
+/// False for what cannot be cut.
+bool read(Plug_Entity &source, const Data &data, Entity *entity)
+{
+    entity->identity = data.value(DPI::EID).toULongLong();
+    entity->layer = data.value(DPI::LAYER).toString();
+    entity->x = number(data, DPI::STARTX);
+    entity->y = number(data, DPI::STARTY);
+    switch (data.value(DPI::ETYPE).toInt()) {
+    case DPI::POLYLINE:
+        entity->kind = Kind::Polyline;
+        entity->closed = data.value(DPI::CLOSEPOLY).toBool();
+        entity->vertices = verticesOf(source);
+        // The last vertex of an open polyline has no segment; LibreCAD repeats the bulge before it.
+        if (!entity->closed && !entity->vertices.isEmpty())
+            entity->vertices.last().bulge = 0;
+        entity->x = entity->y = 0;
+        return !entity->vertices.isEmpty();
+    case DPI::LINE:
+        entity->kind = Kind::Line;
+        entity->vertices = {Vertex{entity->x, entity->y, 0}, Vertex{number(data, DPI::ENDX), number(data, DPI::ENDY), 0}};
+        entity->x = entity->y = 0;
+        return true;
+    case DPI::ARC: {
+        entity->kind = Kind::Arc;
+        entity->radius = number(data, DPI::RADIUS);
+        const bool clockwise = data.value(DPI::REVERSED).toBool();
+        entity->startAngle = toDegrees(number(data, clockwise ? DPI::ENDANGLE : DPI::STARTANGLE));
+        entity->endAngle = toDegrees(number(data, clockwise ? DPI::STARTANGLE : DPI::ENDANGLE));
+        return entity->radius > 0;
+    }
+    case DPI::CIRCLE:
+        entity->kind = Kind::Circle;
+        entity->radius = number(data, DPI::RADIUS);
+        return entity->radius > 0;
+    case DPI::TEXT:
+    case DPI::MTEXT:
+        entity->kind = Kind::Text;
+        entity->text = data.value(DPI::TEXTCONTENT).toString();
+        return entity->text.size() <= LONGEST_START_MARK;
+    default:
+        return false;
+    }
+}
+
+Data geometry(const Entity &entity, bool clockwise)
+{
+    Data data;
+    switch (entity.kind) {
+    case Kind::Line:
+        data.insert(DPI::STARTX, entity.vertices.value(0).x);
+        data.insert(DPI::STARTY, entity.vertices.value(0).y);
+        data.insert(DPI::ENDX, entity.vertices.value(1).x);
+        data.insert(DPI::ENDY, entity.vertices.value(1).y);
+        break;
+    case Kind::Arc:
+        data.insert(clockwise ? DPI::ENDANGLE : DPI::STARTANGLE, qDegreesToRadians(entity.startAngle));
+        data.insert(clockwise ? DPI::STARTANGLE : DPI::ENDANGLE, qDegreesToRadians(entity.endAngle));
+        Q_FALLTHROUGH();
+    case Kind::Circle:
+        data.insert(DPI::STARTX, entity.x);
+        data.insert(DPI::STARTY, entity.y);
+        data.insert(DPI::RADIUS, entity.radius);
+        break;
+    case Kind::Polyline:
+        data.insert(DPI::CLOSEPOLY, entity.closed);
+        break;
+    case Kind::Text:
+        break;
+    }
+    return data;
+}
+
+enum DPI::ETYPE typeOf(Kind kind)
+{
+    switch (kind) {
+    case Kind::Polyline:
+        return DPI::POLYLINE;
+    case Kind::Line:
+        return DPI::LINE;
+    case Kind::Arc:
+        return DPI::ARC;
+    case Kind::Circle:
+        return DPI::CIRCLE;
+    case Kind::Text:
+        break;
+    }
+    return DPI::UNKNOWN;
+}
+
+/// Adds `entity` with the layer and pen that `look` holds.
+bool add(Document_Interface &drawing, const Entity &entity, const Data &look)
+{
+    // Once added, the entity belongs to the drawing, but the wrapper would still delete it: the wrapper is left alone. A few
+    // bytes are lost for each repaired entity.
+    Plug_Entity *added = drawing.newEntity(typeOf(entity.kind));
+    if (!added)
+        return false;
+    Data data = geometry(entity, false);
+    for (int key : {int(DPI::LAYER), int(DPI::LTYPE), int(DPI::LWIDTH), int(DPI::COLOR)}) {
+        if (look.contains(key))
+            data.insert(key, look.value(key));
+    }
+    added->updateData(&data);
+    if (entity.kind == Kind::Polyline) {
+        QList<Plug_VertexData> vertices;
+        for (const Vertex &vertex : entity.vertices)
+            vertices += Plug_VertexData(QPointF(vertex.x, vertex.y), vertex.bulge);
+        added->updatePolylineData(&vertices);
+    }
+    drawing.addEntity(added);
+    return true;
+}
+
+} // namespace
+
+Snapshot takeSnapshot(Document_Interface &drawing)
+{
+    Snapshot snapshot;
+    int unit = 0;
+    drawing.getVariableInt(QStringLiteral("$INSUNITS"), &unit);
+    if (unit == INSUNITS_INCH)
+        snapshot.units = Units::Inch;
+    else if (unit == INSUNITS_MM)
+        snapshot.units = Units::Millimetre;
+    else
+        snapshot.otherUnit = unit;
+
+    const Entities entities(drawing);
+    snapshot.entities.reserve(entities.list().size());
+    for (Plug_Entity *each : entities.list()) {
+        Data data;
+        each->getData(&data);
+        if (data.value(DPI::LAYER).toString() == QLatin1String(MARK_LAYER))
+            continue;
+        Entity entity;
+        if (read(*each, data, &entity))
+            snapshot.entities += entity;
+        else if (const char *kind = uncheckedKind(data.value(DPI::ETYPE).toInt()))
+            ++snapshot.unchecked[QString::fromLatin1(kind)];
+    }
+    return snapshot;
+}
+
+bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *failure)
+{
+    const QString moved = QObject::tr("The drawing has changed while the repair was on its way; nothing was changed. Ask for it again.");
+    const Entities entities(drawing);
+    QHash<quint64, Plug_Entity *> wrappers;
+    QHash<quint64, Data> looks;
+    QHash<quint64, Entity> now;
+    for (Plug_Entity *each : entities.list()) {
+        Data data;
+        each->getData(&data);
+        Entity entity;
+        if (data.value(DPI::LAYER).toString() == QLatin1String(MARK_LAYER) || !read(*each, data, &entity))
+            continue;
+        wrappers.insert(entity.identity, each);
+        looks.insert(entity.identity, data);
+        now.insert(entity.identity, entity);
+    }
+    if (now.size() != repair.before.size()) {
+        *failure = moved;
+        return false;
+    }
+    QHash<QString, Entity> before;
+    for (const Entity &entity : repair.before) {
+        if (!now.contains(entity.identity) || !alike(entity, now.value(entity.identity))) {
+            *failure = moved;
+            return false;
+        }
+        before.insert(entity.handle, entity);
+    }
+
+    // Everything is known to fit before anything is touched.
+    QVector<Entity> changed;
+    QVector<Entity> fresh;
+    QHash<QString, Entity> gone = before;
+    for (const Entity &entity : repair.after) {
+        if (entity.kind == Kind::Text && !before.contains(entity.handle)) {
+            *failure = QObject::tr("The repair holds what this plugin cannot draw; nothing was changed.");
+            return false;
+        }
+        const auto old = before.constFind(entity.handle);
+        if (old == before.constEnd())
+            fresh += entity;
+        else if (!alike(*old, entity))
+            changed += entity;
+        gone.remove(entity.handle);
+    }
+    if (!fresh.isEmpty() && before.isEmpty()) {
+        *failure = moved;
+        return false;
+    }
+
+    for (const Entity &entity : qAsConst(changed)) {
+        const Entity old = before.value(entity.handle);
+        const Data &look = looks[old.identity];
+        Plug_Entity *wrapper = wrappers.value(old.identity);
+        if (entity.kind == old.kind && entity.kind != Kind::Polyline) {
+            // The host copies the entity, changes the copy, and keeps the old one for undo.
+            Data data = geometry(entity, look.value(DPI::REVERSED).toBool());
+            wrapper->updateData(&data);
+            continue;
+        }
+        add(drawing, entity, look);
+        drawing.removeEntity(wrapper);
+    }
+    for (const Entity &entity : qAsConst(fresh)) {
+        // What a repair adds looks like an entity of its layer that is there already.
+        Data look;
+        for (auto each = looks.constBegin(); each != looks.constEnd() && look.isEmpty(); ++each) {
+            if (entity.layer.isEmpty() || each.value().value(DPI::LAYER).toString() == entity.layer)
+                look = each.value();
+        }
+        if (!entity.layer.isEmpty())
+            look.insert(DPI::LAYER, entity.layer);
+        add(drawing, entity, look);
+    }
+    for (const Entity &entity : qAsConst(gone))
+        drawing.removeEntity(wrappers.value(entity.identity));
+    return true;
+}
+
+qint64 rebuildTime(const Repair &repair)
+{
+    QHash<QString, const Entity *> before;
+    for (const Entity &entity : repair.before)
+        before.insert(entity.handle, &entity);
+    double nanoseconds = 0;
+    for (const Entity &entity : repair.after) {
+        const Entity *old = before.value(entity.handle);
+        if (entity.kind == Kind::Polyline && (!old || !alike(*old, entity)))
+            nanoseconds += NS_PER_PAIR * entity.vertices.size() * entity.vertices.size();
+    }
+    return qint64(nanoseconds / 1e6);
+}
+
+void drawMarks(Document_Interface &drawing, const QVector<QPointF> &places, double radius)
+{
+    if (!drawing.getAllLayer().contains(QLatin1String(MARK_LAYER))) {
+        const QString active = drawing.getCurrentLayer();
+        drawing.setLayer(QString::fromLatin1(MARK_LAYER));
+        drawing.setCurrentLayerProperties(MARK_COLOUR, DPI::WidthByLayer, DPI::SolidLine);
+        drawing.setLayer(active);
+    }
+    const Data look{{DPI::LAYER, QString::fromLatin1(MARK_LAYER)},
+                    {DPI::COLOR, MARK_COLOUR},
+                    {DPI::LTYPE, QStringLiteral("SolidLine")},
+                    {DPI::LWIDTH, QStringLiteral("0.25mm")}};
+    for (const QPointF &place : places) {
+        Entity mark;
+        mark.kind = Kind::Circle;
+        mark.x = place.x();
+        mark.y = place.y();
+        mark.radius = radius;
+        add(drawing, mark, look);
+    }
+}
+
+int clearMarks(Document_Interface &drawing)
+{
+    int count = 0;
+    const Entities entities(drawing);
+    for (Plug_Entity *each : entities.list()) {
+        Data data;
+        each->getData(&data);
+        if (data.value(DPI::LAYER).toString() != QLatin1String(MARK_LAYER))
+            continue;
+        drawing.removeEntity(each);
+        ++count;
+    }
+    return count;
+}
+
+} // namespace wedm

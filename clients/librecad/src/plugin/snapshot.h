@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A drawing out of LibreCAD's plugin interface and a repair back into it. The interface lives only during a call of the plugin:
+// nothing of it is kept here.
+#pragma once
+
+#include "core/session.h"
+
+#include <QMap>
+
+class Document_Interface;
+
+namespace wedm {
+
+/// The layer that marks are drawn on. What lies on it is no part of the drawing.
+extern const char MARK_LAYER[];
+
+struct Snapshot {
+    QVector<Entity> entities;
+    Units units = Units::Unknown;
+    /// A unit that the server does not know, by its number in the DXF variable $INSUNITS; 0 for none.
+    int otherUnit = 0;
+    /// What is in the drawing and not checked, by kind, with how many there are.
+    QMap<QString, int> unchecked;
+};
+
+/// Everything visible that can be cut. Entities on layers that are off cannot be told from deleted ones and are left out.
+Snapshot takeSnapshot(Document_Interface &drawing);
+
+/// Makes the repair in `drawing`. All of it is one undo step, because LibreCAD counts a plugin's call as one.
+/// When the drawing is no longer what the repair was made for, `failure` says so and nothing is changed.
+bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *failure);
+
+/// How long LibreCAD would be busy with rebuilding the polylines that the repair changes, in ms. See the README, "Limits".
+qint64 rebuildTime(const Repair &repair);
+
+/// Draws a circle about each place on the layer of marks, radius in drawing units. The active layer stays what it was.
+void drawMarks(Document_Interface &drawing, const QVector<QPointF> &places, double radius);
+
+/// Takes away what lies on the layer of marks; returns how many entities that were.
+int clearMarks(Document_Interface &drawing);
+
+} // namespace wedm

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "view.h"
+
+#include "host.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QLabel>
+#include <QMainWindow>
+#include <QMdiSubWindow>
+#include <QMouseEvent>
+#include <QWidget>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#include "rs_graphicview.h"
+#pragma GCC diagnostic pop
+
+namespace wedm {
+
+namespace {
+
+QWidget *graphicView(QMdiSubWindow *window)
+{
+    if (!window)
+        return nullptr;
+    const QList<QWidget *> widgets = window->findChildren<QWidget *>();
+    for (QWidget *widget : widgets) {
+        if (widget->inherits("RS_GraphicView"))
+            return widget;
+    }
+    return nullptr;
+}
+
+/// The prompt of the command line is "Command:" while none is running.
+bool commandIsRunning()
+{
+    const QMainWindow *main = host::mainWindow();
+    const QLabel *prompt = main ? main->findChild<QLabel *>(QStringLiteral("lCommand")) : nullptr;
+    return !prompt || prompt->text() != QCoreApplication::translate("QG_CommandWidget", "Command:");
+}
+
+/// The constructors of RS_Vector are not to be had from outside of LibreCAD.
+RS_Vector vector(double x, double y)
+{
+    RS_Vector result;
+    result.x = x;
+    result.y = y;
+    result.valid = true;
+    return result;
+}
+
+} // namespace
+
+bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half)
+{
+    QWidget *widget = graphicView(window);
+    if (!widget)
+        return false;
+    RS_GraphicView *view = static_cast<RS_GraphicView *>(widget);
+    view->saveView();
+    view->zoomWindow(vector(centre.x() - half, centre.y() - half), vector(centre.x() + half, centre.y() + half), true);
+    return true;
+}
+
+void selectInMiddle(QMdiSubWindow *window)
+{
+    QWidget *widget = graphicView(window);
+    QAction *deselect = host::action("DeselectAll");
+    if (!widget || !deselect || commandIsRunning())
+        return;
+    deselect->trigger();
+    const QPointF middle(widget->width() / 2.0, widget->height() / 2.0);
+    QMouseEvent move(QEvent::MouseMove, middle, Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QMouseEvent press(QEvent::MouseButtonPress, middle, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
+    QMouseEvent release(QEvent::MouseButtonRelease, middle, Qt::LeftButton, Qt::NoButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(widget, &move);
+    QCoreApplication::sendEvent(widget, &press);
+    QCoreApplication::sendEvent(widget, &release);
+}
+
+} // namespace wedm

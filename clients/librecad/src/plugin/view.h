@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Shows a place of the drawing. The plugin interface has no way to do that, so this is the one file that uses LibreCAD's own view,
+// by its virtual functions only; `host::versionFault` has made sure that it is the one the plugin was built for.
+#pragma once
+
+#include <QPointF>
+
+class QMdiSubWindow;
+
+namespace wedm {
+
+/// Zooms `window` so that `half` drawing units are seen to each side of `centre`.
+bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half);
+
+/// Selects the entity that `zoomTo` has put in the middle of the view, as a click of the user would.
+/// Does nothing while a command of LibreCAD is running, which would take the click for its own.
+void selectInMiddle(QMdiSubWindow *window);
+
+} // namespace wedm

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "driver.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QComboBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMdiArea>
+#include <QMdiSubWindow>
+#include <QMenu>
+#include <QProcess>
+#include <QTableView>
+#include <QtTest>
+
+#include <cstdio>
+
+Blocks::Blocks(QObject *parent)
+    : QObject(parent)
+{
+    m_timer.setTimerType(Qt::PreciseTimer);
+    connect(&m_timer, &QTimer::timeout, this, [this] {
+        m_longest = qMax(m_longest, m_clock.restart());
+    });
+    m_timer.start(1);
+    restart();
+}
+
+void Blocks::restart()
+{
+    m_clock.start();
+    m_longest = 0;
+}
+
+Driver::Driver()
+{
+    if (!qEnvironmentVariable("WEDM_TEST").isEmpty())
+        QTimer::singleShot(0, this, &Driver::run);
+}
+
+void Driver::run()
+{
+    // While LibreCAD starts, it lets events through before its files are open.
+    if (QThread::currentThread()->loopLevel() == 0) {
+        QTimer::singleShot(50, this, &Driver::run);
+        return;
+    }
+    m_file = qEnvironmentVariable("WEDM_TEST_FILE");
+    wait([this] {
+        for (QWidget *window : QApplication::topLevelWidgets()) {
+            if (window->inherits("QC_ApplicationWindow"))
+                m_main = qobject_cast<QMainWindow *>(window);
+        }
+        QMdiArea *area = m_main ? m_main->findChild<QMdiArea *>() : nullptr;
+        return area && area->currentSubWindow() && action("Check radii");
+    });
+    expect("LibreCAD has loaded the plugin and the drawing", m_main && action("Check radii"));
+    if (m_main && action("Check radii"))
+        scenario(qEnvironmentVariable("WEDM_TEST"));
+    std::fflush(stdout);
+    // LibreCAD would ask whether the drawing is to be saved.
+    QCoreApplication::exit(m_failed == 0 ? 0 : 1);
+}
+
+QAction *Driver::action(const QString &name) const
+{
+    if (QAction *host = m_main->findChild<QAction *>(name))
+        return host;
+    // The actions for plugins belong to the plugin; the menu lists them.
+    for (QMenu *menu : m_main->findChildren<QMenu *>()) {
+        for (QAction *each : menu->actions()) {
+            if (each->data().toString() == name)
+                return each;
+        }
+    }
+    return nullptr;
+}
+
+void Driver::choose(const QString &menuEntry)
+{
+    if (QAction *entry = action(menuEntry))
+        entry->trigger();
+    else
+        expect("the menu has " + menuEntry, false);
+}
+
+void Driver::press(const QString &hostAction)
+{
+    choose(hostAction);
+    QTest::qWait(20);
+}
+
+/// A line into LibreCAD's command line.
+void Driver::type(const QString &line)
+{
+    for (QLineEdit *edit : m_main->findChildren<QLineEdit *>()) {
+        if (!edit->inherits("QG_CommandEdit"))
+            continue;
+        edit->setText(line);
+        QTest::keyClick(edit, Qt::Key_Return);
+        QTest::qWait(20);
+        return;
+    }
+    expect("there is a command line", false);
+}
+
+void Driver::drawLine()
+{
+    press("DrawLine");
+    type("100,100");
+    type("110,100");
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QTest::qWait(20);
+}
+
+/// Enter, which ends a selection; without letting the event loop come round.
+void Driver::confirm()
+{
+    QTest::keyClick(view(), Qt::Key_Enter);
+}
+
+/// A key that does nothing: the user is there.
+void Driver::touch()
+{
+    QTest::keyClick(m_main, Qt::Key_Shift);
+}
+
+QObject *Driver::controller() const
+{
+    QObject *found = action("Live check")->parent()->findChild<QObject *>("wedm_controller");
+    return found ? found : action("Live check");
+}
+
+QWidget *Driver::view() const
+{
+    for (QWidget *widget : m_main->findChild<QMdiArea *>()->currentSubWindow()->findChildren<QWidget *>()) {
+        if (widget->inherits("QG_GraphicView"))
+            return widget;
+    }
+    return m_main;
+}
+
+void Driver::save()
+{
+    press("FileSave");
+    QTest::qWait(50);
+}
+
+void Driver::acceptFile(const QString &path)
+{
+    QFileDialog *dialog = nullptr;
+    expectSoon("a file is asked for", [&] {
+        dialog = m_main->findChild<QFileDialog *>("wedm_file");
+        return dialog && dialog->isVisible();
+    });
+    if (!dialog)
+        return;
+    for (QLineEdit *edit : dialog->findChildren<QLineEdit *>("fileNameEdit"))
+        edit->setText(path);
+    QMetaObject::invokeMethod(dialog, "accept");
+    QTest::qWait(50);
+}
+
+void Driver::set(const char *combo, const QVariant &value)
+{
+    QComboBox *box = m_main->findChild<QComboBox *>(combo);
+    if (box)
+        box->setCurrentIndex(box->findData(value));
+    QTest::qWait(50);
+}
+
+QString Driver::text(const char *label) const
+{
+    const QLabel *found = m_main->findChild<QLabel *>(label);
+    return found ? found->text() : QString();
+}
+
+int Driver::rows() const
+{
+    const QTableView *view = m_main->findChild<QTableView *>("wedm_radii");
+    return view ? view->model()->rowCount() : -1;
+}
+
+QString Driver::cell(int row, int column) const
+{
+    const QTableView *view = m_main->findChild<QTableView *>("wedm_radii");
+    return view ? view->model()->index(row, column).data().toString() : QString();
+}
+
+QString Driver::verdictOf(const QString &radius) const
+{
+    for (int i = 0; i < rows(); ++i) {
+        if (cell(i, 6) == radius)
+            return cell(i, 8);
+    }
+    return "no arc of R " + radius;
+}
+
+QStringList Driver::findings() const
+{
+    QStringList result;
+    const QListWidget *list = m_main->findChild<QListWidget *>("wedm_findings");
+    for (int i = 0; list && i < list->count(); ++i)
+        result += list->item(i)->text();
+    return result;
+}
+
+QString Driver::saved(const QString &key)
+{
+    QProcess server;
+    server.start(qEnvironmentVariable("WEDM"), {"inspect", "--output", "json", m_file});
+    server.waitForFinished(20000);
+    const QJsonObject inspection = QJsonDocument::fromJson(server.readAllStandardOutput()).object();
+    QStringList result;
+    for (const QJsonValue &each : inspection.value("entities").toArray()) {
+        const QJsonObject entity = each.toObject();
+        if (key == "layers") {
+            result += entity.value("layer").toString();
+            continue;
+        }
+        for (const QJsonValue &item : entity.value("segments").toArray()) {
+            if (item.toObject().contains("radius"))
+                result += QString::number(item.toObject().value("radius").toDouble(), 'f', 4);
+        }
+    }
+    result.sort();
+    return result.join(' ');
+}
+
+int Driver::entitiesSaved(const QByteArray &type)
+{
+    QFile file(m_file);
+    if (!file.open(QIODevice::ReadOnly))
+        return -1;
+    const QList<QByteArray> lines = file.readAll().replace('\r', "").split('\n');
+    int count = 0;
+    for (int i = 1; i < lines.size(); ++i)
+        count += lines.at(i) == type && lines.at(i - 1).trimmed() == "0";
+    return count;
+}
+
+bool Driver::wait(const std::function<bool()> &condition, int milliseconds)
+{
+    return QTest::qWaitFor(condition, milliseconds);
+}
+
+void Driver::expect(const QString &what, bool good, const QString &seen)
+{
+    m_failed += !good;
+    report(QStringLiteral("%1 %2%3").arg(good ? "ok    " : "FAILED", what, good || seen.isEmpty() ? QString() : "\n       seen: " + seen));
+}
+
+void Driver::expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen)
+{
+    const bool good = wait(condition);
+    expect(what, good, seen ? seen() : QString());
+}
+
+void Driver::report(const QString &what)
+{
+    std::printf("%s\n", qPrintable(what));
+    std::fflush(stdout);
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Plays the user in a real LibreCAD: triggers the menu's actions, reads the dock, saves, undoes. Sees the plugin from outside only.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QMainWindow>
+#include <QObject>
+#include <QTimer>
+#include <QtPlugin>
+
+#include <functional>
+
+class QAction;
+
+class Driver : public QObject {
+    Q_OBJECT
+    Q_PLUGIN_METADATA(IID "wedm.test.Driver" FILE "driver.json")
+public:
+    Driver();
+
+private:
+    void run();
+    void scenario(const QString &name);
+
+    void check();
+    void fix();
+    void fixChain();
+    void fixOne();
+    void generate();
+    void marks();
+    void live();
+    void missing();
+    void otherVersion();
+    void killed();
+    void undoOnTheWay();
+    void editOnTheWay();
+    void large();
+    void zoom();
+
+    // What a user does.
+    QAction *action(const QString &name) const;
+    void choose(const QString &menuEntry);
+    void press(const QString &hostAction);
+    void type(const QString &line);
+    void confirm();
+    void drawLine();
+    void touch();
+    QWidget *view() const;
+    QObject *controller() const;
+    void save();
+    void acceptFile(const QString &path);
+    void set(const char *combo, const QVariant &value);
+
+    // What a user sees.
+    QString text(const char *label) const;
+    QString cell(int row, int column) const;
+    int rows() const;
+    QStringList findings() const;
+    QString verdictOf(const QString &radius) const;
+
+    // What stands in the saved file, as the command line sees it.
+    QString saved(const QString &key);
+    int entitiesSaved(const QByteArray &type);
+
+    bool wait(const std::function<bool()> &condition, int milliseconds = 15000);
+    void expect(const QString &what, bool good, const QString &seen = QString());
+    void expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen = {});
+    void report(const QString &what);
+
+    QMainWindow *m_main = nullptr;
+    QString m_file;
+    int m_failed = 0;
+};
+
+/// The longest time in which the event loop did not come round.
+class Blocks : public QObject {
+public:
+    explicit Blocks(QObject *parent);
+    qint64 longest() const { return m_longest; }
+    void restart();
+
+private:
+    QTimer m_timer;
+    QElapsedTimer m_clock;
+    qint64 m_longest = 0;
+};

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is tried in LibreCAD. Each scenario runs in a LibreCAD of its own.
+#include "driver.h"
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QDialog>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QMap>
+#include <QMdiArea>
+#include <QMdiSubWindow>
+#include <QSettings>
+#include <QTableView>
+#include <QtTest>
+
+#include <csignal>
+
+void Driver::scenario(const QString &name)
+{
+    const QMap<QString, void (Driver::*)()> scenarios{
+        {"check", &Driver::check},
+        {"fix", &Driver::fix},
+        {"fixChain", &Driver::fixChain},
+        {"fixOne", &Driver::fixOne},
+        {"generate", &Driver::generate},
+        {"marks", &Driver::marks},
+        {"live", &Driver::live},
+        {"missing", &Driver::missing},
+        {"otherVersion", &Driver::otherVersion},
+        {"killed", &Driver::killed},
+        {"undoOnTheWay", &Driver::undoOnTheWay},
+        {"editOnTheWay", &Driver::editOnTheWay},
+        {"large", &Driver::large},
+        {"zoom", &Driver::zoom},
+    };
+    if (scenarios.contains(name))
+        (this->*scenarios.value(name))();
+    else
+        expect("there is a scenario " + name, false);
+}
+
+/// The environment variable has made the plugin trigger its own action; nobody has touched the menu.
+void Driver::check()
+{
+    expectSoon("the radius list has come by itself", [this] { return rows() > 0; });
+    expect("R 0.0800 is at fault", verdictOf("0.0800").contains("small-radius"), verdictOf("0.0800"));
+    expect("R 5.0000 is not", verdictOf("5.0000") == "ok", verdictOf("5.0000"));
+    expect("what happens at the machine is said", findings().join('\n').contains("0.080 mm is below the correction 0.100 mm"), findings().join('\n'));
+    expect("the server says who it is", text("wedm_server").startsWith("wedm "), text("wedm_server"));
+    expect("the plugin's own actions are not in the menu", !action("wedm look") && !action("wedm apply"));
+}
+
+void Driver::fix()
+{
+    save();
+    const QString radii = saved("radii");
+    const QString layers = saved("layers");
+    choose("Fix");
+    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    expectSoon("no fault is left", [this] { return verdictOf("0.1010") == "ok"; }, [this] { return verdictOf("0.1010"); });
+    save();
+    expect("the file has R 0.101 in place of R 0.080", saved("radii") == QString(radii).replace("0.0800", "0.1010"), saved("radii"));
+    expect("it lies on its layer", saved("layers") == layers, saved("layers"));
+    press("EditUndo");
+    save();
+    expect("one undo takes all of it back", saved("radii") == radii, saved("radii"));
+    expect("and there is nothing more to undo", !action("EditUndo")->isEnabled());
+    press("EditRedo");
+    save();
+    expect("redo brings it again", saved("radii") == QString(radii).replace("0.0800", "0.1010"), saved("radii"));
+}
+
+void Driver::fixChain()
+{
+    save();
+    const QString radii = saved("radii");
+    choose("Fix");
+    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    expectSoon("no fault is left", [this] { return verdictOf("0.1010") == "ok"; }, [this] { return verdictOf("0.1010"); });
+    save();
+    expect("still lines and arcs", entitiesSaved("LINE") == 4 && entitiesSaved("ARC") == 2, QString::number(entitiesSaved("ARC")));
+    expect("R 0.101 in place of R 0.080", saved("radii") == QString(radii).replace("0.0800", "0.1010"), saved("radii"));
+    expect("all on their layer", saved("layers") == "DIE DIE DIE DIE DIE DIE", saved("layers"));
+    press("EditUndo");
+    save();
+    expect("one undo takes all of it back", saved("radii") == radii && !action("EditUndo")->isEnabled(), saved("radii"));
+}
+
+/// The button beside the list repairs the selected segment only.
+void Driver::fixOne()
+{
+    choose("Check radii");
+    expectSoon("two faults are listed", [this] { return text("wedm_count").startsWith("errors: 2"); }, [this] { return text("wedm_count"); });
+    QTableView *view = m_main->findChild<QTableView *>("wedm_radii");
+    expectSoon("both in the radius list", [this] { return rows() == 2; });
+    view->selectRow(1);
+    QAbstractButton *button = m_main->findChild<QAbstractButton *>("wedm_fix_one");
+    expectSoon("it can be repaired", [&] { return button->isEnabled(); });
+    button->click();
+    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    expectSoon("the other fault is left", [this] { return text("wedm_count").startsWith("errors: 1"); }, [this] { return text("wedm_count"); });
+    expect("the first arc is as it was", cell(0, 6) == "0.0800" && cell(1, 6) == "0.1010", cell(0, 6) + " " + cell(1, 6));
+}
+
+void Driver::generate()
+{
+    const QString path = QFileInfo(m_file).absoluteDir().filePath("plate.3b");
+    choose("Generate 3B…");
+    acceptFile(path);
+    expectSoon("a drawing with a fault is refused", [this] { return text("wedm_message").startsWith("No program"); }, [this] { return text("wedm_message"); });
+    expect("with the fault", text("wedm_message").contains("R 0.080"), text("wedm_message"));
+    expect("and nothing is written", !QFile::exists(path));
+    expectSoon("the question whether to write it all the same is there", [this] { return m_main->findChild<QDialog *>("wedm_refused"); });
+    if (QDialog *box = m_main->findChild<QDialog *>("wedm_refused"))
+        box->reject();
+    set("wedm_side", "opening");
+    choose("Fix");
+    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    choose("Generate 3B…");
+    acceptFile(path);
+    expectSoon("the program is written", [this] { return text("wedm_message").startsWith("Written"); }, [this] { return text("wedm_message"); });
+    QFile file(path);
+    expect("and is there", file.open(QIODevice::ReadOnly));
+    const QByteArray program = file.readAll();
+    expect("it is 3B, from the first block to DD", program.startsWith("B") && program.trimmed().endsWith("DD"), program);
+    expect("nothing else lies beside it", QDir(QFileInfo(path).path()).entryList({"plate.3b*", "*.XXXXXX"}, QDir::Files).size() == 1);
+}
+
+void Driver::marks()
+{
+    choose("Check radii");
+    expectSoon("the fault is found", [this] { return verdictOf("0.0800").contains("small-radius"); });
+    save();
+    expect("nothing is drawn unasked", entitiesSaved("CIRCLE") == 0);
+    choose("Mark faults");
+    save();
+    expect("a circle marks it", entitiesSaved("CIRCLE") == 1, QString::number(entitiesSaved("CIRCLE")));
+    expect("on the layer of marks", saved("layers").contains("WEDM_MARKS"), saved("layers"));
+    choose("Check radii");
+    QTest::qWait(500);
+    expect("marks are no part of the drawing", !verdictOf("0.0800").startsWith("no arc") && text("wedm_count").startsWith("errors: 1"), text("wedm_count"));
+    choose("Clear marks");
+    save();
+    expect("and go again", entitiesSaved("CIRCLE") == 0);
+}
+
+void Driver::live()
+{
+    choose("Live check");
+    expectSoon("the fault is found", [this] { return verdictOf("0.0800").contains("small-radius"); }, [this] { return verdictOf("0.0800"); });
+    expect("the menu shows that it is on", action("Live check")->isChecked());
+    const int before = findings().size();
+    drawLine();
+    expectSoon("a line that is drawn is seen without any command", [this] { return findings().join('\n').contains("open"); },
+               [this] { return findings().join('\n'); });
+    press("EditUndo");
+    touch();
+    expectSoon("after an undo it waits", [this] { return text("wedm_live").contains("Redo"); }, [this] { return text("wedm_live"); });
+    expect("so that redo stays possible", action("EditRedo")->isEnabled());
+    press("EditRedo");
+    touch();
+    expectSoon("then it goes on", [this] { return !text("wedm_live").contains("Redo"); }, [this] { return text("wedm_live"); });
+    press("SelectAll");
+    press("ModifyDelete");
+    confirm();
+    expectSoon("what is deleted is no longer found", [this] { return rows() == 0; }, [this] { return QString::number(rows()); });
+    expect("there was something to find before", before > 0);
+    choose("Live check");
+    expect("it can be switched off", !action("Live check")->isChecked());
+}
+
+void Driver::missing()
+{
+    choose("Check radii");
+    expectSoon("it is said that the server is missing", [this] { return text("wedm_server").contains("no such program"); },
+               [this] { return text("wedm_server"); });
+    expect("and how to get it", text("wedm_server").contains("cargo install"), text("wedm_server"));
+    choose("Fix");
+    expectSoon("a repair is refused", [this] { return text("wedm_message").contains("nothing was changed"); }, [this] { return text("wedm_message"); });
+    QSettings settings(QSettings::IniFormat, QSettings::UserScope, "wedm", "librecad");
+    settings.setValue("server", qEnvironmentVariable("WEDM"));
+    settings.sync();
+    choose("Check radii");
+    expectSoon("once it is set right, the next check works", [this] { return verdictOf("0.0800").contains("small-radius"); },
+               [this] { return text("wedm_server"); });
+}
+
+void Driver::otherVersion()
+{
+    choose("Check radii");
+    expectSoon("the other version is named", [this] { return text("wedm_server").contains("speaks protocol 2, this plugin speaks protocol 1"); },
+               [this] { return text("wedm_server"); });
+    choose("Fix");
+    expectSoon("a repair is refused", [this] { return text("wedm_message").contains("nothing was changed"); }, [this] { return text("wedm_message"); });
+}
+
+void Driver::killed()
+{
+    choose("Live check");
+    expectSoon("the fault is found", [this] { return verdictOf("0.0800").contains("small-radius"); });
+    const qint64 first = controller()->property("serverProcessId").toLongLong();
+    expect("the server is known", first > 0);
+    if (first <= 0)
+        return;
+    press("DrawLine");
+    type("100,100");
+    ::kill(pid_t(first), SIGKILL);
+    expectSoon("it is said that the server has ended", [this] { return text("wedm_server").contains("has ended"); }, [this] { return text("wedm_server"); });
+    type("110,100");
+    press("EditKillAllActions");
+    touch();
+    expectSoon("another one runs", [&] { return controller()->property("serverProcessId").toLongLong() != first && text("wedm_server").startsWith("wedm "); },
+               [this] { return text("wedm_server"); });
+    expectSoon("it knows the drawing with the line that was drawn meanwhile",
+               [this] { return findings().join('\n').contains("open") && findings().join('\n').contains("0.080"); },
+               [this] { return findings().join('\n'); });
+    choose("Fix");
+    expectSoon("and repairs it", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+}
+
+void Driver::undoOnTheWay()
+{
+    choose("Check radii");
+    expectSoon("the fault is found", [this] { return verdictOf("0.0800").contains("small-radius"); });
+    save();
+    const QString radii = saved("radii");
+    drawLine();
+    // Between the question and its answer the event loop has not come round.
+    choose("Fix");
+    action("EditUndo")->trigger();
+    expectSoon("the repair is refused", [this] { return text("wedm_message").contains("nothing was changed"); }, [this] { return text("wedm_message"); });
+    expect("because of the undo", text("wedm_message").contains("Undo"), text("wedm_message"));
+    save();
+    expect("nothing was changed", saved("radii") == radii, saved("radii"));
+    expect("redo is still possible", action("EditRedo")->isEnabled());
+    press("EditRedo");
+    choose("Fix");
+    expectSoon("asked again it is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+}
+
+void Driver::editOnTheWay()
+{
+    choose("Check radii");
+    expectSoon("the fault is found", [this] { return verdictOf("0.0800").contains("small-radius"); });
+    save();
+    const QString radii = saved("radii");
+    press("SelectAll");
+    press("ModifyDelete");
+    // Between the question and its answer the event loop has not come round.
+    choose("Fix");
+    confirm();
+    expectSoon("the repair is refused", [this] { return text("wedm_message").contains("nothing was changed"); }, [this] { return text("wedm_message"); });
+    save();
+    expect("the drawing is empty, as the user left it", saved("radii").isEmpty(), saved("radii"));
+    press("EditUndo");
+    save();
+    expect("and one undo brings everything back", saved("radii") == radii, saved("radii"));
+}
+
+/// 200,000 vertices: how long is the longest time in which LibreCAD does not answer?
+void Driver::large()
+{
+    Blocks blocks(this);
+    const auto pause = [&] {
+        QTest::qWait(1000);
+        return blocks.longest();
+    };
+    pause();
+    blocks.restart();
+    press("ZoomRedraw");
+    report(QStringLiteral("       longest block, LibreCAD's own repaint: %1 ms").arg(pause()));
+    blocks.restart();
+    drawLine();
+    const qint64 alone = pause();
+    report(QStringLiteral("       longest block, a line is drawn without the plugin: %1 ms").arg(alone));
+    blocks.restart();
+    choose("Live check");
+    expectSoon("the fault among 200,000 vertices is found", [this] { return findings().join('\n').contains("small-radius") || findings().join('\n').contains("below the correction"); },
+               [this] { return findings().join('\n').left(300) + text("wedm_server"); });
+    expectSoon("and the radius list has come", [this] { return rows() > 0; });
+    report(QStringLiteral("       longest block, first look, %1 rows listed: %2 ms").arg(rows()).arg(pause()));
+    for (int i = 0; i < 3; ++i) {
+        blocks.restart();
+        drawLine();
+        const qint64 longest = pause();
+        report(QStringLiteral("       longest block, a line is drawn under live check: %1 ms, of them the look %2 ms")
+                   .arg(longest)
+                   .arg(controller()->property("lookMilliseconds").toInt()));
+    }
+    // A server that does not answer at all holds nothing up: were anything waited for, this would never end.
+    const pid_t server = pid_t(controller()->property("serverProcessId").toLongLong());
+    ::kill(server, SIGSTOP);
+    blocks.restart();
+    drawLine();
+    choose("Check radii");
+    report(QStringLiteral("       longest block, a line is drawn and checked while the server hangs: %1 ms").arg(pause()));
+    ::kill(server, SIGCONT);
+    QElapsedTimer clock;
+    clock.start();
+    choose("Fix");
+    expectSoon("a repair that would hold LibreCAD up is asked about first",
+               [this] { return m_main->findChild<QDialog *>("wedm_rebuild") || text("wedm_message").startsWith("Done"); },
+               [this] { return text("wedm_message"); });
+    if (QDialog *box = m_main->findChild<QDialog *>("wedm_rebuild"))
+        box->reject();
+    report(QStringLiteral("       after %1 ms: %2").arg(clock.elapsed()).arg(text("wedm_message")));
+}
+
+/// A double click shows the place and selects what lies there.
+void Driver::zoom()
+{
+    choose("Check radii");
+    expectSoon("the list is there", [this] { return rows() > 0; });
+    QTableView *view = m_main->findChild<QTableView *>("wedm_radii");
+    QTest::qWait(200);
+    emit view->doubleClicked(view->model()->index(0, 0));
+    QTest::qWait(300);
+    const QString path = qEnvironmentVariable("WEDM_TEST_PICTURE");
+    if (!path.isEmpty())
+        m_main->grab().save(path);
+    press("ModifyDelete");
+    confirm();
+    save();
+    expect("the entity under it was selected: Delete took it away", saved("radii").isEmpty(), saved("radii"));
+    press("EditUndo");
+    expect("nothing but the deletion is to undo", !action("EditUndo")->isEnabled());
+}

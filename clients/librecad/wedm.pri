@@ -1,0 +1,22 @@
+# The parts that know nothing of LibreCAD: shared by the plugin and its tests.
+QT += core
+CONFIG += c++17 warn_on
+VERSION = 0.1.0
+DEFINES += WEDM_PLUGIN_VERSION=\\\"$$VERSION\\\" QT_DEPRECATED_WARNINGS
+INCLUDEPATH += $$PWD/src
+HEADERS += \
+    $$PWD/src/core/connection.h \
+    $$PWD/src/core/difference.h \
+    $$PWD/src/core/drawing.h \
+    $$PWD/src/core/frame.h \
+    $$PWD/src/core/messages.h \
+    $$PWD/src/core/program_search.h \
+    $$PWD/src/core/session.h
+SOURCES += \
+    $$PWD/src/core/connection.cpp \
+    $$PWD/src/core/difference.cpp \
+    $$PWD/src/core/drawing.cpp \
+    $$PWD/src/core/frame.cpp \
+    $$PWD/src/core/messages.cpp \
+    $$PWD/src/core/program_search.cpp \
+    $$PWD/src/core/session.cpp

@@ -1,0 +1,379 @@
+//! Paths to the text of one ISO program, as a profile says, each line of which is read again while it is written.
+
+use super::block::{Motion, Note, read_line};
+use super::encode::{Encoded, MIDDLE_TOLERANCE, encode};
+use super::machine::{CenterRule, Course, MICROMETRE, Machine, Move, Place, Reading};
+use crate::finding::Side;
+use crate::geometry::Segment;
+use crate::program::grid::{Node, point_of};
+use crate::program::write::{ProofError, ProvedProgram, Writer, walk, way};
+use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
+use crate::toolpath::{Source, WirePath};
+
+/// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. The error of a profile that is not there, or
+/// whose lines do not do what they should, is a refusal.
+pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Result<ProvedProgram, ProofError> {
+    write_with(paths, unit_mm, settings, &mut |_, _| true)
+}
+
+/// As [`write()`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
+pub fn write_with(
+    paths: &[WirePath],
+    unit_mm: f64,
+    settings: &Effective,
+    go_on: &mut dyn FnMut(usize, usize) -> bool,
+) -> Result<ProvedProgram, ProofError> {
+    let profile = settings.profile.as_ref().map_err(|sentence| ProofError::Refused(sentence.clone()))?;
+    let per_mm = 10_i64.pow(u32::from(profile.decimals.clamp(3, 6)));
+    let mut lines = Lines::new(profile, settings.jumps, 1_000_000 / per_mm);
+    walk(paths, unit_mm * per_mm as f64, lines.step_um(), go_on, &mut lines)?;
+    lines.finish()
+}
+
+struct Lines<'a> {
+    profile: &'a Profile,
+    jumps: Jumps,
+    /// nm in one step of the grid.
+    step: i64,
+    reading: Reading,
+    /// The control that runs every line once more.
+    machine: Machine,
+    out: Vec<u8>,
+    /// What absolute coordinates count from.
+    zero: Node,
+    side: Option<Side>,
+    is_switched_off: bool,
+    number: u32,
+    /// What is in force for a profile that leaves it out.
+    motion: Option<Motion>,
+    blocks: usize,
+    /// Steps.
+    length: f64,
+    /// Steps.
+    deviation: f64,
+    encoded: Vec<Encoded>,
+}
+
+impl Writer for Lines<'_> {
+    fn begin(&mut self, from: Option<Node>, first: Node, side: Option<Side>) -> Result<(), ProofError> {
+        match from {
+            None => {
+                if self.profile.zero == Zero::Start {
+                    self.zero = first;
+                }
+                self.fixed(&self.profile.begin, first)?;
+                if !self.machine.stated {
+                    self.machine.at = self.place(first);
+                }
+                if self.machine.at != self.place(first) {
+                    return Err(self.refused("its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}"));
+                }
+            }
+            Some(from) => self.jump(from, first)?,
+        }
+        (self.side, self.is_switched_off) = (side, false);
+        self.fixed(&self.profile.contour_begin, first)?;
+        if side.is_some() && self.machine.side != side {
+            return Err(self.refused("its contour-begin does not switch the correction on: expected a line with {side}"));
+        }
+        Ok(())
+    }
+
+    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Result<(), ProofError> {
+        if source == Source::LeadOut {
+            self.switch_off(from)?;
+        }
+        let mut encoded = std::mem::take(&mut self.encoded);
+        encoded.clear();
+        encode(piece, from, to, self.step_um(), self.profile.full_circles, &mut encoded)
+            .ok_or_else(|| ProofError::Mismatch(format!("no moves within tolerance lead from {from:?} to {to:?}")))?;
+        for step in &encoded {
+            self.step_out(step)?;
+        }
+        self.length += piece.length();
+        self.deviation = self.deviation.max((piece.end() - point_of(to)).norm());
+        self.encoded = encoded;
+        Ok(())
+    }
+
+    fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError> {
+        if closed && first != last {
+            return Err(ProofError::Mismatch(format!("the cut begins at {first:?} and ends at {last:?}")));
+        }
+        self.switch_off(last)
+    }
+}
+
+impl<'a> Lines<'a> {
+    fn new(profile: &'a Profile, jumps: Jumps, step: i64) -> Lines<'a> {
+        let reading = Reading {
+            whole_numbers_are_fine: profile.unit == NumberUnit::Um,
+            absolute: profile.center,
+            incremental: if profile.center == CenterRule::Absolute { CenterRule::StartToCenter } else { profile.center },
+            tolerance: 3 * MICROMETRE,
+        };
+        Lines {
+            profile,
+            jumps,
+            step,
+            reading,
+            machine: Machine::default(),
+            out: Vec::new(),
+            zero: Node { x: 0, y: 0 },
+            side: None,
+            is_switched_off: false,
+            number: 0,
+            motion: None,
+            blocks: 0,
+            length: 0.0,
+            deviation: 0.0,
+            encoded: Vec::new(),
+        }
+    }
+
+    fn step_um(&self) -> f64 {
+        self.step as f64 / MICROMETRE as f64
+    }
+
+    /// Where the control stands at a node.
+    fn place(&self, node: Node) -> Place {
+        [(node.x - self.zero.x) * self.step, (node.y - self.zero.y) * self.step]
+    }
+
+    fn refused(&self, why: &str) -> ProofError {
+        ProofError::Refused(format!("profile {}: {why}", self.profile.name))
+    }
+
+    /// From one contour to the next: the wire is taken out, the table moves, the wire is threaded.
+    fn jump(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
+        self.fixed(&self.profile.pause, from)?;
+        if from == to {
+            return Ok(());
+        }
+        match self.jumps {
+            Jumps::Blocks => {
+                self.step_out(&Encoded { motion: Motion::Rapid, from, to, center: from, piece: way(from, to) })?;
+                self.length += way(from, to).length();
+                self.fixed(&self.profile.pause, to)
+            }
+            Jumps::None => {
+                self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
+                if self.machine.at != self.place(to) {
+                    return Err(self.refused("without jumps its pause has to stop the machine: expected M00"));
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// What stands before the way out of a contour that the control offsets.
+    fn switch_off(&mut self, at: Node) -> Result<(), ProofError> {
+        if self.side.is_none() || std::mem::replace(&mut self.is_switched_off, true) {
+            return Ok(());
+        }
+        self.fixed(&self.profile.contour_end, at)
+    }
+
+    /// Lines of the profile; none of them may move the wire.
+    fn fixed(&mut self, lines: &[String], at: Node) -> Result<(), ProofError> {
+        for line in lines {
+            let word = match self.side {
+                Some(Side::Left) => "G41",
+                Some(Side::Right) => "G42",
+                None if line.contains("{side}") => continue,
+                None => "",
+            };
+            let text = if line.contains('{') {
+                let (mut x, mut y) = (Vec::new(), Vec::new());
+                self.push_length(&mut x, at.x - self.zero.x);
+                self.push_length(&mut y, at.y - self.zero.y);
+                let (x, y) = (String::from_utf8_lossy(&x), String::from_utf8_lossy(&y));
+                line.replace("{side}", word).replace("{x}", &x).replace("{y}", &y)
+            } else {
+                line.clone()
+            };
+            let mut fault = None;
+            let block = read_line(text.as_bytes(), 1, |note| {
+                if let Note::Fault { .. } = note {
+                    fault = Some(());
+                }
+            });
+            let made = self.machine.run(&block, &self.reading);
+            if fault.is_some() {
+                return Err(self.refused(&format!("its line `{text}` cannot be read again")));
+            }
+            if made.is_some() {
+                return Err(self.refused(&format!("its line `{text}` moves the wire")));
+            }
+            if block.motion.is_some() {
+                self.motion = None;
+            }
+            self.out.extend_from_slice(text.as_bytes());
+            self.end_line();
+        }
+        Ok(())
+    }
+
+    fn end_line(&mut self) {
+        self.out.extend_from_slice(match self.profile.line_end {
+            LineEnd::Lf => b"\n",
+            LineEnd::Crlf => b"\r\n",
+        });
+    }
+
+    /// Writes one move, and reads it again.
+    fn step_out(&mut self, step: &Encoded) -> Result<(), ProofError> {
+        let start = self.out.len();
+        self.push_move(step);
+        let block = read_line(&self.out[start..], 1, |_| {});
+        let made = self.machine.run(&block, &self.reading);
+        self.check(step, made)?;
+        self.end_line();
+        self.blocks += 1;
+        Ok(())
+    }
+
+    fn push_move(&mut self, step: &Encoded) {
+        let modal = self.profile.modal;
+        let mut separate = Separator { wanted: self.profile.spaces, first: true };
+        let mut out = std::mem::take(&mut self.out);
+        if self.profile.numbers > 0 {
+            self.number = self.number.saturating_add(self.profile.numbers);
+            separate.push(&mut out, b"N");
+            push_whole(&mut out, u64::from(self.number));
+        }
+        if !modal || self.motion != Some(step.motion) {
+            separate.push(
+                &mut out,
+                match step.motion {
+                    Motion::Rapid => b"G00",
+                    Motion::Line => b"G01",
+                    Motion::Clockwise => b"G02",
+                    Motion::CounterClockwise => b"G03",
+                },
+            );
+            self.motion = Some(step.motion);
+        }
+        let from = match self.profile.coordinates {
+            Coordinates::Absolute => self.zero,
+            Coordinates::Incremental => step.from,
+        };
+        let is_arc = matches!(step.motion, Motion::Clockwise | Motion::CounterClockwise);
+        // An arc without coordinates is a full circle: both are kept for it.
+        let keep = !modal || step.from == step.to;
+        if keep || step.to.x != step.from.x {
+            separate.push(&mut out, b"X");
+            self.push_length(&mut out, step.to.x - from.x);
+        }
+        if keep || step.to.y != step.from.y {
+            separate.push(&mut out, b"Y");
+            self.push_length(&mut out, step.to.y - from.y);
+        }
+        if is_arc {
+            let (i, j) = match self.reading.rule(self.profile.coordinates == Coordinates::Incremental) {
+                CenterRule::StartToCenter => (step.center.x - step.from.x, step.center.y - step.from.y),
+                CenterRule::CenterToStart => (step.from.x - step.center.x, step.from.y - step.center.y),
+                CenterRule::Absolute => (step.center.x - self.zero.x, step.center.y - self.zero.y),
+            };
+            separate.push(&mut out, b"I");
+            self.push_length(&mut out, i);
+            separate.push(&mut out, b"J");
+            self.push_length(&mut out, j);
+        }
+        self.out = out;
+    }
+
+    /// Holds what the control does with the line against the node and the piece of the path.
+    fn check(&self, step: &Encoded, made: Option<Move>) -> Result<(), ProofError> {
+        let Some(made) = made else { return Err(ProofError::Mismatch(format!("a written move to {:?} does not move", step.to))) };
+        let (from, to) = (self.place(step.from), self.place(step.to));
+        if made.from != from || made.to != to || made.motion != step.motion {
+            // Only the profile can have changed what coordinates count from, or in which unit.
+            let profile = format!(
+                "its lines lead elsewhere than they should: a move to {to:?} nm goes to {:?} nm; expected G90 or G91 as coordinates say",
+                made.to
+            );
+            return Err(self.refused(&profile));
+        }
+        if made.is_cut() && !self.is_switched_off && made.side != self.side {
+            return Err(self.refused("the correction is not in force along the contour"));
+        }
+        let decoded = match made.course(&self.reading) {
+            Course::Line => return Ok(()),
+            Course::Arc(arc) => Segment::Arc(arc),
+            Course::OffRadius { start, end, .. } => {
+                return Err(ProofError::Mismatch(format!("the arc to {:?} has ends {start:.3} and {end:.3} µm from its centre", step.to)));
+            }
+            Course::NoRadius => return Err(ProofError::Mismatch(format!("the arc to {:?} has no radius", step.to))),
+        };
+        let middle = step.piece.point_at(0.5);
+        let zero = point_of(self.zero);
+        let expected = (middle - zero) * self.step_um();
+        let aside = (decoded.point_at(0.5).coords - expected).norm();
+        if aside > MIDDLE_TOLERANCE + 1e-6 || aside.is_nan() {
+            return Err(ProofError::Mismatch(format!("the arc to {:?} runs {aside:.3} µm beside the path", step.to)));
+        }
+        Ok(())
+    }
+
+    /// A length in steps, as the profile writes lengths.
+    fn push_length(&self, out: &mut Vec<u8>, steps: i64) {
+        if steps < 0 {
+            out.push(b'-');
+        }
+        let magnitude = steps.unsigned_abs();
+        if self.profile.unit == NumberUnit::Um {
+            return push_whole(out, magnitude);
+        }
+        let per_mm = 10_u64.pow(u32::from(self.profile.decimals));
+        push_whole(out, magnitude / per_mm);
+        out.push(b'.');
+        let mut place = per_mm / 10;
+        while place > 0 {
+            out.push(b'0' + (magnitude / place % 10) as u8);
+            place /= 10;
+        }
+    }
+
+    fn finish(mut self) -> Result<ProvedProgram, ProofError> {
+        if self.blocks == 0 {
+            return Err(ProofError::Mismatch("the path holds no block".into()));
+        }
+        self.side = None;
+        self.fixed(&self.profile.end, self.zero)?;
+        let (step_um, blocks) = (self.step_um(), self.blocks);
+        let text = String::from_utf8(self.out).map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
+        let deviation = self.deviation * step_um;
+        Ok(ProvedProgram { text, blocks, length: self.length * step_um / 1000.0, closure: [0.0, 0.0], deviation })
+    }
+}
+
+/// A space before every word but the first.
+struct Separator {
+    wanted: bool,
+    first: bool,
+}
+
+impl Separator {
+    fn push(&mut self, out: &mut Vec<u8>, word: &[u8]) {
+        if self.wanted && !self.first {
+            out.push(b' ');
+        }
+        self.first = false;
+        out.extend_from_slice(word);
+    }
+}
+
+fn push_whole(out: &mut Vec<u8>, mut value: u64) {
+    let mut digits = [0_u8; 20];
+    let mut first = digits.len();
+    loop {
+        first -= 1;
+        digits[first] = b'0' + (value % 10) as u8;
+        value /= 10;
+        if value == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[first..]);
+}

@@ -1,0 +1,124 @@
+//! Paths to a program, whatever its language: the walk along the paths, and what a proved program is.
+//!
+//! A language gives a [`Writer`] that puts one piece after another into text and proves each; the walk snaps the ends to the
+//! language's grid, so that what a writer gets always joins, and comes back to where it began.
+
+use super::grid::{Node, point_of, snap};
+use crate::finding::Side;
+use crate::geometry::{Arc, Point, Segment};
+use crate::toolpath::{Source, WirePath};
+use std::fmt;
+
+/// A program that has been decoded again and held against its path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProvedProgram {
+    pub text: String,
+    /// Number of blocks.
+    pub blocks: usize,
+    /// Length of the path in mm, jumps included.
+    pub length: f64,
+    /// Drift in µm that a controller which only counts J accumulates on the way round; 0 where ends are written.
+    pub closure: [f64; 2],
+    /// Largest distance in µm between a decoded block's end and the path's node.
+    pub deviation: f64,
+}
+
+/// Why no program came out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ProofError {
+    /// The program would not have been the path: an internal error, never the drawing's fault.
+    Mismatch(String),
+    /// The path, or what the settings say, cannot be written in this language: a plain sentence.
+    Refused(String),
+    /// The program was not wanted any more.
+    Cancelled,
+}
+
+impl fmt::Display for ProofError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ProofError::Mismatch(sentence) | ProofError::Refused(sentence) => f.write_str(sentence),
+            ProofError::Cancelled => f.write_str("cancelled"),
+        }
+    }
+}
+
+impl std::error::Error for ProofError {}
+
+/// How far apart two pieces of a path may be that belong together, µm.
+const GAP: f64 = 1.5;
+
+/// Puts pieces of a path into the text of one language and proves them. Nodes and pieces are in steps of the language's grid.
+pub trait Writer {
+    /// A path begins at `first`. `from` is where the program stands, `None` before the first path: the wire has to be taken there.
+    fn begin(&mut self, from: Option<Node>, first: Node, side: Option<Side>) -> Result<(), ProofError>;
+    /// One piece of the path between two nodes, which are its snapped ends.
+    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Result<(), ProofError>;
+    /// The path ends at `last`; it is closed where both ends of it are one point.
+    fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError>;
+}
+
+/// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` hears every few thousand segments how many are
+/// done and how many there are, and ends the work with `false`.
+pub fn walk(
+    paths: &[WirePath],
+    steps: f64,
+    step_um: f64,
+    go_on: &mut dyn FnMut(usize, usize) -> bool,
+    writer: &mut dyn Writer,
+) -> Result<(), ProofError> {
+    let total = paths.iter().map(|path| path.segments.len()).sum();
+    let mut done = 0;
+    let mut node: Option<Node> = None;
+    for path in paths {
+        let (Some(first), Some(last)) = (path.segments.first(), path.segments.last()) else { continue };
+        let (begin, end) = (first.geometry.start() * steps, last.geometry.end() * steps);
+        let first_node = node_of(begin)?;
+        writer.begin(node, first_node, path.side)?;
+        let mut from = first_node;
+        let mut reached = begin;
+        for segment in &path.segments {
+            if done % 4096 == 0 && !go_on(done, total) {
+                return Err(ProofError::Cancelled);
+            }
+            done += 1;
+            let piece = scaled(&segment.geometry, steps);
+            let gap = (piece.start() - reached).norm() * step_um;
+            if gap > GAP || gap.is_nan() {
+                return Err(ProofError::Mismatch(format!("the path has a gap of {gap:.3} µm before segment {done}")));
+            }
+            reached = piece.end();
+            let to = node_of(piece.end())?;
+            writer.piece(&piece, from, to, segment.source)?;
+            // A piece that is skipped leaves the node where it is, and both its ends are that node.
+            from = to;
+        }
+        let closed = (begin - end).norm() * step_um <= 1e-3;
+        writer.end(closed, first_node, from)?;
+        node = Some(from);
+    }
+    Ok(())
+}
+
+fn node_of(point: Point) -> Result<Node, ProofError> {
+    snap(point).ok_or_else(|| ProofError::Mismatch(format!("the path passes {point:?} µm, too far out for a program")))
+}
+
+/// The way between two paths.
+pub fn way(from: Node, to: Node) -> Segment {
+    Segment::line(point_of(from), point_of(to))
+}
+
+/// The same segment in other units.
+fn scaled(segment: &Segment, scale: f64) -> Segment {
+    match segment {
+        Segment::Line(line) => Segment::line(line.start * scale, line.end * scale),
+        Segment::Arc(arc) => Segment::Arc(Arc {
+            center: arc.center * scale,
+            radius: arc.radius * scale,
+            start: arc.start * scale,
+            end: arc.end * scale,
+            ..*arc
+        }),
+    }
+}
