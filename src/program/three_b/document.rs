@@ -14,7 +14,7 @@ use super::rules::{
     self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, path_crosses_itself, position_mismatch,
     text_after_end,
 };
-use super::run::{BlockEntry, Entry, LINES, Local, Move, Run, Sum, What, travel_of};
+use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Run, Sum, What, travel_of};
 use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault, Rule, Severity};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::trace::{Kind, Step, Trace};
@@ -292,7 +292,7 @@ impl Document {
 
     fn judge_open(&self, view: &mut View, index: usize) {
         let section = &view.sections[index];
-        let Some(last) = self.blocks_of(section).last().filter(|_| section.sum.unread == 0) else { return };
+        let Some(last) = self.last_block_of(section).filter(|_| section.sum.unread == 0) else { return };
         let is_fragment = view.end.is_none() || section.sum.blocks <= not_closed::FRAGMENT;
         let fault = not_closed::fault(&section.sum);
         let severity = if is_fragment { Severity::Information } else { fault.rule().default_severity() };
@@ -325,6 +325,17 @@ impl Document {
                 (from..to).filter(move |entry| of.entries[*entry].block().is_some())
             });
             entries.into_iter().flatten().map(move |entry| At { run, entry })
+        })
+    }
+
+    fn last_block_of(&self, section: &Section) -> Option<At> {
+        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        (first_run..=last_run).rev().find_map(|run| {
+            let of = self.runs.get(run)?;
+            let from = if run == first_run { of.parts.get(first_part)?.entries.start } else { 0 };
+            let to = if run == last_run { of.parts.get(last_part)?.entries.end } else { of.entries.len() };
+            let entry = (from..to).rev().find(|entry| of.entries.get(*entry).is_some_and(|entry| entry.block().is_some()))?;
+            Some(At { run, entry })
         })
     }
 
@@ -429,7 +440,8 @@ impl Document {
     }
 
     fn judge_numbers(&self, view: &mut View) {
-        if self.runs.iter().all(|run| run.numbered == 0) {
+        let numbering = self.runs.iter().fold(Numbering::Empty, |before, run| before.then(run.numbering));
+        if numbering != Numbering::Irregular || self.runs.iter().all(|run| run.numbered == 0) {
             return;
         }
         let (places, blocks) = self.numbered(view.end);
@@ -463,31 +475,19 @@ impl Document {
     }
 
     fn judge_positions(&self, view: &mut View) {
-        if self.runs.iter().all(|run| run.stated == 0) {
-            return;
-        }
         let mut anchor = None;
-        let mut compared = 0;
+        let (mut compared, mut ordinal) = (0, 0);
         let mut off: Vec<(usize, At, [f64; 2])> = Vec::new();
-        let mut ordinal = 0;
         for (run, of) in self.runs.iter().enumerate() {
-            for (entry, what) in of.entries.iter().enumerate() {
-                match &what.what {
-                    What::StartPoint(at) => anchor = Some(super::parse::StatedPoint { at: *at, decimals: 3 }),
-                    What::Block(block) => {
-                        ordinal += 1;
-                        let stated = block.stated_end();
-                        if let (Some(before), Some(stated)) = (&anchor, &stated) {
-                            compared += 1;
-                            if let Some(by) = position_mismatch::mismatch(before, &block.travel, stated) {
-                                off.push((ordinal, At { run, entry }, by));
-                            }
-                        }
-                        anchor = stated;
-                    }
-                    _ => {}
-                }
+            let positions = &of.positions;
+            if let (Some(before), Some((entry, stated, travel))) = (&anchor, &positions.first) {
+                compared += 1;
+                off.extend(position_mismatch::mismatch(before, travel, stated).map(|by| (ordinal, At { run, entry: *entry }, by)));
             }
+            compared += positions.compared;
+            off.extend(positions.off.iter().map(|(nth, entry, by)| (ordinal + nth, At { run, entry: *entry }, *by)));
+            ordinal += of.blocks;
+            anchor = positions.anchor.unwrap_or(anchor);
         }
         if off.len() > 2 && off.len() as f64 > position_mismatch::FOREIGN * compared as f64 {
             return;
@@ -640,7 +640,7 @@ impl Document {
         if self.blocks_of(section).next() == Some(at) {
             sum.first = blocks.first().map(travel_of).or(sum.first);
         }
-        if self.blocks_of(section).last() == Some(at) {
+        if self.last_block_of(section) == Some(at) {
             sum.last = blocks.last().map(travel_of).or(sum.last);
         }
         section.sum.blocks >= 3 && not_closed::is_closed(&sum)

@@ -6,6 +6,7 @@ use super::block::{Block, Motion, Node, PartArc};
 use super::decode::meant;
 use super::machine::travel;
 use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
+use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
 use crate::finding::{Detail, ProgramFault, Rule};
 use crate::geometry::{Point, Segment};
@@ -237,6 +238,77 @@ pub(super) struct Run {
     /// Entries with a number, and blocks with an end point behind them.
     pub numbered: usize,
     pub stated: usize,
+    pub numbering: Numbering,
+    pub positions: Positions,
+}
+
+/// How the blocks of a run are numbered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Numbering {
+    /// There is no block.
+    #[default]
+    Empty,
+    /// Every block has the number before it and `step`; `step` is 0 for a single block.
+    Regular {
+        first: u32,
+        last: u32,
+        step: u32,
+    },
+    Irregular,
+}
+
+impl Numbering {
+    fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
+        match (self, number) {
+            (same, None) if !is_block => same,
+            (Numbering::Empty, Some(number)) => Numbering::Regular { first: number, last: number, step: 0 },
+            (Numbering::Regular { first, last, step }, Some(number)) if number > last && (step == 0 || number - last == step) => {
+                Numbering::Regular { first, last: number, step: number - last }
+            }
+            _ => Numbering::Irregular,
+        }
+    }
+
+    /// This run and then the next.
+    pub fn then(self, next: Numbering) -> Numbering {
+        match (self, next) {
+            (Numbering::Empty, other) | (other, Numbering::Empty) => other,
+            (Numbering::Regular { first, last: a, step }, Numbering::Regular { first: b, last, step: next_step }) => {
+                let between = b.saturating_sub(a);
+                let agree = between > 0 && [step, next_step].iter().all(|step| *step == 0 || *step == between);
+                if agree { Numbering::Regular { first, last, step: between } } else { Numbering::Irregular }
+            }
+            _ => Numbering::Irregular,
+        }
+    }
+}
+
+/// The end points that stand behind the blocks of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Positions {
+    /// Pairs of end points in the run that were held against each other.
+    pub compared: usize,
+    /// Those that are off, by the number of the block in the run, its entry, and by how much in µm.
+    pub off: Vec<(usize, usize, [f64; 2])>,
+    /// Entry, end point and displacement of the first block, where nothing in the run stands before it.
+    pub first: Option<(usize, StatedPoint, Move)>,
+    /// What the next run's first end point is held against: `None` where nothing in this run says.
+    pub anchor: Option<Option<StatedPoint>>,
+}
+
+impl Positions {
+    fn block(&mut self, nth: usize, entry: usize, block: &BlockEntry) {
+        let stated = block.stated_end();
+        match (self.anchor, stated) {
+            (Some(Some(before)), Some(stated)) => {
+                self.compared += 1;
+                self.off.extend(mismatch(&before, &block.travel, &stated).map(|by| (nth, entry, by)));
+            }
+            (None, Some(stated)) => self.first = Some((entry, stated, block.travel)),
+            _ => {}
+        }
+        self.anchor = Some(stated);
+    }
 }
 
 /// Lines that one run holds at most.
@@ -255,6 +327,8 @@ impl Run {
             texts: 0,
             numbered: 0,
             stated: 0,
+            numbering: Numbering::Empty,
+            positions: Positions::default(),
         };
         let mut open = Part { entries: 0..0, sum: Sum::default(), word: None };
         for range in lines {
@@ -284,6 +358,7 @@ impl Run {
                 }
                 self.stated += usize::from(entry.stated_end().is_some());
                 open.sum.push(&entry, segment.as_ref());
+                self.positions.block(self.blocks, self.entries.len(), &entry);
                 self.blocks += 1;
                 self.push(range, line, number, What::Block(entry));
             }
@@ -294,7 +369,10 @@ impl Run {
                 let next = self.entries.len();
                 self.parts.push(std::mem::replace(open, Part { entries: next..next, sum: Sum::default(), word: None }));
             }
-            Item::StartPoint { at, range } => self.push(local(range), line, None, What::StartPoint(at)),
+            Item::StartPoint { at, range } => {
+                self.positions.anchor = Some(Some(StatedPoint { at, decimals: 3 }));
+                self.push(local(range), line, None, What::StartPoint(at));
+            }
             Item::Text { range, column } => {
                 self.texts += 1;
                 self.push(local(range), line, None, What::Text { column });
@@ -324,6 +402,7 @@ impl Run {
 
     fn push(&mut self, range: Range<usize>, line: u32, number: Option<u32>, what: What) {
         self.numbered += usize::from(number.is_some());
+        self.numbering = self.numbering.with(number, matches!(what, What::Block(_)));
         self.entries.push(Entry { start: range.start as u32, length: range.len() as u32, line, number: number.unwrap_or(NO_NUMBER), what });
     }
 }
