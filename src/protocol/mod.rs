@@ -57,4 +57,6 @@ pub mod method {
     pub const SETTINGS: &str = "wedm/settings";
     /// The command that a drawing's code actions hold.
     pub const APPLY_DRAWING_EDIT_COMMAND: &str = "wedm.applyDrawingEdit";
+    /// The server's command that scales a program; its argument is `{ uri, factor }`.
+    pub const SCALE_COMMAND: &str = "wedm.scale";
 }

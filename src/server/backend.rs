@@ -8,7 +8,7 @@ use super::requests::code_action::FIX_ALL;
 use super::requests::language::formatting::Scope;
 use super::requests::language::navigate::{Question, navigate};
 use super::requests::{
-    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, settings, simulate,
+    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, scale, settings, simulate,
     toolpath,
 };
 use super::state::{Mailbox, Reply, State};
@@ -374,6 +374,19 @@ impl LanguageServer for Backend {
         self.look("textDocument/selectionRange", about, move |state| language::selection::selection_range(state, &params)).await
     }
 
+    async fn code_lens(&self, params: CodeLensParams) -> Result<Option<Vec<CodeLens>>> {
+        let uri = params.text_document.uri;
+        let about = shared(&uri);
+        let act = move |state: &mut State, errand: Errand| language::lenses::code_lens(state, &uri, errand);
+        let answer = self.errand("textDocument/codeLens", &about, None, act).await?;
+        serde_json::from_slice(&answer).map_err(|error| internal(error.to_string()))
+    }
+
+    async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
+        let about = shared(&params.text_document_position_params.text_document.uri);
+        self.look("textDocument/signatureHelp", about, move |state| language::signature::signature_help(state, &params)).await
+    }
+
     async fn prepare_rename(&self, params: TextDocumentPositionParams) -> Result<Option<PrepareRenameResponse>> {
         let about = shared(&params.text_document.uri);
         self.look("textDocument/prepareRename", about, move |state| language::rename::prepare(state, &params)).await
@@ -422,7 +435,11 @@ impl LanguageServer for Backend {
 
     async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
         self.ask("workspace/executeCommand", None, move |state, reply| {
-            drawing_edit::execute(state, &params.command, params.arguments, reply);
+            if params.command == method::SCALE_COMMAND {
+                scale::execute(state, params.arguments, reply);
+            } else {
+                drawing_edit::execute(state, &params.command, params.arguments, reply);
+            }
         })
         .await
     }
@@ -446,15 +463,15 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
                 ..TextDocumentSyncOptions::default()
             })),
             code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
-                code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, CodeActionKind::new(FIX_ALL)]),
+                code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, CodeActionKind::new(FIX_ALL), CodeActionKind::REFACTOR_REWRITE]),
                 work_done_progress_options: WorkDoneProgressOptions { work_done_progress: Some(true) },
                 resolve_provider: None,
             })),
             execute_command_provider: Some(ExecuteCommandOptions {
-                commands: vec![method::APPLY_DRAWING_EDIT_COMMAND.into()],
+                commands: vec![method::APPLY_DRAWING_EDIT_COMMAND.into(), method::SCALE_COMMAND.into()],
                 ..ExecuteCommandOptions::default()
             }),
-            completion_provider: Some(CompletionOptions::default()),
+            completion_provider: Some(language::completion::options()),
             definition_provider: Some(OneOf::Left(true)),
             references_provider: Some(OneOf::Left(true)),
             document_highlight_provider: Some(OneOf::Left(true)),
@@ -463,6 +480,8 @@ fn initialize(state: &mut State, params: InitializeParams) -> InitializeResult {
                 prepare_provider: Some(true),
                 work_done_progress_options: WorkDoneProgressOptions::default(),
             })),
+            code_lens_provider: state.client.abilities.code_lens.then_some(CodeLensOptions { resolve_provider: Some(false) }),
+            signature_help_provider: Some(language::signature::options()),
             inlay_hint_provider: Some(OneOf::Left(true)),
             semantic_tokens_provider: Some(language::tokens::capabilities()),
             hover_provider: Some(HoverProviderCapability::Simple(true)),
@@ -498,6 +517,10 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
         hierarchical_symbols: text.and_then(|text| text.document_symbol.as_ref()?.hierarchical_document_symbol_support) == Some(true),
         folding_limit: folding.and_then(|folding| usize::try_from(folding.range_limit?).ok()),
         apply_drawing_edit: ours("/wedm/applyDrawingEdit"),
+        apply_edit: workspace.and_then(|workspace| workspace.apply_edit) == Some(true),
+        disabled_actions: text.and_then(|text| text.code_action.as_ref()?.disabled_support) == Some(true),
+        code_lens: ours("/wedm/codeLens"),
+        snippets: text.and_then(|text| text.completion.as_ref()?.completion_item.as_ref()?.snippet_support) == Some(true),
         resend_drawing: ours("/wedm/resendDrawing"),
         document_changes: workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes) == Some(true),
         configuration: workspace.and_then(|workspace| workspace.configuration) == Some(true),

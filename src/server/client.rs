@@ -28,6 +28,13 @@ pub(super) struct Abilities {
     pub register_configuration: bool,
     pub register_watched_files: bool,
     pub related_information: bool,
+    pub apply_edit: bool,
+    /// Code actions may say why they cannot be done.
+    pub disabled_actions: bool,
+    /// The client has the commands that lenses name.
+    pub code_lens: bool,
+    /// Completions may be snippets.
+    pub snippets: bool,
     /// Symbols may be a tree.
     pub hierarchical_symbols: bool,
     /// Folds that the client takes at most.

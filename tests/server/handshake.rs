@@ -11,7 +11,7 @@ fn the_server_says_what_it_is_and_which_protocol_it_speaks() {
     assert_eq!(result["serverInfo"]["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(result["capabilities"]["experimental"]["wedm"]["protocol"], 1);
     assert_eq!(result["capabilities"]["textDocumentSync"]["change"], 2);
-    assert_eq!(result["capabilities"]["executeCommandProvider"]["commands"], json!(["wedm.applyDrawingEdit"]));
+    assert_eq!(result["capabilities"]["executeCommandProvider"]["commands"], json!(["wedm.applyDrawingEdit", "wedm.scale"]));
     client.shut_down();
 }
 
@@ -37,7 +37,10 @@ fn each_state_of_life_has_its_own_refusal() {
     assert_eq!(client.code("initialize", json!({ "capabilities": {} })), -32600);
     assert_eq!(client.code("wedm/unheardOf", json!({})), -32601);
     assert_eq!(
-        client.code("textDocument/prepareRename", json!({ "textDocument": { "uri": "a:b" }, "position": { "line": 0, "character": 0 } })),
+        client.code(
+            "textDocument/prepareTypeHierarchy",
+            json!({ "textDocument": { "uri": "a:b" }, "position": { "line": 0, "character": 0 } })
+        ),
         -32601
     );
     assert_eq!(client.code("wedm/inspect", json!({ "uri": 3 })), -32602);

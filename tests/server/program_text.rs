@@ -11,7 +11,13 @@ fn start() -> Client {
 
 fn start_with(options: Value) -> Client {
     let mut all = capabilities();
-    all["textDocument"] = json!({ "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } });
+    all["textDocument"] = json!({
+        "documentSymbol": { "hierarchicalDocumentSymbolSupport": true },
+        "codeAction": { "disabledSupport": true },
+        "completion": { "completionItem": { "snippetSupport": true } },
+    });
+    all["workspace"]["applyEdit"] = json!(true);
+    all["experimental"]["wedm"]["codeLens"] = json!(true);
     Client::start_with(all, options)
 }
 
@@ -169,4 +175,78 @@ fn odd_programs_are_answered_too() {
         }
         client.shut_down();
     }
+}
+
+/// The refactorings at a line, by title; those that cannot be done with their reason.
+fn refactorings(client: &mut Client, line: u64) -> Vec<(String, Value)> {
+    let mut params = document();
+    params["range"] = lines(line, line);
+    params["context"] = json!({ "diagnostics": [], "only": ["refactor"] });
+    let actions = client.request("textDocument/codeAction", params).unwrap();
+    let of = |action: &Value| (action["kind"].as_str().unwrap().trim_start_matches("refactor.rewrite.").to_owned(), action.clone());
+    actions.as_array().unwrap().iter().map(of).collect()
+}
+
+#[test]
+fn refactorings_are_offered_as_versioned_edits_or_with_their_reason() {
+    let mut client = start();
+    client.open_text(URI, "3b", NUMBERED);
+    let all = refactorings(&mut client, 3);
+    let named = |kind: &str| &all.iter().find(|(name, _)| name == kind).unwrap_or_else(|| panic!("{kind} in {all:?}")).1;
+    let change = &named("reverse")["edit"]["documentChanges"][0];
+    assert_eq!(change["textDocument"]["version"], 1);
+    assert!(applied(NUMBERED, &change["edits"]).contains("N2 B9900B0B39600GYSR4\n"), "{change}");
+    let rotated = applied(NUMBERED, &named("rotate.left")["edit"]["documentChanges"][0]["edits"]);
+    assert!(rotated.contains("N1 B0B9900B9900GYL2\nN2 B0B9900B39600GXNR2\nN3 B0B9900B9900GYL4\n"), "{rotated}");
+    assert!(named("correct.punch")["disabled"]["reason"].as_str().is_some_and(|reason| reason.contains("lead")), "{all:?}");
+    assert_eq!(named("layout.checking")["title"], "Convert to the checking layout, with numbers and end points");
+    // The light bulb asks at every move of the cursor.
+    let mut params = document();
+    params["range"] = lines(3, 3);
+    params["context"] = json!({ "diagnostics": [], "triggerKind": 2 });
+    assert_eq!(client.request("textDocument/codeAction", params).unwrap(), json!([]));
+    client.shut_down();
+}
+
+#[test]
+fn a_program_is_scaled_by_a_command() {
+    let mut client = start();
+    client.open_text(URI, "3b", NUMBERED);
+    let command = |argument: Value| json!({ "command": "wedm.scale", "arguments": [argument] });
+    let id = client.ask("workspace/executeCommand", command(json!({ "uri": URI, "factor": 2 })));
+    let asked = client.asked("workspace/applyEdit");
+    let text = applied(NUMBERED, &asked.params["edit"]["documentChanges"][0]["edits"]);
+    assert!(text.contains("N2 B19800B0B79200GYNR1\n"), "{text}");
+    client.respond(&asked, json!({ "applied": true }));
+    assert_eq!(client.answer(id).unwrap(), json!({ "applied": true }));
+    for (argument, code) in [
+        (json!({ "uri": URI, "factor": 0 }), -32803),
+        (json!({ "uri": URI, "factor": "two" }), -32602),
+        (json!({ "uri": "file:///other.3b", "factor": 2 }), -32602),
+    ] {
+        assert_eq!(client.code("workspace/executeCommand", command(argument.clone())), code, "{argument}");
+    }
+    client.shut_down();
+}
+
+#[test]
+fn lenses_completions_and_the_form_of_a_block() {
+    let mut client = start();
+    client.open_text(URI, "3b", &format!("{NUMBERED}B9900B0B"));
+    let lenses = client.request("textDocument/codeLens", document()).unwrap();
+    let commands: Vec<_> = lenses.as_array().unwrap().iter().map(|lens| lens["command"]["command"].as_str().unwrap()).collect();
+    assert_eq!(commands[..3], ["wedm.simulate", "wedm.openPicture", "wedm.convertToDxf"]);
+    assert_eq!(lenses[0]["command"]["arguments"], json!([URI]));
+    assert_eq!(lenses[3]["command"]["title"], "contour 1: closed, 1 block, 62.204 mm, counter-clockwise");
+    let items = client.request("textDocument/completion", at(7, 8)).unwrap();
+    let first = &items[0];
+    assert_eq!((&first["textEdit"]["newText"], &first["detail"]), (&json!("9900GXL1"), &json!("line to (9.900, 0.000)")));
+    let help = client.request("textDocument/signatureHelp", at(7, 8)).unwrap();
+    assert_eq!((&help["activeParameter"], &help["signatures"][0]["label"]), (&json!(2), &json!("B X B Y B J G Z")));
+    client.shut_down();
+    // Only for clients that have the commands.
+    let mut client = Client::start();
+    client.open_text(URI, "3b", NUMBERED);
+    assert_eq!(client.request("textDocument/codeLens", document()).unwrap(), Value::Null);
+    client.shut_down();
 }

@@ -53,8 +53,9 @@ export class Status implements vscode.Disposable {
     try {
       this.#show(await this.server.request("wedm/settings", { uri: document.uri.toString() }));
     } catch {
-      // A server that does not know the method, or has just died: its state says what there is to say.
-      this.#item.hide();
+      // A server that has just died says so with its state.
+      this.#item.text = "wedm";
+      this.#item.tooltip = "Wire EDM: the correction in force is not known";
     }
   }
 

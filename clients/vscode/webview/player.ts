@@ -176,7 +176,7 @@ export class Player {
       return;
     }
     const toMm = this.#sheet?.unitsPerMm ?? 0;
-    const travelled = toMm > 0 ? `${(this.#distance / toMm).toFixed(3)} of ${(this.#track.length / toMm).toFixed(3)} mm` : "";
+    const travelled = toMm > 0 ? `${(this.#distance / toMm).toFixed(1)} of ${(this.#track.length / toMm).toFixed(1)} mm` : "";
     const line = piece.dataset["line"];
     const block = line === undefined ? undefined : this.#blocks.get(Number(line));
     const facts = [line === undefined ? "" : `line ${Number(line) + 1}`, travelled];

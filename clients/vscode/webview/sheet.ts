@@ -44,6 +44,14 @@ export class Sheet {
     for (const element of this.svg.querySelectorAll<SVGElement>("[data-line]")) {
       add(this.#byLine, Number(element.dataset["line"]), element);
     }
+    // The style gives these a scale of their own, which would take the place of the attribute.
+    for (const symbol of this.svg.querySelectorAll<SVGElement>(":is(.dot, .thread, .arrow)[transform]")) {
+      const holder = document.createElementNS(this.svg.namespaceURI ?? "", "g");
+      holder.setAttribute("transform", symbol.getAttribute("transform") ?? "");
+      symbol.removeAttribute("transform");
+      symbol.replaceWith(holder);
+      holder.append(symbol);
+    }
     for (const mark of this.svg.querySelectorAll<SVGElement>("[data-at]")) {
       const [x, y] = (mark.dataset["at"] ?? "").split(" ").map(Number);
       mark.style.transformOrigin = `${x ?? 0}px ${y ?? 0}px`;
@@ -56,15 +64,25 @@ export class Sheet {
     return { title: text(".heading") || (this.svg.querySelector("title")?.textContent ?? ""), note: text(".note") };
   }
 
-  /** The box of all that is drawn, in units of the sheet. */
-  extent(): Box {
-    const figure = this.svg.querySelector<SVGGElement>("g.figure") ?? this.drawing;
-    const box = (this.drawing ?? figure)?.getBBox();
+  /** The box of all that is drawn, in units of the sheet; with the marks as large as they are where a pixel is `pixel` units. */
+  extent(pixel: number): Box {
+    const box = this.drawing?.getBBox();
     if (this.drawing === null || box === undefined || (box.width === 0 && box.height === 0)) {
       const { x, y, width, height } = this.svg.viewBox.baseVal;
       return { x, y, width, height };
     }
-    return this.#onSheet(this.drawing, box);
+    return this.#marks().reduce((all, { at, own }) => {
+      const [x, y] = [at.x + (own.x - at.x) * pixel, at.y + (own.y - at.y) * pixel];
+      return joined(all, { x, y, width: own.width * pixel, height: own.height * pixel });
+    }, this.#onSheet(this.drawing, box));
+  }
+
+  /** Each mark's point on the sheet, and its box where a pixel is one unit. */
+  #marks(): { at: { x: number; y: number }; own: Box }[] {
+    return [...this.svg.querySelectorAll<SVGGraphicsElement>(".mark[data-at]")].map((mark) => {
+      const [x, y] = (mark.dataset["at"] ?? "").split(" ").map(Number);
+      return { at: { x: x ?? 0, y: y ?? 0 }, own: mark.getBBox() };
+    });
   }
 
   /** Every element that stands for the segment; with null, for the entity. */

@@ -8,8 +8,10 @@ import { element } from "./page";
 const REACH = 6;
 /** A pointer that has moved less has clicked. */
 const CLICK = 4;
-/** Pixels about the drawing, in which the numbers of its faults have room. */
-const MARGIN = { width: 96, height: 48 };
+/** Pixels about what is drawn. */
+const MARGIN = { width: 24, height: 28 };
+/** Marks keep their size while the drawing grows into the room that they leave: a few looks settle that. */
+const LOOKS = 4;
 /** A part that is zoomed to fills this share of the window. */
 const SHARE = 0.22;
 
@@ -38,7 +40,7 @@ export class Stage {
     this.#sheet = sheet;
     this.#stage.prepend(sheet.svg);
     sheet.svg.setAttribute("preserveAspectRatio", "xMidYMid meet");
-    this.#all = fitted(sheet.extent(), this.#size(), MARGIN);
+    this.#all = this.#everything(sheet);
     if (!sameDocument || this.#isFitted) {
       this.fit();
     } else {
@@ -48,10 +50,19 @@ export class Stage {
 
   fit(): void {
     if (this.#sheet !== null) {
-      this.#all = fitted(this.#sheet.extent(), this.#size(), MARGIN);
+      this.#all = this.#everything(this.#sheet);
       this.#isFitted = true;
       this.#show(this.#all);
     }
+  }
+
+  #everything(sheet: Sheet): Box {
+    const size = this.#size();
+    let view = fitted(sheet.extent(0), size, MARGIN);
+    for (let look = 0; look < LOOKS; look += 1) {
+      view = fitted(sheet.extent(unitsPerPixel(view, size)), size, MARGIN);
+    }
+    return view;
   }
 
   zoom(factor: number): void {

@@ -10,12 +10,14 @@ mod hover;
 mod navigation;
 mod numbers;
 mod passages;
+mod refactorings;
 mod selection;
 mod sentences;
 mod symbols;
 #[cfg(test)]
 mod tests;
 mod words;
+mod writing;
 
 pub use folding::{Fold, folds};
 pub use format::format;
@@ -24,6 +26,8 @@ pub use hover::{Hover, hover};
 pub use navigation::{highlights, match_of, pauses};
 pub use numbers::{number_at, numbered, renamed, without_numbers};
 pub use passages::{Passage, passages};
+pub use refactorings::{Proposal, refactorings, scaled};
 pub use selection::selections;
 pub use symbols::{Symbol, SymbolKind, symbols};
 pub use words::{Part, WordKind, words_of};
+pub use writing::{Completion, Signature, completions, signature};

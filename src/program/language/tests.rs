@@ -149,3 +149,73 @@ fn pieces_of_iso_are_named_too() {
     let kinds: Vec<_> = words_of(&document, 0).into_iter().map(|part| part.kind).collect();
     assert_eq!(kinds, [WordKind::Number, WordKind::Motion, WordKind::Length, WordKind::Comment]);
 }
+
+#[track_caller]
+fn offers(text: &str, expected: &[(&str, &str)]) {
+    let (document, offset) = at_cursor(text);
+    let found = completions(&document, offset);
+    for (label, about) in expected {
+        assert!(
+            found.iter().any(|found| found.label == *label && found.about.contains(about)),
+            "{text}: no {label} ({about}) in {found:#?}"
+        );
+    }
+    // Each makes a block that reads without a fault.
+    for completion in found.iter().filter(|found| !found.is_snippet) {
+        let mut whole = text.replacen('|', "", 1);
+        whole.replace_range(completion.range.clone(), &completion.text);
+        assert_eq!(
+            read(&whole).findings(&Effective::default(), 99).0.iter().find(|finding| finding.rule == crate::finding::Rule::Syntax),
+            None,
+            "{whole}"
+        );
+    }
+}
+
+#[test]
+fn the_rest_of_a_block_is_offered_from_its_first_numbers() {
+    offers(
+        "B9900B0B|",
+        &[
+            ("9900GXL1", "line to (9.900, 0.000)"),
+            ("9900GXL3", "(-9.900, 0.000)"),
+            ("39600GYNR1", "circle R 9.900"),
+            ("19800GYSR4", "180.0° clockwise"),
+        ],
+    );
+    offers("B3000B4000B|", &[("4000GYL1", "(3.000, 4.000)"), ("4000GYL3", "(-3.000, -4.000)")]);
+    offers("B5B0B5GXL1\nB3B4B4|", &[("GYL1", "(0.008, 0.004)")]);
+    offers("B3B4B4G|", &[("GYL2", "(-0.003, 0.004)")]);
+    offers("B3B4B4GY|", &[("L4", "(0.003, -0.004)"), ("NR1", "counter-clockwise")]);
+    assert!(completions(&read("B1B2B3GXL1"), 10).is_empty());
+    assert!(completions(&read("B1B2"), 4).is_empty());
+}
+
+#[test]
+fn a_new_line_is_offered_the_way_back_and_the_words() {
+    offers("|", &[("D", "pause"), ("DD", "end"), ("B X B Y B", "third B")]);
+    offers("B5B0B5GXL1\nB0B7B7GYL2\n|", &[("B5B7B7GYL3", "back to the start"), ("B0B7B7GYL4", "end of the lead-in")]);
+    offers("B5000B0B5000GXL1\nB5000B0B20000GYNR1\nD|", &[("B5000B0B5000GXL3", "back to the start"), ("DD", "end")]);
+}
+
+#[test]
+fn the_form_of_a_block_shows_where_the_cursor_is() {
+    for (text, active) in [
+        ("B|", Some("X")),
+        ("B99|00B0", Some("X")),
+        ("B9900B|", Some("Y")),
+        ("B9900B0B12|", Some("J")),
+        ("B9900B0B12G|", Some("G")),
+        ("B9900B0B12GX|", Some("G")),
+        ("B9900B0B12GX |", Some("Z")),
+        ("B9900B0B12GXL1|", Some("Z")),
+        ("B0B5B10B5|GXDDNR1", Some("R")),
+        ("; B|", None),
+        ("D|", None),
+        ("|B", None),
+    ] {
+        let (document, offset) = at_cursor(text);
+        let found = signature(&document, offset).map(|found| found.parameters[found.active].0);
+        assert_eq!(found, active, "{text}");
+    }
+}

@@ -12,6 +12,7 @@ mod layout;
 mod machine;
 mod parse;
 mod proof;
+pub mod refactor;
 mod rules;
 mod run;
 #[cfg(test)]

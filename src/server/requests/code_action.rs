@@ -1,14 +1,18 @@
-//! `textDocument/codeAction`: the fixes of findings, and one action that makes every safe fix.
+//! `textDocument/codeAction`: the fixes of findings, one action that makes every safe fix, and the refactorings of programs.
 
 use super::{Errand, SMALL, Subject, Target, run, subject_of, workspace_edit};
 use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Fix, Place};
 use crate::message::en;
+use crate::program::language;
 use crate::protocol::{self, Diagnostic, FindingData, method};
 use crate::server::convert;
 use crate::server::state::State;
 use crate::text::Encoding;
-use ls_types::{CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, Range};
+use ls_types::{
+    CodeAction, CodeActionContext, CodeActionDisabled, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse,
+    CodeActionTriggerKind, Command, Range,
+};
 use rustc_hash::FxHashSet;
 use tower_lsp::jsonrpc::Result;
 
@@ -63,7 +67,28 @@ fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> C
         let action = CodeAction { title: en::fix_all_title().into(), kind: Some(CodeActionKind::new(FIX_ALL)), ..CodeAction::default() };
         actions.extend(with_edit(document, target, action, &edit));
     }
+    if let Some(program) = document.program()
+        && is_asked_for(&params.context)
+    {
+        let selection = convert::bytes_of(program.text(), params.range, target.encoding);
+        let proposals = language::refactorings(program, document.settings(), selection, |id| wants(&params.context, id));
+        actions.extend(proposals.into_iter().filter_map(|proposal| refactoring(document, target, proposal)));
+    }
     actions.into_iter().map(CodeActionOrCommand::CodeAction).collect()
+}
+
+/// False where an editor only wants to know whether to show a light bulb, at every move of the cursor.
+fn is_asked_for(context: &CodeActionContext) -> bool {
+    context.only.is_some() || context.trigger_kind != Some(CodeActionTriggerKind::AUTOMATIC)
+}
+
+/// A refactoring, or the reason why it cannot be done for clients that show it.
+fn refactoring(document: &Document, target: &Target, proposal: language::Proposal) -> Option<CodeAction> {
+    let action = CodeAction { title: proposal.title, kind: Some(CodeActionKind::new(proposal.id)), ..CodeAction::default() };
+    match proposal.edits {
+        Ok(edits) => with_edit(document, target, action, &Edit::Text(edits)),
+        Err(reason) => target.shows_disabled.then(|| CodeAction { disabled: Some(CodeActionDisabled { reason }), ..action }),
+    }
 }
 
 /// True when the client asked for this kind, for one above it, or for all.

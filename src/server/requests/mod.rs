@@ -9,6 +9,7 @@ pub(super) mod language;
 pub(super) mod locate;
 pub(super) mod picture;
 pub(super) mod probe;
+pub(super) mod scale;
 pub(super) mod settings;
 pub(super) mod simulate;
 pub(super) mod toolpath;
@@ -152,15 +153,18 @@ pub(super) struct Target {
     pub encoding: Encoding,
     pub document_changes: bool,
     pub shows_related: bool,
+    /// Actions that cannot be done are shown with their reason.
+    pub shows_disabled: bool,
 }
 
 impl Target {
     pub fn of(state: &mut State, uri: &Uri) -> Result<Target> {
         let abilities = &state.client.abilities;
         let (document_changes, shows_related) = (abilities.document_changes, abilities.related_information);
+        let shows_disabled = abilities.disabled_actions;
         let encoding = state.encoding;
         let version = state.document(uri.as_str())?.version;
-        Ok(Target { uri: uri.clone(), version, encoding, document_changes, shows_related })
+        Ok(Target { uri: uri.clone(), version, encoding, document_changes, shows_related, shows_disabled })
     }
 }
 

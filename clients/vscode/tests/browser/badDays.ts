@@ -1,7 +1,7 @@
 // What bad days look like: no server, a server of another version, one that dies in the middle of an edit, a file too large for VS Code.
 
 import { execFile } from "node:child_process";
-import { writeFile } from "node:fs/promises";
+import { mkdir, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { type Checks, expectEqual, expectSoon } from "./checks";
@@ -19,11 +19,13 @@ export async function badDays(checks: Checks): Promise<void> {
 
 /** No server anywhere, then one of another version, then the right one: each by a change of the setting. */
 async function missing(checks: Checks): Promise<void> {
-  const settings = (path: string | null): string => JSON.stringify({ "wedm.server.path": path, "security.workspace.trust.enabled": false });
   const host = await Host.start({}, { "plate.dxf": FILLET }, "/usr/bin:/bin");
   const window = new Window(host.page);
   checks.page = host.page;
-  const user = join(host.folder, "../data/User/settings.json");
+  const choose = async (path: string): Promise<void> => {
+    await mkdir(join(host.folder, ".vscode"), { recursive: true });
+    await writeFile(join(host.folder, ".vscode/settings.json"), JSON.stringify({ "wedm.server.path": path }));
+  };
   try {
     await window.open("plate.dxf");
     await checks.check("a server that is missing is said, with the way to get it", async () => {
@@ -36,12 +38,12 @@ async function missing(checks: Checks): Promise<void> {
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("a setting that leads nowhere is said", async () => {
-      await writeFile(user, settings("/nowhere/wedm"));
+      await choose("/nowhere/wedm");
       await window.notification('the setting wedm.server.path is "/nowhere/wedm"').waitFor();
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("a server of another protocol is refused with both versions", async () => {
-      await writeFile(user, settings(FAKE_SERVER));
+      await choose(FAKE_SERVER);
       const notice = window.notification("speaks protocol 2 of wedm, this extension speaks 1: update the extension");
       await notice.waitFor();
       expectEqual("version", (await notice.innerText()).includes("wedm 9.9.9"), true);
@@ -49,7 +51,7 @@ async function missing(checks: Checks): Promise<void> {
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("the right server is taken at once when the setting names it", async () => {
-      await writeFile(user, settings(WEDM));
+      await choose(WEDM);
       await window.squiggles.first().waitFor();
       await expectSoon("0.100 mm", async () => (await window.status.innerText()).includes("0.100 mm"), () => window.status.innerText());
     });
@@ -68,29 +70,39 @@ async function killed(checks: Checks): Promise<void> {
     await window.open("plate.dxf");
     await window.squiggles.first().waitFor();
     await checks.check("a server that is killed in the middle of an edit comes back, and knows the text as it is", async () => {
-      await window.goToLine(line - 5, 1);
+      await window.goToLine(line - 4, 1);
       const before = await servers(host.folder);
       expectEqual("servers", before.length, 1);
-      // Nine edits, the server dies between them: the radius becomes 0.4 in the end.
-      await host.page.keyboard.press("End");
-      for (let edit = 0; edit < 9; edit += 1) {
-        if (edit === 4) {
+      await host.page.keyboard.press("Shift+End");
+      for (const [edit, character] of ["1", "9", ".", "9", "4"].entries()) {
+        if (edit === 2) {
           process.kill(before[0] ?? 0, "SIGKILL");
         }
-        await host.page.keyboard.type("0");
+        await host.page.keyboard.type(character);
       }
+      const another = async (): Promise<boolean> => {
+        const now = await servers(host.folder);
+        return now.length === 1 && now[0] !== before[0];
+      };
+      await expectSoon("another server", another, async () => JSON.stringify(await servers(host.folder)));
+      await says(window, "arc R 0.055 mm is below");
+      await checks.shot("restarted");
+    });
+    await checks.check("the state is right again: edits after the restart are judged", async () => {
+      await window.goToLine(line - 4, 5);
+      await host.page.keyboard.press("Delete");
+      await host.page.keyboard.type("5");
+      await says(window, "arc R 0.050 mm is below");
+    });
+    await checks.check("a restart that the user asks for leaves everything as it was", async () => {
+      const before = await servers(host.folder);
+      await window.command("Wire EDM: Restart Server");
       await expectSoon("another server", async () => {
         const now = await servers(host.folder);
         return now.length === 1 && now[0] !== before[0];
-      }, async () => JSON.stringify(await servers(host.folder)));
-      await window.squiggles.first().waitFor();
-      await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
-      await window.squiggles.first().waitFor({ state: "hidden" });
-      await checks.shot("restarted");
-    });
-    await checks.check("the state is right again: what is edited after the restart is judged", async () => {
-      await host.page.keyboard.press("Control+z");
-      await window.squiggles.first().waitFor();
+      });
+      await says(window, "arc R 0.050 mm is below");
+      await window.hidePanel();
     });
     await checks.check("a drawing over 50 MB is said to be too large, and is checked by its path", async () => {
       await host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: "large.dxf" }).first().dblclick();
@@ -105,6 +117,10 @@ async function killed(checks: Checks): Promise<void> {
   } finally {
     await host.stop();
   }
+}
+
+async function says(window: Window, text: string): Promise<void> {
+  await expectSoon(text, async () => (await window.problems()).some((row) => row.includes(text)), async () => (await window.problems()).join("\n"));
 }
 
 /** The processes of our server that serve this window. */

@@ -18,10 +18,14 @@ export class Checks {
       this.passed += 1;
       console.log(`  ok      ${name} (${Date.now() - began} ms)`);
     } catch (error) {
-      this.failed += 1;
-      console.log(`  FAILED  ${name}: ${error instanceof Error ? (error.stack ?? error.message) : String(error)}`);
-      await this.shot(`failed-${name.replaceAll(/\W+/g, "-")}`);
+      await this.fail(name, error);
     }
+  }
+
+  async fail(name: string, error: unknown): Promise<void> {
+    this.failed += 1;
+    console.log(`  FAILED  ${name}: ${error instanceof Error ? (error.stack ?? error.message) : String(error)}`);
+    await this.shot(`failed-${name.replaceAll(/\W+/g, "-")}`);
   }
 
   async shot(name: string): Promise<void> {

@@ -24,10 +24,10 @@ export function lineOf(text: string, wanted: string, nth = 1): number {
   throw new Error(`there is no line ${wanted}`);
 }
 
-/** A sound drawing of more than `bytes` bytes: lines on a layer that nobody cuts, and one fillet too tight at its end. */
+/** A sound drawing of more than `bytes` bytes: texts that nobody cuts, and one fillet too tight at its end. */
 export function large(bytes: number): Buffer {
   const head = "0\nSECTION\n2\nENTITIES\n";
-  const note = `0\nTEXT\n5\nF0\n8\nNOTE\n10\n0\n20\n0\n40\n1\n1\n${"x".repeat(2000)}\n`;
-  const entities = FILLET.slice(FILLET.indexOf("LWPOLYLINE")).replace(/^/, "0\n");
-  return Buffer.from(head + note.repeat(Math.ceil(bytes / note.length)) + entities);
+  const note = (n: number): string => `0\nTEXT\n5\n${(n + 256).toString(16)}\n8\nNOTE\n10\n0\n20\n0\n40\n1\n1\n${"x".repeat(2000)}\n`;
+  const notes = Array.from({ length: Math.ceil(bytes / note(0).length) }, (_, n) => note(n)).join("");
+  return Buffer.from(`${head}${notes}0\n${FILLET.slice(FILLET.indexOf("LWPOLYLINE"))}`);
 }

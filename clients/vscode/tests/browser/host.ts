@@ -6,7 +6,7 @@ import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { type Browser, chromium, type Page } from "playwright-core";
+import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
 import { ARTIFACTS, CHROMIUM, CODE_SERVER, EXTENSION } from "./paths";
 
 /** Longer than anything here takes on a busy machine. */
@@ -49,7 +49,12 @@ export class Host {
   ) {}
 
   /** `files` are put into the folder that is opened; `settings` are the user's. */
-  static async start(settings: Record<string, unknown>, files: Record<string, string | Buffer>, path = process.env["PATH"] ?? ""): Promise<Host> {
+  static async start(
+    settings: Record<string, unknown>,
+    files: Record<string, string | Buffer>,
+    path = process.env["PATH"] ?? "",
+    view: BrowserContextOptions = {},
+  ): Promise<Host> {
     const root = await mkdtemp(join(tmpdir(), "wedm-vscode-"));
     const folder = join(root, "work");
     const [data, extensions] = [join(root, "data"), join(root, "extensions")];
@@ -68,7 +73,7 @@ export class Host {
     const server = spawn(process.execPath, [CODE_SERVER, ...places, ...options, folder], { env: environment, stdio: ["ignore", "pipe", "pipe"], detached: true });
     await listening(server);
     const browser = await chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
-    const page = await browser.newPage({ viewport: { width: 1600, height: 960 }, colorScheme: "dark" });
+    const page = await browser.newPage({ viewport: { width: 1600, height: 960 }, colorScheme: "dark", ...view });
     page.setDefaultTimeout(PATIENCE);
     const host = new Host(folder, page, root, browser, server);
     await page.goto(`http://127.0.0.1:${port}/?folder=${encodeURIComponent(folder)}`);

@@ -16,7 +16,7 @@ export async function picture(checks: Checks): Promise<void> {
   checks.page = host.page;
   const bulges = [...SMALL.matchAll(/^ *42\r?\n/gm)].map((match) => SMALL.slice(0, match.index).split("\n").length + 1);
   try {
-    await window.open("small-radius.dxf");
+    await window.openOurs("small-radius.dxf");
     await window.squiggles.first().waitFor();
     await window.command("Wire EDM: Open Picture Beside");
     const page = await window.picture();
@@ -34,6 +34,7 @@ export async function picture(checks: Checks): Promise<void> {
     });
     await checks.check("a line of the contour that is clicked is selected in the text", async () => {
       await window.clickDrawn(page.locator('svg .contour[data-segment="1"]'));
+      await window.expectLine((bulges[0] ?? 0) + 2);
       await expectSoon("segment 1 selected", async () => (await page.locator("svg .contour.selected").getAttribute("data-segment")) === "1");
     });
     await checks.check("the cursor in the text selects in the picture", async () => {

@@ -1,6 +1,7 @@
 // What a person does in the window: open, type, look, click.
 
 import { expectSoon } from "./checks";
+import { PATIENCE } from "./host";
 import type { Frame, Locator, Page } from "playwright-core";
 
 export class Window {
@@ -12,20 +13,43 @@ export class Window {
     await this.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
   }
 
+  /** Opens a file of ours and waits for the extension. */
+  async openOurs(name: string): Promise<void> {
+    await this.open(name);
+    await this.status.waitFor();
+  }
+
   async command(title: string): Promise<void> {
-    await this.page.keyboard.press("F1");
-    const input = this.page.locator(".quick-input-widget input");
-    await input.fill(`>${title}`);
-    await this.page.locator(".quick-input-list .monaco-list-row", { hasText: title }).first().waitFor();
+    await this.#ask("F1", `>${title}`, title);
     await this.page.keyboard.press("Enter");
   }
 
   async goToLine(line: number, column = 1): Promise<void> {
     await this.page.keyboard.press("Control+1");
-    await this.page.keyboard.press("Control+g");
-    await this.page.locator(".quick-input-widget input").fill(`:${line},${column}`);
+    await this.#ask("Control+g", `:${line},${column}`);
     await this.page.keyboard.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
+  }
+
+  /** Types into the box that a key opens. A part that takes the focus just then closes it: it is opened again. */
+  async #ask(key: string, text: string, offered?: string): Promise<void> {
+    const box = this.page.locator(".quick-input-widget");
+    const timeout = PATIENCE / 10;
+    for (let attempt = 1; ; attempt += 1) {
+      try {
+        await this.page.keyboard.press(key);
+        await box.locator("input").fill(text, { timeout });
+        if (offered !== undefined) {
+          await box.locator(".monaco-list-row", { hasText: offered }).first().waitFor({ timeout });
+        }
+        return;
+      } catch (error) {
+        if (attempt === 5) {
+          throw error;
+        }
+        await this.page.keyboard.press("Escape");
+      }
+    }
   }
 
   /** Answers the simple dialog for a file. */

@@ -6,9 +6,11 @@ pub(in crate::server) mod folding;
 pub(in crate::server) mod formatting;
 pub(in crate::server) mod hints;
 pub(in crate::server) mod hover;
+pub(in crate::server) mod lenses;
 pub(in crate::server) mod navigate;
 pub(in crate::server) mod rename;
 pub(in crate::server) mod selection;
+pub(in crate::server) mod signature;
 pub(in crate::server) mod symbols;
 pub(in crate::server) mod tokens;
 
