@@ -88,6 +88,13 @@ struct Crossings {
     found: std::sync::Arc<Vec<path_crosses_itself::Crossing>>,
 }
 
+/// Where a finding is kept.
+#[derive(Clone, Copy, Debug)]
+enum Found {
+    InBlock { run: usize, index: usize },
+    OnWhole { index: usize },
+}
+
 /// A block and what stands about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedBlock {
@@ -514,17 +521,17 @@ impl Document {
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there are.
     pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
-        let mut order: Vec<(Severity, usize, Result<(usize, usize), usize>)> = Vec::new();
+        let mut order: Vec<(Severity, usize, Found)> = Vec::new();
         for (run, of) in self.runs.iter().enumerate().filter(|(_, of)| !of.faults.is_empty()) {
             for (index, local) in of.faults.iter().enumerate().filter(|(_, local)| self.counts(run, local)) {
                 if let Some(severity) = severity(local.rule, local.rule.default_severity()) {
-                    order.push((severity, local.range.start + self.base(run), Ok((run, index))));
+                    order.push((severity, local.range.start + self.base(run), Found::InBlock { run, index }));
                 }
             }
         }
         for (index, finding) in self.view.findings.iter().enumerate() {
             if let (Some(severity), Place::Text { range }) = (severity(finding.rule, finding.severity), &finding.place) {
-                order.push((severity, range.start, Err(index)));
+                order.push((severity, range.start, Found::OnWhole { index }));
             }
         }
         order.sort_by_key(|(severity, start, _)| (*severity, *start));
@@ -532,8 +539,8 @@ impl Document {
         order.truncate(limit);
         let made = order.into_iter().filter_map(|(severity, _, which)| {
             let finding = match which {
-                Ok((run, index)) => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
-                Err(index) => self.view.findings.get(index)?.clone(),
+                Found::InBlock { run, index } => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
+                Found::OnWhole { index } => self.view.findings.get(index)?.clone(),
             };
             Some(Finding { severity, ..finding })
         });

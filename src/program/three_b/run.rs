@@ -157,12 +157,24 @@ pub(super) struct Sum {
     /// Tells two stretches apart: equal ways have equal marks.
     pub mark: u64,
     pub first: Option<Move>,
+    pub second: Option<Move>,
     pub last: Option<Move>,
 }
 
 impl Default for Sum {
     fn default() -> Self {
-        Sum { blocks: 0, arcs: 0, travel: Move::default(), twice_area: 0.0, errors: 0, unread: 0, mark: 0, first: None, last: None }
+        Sum {
+            blocks: 0,
+            arcs: 0,
+            travel: Move::default(),
+            twice_area: 0.0,
+            errors: 0,
+            unread: 0,
+            mark: 0,
+            first: None,
+            second: None,
+            last: None,
+        }
     }
 }
 
@@ -182,6 +194,13 @@ impl Sum {
             unread: self.unread + next.unread,
             mark: self.mark.wrapping_mul(POLYNOMIAL.wrapping_pow(next.blocks as u32)).wrapping_add(next.mark),
             first: self.first.or(next.first),
+            second: self.second.or(if self.blocks == 1 {
+                next.first
+            } else if self.blocks == 0 {
+                next.second
+            } else {
+                None
+            }),
             last: next.last.or(self.last),
         }
     }
@@ -197,6 +216,7 @@ impl Sum {
             unread: 0,
             mark: mark_of(entry),
             first: Some(entry.travel),
+            second: None,
             last: Some(entry.travel),
         };
         *self = self.then(&one);

@@ -11,7 +11,7 @@ pub(in super::super) fn tolerance(arcs: usize) -> f64 {
 /// Up to this many blocks are a fragment: they may well be all that was meant.
 pub(in super::super) const FRAGMENT: usize = 2;
 
-/// True where the way comes back to its start or to the end of its first block, the lead-in; a lead-out that goes elsewhere
+/// True where the way comes back to its start or to the end of its lead-in, the first block or the first two; a lead-out that goes elsewhere
 /// counts as one only where it does not run back along the lead-in.
 pub(in super::super) fn is_closed(sum: &Sum) -> bool {
     let tolerance = tolerance(sum.arcs);
@@ -20,6 +20,10 @@ pub(in super::super) fn is_closed(sum: &Sum) -> bool {
     }
     let (Some(first), Some(last)) = (sum.first, sum.last) else { return false };
     if sum.blocks >= 3 && sum.travel.minus(first).is_within(tolerance) {
+        return true;
+    }
+    // A lead-in may be two blocks, the second round to the contour.
+    if sum.blocks >= 6 && sum.second.is_some_and(|second| sum.travel.minus(first).minus(second).is_within(tolerance)) {
         return true;
     }
     sum.blocks >= 5 && sum.travel.minus(first).minus(last).is_within(tolerance) && !runs_back(first, last)
