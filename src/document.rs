@@ -10,7 +10,7 @@ use crate::settings::Effective;
 use crate::text::SourceText;
 use crate::{dxf, finding::Severity};
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Where a document's drawing comes from.
 #[derive(Clone, Debug)]
@@ -27,6 +27,14 @@ pub enum Source {
 pub struct Document {
     source: Source,
     analysis: Analysis,
+    asked: Asked,
+}
+
+/// What has been asked of the document as it stands: an editor asks for its actions at every step of the cursor.
+#[derive(Clone, Debug, Default)]
+struct Asked {
+    findings: OnceLock<Arc<[Finding]>>,
+    fix_all: OnceLock<Option<Edit>>,
 }
 
 /// What long work looks at while the document goes on changing.
@@ -43,7 +51,7 @@ impl Document {
             program.set_settings(&settings);
         }
         let analysis = judged(&source, settings);
-        Document { source, analysis }
+        Document { source, analysis, asked: Asked::default() }
     }
 
     pub fn source(&self) -> &Source {
@@ -57,6 +65,7 @@ impl Document {
     /// Looks at everything again under other settings.
     pub fn set_settings(&mut self, settings: Arc<Effective>) {
         if *self.analysis.settings() != settings {
+            self.asked = Asked::default();
             if let Source::Program(program) = &mut self.source {
                 program.set_settings(&settings);
             }
@@ -99,6 +108,7 @@ impl Document {
 
     /// Replaces a range of bytes of the text. Nothing happens to a drawing that has none.
     pub fn edit_text(&mut self, range: Range<usize>, replacement: &str) {
+        self.asked = Asked::default();
         match &mut self.source {
             Source::Dxf(document) => {
                 let delta = document.edit(range, replacement);
@@ -114,6 +124,7 @@ impl Document {
     /// When `change` fails, the drawing is as before. `None` for a document with text.
     pub fn edit_drawing<E>(&mut self, change: impl FnOnce(&mut Drawing) -> Result<Delta, E>) -> Option<Result<(), E>> {
         let Source::Cad(drawing) = &mut self.source else { return None };
+        self.asked = Asked::default();
         Some(change(Arc::make_mut(drawing)).map(|delta| self.analysis.update(drawing, &delta)))
     }
 
@@ -123,8 +134,8 @@ impl Document {
     }
 
     /// All findings, for whoever shares the document and cannot keep what was found out on the way.
-    pub fn all_findings(&self) -> Vec<Finding> {
-        findings(&self.source, &mut self.analysis.clone(), usize::MAX).0
+    pub fn all_findings(&self) -> Arc<[Finding]> {
+        self.asked.findings.get_or_init(|| findings(&self.source, &mut self.analysis.clone(), usize::MAX).0.into()).clone()
     }
 
     /// True when an error stands in the document: programs are refused then.
@@ -146,10 +157,11 @@ impl Document {
 
     /// One edit that makes every safe fix.
     pub fn fix_all(&self) -> Option<Edit> {
-        match &self.source {
+        let edit = || match &self.source {
             Source::Dxf(_) | Source::Cad(_) => self.analysis.fix_all(self.drawing()?).map(Edit::Drawing),
             Source::Program(program) => program.fix_all(self.settings()).map(Edit::Text),
-        }
+        };
+        self.asked.fix_all.get_or_init(edit).clone()
     }
 
     /// Bytes that a place stands for; `None` where there is no text.

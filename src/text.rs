@@ -198,6 +198,7 @@ fn line_starts(bytes: &[u8]) -> Vec<u32> {
             end_at(words.len() * 8 + index);
         }
     }
+    starts.shrink_to_fit();
     starts
 }
 

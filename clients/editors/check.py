@@ -224,6 +224,92 @@ def helix(program: str, editor: str) -> None:
     place.log(f"{editor}.txt", screen)
 
 
+class Screen:
+    """An X server of its own, with a window manager."""
+
+    def __init__(self, place: Place) -> None:
+        self._place = place
+        self._started: list[subprocess.Popen[bytes]] = []
+        read, write = os.pipe()
+        words = ["Xvfb", "-noreset", "-displayfd", str(write), "-screen", "0", "1280x900x24", "-nolisten", "tcp"]
+        self._started.append(subprocess.Popen(words, pass_fds=[write], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        os.close(write)
+        # To the end of the line: a pipe that is closed before it ends the server.
+        with open(read, encoding="ascii") as told:
+            number = told.readline().strip()
+        expect(bool(number), "Xvfb did not start")
+        runtime = place.folder / "run"
+        runtime.mkdir(mode=0o700, exist_ok=True)
+        place.environment |= {"DISPLAY": f":{number}", "QT_QPA_PLATFORM": "xcb", "XDG_RUNTIME_DIR": str(runtime)}
+        self.start("openbox")
+
+    def start(self, *words: str) -> None:
+        quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        self._started.append(subprocess.Popen(words, env=self._place.environment, cwd=self._place.folder, start_new_session=True, **quiet))
+
+    def type(self, *keys: str) -> None:
+        subprocess.run(["xdotool", "key", *keys], env=self._place.environment, timeout=20, check=False)
+        time.sleep(0.4)
+
+    def shot(self, name: str) -> None:
+        ARTIFACTS.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["import", "-window", "root", str(ARTIFACTS / name)], env=self._place.environment, timeout=20, check=False)
+
+    def close(self) -> None:
+        for process in reversed(self._started):
+            process.terminate()
+            try:
+                process.wait(5)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+
+def kate(program: str, editor: str) -> None:
+    place = Place(editor)
+    configuration, data = place.folder / "home/.config", place.folder / "home/.local/share/org.kde.syntax-highlighting/syntax"
+    (configuration / "kate/lspclient").mkdir(parents=True)
+    shutil.copy(HERE / "kate/settings.json", configuration / "kate/lspclient")
+    shutil.copytree(HERE / "kate/syntax", data)
+    # As one who has said that this server may be started, and who wants nothing changed that he did not change.
+    allowed = place.folder / "programs/wedm"
+    (configuration / "katerc").write_text(
+        "[General]\nShow welcome view for new window=false\n[Kate Plugins]\nlspclientplugin=true\n"
+        f"[lspclient]\nAllowedServerCommandLines={allowed}\n[KTextEditor Document]\nRemove Spaces=0\nNewline at End of File=false\n"
+    )
+    # What is said is the only thing of it that a program can read: the rest is in the pictures.
+    said = Path(RECORD).resolve() / "kate.jsonl" if RECORD else place.folder / "kate.jsonl"
+    allowed.unlink()
+    allowed.write_text(f'#!/bin/sh\nWEDM_RECORD="{said}" WEDM="{WEDM}" exec python3 "{ROOT}/tests/protocol/record.py" "$@"\n')
+    allowed.chmod(0o755)
+
+    def wait(what: str, holds: Callable[[str], bool]) -> None:
+        end = time.monotonic() + 30
+        while not (said.exists() and holds(said.read_text())):
+            if time.monotonic() > end:
+                screen.shot("kate-failed.png")
+                raise Failed(f"no {what} within 30 s; see {ARTIFACTS}/kate-failed.png")
+            time.sleep(0.2)
+        time.sleep(1.0)
+
+    screen = Screen(place)
+    try:
+        screen.start("dbus-run-session", "--", program, "-b", "-n", "-l", "42", str(place.drawing))
+        wait("diagnostic", lambda text: FAULT in text)
+        screen.shot("kate-fault.png")
+        screen.type("alt+Return")
+        wait("code actions", lambda text: OFFERED in text)
+        screen.shot("kate-actions.png")
+        screen.type("Down")
+        screen.type("Return")
+        wait("repaired drawing", lambda text: text.count("publishDiagnostics") >= 2)
+        screen.type("ctrl+s")
+        wait("saved drawing", lambda text: "textDocument/didSave" in text)
+        screen.shot("kate-fixed.png")
+    finally:
+        screen.close()
+    place.check_drawing()
+
+
 def tool(name: str) -> str | None:
     """A program that `test` has put into .tools, else one on the PATH."""
     own = {"nvim-0.11": TOOLS / "neovim/bin/nvim", "hx": TOOLS / "helix/hx"}.get(name)
@@ -241,6 +327,7 @@ def checks() -> list[tuple[str, str, Callable[[str], None]]]:
         ("Neovim 0.11, vim.lsp.config: no server", "nvim-0.11", lambda program: neovim_without_server(program, True, "neovim-0.11")),
         ("Emacs, eglot: repair, death of the server", "emacs", lambda program: emacs(program, "emacs")),
         ("Helix: repair, death of the server", "hx", lambda program: helix(program, "helix")),
+        ("Kate: repair", "kate", lambda program: kate(program, "kate")),
     ]
 
 

@@ -1,9 +1,24 @@
 // Builds the extension, the page of the picture and, when asked, the tests:
 //   node esbuild.mjs [--production] [--unit] [--browser]
 import { build } from "esbuild";
-import { cp, readdir } from "node:fs/promises";
+import { cp, readdir, readFile, writeFile } from "node:fs/promises";
 
 const asked = new Set(process.argv.slice(2));
+/**
+ * The licences of the packages whose files are in the bundle, which travel with it.
+ * @param {string[]} files
+ */
+async function licences(files) {
+  const folders = [...new Set(files.map((file) => /^.*node_modules\/(@[^/]+\/)?[^/]+/.exec(file)?.[0]).filter((folder) => folder !== undefined))];
+  const texts = folders.sort().map(async (folder) => {
+    const { name, version, license } = JSON.parse(await readFile(`${folder}/package.json`, "utf8"));
+    const file = (await readdir(folder)).find((file) => /^licen[cs]e/i.test(file));
+    const text = file === undefined ? `Licence: ${license}` : await readFile(`${folder}/${file}`, "utf8");
+    return `${name} ${version}\n\n${text.trim()}\n`;
+  });
+  return (await Promise.all(texts)).join(`\n${"-".repeat(80)}\n\n`);
+}
+
 const common = {
   bundle: true,
   sourcemap: asked.has("--production") ? false : "linked",
@@ -19,7 +34,11 @@ async function entries(folder) {
   return names.filter((name) => name.endsWith(".test.ts")).map((name) => `${folder}/${name}`);
 }
 
-await build({ ...node, entryPoints: ["src/extension.ts"], outfile: "dist/extension.js", format: "cjs", external: ["vscode"] });
+const extension = { entryPoints: ["src/extension.ts"], outfile: "dist/extension.js", format: "cjs", external: ["vscode"], metafile: true };
+const { metafile } = await build({ ...node, ...extension });
+if (asked.has("--production")) {
+  await writeFile("dist/THIRD-PARTY.txt", await licences(Object.keys(metafile.inputs)));
+}
 await build({ ...common, platform: "browser", entryPoints: ["webview/picture.ts"], outfile: "dist/picture.js", format: "iife" });
 await cp("webview/picture.css", "dist/picture.css");
 if (asked.has("--unit")) {

@@ -34,6 +34,13 @@ pub struct Analysis {
     limits: Limits,
     chains: Chains,
     known: FxHashMap<ContourKey, Known>,
+    /// Contours that have something to tell without a look at others: most have not.
+    loud: FxHashSet<ContourKey>,
+    /// How many contours have a stated role.
+    stated: usize,
+    /// An entity that was removed and may come back nearly as it was, as one does in whose text a number is being typed: all
+    /// that is known of it is kept until the next change. Nothing of it shows, since the drawing does not hold it.
+    asleep: Option<EntityId>,
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region that the answer depends on.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
@@ -52,6 +59,9 @@ impl Analysis {
             limits,
             chains,
             known: FxHashMap::default(),
+            loud: FxHashSet::default(),
+            stated: 0,
+            asleep: None,
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
             lost: FxHashMap::default(),
@@ -59,6 +69,7 @@ impl Analysis {
             outlines: OnceLock::new(),
         };
         let keys: Vec<ContourKey> = analysis.chains.keys().collect();
+        analysis.known.reserve(keys.len());
         analysis.learn(drawing, &keys);
         analysis
     }
@@ -74,6 +85,21 @@ impl Analysis {
             self.outlines = OnceLock::new();
         }
         let mut moved = Vec::new();
+        let asleep = self.asleep.take();
+        match (asleep, delta.touched.as_slice()) {
+            (Some(_), []) => {
+                self.asleep = asleep;
+                return;
+            }
+            (Some(entity), [Touched::Vertices { entity: woken, .. }]) if *woken == entity => self.order = OnceLock::new(),
+            (Some(entity), _) => moved.push(entity),
+            (None, [Touched::Removed { entity }]) if self.may_sleep(*entity) => {
+                self.asleep = Some(*entity);
+                self.order = OnceLock::new();
+                return;
+            }
+            (None, _) => {}
+        }
         for touched in &delta.touched {
             let (entity, vertices) = match *touched {
                 Touched::Vertices { entity, start, removed, inserted } => (entity, Some((start, removed, inserted))),
@@ -84,9 +110,6 @@ impl Analysis {
             if !stays || !self.look_again(drawing, entity, vertices) {
                 moved.push(entity);
             }
-            if vertices.is_none() {
-                self.order = OnceLock::new();
-            }
         }
         if moved.is_empty() {
             return;
@@ -96,13 +119,57 @@ impl Analysis {
         let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
         for key in &rechained.gone {
             self.lost.remove(key);
-            if let Some(known) = self.known.remove(key) {
+            self.loud.remove(key);
+            if let Some(known) = self.take_known(*key) {
                 self.pairs.forget(*key, &known.index);
             }
         }
         let gone: FxHashSet<ContourKey> = rechained.gone.into_iter().collect();
         self.answers.retain(|(key, _), _| !gone.contains(key));
         self.learn(drawing, &rechained.new);
+    }
+
+    /// True for an entity that is a contour of its own, and in the way of nothing that has been seen of others.
+    fn may_sleep(&self, entity: EntityId) -> bool {
+        let key = self.chains.contour_of(entity);
+        let contour = key.and_then(|key| self.chains.get(key));
+        contour.is_some_and(|contour| contour.closed && contour.pieces.len() == 1) && key.is_some_and(|key| self.pairs.may_spare(key))
+    }
+
+    fn enter_known(&mut self, key: ContourKey, known: Known) {
+        self.stated += usize::from(known.stated.is_some());
+        self.known.insert(key, known);
+    }
+
+    fn take_known(&mut self, key: ContourKey) -> Option<Known> {
+        let known = self.known.remove(&key)?;
+        self.stated -= usize::from(known.stated.is_some());
+        Some(known)
+    }
+
+    /// Takes down whether a contour has something to tell.
+    fn listen_to(&mut self, drawing: &Drawing, key: ContourKey) {
+        let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
+        let is_loud = self.known.get(&key).is_some_and(|known| !known.is_quiet()) || self.outlook(drawing, key).is_some_and(of_contour);
+        if is_loud {
+            self.loud.insert(key);
+        } else {
+            self.loud.remove(&key);
+        }
+    }
+
+    /// The contours that have something to tell, in machining order.
+    fn loud_in_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
+        if self.loud.len() * 8 > self.chains.len() {
+            return self.in_machining_order(drawing).iter().copied().filter(|key| self.loud.contains(key)).collect();
+        }
+        let place = |&key: &ContourKey| {
+            let first = self.chains.first_of(key).filter(|&first| drawing.get(first).is_some())?;
+            Some((drawing.rank(first), key))
+        };
+        let mut loud: Vec<(u64, ContourKey)> = self.loud.iter().filter_map(place).collect();
+        loud.sort_unstable();
+        loud.into_iter().map(|(_, key)| key).collect()
     }
 
     /// What holds of `drawing` once `delta` has been made to the drawing that this is of.
@@ -152,12 +219,17 @@ impl Analysis {
 
     fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
         let mut report = Report::new(self.settings.clone(), limit);
-        let ordered = self.in_machining_order(drawing).to_vec();
-        let roles = self.roles(drawing, &ordered);
-        let sides: Vec<Option<Side>> = ordered.iter().zip(&roles).map(|(key, role)| self.wire_side(*key, *role)).collect();
-        // Most contours have nothing to tell.
-        let is_loud = |(key, _): &(&ContourKey, &Option<Side>)| self.known.get(*key).is_some_and(|known| !known.is_quiet());
-        let loud: Vec<(ContourKey, Option<Side>)> = ordered.iter().zip(&sides).filter(is_loud).map(|(key, side)| (*key, *side)).collect();
+        // By nesting, the role of each depends on all.
+        let nested: Option<FxHashMap<ContourKey, Role>> = (self.settings.side == SideSetting::Auto).then(|| {
+            let ordered = self.in_machining_order(drawing);
+            ordered.iter().copied().zip(self.roles(drawing, ordered)).collect()
+        });
+        let role_of = |analysis: &Analysis, key: ContourKey| match &nested {
+            Some(roles) => roles.get(&key).copied().unwrap_or(Role::Both),
+            None => analysis.roles(drawing, &[key]).first().copied().unwrap_or(Role::Both),
+        };
+        let side_of = |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
+        let loud: Vec<(ContourKey, Option<Side>)> = self.loud_in_order(drawing).into_iter().map(|key| (key, side_of(self, key))).collect();
         for &(key, wire_side) in &loud {
             self.report_small_radii(drawing, key, wire_side, &mut report);
         }
@@ -166,19 +238,21 @@ impl Analysis {
                 known.report(&outlook, wire_side, &mut report);
             }
         }
-        self.report_contours(drawing, &ordered, &mut report);
-        let side_of: FxHashMap<ContourKey, Option<Side>> = ordered.iter().copied().zip(sides.iter().copied()).collect();
-        self.pairs.report(drawing, &|key| self.outlook(drawing, key), &side_of, &mut report);
-        self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
+        self.report_contours(drawing, loud.iter().map(|(key, _)| *key), &mut report);
+        self.pairs.report(drawing, &|key| self.outlook(drawing, key), &|key| side_of(self, key), &mut report);
+        if self.settings.side != SideSetting::Both || self.stated > 0 {
+            let ordered = self.in_machining_order(drawing).to_vec();
+            let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();
+            self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
+        }
         report
     }
 
     /// What the rules on whole contours see.
-    fn report_contours(&self, drawing: &Drawing, keys: &[ContourKey], report: &mut Report) {
+    fn report_contours(&self, drawing: &Drawing, keys: impl Iterator<Item = ContourKey>, report: &mut Report) {
         let outlook = |key| self.outlook(drawing, key);
         let concerned: Vec<Outlook> = keys
-            .iter()
-            .filter_map(|&key| outlook(key))
+            .filter_map(outlook)
             .filter(|outlook| outlook.contour.pieces.len() > 1 || !outlook.contour.closed)
             .filter(|outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(outlook)))
             .collect();
@@ -423,7 +497,8 @@ impl Analysis {
             let mut known = Known::new(index, stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied()));
             known.look(drawing, contour, &self.limits, &self.settings, 0..contour.len());
             runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
-            self.known.insert(key, known);
+            self.enter_known(key, known);
+            self.listen_to(drawing, key);
         }
         self.look_at_pairs(drawing, &runs);
     }
@@ -448,7 +523,7 @@ impl Analysis {
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
-        let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.known.remove(&key)) else { return false };
+        let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.take_known(key)) else { return false };
         let Some(contour) = self.chains.get(key) else { return false };
         if vertices.is_none() {
             known.stated = stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied());
@@ -498,7 +573,8 @@ impl Analysis {
         let count = known.index.run_count();
         let runs = runs.into_iter().filter(|&run| run < count).map(|run| (key, run as u32));
         let runs: BTreeSet<RunId> = runs.collect();
-        self.known.insert(key, known);
+        self.enter_known(key, known);
+        self.listen_to(drawing, key);
         let runs: Vec<RunId> = runs.into_iter().collect();
         self.look_at_pairs(drawing, &runs);
         true

@@ -59,6 +59,12 @@ pub struct Pairs {
 }
 
 impl Pairs {
+    /// True when nothing that has been seen between others depends on this contour, and all that is sought has been.
+    pub fn may_spare(&self, key: ContourKey) -> bool {
+        let depends = |each: &Seen| each.disc.is_some() && each.one.0 != key && each.other.0 != key;
+        self.uncompared.is_empty() && self.seen_count < MOST_SEEN && !self.seen.values().flatten().any(depends)
+    }
+
     /// Forgets a contour as it was when it was looked at last.
     pub fn forget(&mut self, key: ContourKey, index: &ContourIndex) {
         for run in 0..index.run_count() {
@@ -100,6 +106,7 @@ impl Pairs {
         let rules: Vec<(usize, f64)> =
             PAIR_RULES.iter().enumerate().filter(|(_, rule)| is_on(rule)).map(|(at, rule)| (at, (rule.reach)(limits))).collect();
         self.reach = rules.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
+        self.grid.reserve(runs.len());
         for &run in runs {
             if let Some(outlook) = outlook(run.0) {
                 let bounds = outlook.index.bounds_of_run(run.1 as usize);
@@ -240,10 +247,9 @@ impl Pairs {
     }
 
     /// Adds the findings, in the machining order of their entities.
-    pub fn report(&self, drawing: &Drawing, outlook: Outlooks, wire_sides: &FxHashMap<ContourKey, Option<Side>>, report: &mut Report) {
+    pub fn report(&self, drawing: &Drawing, outlook: Outlooks, wire_side: &dyn Fn(ContourKey) -> Option<Side>, report: &mut Report) {
         self.report_uncompared(drawing, outlook, report);
         type Ends = ((EntityId, usize), (EntityId, usize));
-        let wire_side = |key: ContourKey| wire_sides.get(&key).copied().flatten();
         let concerned = |key: ContourKey, side: Option<Side>| side.is_none() || wire_side(key).is_none() || side == wire_side(key);
         let mut seen: Vec<(usize, Ends, &Seen)> = Vec::new();
         for each in self.seen.values().flatten() {

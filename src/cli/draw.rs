@@ -55,6 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let paths = toolpath::plan(&snapshot.drawing, &snapshot.outlines, &snapshot.settings, None).unwrap_or_else(|refusal| {
         let reason = match &refusal {
             Refusal::Sentence(sentence) => sentence.clone(),
+            Refusal::Cancelled => "the path was given up".into(),
             Refusal::Findings(findings) => findings.first().map_or_else(String::new, |finding| en::sentence(finding, unit_mm)),
         };
         output::say(&format!("{} drawn without the path of the wire: {reason}", styled(output::NOTE, "note:")));

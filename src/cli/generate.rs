@@ -104,6 +104,7 @@ fn planned(arguments: &Arguments, document: &Document) -> Result<Option<Vec<Wire
             output::complain(&format!("{}: {sentence}", path.display()));
             Ok(None)
         }
+        Err(Refusal::Cancelled) => Ok(None),
         Err(Refusal::Findings(findings)) => {
             list(arguments, document, &findings);
             Ok(None)

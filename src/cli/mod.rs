@@ -7,6 +7,7 @@ mod changes;
 mod check;
 mod completions;
 mod contours;
+mod convert;
 mod demo;
 mod draw;
 mod files;
@@ -43,6 +44,7 @@ Examples:
   wedm fix plate.dxf -o fixed.dxf          repair what can be repaired
   wedm generate fixed.dxf --side opening -o plate.3b
   wedm format plate.3b --layout checking   with block numbers and end points
+  wedm convert plate.3b -o plate.dxf       a program back to a drawing, or to ISO
   wedm demo                                a whole session, on a drawing that ships inside
 
 Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wrong usage.";
@@ -56,6 +58,7 @@ enum Command {
     Inspect(inspect::Arguments),
     Draw(draw::Arguments),
     Contours(contours::Arguments),
+    Convert(convert::Arguments),
     Simulate(simulate::Arguments),
     Demo(demo::Arguments),
     Serve(serve::Arguments),
@@ -100,6 +103,7 @@ pub fn run() -> ExitCode {
         Some(Command::Inspect(arguments)) => inspect::run(&arguments),
         Some(Command::Draw(arguments)) => draw::run(&arguments),
         Some(Command::Contours(arguments)) => contours::run(&arguments),
+        Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
         Some(Command::Completions(arguments)) => completions::run(&arguments, &mut CommandLine::command()),

@@ -6,44 +6,70 @@
 
 use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
+use rayon::slice::ParallelSliceMut;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Side of a cell of the plane in join tolerances: end points that meet lie in one cell, or in two when a border runs
 /// between them.
 const CELL: f64 = 8.0;
 
-/// The ends of up to so many entities are moved one by one.
+/// The ends of up to so many entities are moved one by one, and as many ranks are held without a table of all entities.
 const FEW: usize = 16;
 
-/// One free end of an open entity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One free end of an open entity: the cell that it lies in, and whose it is. Where it is, is kept by entity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct End {
     cell: u64,
-    point: Point,
-    entity: EntityId,
-    /// The entity's own start, not its end.
-    is_start: bool,
+    /// The id of the entity, doubled; odd for the entity's own end, even for its start. Ids stay below [`TAKEN`].
+    whose: u32,
 }
 
-/// Names a contour (or a group) of one [`Chains`]; not used again once it is gone.
+impl End {
+    fn entity(self) -> EntityId {
+        EntityId(self.whose >> 1)
+    }
+
+    /// The entity's own start, not its end.
+    fn is_start(self) -> bool {
+        self.whose & 1 == 0
+    }
+}
+
+/// The free ends of an entity, start first. Most drawings have one for most entities, so none is a point that is no number.
+type Ends = (Point, Point);
+
+const NO_ENDS: Ends = (Point::new(f64::NAN, f64::NAN), Point::new(f64::NAN, f64::NAN));
+
+/// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
 pub type Key = u32;
+
+/// Names nothing.
+const NO_KEY: Key = 0;
 
 /// The contours of a drawing, kept up to date edit by edit.
 #[derive(Clone, Debug)]
 pub struct Chains {
     join: f64,
-    /// All free ends, sorted by cell, then point, then entity.
+    /// All free ends, sorted by cell.
     ends: Vec<End>,
-    /// The free ends of each open entity as they stand in `ends`, by entity id.
-    ends_of: Vec<Option<(Point, Point)>>,
-    group_of: Vec<Option<Key>>,
-    groups: FxHashMap<Key, Vec<EntityId>>,
-    contours: FxHashMap<Key, Contour>,
-    contours_of_group: FxHashMap<Key, Vec<Key>>,
-    contour_of: Vec<Option<Key>>,
+    /// Where the free ends of each open entity lie, by entity id; [`NO_ENDS`] for all others.
+    ends_of: Vec<Ends>,
+    contours: FxHashMap<Key, Chain>,
+    /// The contour of each entity, by entity id; [`NO_KEY`] for those in none.
+    contour_of: Vec<Key>,
     /// The place of each entity among the pieces of its contour, by entity id.
     piece_of: Vec<u32>,
+    /// Groups of more than one contour, and the group of each contour in one. Any other contour is a group by itself.
+    groups: FxHashMap<Key, Vec<Key>>,
+    group_of: FxHashMap<Key, Key>,
     next_key: Key,
+}
+
+#[derive(Clone, Debug)]
+struct Chain {
+    contour: Contour,
+    /// The first of its entities in machining order.
+    first: EntityId,
 }
 
 /// Contours that went away and came when a drawing was edited.
@@ -60,35 +86,53 @@ impl Chains {
             join,
             ends: Vec::new(),
             ends_of: Vec::new(),
-            group_of: Vec::new(),
-            groups: FxHashMap::default(),
             contours: FxHashMap::default(),
-            contours_of_group: FxHashMap::default(),
             contour_of: Vec::new(),
             piece_of: Vec::new(),
-            next_key: 0,
+            groups: FxHashMap::default(),
+            group_of: FxHashMap::default(),
+            next_key: NO_KEY,
         };
         chains.grow(drawing);
         let entities: Vec<EntityId> = drawing.order().iter().copied().filter(|&id| is_cut(id)).collect();
         for &id in &entities {
             if let Some(pair) = free_ends(drawing, id) {
-                chains.ends_of[id.0 as usize] = Some(pair);
+                chains.ends_of[id.0 as usize] = pair;
                 chains.ends.extend(chains.ends_at(id, pair));
             }
         }
-        chains.ends.sort_unstable_by(compare);
+        chains.ends.shrink_to_fit();
+        chains.ends.par_sort_unstable();
         chains.chain(drawing, &entities);
         chains
     }
 
     /// Contour by key.
     pub fn get(&self, key: Key) -> Option<&Contour> {
-        self.contours.get(&key)
+        self.contours.get(&key).map(|chain| &chain.contour)
+    }
+
+    /// The first of a contour's entities in machining order.
+    pub fn first_of(&self, key: Key) -> Option<EntityId> {
+        self.contours.get(&key).map(|chain| chain.first)
+    }
+
+    /// Number of contours.
+    pub fn len(&self) -> usize {
+        self.contours.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.contours.is_empty()
     }
 
     /// The contour that holds an entity.
     pub fn contour_of(&self, entity: EntityId) -> Option<Key> {
-        self.contour_of.get(entity.0 as usize).copied().flatten()
+        self.contour_of.get(entity.0 as usize).copied().filter(|&key| key != NO_KEY)
+    }
+
+    fn ends_of(&self, entity: EntityId) -> Option<Ends> {
+        self.ends_of.get(entity.0 as usize).copied().filter(|(start, _)| !start.x.is_nan())
     }
 
     /// The piece of a contour that an entity is.
@@ -111,7 +155,7 @@ impl Chains {
     /// True when an entity's free ends have not moved, so that the contours stand as they are. Never for an entity whose own
     /// ends touch: whether it comes back to itself depends on what lies between them.
     pub fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
-        let known = self.ends_of.get(entity.0 as usize).copied().flatten();
+        let known = self.ends_of(entity);
         let now = if is_cut { free_ends(drawing, entity) } else { None };
         let chained = self.contour_of(entity).is_some();
         let touching = now.is_some_and(|(start, end)| (end - start).norm() <= self.join);
@@ -120,7 +164,7 @@ impl Chains {
 
     /// The number of segments of an entity has changed: its contour counts them anew.
     pub fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
-        let Some(contour) = self.contour_of(entity).and_then(|key| self.contours.get_mut(&key)) else { return };
+        let Some(Chain { contour, .. }) = self.contour_of(entity).and_then(|key| self.contours.get_mut(&key)) else { return };
         *contour = Contour::new(drawing, contour.pieces.iter().map(|piece| (piece.entity, piece.reversed)), contour.closed);
     }
 
@@ -129,54 +173,56 @@ impl Chains {
         self.grow(drawing);
         let mut affected = FxHashSet::default();
         let mut entities = FxHashSet::default();
-        // Each end taken out or put in by itself moves all behind it.
-        let in_bulk = touched.len() > FEW;
         let distinct: FxHashSet<EntityId> = touched.iter().copied().collect();
+        affected.extend(distinct.iter().filter_map(|&id| self.contour_of(id)));
+        // Each end taken out or put in by itself moves all behind it.
+        let in_bulk = distinct.len() > FEW;
         if in_bulk {
-            self.ends.retain(|end| !distinct.contains(&end.entity));
+            self.ends.retain(|end| !distinct.contains(&end.entity()));
         }
         let mut fresh: Vec<End> = Vec::new();
         for id in distinct {
-            affected.extend(self.group_of[id.0 as usize]);
-            let old = self.ends_of[id.0 as usize];
+            let old = self.ends_of(id);
             let new = if is_cut(id) { free_ends(drawing, id) } else { None };
             for end in old.map(|pair| self.ends_at(id, pair)).into_iter().flatten().filter(|_| !in_bulk) {
-                if let Ok(at) = self.ends.binary_search_by(|other| compare(other, &end)) {
+                if let Ok(at) = self.ends.binary_search(&end) {
                     self.ends.remove(at);
                 }
             }
-            for end in new.map(|pair| self.ends_at(id, pair)).into_iter().flatten() {
-                affected.extend(self.near(end.point).filter_map(|other| self.group_of[other.entity.0 as usize]));
+            self.ends_of[id.0 as usize] = new.unwrap_or(NO_ENDS);
+            for (end, point) in new.map(|pair| self.ends_at(id, pair).into_iter().zip([pair.0, pair.1])).into_iter().flatten() {
+                affected.extend(self.near(point).filter_map(|(other, _)| self.contour_of(other.entity())));
                 if in_bulk {
                     fresh.push(end);
                 } else {
-                    let at = self.ends.partition_point(|other| compare(other, &end).is_lt());
+                    let at = self.ends.partition_point(|other| *other < end);
                     self.ends.insert(at, end);
                 }
             }
-            self.ends_of[id.0 as usize] = new;
-            self.group_of[id.0 as usize] = None;
-            self.contour_of[id.0 as usize] = None;
             if drawing.get(id).is_some() && is_cut(id) {
                 entities.insert(id);
             }
         }
         if in_bulk {
             self.ends.append(&mut fresh);
-            self.ends.sort_unstable_by(compare);
+            self.ends.sort_unstable();
+        }
+        for &id in touched {
+            self.contour_of[id.0 as usize] = NO_KEY;
         }
         let mut rechained = Rechained::default();
-        for group in affected {
-            for contour in self.contours_of_group.remove(&group).unwrap_or_default() {
-                self.contours.remove(&contour);
-                rechained.gone.push(contour);
-            }
-            for id in self.groups.remove(&group).unwrap_or_default() {
-                if drawing.get(id).is_some() && is_cut(id) {
-                    entities.insert(id);
+        for contour in affected {
+            let group = self.group_of.get(&contour).and_then(|group| self.groups.remove(group));
+            for key in group.unwrap_or_else(|| vec![contour]) {
+                self.group_of.remove(&key);
+                let Some(chain) = self.contours.remove(&key) else { continue };
+                rechained.gone.push(key);
+                for id in chain.contour.pieces.into_iter().map(|piece| piece.entity) {
+                    if drawing.get(id).is_some() && is_cut(id) {
+                        entities.insert(id);
+                    }
+                    self.contour_of[id.0 as usize] = NO_KEY;
                 }
-                self.group_of[id.0 as usize] = None;
-                self.contour_of[id.0 as usize] = None;
             }
         }
         let ordered = in_machining_order(drawing, entities);
@@ -186,9 +232,8 @@ impl Chains {
 
     fn grow(&mut self, drawing: &Drawing) {
         let bound = drawing.id_bound();
-        self.ends_of.resize(bound, None);
-        self.group_of.resize(bound, None);
-        self.contour_of.resize(bound, None);
+        self.ends_of.resize(bound, NO_ENDS);
+        self.contour_of.resize(bound, NO_KEY);
         self.piece_of.resize(bound, 0);
     }
 
@@ -204,13 +249,13 @@ impl Chains {
         ordered(number(x)) << 32 | ordered(number(y))
     }
 
-    fn ends_at(&self, entity: EntityId, (start, end): (Point, Point)) -> [End; 2] {
-        let at = |point: Point, is_start| End { cell: self.cell(point.x, point.y), point, entity, is_start };
-        [at(start, true), at(end, false)]
+    fn ends_at(&self, entity: EntityId, (start, end): Ends) -> [End; 2] {
+        let at = |point: Point, own_end: u32| End { cell: self.cell(point.x, point.y), whose: entity.0 << 1 | own_end };
+        [at(start, 0), at(end, 1)]
     }
 
-    /// Free ends within the join tolerance of `point`.
-    fn near(&self, point: Point) -> impl Iterator<Item = &End> + '_ {
+    /// Free ends within the join tolerance of `point`, each with its place.
+    fn near(&self, point: Point) -> impl Iterator<Item = (End, Point)> + '_ {
         let (left, right) = (point.x - self.join, point.x + self.join);
         let (below, above) = (point.y - self.join, point.y + self.join);
         let mut cells = [self.cell(left, below), self.cell(left, above), self.cell(right, below), self.cell(right, above)];
@@ -221,17 +266,17 @@ impl Chains {
             let first = self.ends.partition_point(|end| end.cell < cell);
             self.ends[first..].iter().take_while(move |end| end.cell == cell)
         };
-        distinct.flat_map(of_cell).filter(move |end| (end.point - point).norm() <= self.join)
+        let place = |end: &End| {
+            let (start, own_end) = self.ends_of(end.entity())?;
+            Some((*end, if end.is_start() { start } else { own_end }))
+        };
+        distinct.flat_map(of_cell).filter_map(place).filter(move |(_, at)| (at - point).norm() <= self.join)
     }
 
     /// Groups and chains `entities`, which come in machining order and hold whole groups. Returns the new contours.
     fn chain(&mut self, drawing: &Drawing, entities: &[EntityId]) -> Vec<Key> {
         let mut new = Vec::new();
-        let mut rank = vec![UNRANKED; drawing.id_bound()];
-        for (position, &id) in entities.iter().enumerate() {
-            rank[id.0 as usize] = position as u32;
-        }
-        let mut open = Open { rank, touching: Vec::new() };
+        let mut open = Open::new(drawing.id_bound(), entities);
         for &first in entities {
             if !open.has(first) {
                 continue;
@@ -241,7 +286,7 @@ impl Chains {
                 continue;
             }
             open.touching.clear();
-            let (pieces, closed) = match self.ends_of[first.0 as usize] {
+            let (pieces, closed) = match self.ends_of(first) {
                 None => {
                     open.take(first);
                     (vec![(first, false)], true)
@@ -251,38 +296,47 @@ impl Chains {
             let contour = Contour::new(drawing, pieces, closed);
             let key = self.fresh_key();
             self.enter(key, &contour, &open.touching);
-            self.contours.insert(key, contour);
+            self.contours.insert(key, Chain { contour, first });
             new.push(key);
         }
         new
     }
 
-    /// Enters a new contour into the groups of the entities that it touches, which become one.
+    /// Enters a new contour into the groups of the entities that it touches, which become one: the largest takes in the others.
     fn enter(&mut self, key: Key, contour: &Contour, touching: &[EntityId]) {
-        let groups: FxHashSet<Key> = touching.iter().filter_map(|id| self.group_of[id.0 as usize]).collect();
-        let mut members: Vec<EntityId> = contour.pieces.iter().map(|piece| piece.entity).collect();
-        for (place, member) in members.iter().enumerate() {
-            self.contour_of[member.0 as usize] = Some(key);
-            self.piece_of[member.0 as usize] = place as u32;
+        let touched: FxHashSet<Key> = touching.iter().filter_map(|&id| self.contour_of(id)).collect();
+        for (place, piece) in contour.pieces.iter().enumerate() {
+            self.contour_of[piece.entity.0 as usize] = key;
+            self.piece_of[piece.entity.0 as usize] = place as u32;
         }
-        let mut contours = vec![key];
-        for group in groups {
-            members.extend(self.groups.remove(&group).unwrap_or_default());
-            contours.extend(self.contours_of_group.remove(&group).unwrap_or_default());
+        if touched.is_empty() {
+            return;
         }
-        let group = self.fresh_key();
-        for member in &members {
-            self.group_of[member.0 as usize] = Some(group);
+        let mut loose = vec![key];
+        let mut groups = FxHashSet::default();
+        for contour in touched {
+            match self.group_of.get(&contour) {
+                Some(&group) => drop(groups.insert(group)),
+                None => loose.push(contour),
+            }
         }
-        self.groups.insert(group, members);
-        self.contours_of_group.insert(group, contours);
+        let size = |group: &Key| self.groups.get(group).map_or(0, Vec::len);
+        let largest = groups.iter().copied().max_by_key(|group| (size(group), *group));
+        let largest = largest.unwrap_or_else(|| self.fresh_key());
+        for group in groups.into_iter().filter(|&group| group != largest) {
+            loose.extend(self.groups.remove(&group).unwrap_or_default());
+        }
+        for &contour in &loose {
+            self.group_of.insert(contour, largest);
+        }
+        self.groups.entry(largest).or_default().extend(loose);
     }
 
     /// The chain through `first`, in its direction: forward to a free end or back to its start, else backward too.
     fn walk(&self, drawing: &Drawing, first: EntityId, open: &mut Open) -> (Vec<(EntityId, bool)>, bool) {
         let mut forward = vec![(first, false)];
         let mut here = open.take(first);
-        let Some((start, mut tip)) = self.ends_of[first.0 as usize] else { return (forward, true) };
+        let Some((start, mut tip)) = self.ends_of(first) else { return (forward, true) };
         let closed = loop {
             let home = (tip - start).norm();
             let next = self.next(tip, here, open);
@@ -291,9 +345,10 @@ impl Chains {
                 break true;
             }
             let Some((end, _)) = next else { break false };
-            forward.push((end.entity, !end.is_start));
-            here = open.take(end.entity);
-            tip = self.other_end(&end);
+            forward.push((end.entity(), !end.is_start()));
+            here = open.take(end.entity());
+            let Some(other) = self.other_end(end) else { break false };
+            tip = other;
         };
         if closed {
             return (forward, true);
@@ -303,40 +358,37 @@ impl Chains {
         here = open.taken_rank(first);
         while let Some((end, _)) = self.next(tail, here, open) {
             // Travelled towards the chain: its own end meets the tail when it is not reversed.
-            backward.push((end.entity, end.is_start));
-            here = open.take(end.entity);
-            tail = self.other_end(&end);
+            backward.push((end.entity(), end.is_start()));
+            here = open.take(end.entity());
+            let Some(other) = self.other_end(end) else { break };
+            tail = other;
         }
         backward.reverse();
         backward.append(&mut forward);
         (backward, false)
     }
 
-    fn other_end(&self, end: &End) -> Point {
-        match self.ends_of[end.entity.0 as usize] {
-            Some((_, other)) if end.is_start => other,
-            Some((other, _)) => other,
-            None => end.point,
-        }
+    fn other_end(&self, end: End) -> Option<Point> {
+        self.ends_of(end.entity()).map(|(start, own_end)| if end.is_start() { own_end } else { start })
     }
 
     /// The open end that continues the chain at `tip`: the nearest; of equally near ones that of the entity that follows in
     /// machining order the one of rank `here`. Everything else that ends there is noted as touching.
     fn next(&self, tip: Point, here: u32, open: &mut Open) -> Option<(End, f64)> {
         let mut best: Option<(End, f64, u32)> = None;
-        for end in self.near(tip) {
-            if !open.has(end.entity) {
-                open.touching.push(end.entity);
+        for (end, at) in self.near(tip) {
+            let Some(rank) = open.rank(end.entity()) else {
+                open.touching.push(end.entity());
                 continue;
-            }
-            let distance = (end.point - tip).norm();
+            };
+            let distance = (at - tip).norm();
             // Those before `here` come after all that follow it.
-            let after = open.rank[end.entity.0 as usize].wrapping_sub(here);
+            let after = rank.wrapping_sub(here);
             let better = |(other, near, later): &(End, f64, u32)| {
-                distance.total_cmp(near).then(after.cmp(later)).then(other.is_start.cmp(&end.is_start)).is_lt()
+                distance.total_cmp(near).then(after.cmp(later)).then(other.is_start().cmp(&end.is_start())).is_lt()
             };
             if best.as_ref().is_none_or(better) {
-                best = Some((*end, distance, after));
+                best = Some((end, distance, after));
             }
         }
         best.map(|(end, distance, _)| (end, distance))
@@ -348,27 +400,60 @@ const TAKEN: u32 = 1 << 31;
 
 /// The entities that are still to be chained, by their rank in machining order, and what the chain at hand has touched.
 struct Open {
-    /// By entity id: the rank, with the top bit set once the entity is taken.
-    rank: Vec<u32>,
+    ranks: Ranks,
     touching: Vec<EntityId>,
 }
 
+/// Ranks by entity id, with the top bit set once the entity is taken.
+enum Ranks {
+    All(Vec<u32>),
+    /// Of a few among many: an edit does not cost the length of the drawing.
+    Few(FxHashMap<EntityId, u32>),
+}
+
 impl Open {
+    fn new(id_bound: usize, entities: &[EntityId]) -> Open {
+        let ranked = entities.iter().copied().zip(0u32..);
+        let ranks = if entities.len() * FEW < id_bound {
+            Ranks::Few(ranked.collect())
+        } else {
+            let mut ranks = vec![UNRANKED; id_bound];
+            ranked.for_each(|(id, rank)| ranks[id.0 as usize] = rank);
+            Ranks::All(ranks)
+        };
+        Open { ranks, touching: Vec::new() }
+    }
+
+    fn entry(&self, id: EntityId) -> u32 {
+        match &self.ranks {
+            Ranks::All(ranks) => ranks.get(id.0 as usize).copied().unwrap_or(UNRANKED),
+            Ranks::Few(ranks) => ranks.get(&id).copied().unwrap_or(UNRANKED),
+        }
+    }
+
+    /// The rank of an entity that is not taken yet.
+    fn rank(&self, id: EntityId) -> Option<u32> {
+        Some(self.entry(id)).filter(|rank| rank & TAKEN == 0)
+    }
+
     fn has(&self, id: EntityId) -> bool {
-        self.rank.get(id.0 as usize).is_some_and(|rank| rank & TAKEN == 0)
+        self.rank(id).is_some()
     }
 
     /// Takes the entity and gives back its rank.
     fn take(&mut self, id: EntityId) -> u32 {
-        let rank = self.taken_rank(id);
-        if let Some(entry) = self.rank.get_mut(id.0 as usize) {
+        let entry = match &mut self.ranks {
+            Ranks::All(ranks) => ranks.get_mut(id.0 as usize),
+            Ranks::Few(ranks) => ranks.get_mut(&id),
+        };
+        if let Some(entry) = entry {
             *entry |= TAKEN;
         }
-        rank
+        self.taken_rank(id)
     }
 
     fn taken_rank(&self, id: EntityId) -> u32 {
-        self.rank.get(id.0 as usize).map_or(0, |rank| rank & !TAKEN)
+        self.entry(id) & !TAKEN
     }
 }
 
@@ -381,6 +466,11 @@ pub fn stated_role(drawing: &Drawing, contour: &Contour, of_layer: &dyn Fn(&str)
 }
 
 fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<EntityId> {
+    if entities.len() <= FEW {
+        let mut ordered: Vec<EntityId> = entities.into_iter().collect();
+        ordered.sort_unstable_by_key(|&id| drawing.rank(id));
+        return ordered;
+    }
     let mut wanted = vec![false; drawing.id_bound()];
     entities.iter().for_each(|id| wanted[id.0 as usize] = true);
     drawing.order().iter().copied().filter(|id| wanted[id.0 as usize]).collect()
@@ -392,17 +482,8 @@ fn comes_back(drawing: &Drawing, id: EntityId) -> bool {
     geometry.segment_count() > 2 || geometry.segments().any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
 }
 
-fn free_ends(drawing: &Drawing, id: EntityId) -> Option<(Point, Point)> {
+fn free_ends(drawing: &Drawing, id: EntityId) -> Option<Ends> {
     drawing.get(id)?.geometry.ends()
-}
-
-fn compare(a: &End, b: &End) -> std::cmp::Ordering {
-    let key = |end: &End| (end.entity, end.is_start);
-    a.cell
-        .cmp(&b.cell)
-        .then_with(|| a.point.x.total_cmp(&b.point.x))
-        .then_with(|| a.point.y.total_cmp(&b.point.y))
-        .then_with(|| key(a).cmp(&key(b)))
 }
 
 #[cfg(test)]

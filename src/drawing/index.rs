@@ -13,14 +13,14 @@ pub const RUN: usize = 64;
 struct Run {
     bounds: Bounds,
     twice_area: f64,
-    /// Indices within the contour of arcs with a radius below the threshold.
-    tight: Vec<u32>,
 }
 
 /// Boxes, area and tight arcs of one contour.
 #[derive(Clone, Debug)]
 pub struct ContourIndex {
     runs: Vec<Run>,
+    /// Indices within the contour of arcs with a radius below the threshold, rising.
+    tight: Vec<u32>,
     segments: usize,
     /// The area is summed as seen from here: a point near the contour, so that coordinates far out cost no digits.
     origin: Point,
@@ -32,7 +32,7 @@ impl ContourIndex {
     pub fn new(drawing: &Drawing, contour: &Contour, threshold: f64) -> ContourIndex {
         let segments = contour.len();
         let origin = contour.segment(drawing, 0).map_or_else(Point::origin, |first| first.geometry.start());
-        let mut index = ContourIndex { runs: Vec::with_capacity(segments.div_ceil(RUN)), segments, origin, threshold };
+        let mut index = ContourIndex { runs: Vec::with_capacity(segments.div_ceil(RUN)), tight: Vec::new(), segments, origin, threshold };
         index.extend(drawing, contour);
         index
     }
@@ -42,13 +42,22 @@ impl ContourIndex {
         let first = changed.start / RUN;
         if contour.len() != self.segments {
             self.runs.truncate(first);
+            self.tight.truncate(self.tight_before(first * RUN));
             self.segments = contour.len();
             self.extend(drawing, contour);
             return;
         }
         for run in first..changed.end.div_ceil(RUN).min(self.runs.len()) {
-            self.runs[run] = self.look(drawing, contour, run);
+            let mut tight = Vec::new();
+            self.runs[run] = self.look(drawing, contour, run, &mut tight);
+            let old = self.tight_before(run * RUN)..self.tight_before((run + 1) * RUN);
+            self.tight.splice(old, tight);
         }
+    }
+
+    /// How many tight arcs come before the segment at `index`.
+    fn tight_before(&self, index: usize) -> usize {
+        self.tight.partition_point(|&tight| (tight as usize) < index)
     }
 
     pub fn len(&self) -> usize {
@@ -61,19 +70,21 @@ impl ContourIndex {
 
     fn extend(&mut self, drawing: &Drawing, contour: &Contour) {
         for run in self.runs.len()..self.segments.div_ceil(RUN) {
-            let looked = self.look(drawing, contour, run);
+            let mut tight = Vec::new();
+            let looked = self.look(drawing, contour, run, &mut tight);
             self.runs.push(looked);
+            self.tight.append(&mut tight);
         }
     }
 
-    fn look(&self, drawing: &Drawing, contour: &Contour, run: usize) -> Run {
-        let mut found = Run { bounds: Bounds::EMPTY, twice_area: 0.0, tight: Vec::new() };
-        for index in self.range_of(run) {
-            let Some(segment) = contour.segment(drawing, index) else { continue };
+    fn look(&self, drawing: &Drawing, contour: &Contour, run: usize, tight: &mut Vec<u32>) -> Run {
+        let mut found = Run { bounds: Bounds::EMPTY, twice_area: 0.0 };
+        let range = self.range_of(run);
+        for (index, segment) in range.clone().zip(contour.segments_in(drawing, range)) {
             found.bounds.merge(&segment.geometry.bounds());
             found.twice_area += segment.geometry.twice_area(self.origin);
             if segment.geometry.as_arc().is_some_and(|arc| arc.radius < self.threshold) {
-                found.tight.push(index as u32);
+                tight.push(index as u32);
             }
         }
         found
@@ -113,7 +124,7 @@ impl ContourIndex {
 
     /// Indices of the tight arcs, rising.
     pub fn tight(&self) -> impl Iterator<Item = usize> + '_ {
-        self.runs.iter().flat_map(|run| run.tight.iter().map(|&index| index as usize))
+        self.tight.iter().map(|&index| index as usize)
     }
 
     /// Ranges of segments of which some may come near `area`.

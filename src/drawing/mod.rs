@@ -213,6 +213,29 @@ impl Drawing {
         Some(entity)
     }
 
+    /// Puts an entity that was removed back under its id and at its place in the machining order. False, with nothing done,
+    /// where its handle is taken or the id is that of another.
+    pub(crate) fn put_back(&mut self, id: EntityId, entity: Arc<Entity>) -> bool {
+        let Some(slot @ None) = self.slots.get_mut(id.0 as usize) else { return false };
+        if self.by_handle.contains_key(&entity.handle) {
+            return false;
+        }
+        self.by_handle.insert(entity.handle.clone(), id);
+        *slot = Some(entity);
+        let rank = self.rank(id);
+        let position = self.order.partition_point(|&other| self.rank(other) < rank);
+        self.order.insert(position, id);
+        true
+    }
+
+    /// Gives back the room that was made ahead.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.slots.shrink_to_fit();
+        self.order.shrink_to_fit();
+        self.ranks.shrink_to_fit();
+        self.by_handle.shrink_to_fit();
+    }
+
     /// Removes entities. Costs the length of the machining order once, however many they are.
     pub fn remove_all(&mut self, ids: &FxHashSet<EntityId>) {
         if ids.iter().filter_map(|&id| self.take(id)).count() > 0 {

@@ -27,16 +27,16 @@ const HEAD: usize = 1024;
 const FEW: usize = 64;
 
 /// A vertex that an edit lies in: its lines before the edit, and what must stay as it is.
-struct VertexZone {
-    entity: EntityId,
-    item: usize,
-    index: usize,
-    lines: Range<usize>,
-    others: Others,
+pub(super) struct VertexZone {
+    pub(super) entity: EntityId,
+    pub(super) item: usize,
+    pub(super) index: usize,
+    pub(super) lines: Range<usize>,
+    pub(super) others: Others,
 }
 
 /// What of a vertex's lines is no part of its vertex, but decides what it is: whether it is a record of its own, z, flags.
-type Others = (bool, [Option<f64>; 2]);
+pub(super) type Others = (bool, [Option<f64>; 2]);
 
 /// What was known before the edit, of all that it can have touched.
 struct ItemZone {
@@ -53,13 +53,20 @@ impl Document {
         let end = range.end.min(self.text.len());
         let range = range.start.min(end)..end;
         let vertex = self.vertex_zone(&range);
+        let sleeper = self.sleeper_about(&range);
         let zone = self.item_zone(&range);
         let (old_lines, old_length) = (self.text.line_count(), self.text.len());
         self.text.replace(range.clone(), replacement);
         let lines = self.text.line_count() as i64 - old_lines as i64;
         let bytes = self.text.len() as i64 - old_length as i64;
         if range.start >= HEAD || foreign::recognise(self.text.bytes()).is_none() {
-            if let Some(delta) = vertex.and_then(|zone| self.reread_vertex(zone, &range, lines, bytes)) {
+            if let Some(delta) = sleeper.and_then(|sleeper| self.wake(sleeper, &range, lines, bytes)) {
+                return delta;
+            }
+            if let Some(zone) = vertex
+                && let Some(delta) =
+                    self.reread_vertex(&zone, &range, lines, bytes).or_else(|| self.put_to_sleep(&zone, &range, lines, bytes))
+            {
                 return delta;
             }
             if let Some(delta) = zone.and_then(|zone| self.reread_items(&zone, lines, bytes)) {
@@ -97,8 +104,8 @@ impl Document {
         Some(VertexZone { entity, item, index, lines: zone, others })
     }
 
-    fn reread_vertex(&mut self, zone: VertexZone, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
-        let VertexZone { entity, item, index, lines: old, others } = zone;
+    fn reread_vertex(&mut self, zone: &VertexZone, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
+        let VertexZone { entity, item, index, lines: ref old, others } = *zone;
         let end = old.end.checked_add_signed(lines as isize)?;
         let (mut vertex, others_now) = plain_vertex(Lines::new(&self.text), old.start..end)?;
         if others_now != others {
@@ -118,7 +125,7 @@ impl Document {
         Some(Delta { touched: vec![touched] })
     }
 
-    fn shift_findings(&mut self, from: usize, bytes: i64) {
+    pub(super) fn shift_findings(&mut self, from: usize, bytes: i64) {
         let first = self.findings.partition_point(|finding| range_key(finding).0 < from);
         for finding in &mut self.findings[first..] {
             shift_place(finding, bytes);
@@ -330,7 +337,7 @@ fn put(drawing: &mut Drawing, id: Option<EntityId>, position: usize, entity: Ent
 /// A vertex whose lines hold nothing but its own, sound tags: as it stands in the text, and what else is there.
 ///
 /// It is a VERTEX record or a part of a LWPOLYLINE that begins with its x.
-fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
+pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
     if !range.len().is_multiple_of(2) || range.end > lines.count() {
         return None;
     }
@@ -364,7 +371,7 @@ fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
     Some((Vertex::new(x?, y?, bulge.unwrap_or(0.0)), (first == 0, [z, flags])))
 }
 
-fn shift(lines: &mut [u32], by: i64) {
+pub(super) fn shift(lines: &mut [u32], by: i64) {
     if by != 0 {
         for line in lines {
             *line = line.wrapping_add(by as u32);

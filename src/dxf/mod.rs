@@ -25,6 +25,7 @@ mod place;
 mod reader;
 mod record;
 mod shape;
+mod sleep;
 mod strings;
 mod table;
 #[cfg(test)]
@@ -57,6 +58,7 @@ pub struct Document {
     findings: Vec<Finding>,
     table: Box<Table>,
     layers: Box<Layers>,
+    sleeper: Option<Box<sleep::Sleeper>>,
     is_binary: bool,
 }
 
@@ -112,6 +114,7 @@ impl Document {
 
     /// Reads the whole text.
     fn read_all(&mut self) {
+        self.sleeper = None;
         self.findings.clear();
         *self.table = Table::default();
         if let Some(sentence) = foreign::recognise(self.text.bytes()) {
@@ -145,6 +148,8 @@ impl Document {
             };
             self.findings.insert(0, finding);
         }
+        drawing.shrink_to_fit();
+        self.table.shrink_to_fit();
         self.drawing = Arc::new(drawing);
         self.name_unsupported();
     }

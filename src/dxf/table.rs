@@ -148,6 +148,14 @@ impl Table {
         start..self.lines.get(item + 1).map_or(line_count, |&line| line as usize)
     }
 
+    /// Gives back the room that was made ahead.
+    pub(super) fn shrink_to_fit(&mut self) {
+        self.lines.shrink_to_fit();
+        self.items.shrink_to_fit();
+        self.item_of.shrink_to_fit();
+        self.vertices.shrink_to_fit();
+    }
+
     pub(super) fn set_item_of(&mut self, entity: EntityId, item: u32) {
         let index = entity.0 as usize;
         if index >= self.item_of.len() {

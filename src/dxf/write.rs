@@ -10,14 +10,14 @@ use crate_dxf::{LwPolylineVertex, Point as Point3};
 /// Height of texts, in millimetres: a start mark has no height of its own.
 const TEXT_HEIGHT_MM: f64 = 1.0;
 
-/// The drawing as an ASCII DXF file of release 2004: LWPOLYLINE, LINE, ARC, CIRCLE and TEXT on their layers.
+/// The drawing as an ASCII DXF file of release 2000: LWPOLYLINE, LINE, ARC, CIRCLE and TEXT on their layers.
 ///
 /// Numbers have 12 decimals, bulges too; angles are degrees in [0°, 360°). Handles are given anew, entities keep their
 /// order. The unit is written where it is millimetre, inch, centimetre or metre, else the file is without one.
 /// An error is the sentence of the crate that writes.
 pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let mut file = crate_dxf::Drawing::new();
-    file.header.version = AcadVersion::R2004;
+    file.header.version = AcadVersion::R2000;
     file.header.default_drawing_units = match drawing.unit {
         Some(unit) if unit == Unit::MILLIMETRE => Units::Millimeters,
         Some(unit) if unit == Unit::INCH => Units::Inches,

@@ -3,33 +3,64 @@
 use super::Bounds;
 use rustc_hash::FxHashMap;
 
-/// Boxes by key. Each lies in the level whose cells are just larger than it, so it covers at most four cells there, and a
-/// question looks into a few cells of each level in use. Adding, removing and asking cost what is found, whatever else
-/// the grid holds, as long as boxes of one size do not lie in heaps.
+/// Boxes by key. Each lies in the level whose cells are just larger than it, in the cell that holds its lower left corner, so it
+/// reaches into the next column and row at most; a question looks into a few cells of each level in use. Adding, removing and
+/// asking cost what is found, whatever else the grid holds, as long as boxes of one size do not lie in heaps.
 #[derive(Clone, Debug)]
 pub struct Grid<K> {
-    cells: FxHashMap<(i16, i64, i64), Vec<(K, Bounds)>>,
+    /// The first box of each cell that holds any.
+    first: FxHashMap<Cell, u32>,
+    boxes: Vec<Boxed<K>>,
+    /// The first of the places in `boxes` that hold none.
+    free: u32,
     /// Number of boxes of each level in use.
     levels: FxHashMap<i16, usize>,
 }
 
+/// Level, column, row. What lies beyond the last column or row lies in it.
+type Cell = (i16, i32, i32);
+
+#[derive(Clone, Debug)]
+struct Boxed<K> {
+    key: K,
+    bounds: Bounds,
+    /// The next box in the same cell.
+    next: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
 impl<K> Default for Grid<K> {
     fn default() -> Self {
-        Grid { cells: FxHashMap::default(), levels: FxHashMap::default() }
+        Grid { first: FxHashMap::default(), boxes: Vec::new(), free: NONE, levels: FxHashMap::default() }
     }
 }
 
 impl<K: Copy + PartialEq> Grid<K> {
+    /// Makes room for so many more boxes.
+    pub fn reserve(&mut self, count: usize) {
+        self.boxes.reserve(count);
+    }
+
     /// Adds a box; an empty one is never found.
     pub fn insert(&mut self, key: K, bounds: Bounds) {
         if bounds.is_empty() {
             return;
         }
-        let level = level_of(&bounds);
-        *self.levels.entry(level).or_default() += 1;
-        for cell in cells(level, &bounds) {
-            // Most cells hold one box: a vector that grows by itself would begin with room for four.
-            self.cells.entry(cell).or_insert_with(|| Vec::with_capacity(1)).push((key, bounds));
+        let cell = cell_of(&bounds);
+        *self.levels.entry(cell.0).or_default() += 1;
+        let first = self.first.entry(cell).or_insert(NONE);
+        let boxed = Boxed { key, bounds, next: *first };
+        match self.boxes.get_mut(self.free as usize) {
+            Some(place) => {
+                *first = self.free;
+                self.free = place.next;
+                *place = boxed;
+            }
+            None => {
+                *first = self.boxes.len() as u32;
+                self.boxes.push(boxed);
+            }
         }
     }
 
@@ -38,19 +69,24 @@ impl<K: Copy + PartialEq> Grid<K> {
         if bounds.is_empty() {
             return;
         }
-        let level = level_of(bounds);
-        for cell in cells(level, bounds) {
-            if let Some(boxes) = self.cells.get_mut(&cell) {
-                boxes.retain(|(other, _)| *other != key);
-                if boxes.is_empty() {
-                    self.cells.remove(&cell);
-                }
-            }
+        let cell = cell_of(bounds);
+        let Some(&first) = self.first.get(&cell) else { return };
+        let (mut before, mut at) = (NONE, first);
+        while let Some(boxed) = self.boxes.get(at as usize).filter(|boxed| boxed.key != key) {
+            (before, at) = (at, boxed.next);
         }
-        if let Some(count) = self.levels.get_mut(&level) {
+        let Some(boxed) = self.boxes.get_mut(at as usize) else { return };
+        let next = std::mem::replace(&mut boxed.next, self.free);
+        self.free = at;
+        match self.boxes.get_mut(before as usize) {
+            Some(before) => before.next = next,
+            None if next == NONE => drop(self.first.remove(&cell)),
+            None => drop(self.first.insert(cell, next)),
+        }
+        if let Some(count) = self.levels.get_mut(&cell.0) {
             *count -= 1;
             if *count == 0 {
-                self.levels.remove(&level);
+                self.levels.remove(&cell.0);
             }
         }
     }
@@ -60,32 +96,30 @@ impl<K: Copy + PartialEq> Grid<K> {
         if area.is_empty() {
             return;
         }
+        let mut look = |first: u32| {
+            let mut at = first;
+            while let Some(boxed) = self.boxes.get(at as usize) {
+                if boxed.bounds.touches(area) {
+                    found(boxed.key);
+                }
+                at = boxed.next;
+            }
+        };
         for &level in self.levels.keys() {
             let size = cell_size(level);
-            let first = |bounds: &Bounds| (cell(bounds.min.x, size), cell(bounds.min.y, size));
-            let (left, bottom) = first(area);
+            // A box may begin one cell to the left of where it is met, or below.
+            let (left, bottom) = (cell(area.min.x, size).saturating_sub(1), cell(area.min.y, size).saturating_sub(1));
             let (right, top) = (cell(area.max.x, size), cell(area.max.y, size));
-            let columns = (right.saturating_sub(left) as u64).saturating_add(1);
-            let rows = (top.saturating_sub(bottom) as u64).saturating_add(1);
-            let mut look = |(x, y): (i64, i64), boxes: &[(K, Bounds)]| {
-                for (key, bounds) in boxes {
-                    // A box that covers several cells is met in the first of them that the question covers too.
-                    let (own_x, own_y) = first(bounds);
-                    if bounds.touches(area) && x == own_x.max(left) && y == own_y.max(bottom) {
-                        found(*key);
-                    }
-                }
-            };
-            if columns.saturating_mul(rows) > self.cells.len() as u64 {
-                for (&(_, x, y), boxes) in self.cells.iter().filter(|((other, ..), _)| *other == level) {
-                    look((x, y), boxes);
-                }
+            let columns = (i64::from(right) - i64::from(left) + 1) as u64;
+            let rows = (i64::from(top) - i64::from(bottom) + 1) as u64;
+            if columns.saturating_mul(rows) > self.first.len() as u64 {
+                self.first.iter().filter(|((other, ..), _)| *other == level).for_each(|(_, &first)| look(first));
                 continue;
             }
             for x in left..=right {
                 for y in bottom..=top {
-                    if let Some(boxes) = self.cells.get(&(level, x, y)) {
-                        look((x, y), boxes);
+                    if let Some(&first) = self.first.get(&(level, x, y)) {
+                        look(first);
                     }
                 }
             }
@@ -103,15 +137,15 @@ fn cell_size(level: i16) -> f64 {
     2f64.powi(i32::from(level))
 }
 
-fn cell(coordinate: f64, size: f64) -> i64 {
-    (coordinate / size).floor() as i64
+fn cell(coordinate: f64, size: f64) -> i32 {
+    (coordinate / size).floor() as i32
 }
 
-fn cells(level: i16, bounds: &Bounds) -> impl Iterator<Item = (i16, i64, i64)> + use<> {
+/// The cell of a box: that of its lower left corner.
+fn cell_of(bounds: &Bounds) -> Cell {
+    let level = level_of(bounds);
     let size = cell_size(level);
-    let (left, right) = (cell(bounds.min.x, size), cell(bounds.max.x, size));
-    let (bottom, top) = (cell(bounds.min.y, size), cell(bounds.max.y, size));
-    (left..=right).flat_map(move |x| (bottom..=top).map(move |y| (level, x, y)))
+    (level, cell(bounds.min.x, size), cell(bounds.min.y, size))
 }
 
 #[cfg(test)]

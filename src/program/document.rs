@@ -2,7 +2,7 @@
 
 use super::trace::{Step, Trace};
 use super::{iso, three_b};
-use crate::finding::{Finding, Fix, Severity};
+use crate::finding::{Finding, Fix, Severity, Side};
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
 use std::collections::BTreeMap;
@@ -144,6 +144,14 @@ impl Document {
         match self {
             Document::ThreeB(document) => document.trace(),
             Document::Iso(document) => document.trace(),
+        }
+    }
+
+    /// The side of travel on which the control lets the wire run, for each step of the trace; empty where no program can say.
+    pub fn sides(&self) -> Vec<Option<Side>> {
+        match self {
+            Document::ThreeB(_) => Vec::new(),
+            Document::Iso(document) => document.sides(),
         }
     }
 

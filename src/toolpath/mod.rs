@@ -67,6 +67,8 @@ pub enum Refusal {
     Sentence(String),
     /// Findings that the drawing gets only when a path is asked for, such as `lead-in`.
     Findings(Vec<Finding>),
+    /// Nobody wants the path any more.
+    Cancelled,
 }
 
 /// How much nearer than the correction a path may come by rounding, mm.
@@ -74,6 +76,17 @@ const ROUNDING: f64 = 1e-6;
 
 /// The paths of all `outlines`, or of those that hold one of `handles`, in machining order.
 pub fn plan(drawing: &Drawing, outlines: &[Outline], settings: &Effective, handles: Option<&[String]>) -> Result<Vec<WirePath>, Refusal> {
+    plan_while(drawing, outlines, settings, handles, &|| true)
+}
+
+/// The same for as long as `goes_on` says so, which is asked every few milliseconds.
+pub fn plan_while(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    handles: Option<&[String]>,
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Vec<WirePath>, Refusal> {
     let chosen = order::chosen(drawing, outlines, handles)?;
     let join = settings.tolerances.join / settings.unit_of(drawing).mm;
     if settings.compensation == Compensation::None
@@ -84,10 +97,12 @@ pub fn plan(drawing: &Drawing, outlines: &[Outline], settings: &Effective, handl
         return Ok([path].into());
     }
     let wanted = leads::wanted(drawing, outlines, &chosen, settings)?;
-    let job = Job { drawing, outlines, settings, unit_mm: settings.unit_of(drawing).mm };
+    let job = Job { drawing, outlines, settings, unit_mm: settings.unit_of(drawing).mm, goes_on };
+    job.go_on()?;
     let all = job.all_walls();
     let (mut paths, mut findings) = (Vec::new(), Vec::new());
     for (&index, wanted) in chosen.iter().zip(&wanted) {
+        job.go_on()?;
         let path = match settings.compensation {
             Compensation::None => job.as_drawn(index, wanted),
             Compensation::Path => job.compensated(index, wanted, &all),
@@ -108,9 +123,17 @@ struct Job<'a> {
     outlines: &'a [Outline],
     settings: &'a Effective,
     unit_mm: f64,
+    goes_on: &'a dyn Fn() -> bool,
 }
 
+/// Elements of a path that are looked at between two questions whether it is still wanted.
+const STEP: usize = 1024;
+
 impl Job<'_> {
+    fn go_on(&self) -> Result<(), Refusal> {
+        if (self.goes_on)() { Ok(()) } else { Err(Refusal::Cancelled) }
+    }
+
     fn all_walls(&self) -> Walls {
         let segments = self.outlines.iter().flat_map(|outline| outline.contour.segments(self.drawing));
         Walls::new(segments.map(|segment| segment.geometry).collect())
@@ -187,11 +210,16 @@ impl Job<'_> {
                 settings.correction, at.x, at.y
             ))
         };
+        self.go_on()?;
         let path = closed_path(&walls, &joining).map_err(collapsed)?;
+        self.go_on()?;
         let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
         let clearance = correction - self.units(ROUNDING);
-        if let Some(wall) = path.iter().find_map(|element| own.too_near(&element.geometry, clearance)) {
-            return Err(collapsed(walls[wall].geometry.point_at(0.5)));
+        for step in path.chunks(STEP) {
+            self.go_on()?;
+            if let Some(wall) = step.iter().find_map(|element| own.too_near(&element.geometry, clearance)) {
+                return Err(collapsed(walls[wall].geometry.point_at(0.5)));
+            }
         }
         if !keeps_its_side(&path, &walls, side) {
             return Err(collapsed(walls[0].geometry.start()));

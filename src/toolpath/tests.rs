@@ -1,6 +1,6 @@
 //! Paths of small drawings as data, and the offset held against another library's.
 
-use super::{PathSegment, Refusal, Source, WirePath, plan};
+use super::{PathSegment, Refusal, Source, WirePath, plan, plan_while};
 use crate::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use crate::finding::{Detail, Place, Rule};
 use crate::geometry::{Arc, Point, Segment, direction};
@@ -430,6 +430,7 @@ proptest! {
                 let lost = furthest(&samples(&walls, 0.05), &followed) > 0.1 + 1e-4;
                 prop_assert!(lost || expected.len() != 1, "{}", sentence);
             }
+            Err(Refusal::Cancelled) => prop_assert!(false),
             Err(Refusal::Findings(found)) => prop_assert!(false, "{:?}", found),
             Ok(paths) => {
                 let path: Vec<Segment> = paths[0].segments.iter().map(|piece| piece.geometry).collect();
@@ -453,4 +454,37 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn a_path_that_nobody_wants_any_more_is_given_up() {
+    let (drawing, outlines) = circles(40);
+    let asked = std::cell::Cell::new(0);
+    // Given up at each of the places where it asks, whichever comes first.
+    let until = |most: usize| {
+        asked.set(0);
+        let goes_on = || {
+            asked.set(asked.get() + 1);
+            asked.get() <= most
+        };
+        plan_while(&drawing, &outlines, &defaults(), None, &goes_on)
+    };
+    assert!(until(usize::MAX).is_ok());
+    let places = asked.get();
+    assert!(places > 40 * 3, "{places}");
+    for most in 0..places {
+        assert_eq!(until(most), Err(Refusal::Cancelled), "{most} of {places}");
+        assert_eq!(asked.get(), most + 1, "nothing is done once it has said so");
+    }
+}
+
+/// Openings side by side.
+fn circles(count: usize) -> (Drawing, Vec<Outline>) {
+    let mut drawing = Drawing::new(None);
+    for number in 0..count {
+        let geometry = Geometry::Circle { center: Point::new(number as f64 * 10.0, 0.0), radius: 3.0 };
+        drawing.push(Entity { handle: format!("{number}").into(), layer: "0".into(), role: Some(Role::Opening), kind: "CIRCLE", geometry });
+    }
+    let outlines = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(defaults())).outlines(&drawing).to_vec();
+    (drawing, outlines)
 }

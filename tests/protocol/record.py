@@ -22,8 +22,6 @@ def frames(stream: BinaryIO, onward: BinaryIO, said_by: str, record: TextIO, sta
     """Passes one direction on until its end, and writes down its frames."""
     waiting = b""
     while chunk := os.read(stream.fileno(), 1 << 16):
-        onward.write(chunk)
-        onward.flush()
         waiting += chunk
         while (end := waiting.find(b"\r\n\r\n")) >= 0:
             length = next((int(line[15:]) for line in waiting[:end].split(b"\r\n") if line.lower().startswith(b"content-length:")), 0)
@@ -38,6 +36,9 @@ def frames(stream: BinaryIO, onward: BinaryIO, said_by: str, record: TextIO, sta
                 line = {"at": round(time.monotonic() - started, 3), "from": said_by, "message": message}
                 record.write(json.dumps(line, ensure_ascii=False, separators=(",", ":")) + "\n")
                 record.flush()
+        # Passed on when it is written down: what it brings about stands behind it.
+        onward.write(chunk)
+        onward.flush()
 
 
 def main() -> int:

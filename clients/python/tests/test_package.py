@@ -37,11 +37,16 @@ RESULTS = [
     ("Picture", "Picture"),
     ("Program", "Program"),
     ("Closure", "Closure"),
+    ("Simulation", "Simulation"),
+    ("SimulatedBlock", "SimulatedBlock"),
+    ("Bounds", "SimulatedBounds"),
 ]
 
 
 @pytest.mark.parametrize(("ours", "theirs"), RESULTS)
 def test_results_have_every_key_of_the_schema(schema: dict[str, Any], ours: str, theirs: str) -> None:
+    if theirs.startswith("Simulat") and "wedm/simulate" not in schema["methods"]:
+        return
     held = {_KEYS.get((ours, field.name), _camel(field.name)) for field in dataclasses.fields(getattr(results, ours))}
     assert held >= set(schema["$defs"][theirs]["properties"])
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import math
 from pathlib import Path
 
 import pytest
 
-from wedm_client import Server, TextDocument
+from wedm_client import RequestFailed, Server, TextDocument
 
 
 def opened(server: Server, path: Path) -> TextDocument:
@@ -108,3 +110,19 @@ def test_a_program_of_a_file(server: Server, data: Path, tmp_path: Path) -> None
     assert (tmp_path / "die.3b").read_text().endswith("DD\n")
     assert places(server, opened(server, tmp_path / "die.3b")) == []
     assert (tmp_path / "die.svg").read_text().startswith("<svg")
+
+
+def test_a_program_is_run(server: Server, data: Path, root: Path) -> None:
+    document = opened(server, data / "hole.3b")
+    if "wedm/simulate" not in json.loads((root / "docs/protocol.schema.json").read_text())["methods"]:
+        with pytest.raises(RequestFailed, match="wedm/simulate"):
+            server.simulate(document)
+        return
+    run = server.simulate(document, feed=2.0)
+    assert [block.kind for block in run.blocks] == ["line", "arc", "line", "end"]
+    assert [block.line for block in run.blocks] == [1, 2, 3, 4]
+    arc = run.blocks[1]
+    assert arc.radius == pytest.approx(9900) and arc.sweep == pytest.approx(360)
+    assert abs(run.closure.x) < 2 and abs(run.closure.y) < 2
+    assert run.length == pytest.approx(2 * 9.9 + 2 * math.pi * 9.9, abs=0.01)
+    assert run.minutes == pytest.approx(run.length / 2.0)

@@ -6,6 +6,7 @@ import { convertToDxf } from "./commands/convert";
 import { changeCorrection } from "./commands/correction";
 import { fixAll } from "./commands/fixAll";
 import { generate } from "./commands/generate";
+import { scaleProgram } from "./commands/scale";
 import { Front } from "./front";
 import { watchLargeFiles } from "./large";
 import { Pictures } from "./picture/pictures";
@@ -34,6 +35,7 @@ export function activate(context: vscode.ExtensionContext): void {
     "wedm.openPicture": (uri) => pictures.open(uri, false),
     "wedm.simulate": (uri) => pictures.open(uri, true),
     "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),
+    "wedm.scaleProgram": (uri) => scaleProgram(front, uri),
     "wedm.fixAll": () => fixAll(front),
     "wedm.checkPath": (uri) => check.ask(uri),
     "wedm.showRadii": () => radii.show(),

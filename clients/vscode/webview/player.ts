@@ -95,7 +95,9 @@ export class Player {
   toLine(line: number): void {
     const piece = this.#playing ? -1 : this.#pieces.findIndex((each) => Number(each.dataset["line"]) === line);
     if (piece >= 0) {
-      this.#go(this.#track.startOf(piece), false);
+      // The end of the piece before is the same place, and another block.
+      this.#put(this.#track.startOf(piece), { piece, along: 0 });
+      this.#tell(null);
     }
   }
 
@@ -122,21 +124,28 @@ export class Player {
     });
   }
 
-  #go(distance: number, tell = true): void {
-    this.#distance = Math.min(Math.max(distance, 0), this.#track.length);
+  #go(distance: number): void {
+    const spot = this.#track.at(distance);
+    if (spot === null) {
+      return;
+    }
+    this.#put(Math.min(Math.max(distance, 0), this.#track.length), spot);
+    const line = this.#pieces[spot.piece]?.dataset["line"];
+    if (line !== undefined) {
+      this.#tell(Number(line));
+    }
+  }
+
+  #put(distance: number, spot: Spot): void {
+    this.#distance = distance;
     this.#slider.value = String(Math.round((this.#distance / this.#track.length) * Number(this.#slider.max)));
-    const spot = this.#track.at(this.#distance);
-    const piece = spot === null ? undefined : this.#pieces[spot.piece];
-    if (spot === null || piece === undefined) {
+    const piece = this.#pieces[spot.piece];
+    if (piece === undefined) {
       return;
     }
     this.#colour(spot.piece);
     this.#mark(piece, spot.along);
     this.#showFigures(spot);
-    const line = piece.dataset["line"];
-    if (tell && line !== undefined) {
-      this.#tell(Number(line));
-    }
   }
 
   /** Pieces before the wire have been cut. */

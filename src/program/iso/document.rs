@@ -5,7 +5,7 @@ use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Reading, micrometres};
 use super::order::{Order, order};
 use super::stretch::Stretch;
-use crate::finding::{Finding, Fix};
+use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
 use crate::settings::{Effective, Profile, shipped_profiles};
@@ -283,8 +283,8 @@ impl Document {
         let mut start = None;
         for placed in self.placed() {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
-            self.steps_of(lines, placed.stretch.before, &mut contour, &mut |step, states| {
-                start.get_or_insert((step.start, states));
+            self.steps_of(lines, placed.stretch.before, &mut contour, &mut |step, machine, _| {
+                start.get_or_insert((step.start, machine.stated));
                 trace.steps.push(step);
             });
         }
@@ -292,6 +292,16 @@ impl Document {
             (trace.start, trace.start_is_known) = (start, is_known);
         }
         trace
+    }
+
+    /// The side on which the wire runs beside each step of the trace.
+    pub fn sides(&self) -> Vec<Option<Side>> {
+        let mut sides = Vec::new();
+        for placed in self.placed() {
+            let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
+            self.steps_of(lines, placed.stretch.before, &mut 0, &mut |_, _, side| sides.push(side));
+        }
+        sides
     }
 
     /// The steps whose text overlaps or touches a range of bytes.
@@ -303,7 +313,7 @@ impl Document {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
             if lines.start < wanted.end && wanted.start < lines.end {
                 let mut own = contour;
-                self.steps_of(lines, placed.stretch.before, &mut own, &mut |step, _| {
+                self.steps_of(lines, placed.stretch.before, &mut own, &mut |step, _, _| {
                     if step.range.start <= range.end && range.start <= step.range.end {
                         steps.push(step);
                     }
@@ -314,8 +324,8 @@ impl Document {
         steps
     }
 
-    /// Runs lines and hands out their steps, each with whether the program has said before where it stands.
-    fn steps_of(&self, lines: Range<usize>, before: Machine, contour: &mut usize, each: &mut dyn FnMut(Step, bool)) {
+    /// Runs lines and hands out their steps, each with what is in force behind it, and the side on which the wire runs beside it.
+    fn steps_of(&self, lines: Range<usize>, before: Machine, contour: &mut usize, each: &mut dyn FnMut(Step, &Machine, Option<Side>)) {
         let mut machine = before;
         for line in lines {
             if machine.ended {
@@ -331,6 +341,7 @@ impl Document {
             let words = super::stretch::words_of(bytes, range.start);
             let words = words.0 as usize..words.1 as usize;
             if let Some(made) = made {
+                let side = made.side;
                 let kind = match made.motion {
                     Motion::Rapid => Kind::Rapid,
                     Motion::Line => Kind::Line,
@@ -343,13 +354,13 @@ impl Document {
                 };
                 let (start, end) = (micrometres(made.from), micrometres(made.to));
                 let step = Step { range: words.clone(), line, number: block.number, kind, start, end, ideal, contour: *contour };
-                each(step, machine.stated);
+                each(step, &machine, side);
             }
             if let Some(stop) = block.stop {
                 let kind = if stop == Stop::End { Kind::End } else { Kind::Pause };
                 let at = micrometres(machine.at);
                 let step = Step { range: words, line, number: block.number, kind, start: at, end: at, ideal: None, contour: *contour };
-                each(step, machine.stated);
+                each(step, &machine, None);
                 *contour += usize::from(stop == Stop::Pause);
             }
         }

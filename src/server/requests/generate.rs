@@ -10,7 +10,7 @@ use crate::server::jobs::{Cancel, Progress};
 use crate::server::state::State;
 use crate::settings::Effective;
 use crate::text::Encoding;
-use crate::toolpath::plan;
+use crate::toolpath::plan_while;
 use serde::Deserialize;
 use serde_json::Value;
 use std::sync::Arc;
@@ -81,7 +81,8 @@ impl Job {
         stop_if(cancel)?;
         progress.report("laying the wire's path");
         let handles = self.handles.as_deref();
-        let paths = plan(&task.drawing, &task.outlines, &task.settings, handles).map_err(|reason| refusal(&task, reason, self.encoding))?;
+        let paths = plan_while(&task.drawing, &task.outlines, &task.settings, handles, &|| !cancel.is_cancelled())
+            .map_err(|reason| refusal(&task, reason, self.encoding))?;
         if paths.is_empty() {
             return Err(refused("the drawing holds no contour to cut"));
         }

@@ -142,7 +142,7 @@ impl Task {
 
     /// All findings under the task's settings; of the rules alone where the options made a document without its text.
     pub fn findings(&self) -> Vec<Finding> {
-        self.document.all_findings()
+        self.document.all_findings().to_vec()
     }
 }
 
@@ -184,6 +184,7 @@ pub(super) fn workspace_edit(target: &Target, edits: Vec<TextEdit>) -> Workspace
 pub(super) fn refusal(task: &Task, refusal: Refusal, encoding: Encoding) -> Error {
     match refusal {
         Refusal::Sentence(sentence) => refused(sentence),
+        Refusal::Cancelled => Error::request_cancelled(),
         Refusal::Findings(findings) => {
             let diagnostics = convert::diagnostics(&task.subject, &findings, encoding);
             let first = diagnostics.first().map_or_else(|| "no path can be made".into(), |first| first.message.clone());

@@ -7,7 +7,7 @@ use crate::message::en;
 use crate::picture::{program_svg, svg};
 use crate::protocol::Picture;
 use crate::server::state::State;
-use crate::toolpath::plan;
+use crate::toolpath::plan_while;
 use serde_json::Value;
 
 pub(in crate::server) fn picture(state: &mut State, uri: &str, options: Option<&Value>, errand: Errand) {
@@ -20,10 +20,10 @@ pub(in crate::server) fn picture(state: &mut State, uri: &str, options: Option<&
             let _ = errand.reply.send(Err(error));
         }
         Ok((Subject { document, stamp, small }, options)) => {
-            run(state, "Drawing the picture", uri, (stamp, small), errand, move |_, _| {
+            run(state, "Drawing the picture", uri, (stamp, small), errand, move |cancel, _| {
                 let task = Task::new(document, options)?;
                 // Where no path can be made the picture shows the contours, and the findings say why.
-                let paths = plan(&task.drawing, &task.outlines, &task.settings, None).unwrap_or_default();
+                let paths = plan_while(&task.drawing, &task.outlines, &task.settings, None, &|| !cancel.is_cancelled()).unwrap_or_default();
                 written(&Picture { svg: svg(&task.drawing, &task.outlines, &task.findings(), &paths, task.unit_mm()) })
             });
         }

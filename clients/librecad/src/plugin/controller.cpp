@@ -162,7 +162,8 @@ void Controller::run(const QString &command, Document_Interface &drawing)
     if (!m_panel) {
         QMainWindow *main = host::mainWindow();
         m_panel = new Panel(main);
-        main->addDockWidget(Qt::RightDockWidgetArea, m_panel);
+        // The right side is full of LibreCAD's own docks.
+        main->addDockWidget(Qt::LeftDockWidgetArea, m_panel);
         connectPanel();
         startServer();
     }
@@ -350,6 +351,7 @@ void Controller::look(Document_Interface &drawing)
     });
     m_panel->setUnchecked(open.unchecked);
     setProperty("lookMilliseconds", clock.elapsed());
+    setProperty("looks", property("looks").toInt() + 1);
     // LibreCAD paints the drawing again after each call of a plugin; that belongs to the cost of a look.
     QTimer::singleShot(0, this, [this, clock] { m_live.looked(clock.elapsed()); });
 }
@@ -502,7 +504,10 @@ void Controller::apply(Document_Interface &drawing)
     if (repair.uri.isEmpty() || openFor(host::currentWindow()).uri != repair.uri)
         return;
     QString failure;
+    QElapsedTimer clock;
+    clock.start();
     const bool done = applyRepair(drawing, repair, &failure);
+    setProperty("applyMilliseconds", clock.elapsed());
     look(drawing);
     if (done)
         m_panel->setMessage(tr("Done: %1. One Undo takes it back.").arg(repair.title), Panel::Tone::Good);

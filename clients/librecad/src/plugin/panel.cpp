@@ -19,6 +19,8 @@ namespace wedm {
 
 namespace {
 
+/// Pixels; vertex, radius and verdict are seen without scrolling.
+constexpr int WIDTH = 400;
 constexpr double LARGEST_CORRECTION = 5.0;
 constexpr int CORRECTION_DECIMALS = 4;
 constexpr double CORRECTION_STEP = 0.005;
@@ -89,17 +91,18 @@ Panel::Panel(QWidget *parent)
     , m_fixOne(new QPushButton(tr("Fix this")))
 {
     setObjectName(QStringLiteral("wedm_dock"));
+    setMinimumWidth(WIDTH);
 
     m_correction->setObjectName(QStringLiteral("wedm_correction"));
     m_correction->setDecimals(CORRECTION_DECIMALS);
     m_correction->setRange(0, LARGEST_CORRECTION);
     m_correction->setSingleStep(CORRECTION_STEP);
     m_correction->setSuffix(tr(" mm"));
-    m_correction->setSpecialValueText(tr("as set elsewhere"));
+    m_correction->setSpecialValueText(tr("not set here"));
     m_correction->setKeyboardTracking(false);
     m_correction->setToolTip(tr("Wire radius + spark gap. A wedm.toml beside the drawing comes first; without either it is 0.1 mm."));
     m_side->setObjectName(QStringLiteral("wedm_side"));
-    m_side->addItem(tr("as set elsewhere"), QString());
+    m_side->addItem(tr("not set here"), QString());
     m_side->addItem(tr("opening: the wire runs inside"), QStringLiteral("opening"));
     m_side->addItem(tr("punch: the wire runs outside"), QStringLiteral("punch"));
     m_side->addItem(tr("by nesting"), QStringLiteral("auto"));
@@ -127,7 +130,7 @@ Panel::Panel(QWidget *parent)
     m_view->verticalHeader()->setDefaultSectionSize(m_view->fontMetrics().height() + 5);
     m_view->horizontalHeader()->setStretchLastSection(true);
     const int digit = m_view->fontMetrics().horizontalAdvance(QLatin1Char('0'));
-    const QVector<int> widths{7, 14, 8, 10, 10, 6, 9, 9, 14};
+    const QVector<int> widths{7, 9, 14, 9, 6, 10, 10, 14, 8};
     for (int i = 0; i < widths.size(); ++i)
         m_view->setColumnWidth(i, widths.at(i) * digit);
     m_list->setObjectName(QStringLiteral("wedm_findings"));
@@ -244,7 +247,7 @@ void Panel::setFindings(const QVector<Finding> &findings)
         m_findings.resize(MOST_LISTED);
     m_list->clear();
     for (const Finding &finding : qAsConst(m_findings)) {
-        const QString place = finding.handle.isEmpty() ? QString() : tr(", %1 vertex %2").arg(finding.handle).arg(finding.segment);
+        const QString place = finding.handle.isEmpty() ? QString() : tr(", entity %1 vertex %2").arg(finding.handle).arg(finding.segment);
         QListWidgetItem *item =
             new QListWidgetItem(QStringLiteral("%1%2: %3").arg(QString::fromLatin1(severityName(finding.severity)), place, finding.message));
         item->setToolTip(finding.rule);

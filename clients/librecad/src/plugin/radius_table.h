@@ -13,7 +13,7 @@ class RadiusTable : public QAbstractTableModel {
     Q_OBJECT
 public:
     enum class Show { Faults, Arcs, All };
-    enum Column { Vertex, Entity, Layer, X, Y, Kind, Radius, Sweep, Verdict, Columns };
+    enum Column { Vertex, Radius, Verdict, Sweep, Kind, X, Y, Entity, Layer, Columns };
 
     explicit RadiusTable(QObject *parent = nullptr);
 

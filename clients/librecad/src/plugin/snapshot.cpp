@@ -4,10 +4,10 @@
 #include "document_interface.h"
 
 #include <QHash>
+#include <QSet>
 #include <QtMath>
 
-#include <memory>
-#include <vector>
+#include <cmath>
 
 namespace wedm {
 
@@ -23,7 +23,9 @@ constexpr int MARK_COLOUR = 0xff00ff;
 constexpr int LONGEST_START_MARK = 64;
 /// Adding one vertex to a polyline makes LibreCAD 2.2.0 look at all before it, so a polyline takes the square of its size:
 /// so many ns for each pair. Measured, see the README.
-constexpr double NS_PER_PAIR = 20;
+constexpr double NS_PER_PAIR = 80;
+/// What is read back may differ by so much from what was written, in drawing units and degrees.
+constexpr double ARRIVED = 1e-8;
 /// Values of $INSUNITS.
 constexpr int INSUNITS_INCH = 1;
 constexpr int INSUNITS_MM = 4;
@@ -199,6 +201,23 @@ bool add(Document_Interface &drawing, const Entity &entity, const Data &look)
     return true;
 }
 
+/// Whether `found` is `meant` within what passes through LibreCAD's angles and centres.
+bool arrived(const Entity &meant, const Entity &found)
+{
+    const auto close = [](double one, double other) { return std::abs(one - other) <= ARRIVED + NOISE_RELATIVE * std::abs(one); };
+    const auto sameAngle = [&](double one, double other) { return std::abs(std::remainder(one - other, 360.0)) <= ARRIVED; };
+    if (meant.kind != found.kind || meant.closed != found.closed || meant.vertices.size() != found.vertices.size())
+        return false;
+    for (int i = 0; i < meant.vertices.size(); ++i) {
+        const Vertex &one = meant.vertices.at(i);
+        const Vertex &other = found.vertices.at(i);
+        if (!close(one.x, other.x) || !close(one.y, other.y) || !close(one.bulge, other.bulge))
+            return false;
+    }
+    return close(meant.x, found.x) && close(meant.y, found.y) && close(meant.radius, found.radius)
+        && (meant.kind != Kind::Arc || (sameAngle(meant.startAngle, found.startAngle) && sameAngle(meant.endAngle, found.endAngle)));
+}
+
 } // namespace
 
 Snapshot takeSnapshot(Document_Interface &drawing)
@@ -232,57 +251,70 @@ Snapshot takeSnapshot(Document_Interface &drawing)
 bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *failure)
 {
     const QString moved = QObject::tr("The drawing has changed while the repair was on its way; nothing was changed. Ask for it again.");
+    QHash<QString, int> before;
+    before.reserve(repair.before.size());
+    for (int i = 0; i < repair.before.size(); ++i)
+        before.insert(repair.before.at(i).handle, i);
+    QVector<Entity> changed;
+    QVector<Entity> fresh;
+    QVector<bool> stays(repair.before.size(), false);
+    for (const Entity &entity : repair.after) {
+        const int old = before.value(entity.handle, -1);
+        if (old < 0)
+            fresh += entity;
+        else if (!alike(repair.before.at(old), entity))
+            changed += entity;
+        if (old >= 0)
+            stays[old] = true;
+        if (old < 0 && entity.kind == Kind::Text) {
+            *failure = QObject::tr("The repair holds what this plugin cannot draw; nothing was changed.");
+            return false;
+        }
+    }
+    QSet<quint64> touched;
+    QHash<quint64, int> identities;
+    identities.reserve(repair.before.size());
+    for (int i = 0; i < repair.before.size(); ++i) {
+        identities.insert(repair.before.at(i).identity, i);
+        if (!stays.at(i))
+            touched.insert(repair.before.at(i).identity);
+    }
+    for (const Entity &entity : qAsConst(changed))
+        touched.insert(repair.before.at(before.value(entity.handle)).identity);
+
+    // Everything is known to fit before anything is touched.
     const Entities entities(drawing);
     QHash<quint64, Plug_Entity *> wrappers;
     QHash<quint64, Data> looks;
-    QHash<quint64, Entity> now;
+    QHash<QString, Data> layerLooks;
+    int same = 0;
     for (Plug_Entity *each : entities.list()) {
         Data data;
         each->getData(&data);
         Entity entity;
         if (data.value(DPI::LAYER).toString() == QLatin1String(MARK_LAYER) || !read(*each, data, &entity))
             continue;
-        wrappers.insert(entity.identity, each);
-        looks.insert(entity.identity, data);
-        now.insert(entity.identity, entity);
-    }
-    if (now.size() != repair.before.size()) {
-        *failure = moved;
-        return false;
-    }
-    QHash<QString, Entity> before;
-    for (const Entity &entity : repair.before) {
-        if (!now.contains(entity.identity) || !alike(entity, now.value(entity.identity))) {
+        const int old = identities.value(entity.identity, -1);
+        if (old < 0 || !alike(repair.before.at(old), entity)) {
             *failure = moved;
             return false;
         }
-        before.insert(entity.handle, entity);
-    }
-
-    // Everything is known to fit before anything is touched.
-    QVector<Entity> changed;
-    QVector<Entity> fresh;
-    QHash<QString, Entity> gone = before;
-    for (const Entity &entity : repair.after) {
-        if (entity.kind == Kind::Text && !before.contains(entity.handle)) {
-            *failure = QObject::tr("The repair holds what this plugin cannot draw; nothing was changed.");
-            return false;
+        ++same;
+        if (touched.contains(entity.identity)) {
+            wrappers.insert(entity.identity, each);
+            looks.insert(entity.identity, data);
         }
-        const auto old = before.constFind(entity.handle);
-        if (old == before.constEnd())
-            fresh += entity;
-        else if (!alike(*old, entity))
-            changed += entity;
-        gone.remove(entity.handle);
+        if (!layerLooks.contains(entity.layer))
+            layerLooks.insert(entity.layer, data);
     }
-    if (!fresh.isEmpty() && before.isEmpty()) {
+    if (same != repair.before.size() || same == 0) {
         *failure = moved;
         return false;
     }
 
     for (const Entity &entity : qAsConst(changed)) {
-        const Entity old = before.value(entity.handle);
-        const Data &look = looks[old.identity];
+        const Entity &old = repair.before.at(before.value(entity.handle));
+        const Data look = looks.value(old.identity);
         Plug_Entity *wrapper = wrappers.value(old.identity);
         if (entity.kind == old.kind && entity.kind != Kind::Polyline) {
             // The host copies the entity, changes the copy, and keeps the old one for undo.
@@ -295,17 +327,40 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
     }
     for (const Entity &entity : qAsConst(fresh)) {
         // What a repair adds looks like an entity of its layer that is there already.
-        Data look;
-        for (auto each = looks.constBegin(); each != looks.constEnd() && look.isEmpty(); ++each) {
-            if (entity.layer.isEmpty() || each.value().value(DPI::LAYER).toString() == entity.layer)
-                look = each.value();
-        }
+        Data look = layerLooks.value(entity.layer, *layerLooks.constBegin());
         if (!entity.layer.isEmpty())
             look.insert(DPI::LAYER, entity.layer);
         add(drawing, entity, look);
     }
-    for (const Entity &entity : qAsConst(gone))
-        drawing.removeEntity(wrappers.value(entity.identity));
+    for (int i = 0; i < stays.size(); ++i) {
+        if (!stays.at(i))
+            drawing.removeEntity(wrappers.value(repair.before.at(i).identity));
+    }
+    if (changed.isEmpty() && fresh.isEmpty())
+        return true;
+
+    // What LibreCAD has made of it is read again and held against what was meant.
+    const Entities result(drawing);
+    QVector<bool> there(changed.size() + fresh.size(), false);
+    const QVector<Entity> meant = changed + fresh;
+    for (int i = result.list().size() - 1, left = meant.size(); i >= 0 && left > 0; --i) {
+        Data data;
+        result.list().at(i)->getData(&data);
+        Entity entity;
+        if (!read(*result.list().at(i), data, &entity))
+            continue;
+        for (int k = 0; k < meant.size(); ++k) {
+            if (!there.at(k) && arrived(meant.at(k), entity)) {
+                there[k] = true;
+                --left;
+                break;
+            }
+        }
+    }
+    if (there.contains(false)) {
+        *failure = QObject::tr("LibreCAD has kept something else than the repair: press Undo, and repair the saved file with \"wedm fix\".");
+        return false;
+    }
     return true;
 }
 

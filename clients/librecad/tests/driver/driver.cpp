@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "driver.h"
 
+#include <QAbstractButton>
 #include <QAction>
 #include <QApplication>
 #include <QComboBox>
@@ -15,7 +16,9 @@
 #include <QMdiArea>
 #include <QMdiSubWindow>
 #include <QMenu>
+#include <QMenuBar>
 #include <QProcess>
+#include <QSaveFile>
 #include <QTableView>
 #include <QtTest>
 
@@ -197,8 +200,8 @@ QString Driver::cell(int row, int column) const
 QString Driver::verdictOf(const QString &radius) const
 {
     for (int i = 0; i < rows(); ++i) {
-        if (cell(i, 6) == radius)
-            return cell(i, 8);
+        if (cell(i, RADIUS) == radius)
+            return cell(i, VERDICT);
     }
     return "no arc of R " + radius;
 }
@@ -257,10 +260,46 @@ void Driver::expect(const QString &what, bool good, const QString &seen)
     report(QStringLiteral("%1 %2%3").arg(good ? "ok    " : "FAILED", what, good || seen.isEmpty() ? QString() : "\n       seen: " + seen));
 }
 
-void Driver::expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen)
+void Driver::expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen, int milliseconds)
 {
-    const bool good = wait(condition);
+    const bool good = wait(condition, milliseconds);
     expect(what, good, seen ? seen() : QString());
+}
+
+/// One line for each: "place NAME X Y" on the screen, or "text NAME TEXT".
+void Driver::writePlaces(const QString &path) const
+{
+    QString out;
+    const auto place = [&](const QString &name, const QWidget *widget, const QPoint &at) {
+        const QPoint global = widget->mapToGlobal(at);
+        out += QStringLiteral("place %1 %2 %3\n").arg(QString(name).replace(' ', '_')).arg(global.x()).arg(global.y());
+    };
+    const QMenuBar *bar = m_main->menuBar();
+    for (QAction *each : bar->actions())
+        place("menu:" + each->text(), bar, bar->actionGeometry(each).center());
+    for (QMenu *menu : m_main->findChildren<QMenu *>()) {
+        for (QAction *each : menu->isVisible() ? menu->actions() : QList<QAction *>())
+            place("entry:" + each->data().toString(), menu, menu->actionGeometry(each).center());
+    }
+    for (QAbstractButton *button : m_main->findChildren<QAbstractButton *>()) {
+        if (button->isVisible() && !button->text().isEmpty())
+            place("button:" + button->text(), button, button->rect().center());
+    }
+    if (QTableView *table = m_main->findChild<QTableView *>("wedm_radii")) {
+        for (int i = 0; i < table->model()->rowCount(); ++i) {
+            place(QStringLiteral("row:%1").arg(cell(i, RADIUS)), table->viewport(), table->visualRect(table->model()->index(i, RADIUS)).center());
+            out += QStringLiteral("text row:%1 %2\n").arg(cell(i, RADIUS), cell(i, VERDICT));
+        }
+    }
+    for (QLabel *label : m_main->findChildren<QLabel *>()) {
+        if (label->objectName().startsWith("wedm_"))
+            out += QStringLiteral("text %1 %2\n").arg(label->objectName(), label->text().replace('\n', ' '));
+    }
+    QSaveFile file(path);
+    if (file.open(QIODevice::WriteOnly)) {
+        file.write(out.toUtf8());
+        file.commit();
+    }
 }
 
 void Driver::report(const QString &what)

@@ -36,6 +36,8 @@ private:
     void editOnTheWay();
     void large();
     void zoom();
+    void watch();
+    void writePlaces(const QString &path) const;
 
     // What a user does.
     QAction *action(const QString &name) const;
@@ -52,6 +54,7 @@ private:
     void set(const char *combo, const QVariant &value);
 
     // What a user sees.
+    enum Column { VERTEX, RADIUS, VERDICT };
     QString text(const char *label) const;
     QString cell(int row, int column) const;
     int rows() const;
@@ -64,7 +67,7 @@ private:
 
     bool wait(const std::function<bool()> &condition, int milliseconds = 15000);
     void expect(const QString &what, bool good, const QString &seen = QString());
-    void expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen = {});
+    void expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen = {}, int milliseconds = 15000);
     void report(const QString &what);
 
     QMainWindow *m_main = nullptr;

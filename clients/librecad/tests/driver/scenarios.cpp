@@ -17,6 +17,13 @@
 
 #include <csignal>
 
+namespace {
+
+/// ms that a busy machine may need for 200,000 vertices.
+constexpr int LONG = 60000;
+
+} // namespace
+
 void Driver::scenario(const QString &name)
 {
     const QMap<QString, void (Driver::*)()> scenarios{
@@ -33,7 +40,9 @@ void Driver::scenario(const QString &name)
         {"undoOnTheWay", &Driver::undoOnTheWay},
         {"editOnTheWay", &Driver::editOnTheWay},
         {"large", &Driver::large},
+        {"largeLines", &Driver::large},
         {"zoom", &Driver::zoom},
+        {"watch", &Driver::watch},
     };
     if (scenarios.contains(name))
         (this->*scenarios.value(name))();
@@ -101,7 +110,7 @@ void Driver::fixOne()
     button->click();
     expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
     expectSoon("the other fault is left", [this] { return text("wedm_count").startsWith("errors: 1"); }, [this] { return text("wedm_count"); });
-    expect("the first arc is as it was", cell(0, 6) == "0.0800" && cell(1, 6) == "0.1010", cell(0, 6) + " " + cell(1, 6));
+    expect("the first arc is as it was", cell(0, RADIUS) == "0.0800" && cell(1, RADIUS) == "0.1010", cell(0, RADIUS) + " " + cell(1, RADIUS));
 }
 
 void Driver::generate()
@@ -278,12 +287,15 @@ void Driver::large()
     blocks.restart();
     choose("Live check");
     expectSoon("the fault among 200,000 vertices is found", [this] { return findings().join('\n').contains("small-radius") || findings().join('\n').contains("below the correction"); },
-               [this] { return findings().join('\n').left(300) + text("wedm_server"); });
-    expectSoon("and the radius list has come", [this] { return rows() > 0; });
+               [this] { return findings().join('\n').left(300) + text("wedm_server"); }, LONG);
+    expectSoon("and the radius list has come", [this] { return rows() > 0; }, {}, LONG);
     report(QStringLiteral("       longest block, first look, %1 rows listed: %2 ms").arg(rows()).arg(pause()));
     for (int i = 0; i < 3; ++i) {
+        const int looks = controller()->property("looks").toInt();
         blocks.restart();
         drawLine();
+        // A costly look waits for a quiet moment; it belongs to the measurement.
+        wait([&] { return controller()->property("looks").toInt() > looks; }, LONG);
         const qint64 longest = pause();
         report(QStringLiteral("       longest block, a line is drawn under live check: %1 ms, of them the look %2 ms")
                    .arg(longest)
@@ -302,10 +314,13 @@ void Driver::large()
     choose("Fix");
     expectSoon("a repair that would hold LibreCAD up is asked about first",
                [this] { return m_main->findChild<QDialog *>("wedm_rebuild") || text("wedm_message").startsWith("Done"); },
-               [this] { return text("wedm_message"); });
+               [this] { return text("wedm_message"); }, LONG);
     if (QDialog *box = m_main->findChild<QDialog *>("wedm_rebuild"))
         box->reject();
-    report(QStringLiteral("       after %1 ms: %2").arg(clock.elapsed()).arg(text("wedm_message")));
+    report(QStringLiteral("       after %1 ms, of them rebuilding %2 ms: %3")
+               .arg(clock.elapsed())
+               .arg(controller()->property("applyMilliseconds").toInt())
+               .arg(text("wedm_message")));
 }
 
 /// A double click shows the place and selects what lies there.
@@ -326,4 +341,14 @@ void Driver::zoom()
     expect("the entity under it was selected: Delete took it away", saved("radii").isEmpty(), saved("radii"));
     press("EditUndo");
     expect("nothing but the deletion is to undo", !action("EditUndo")->isEnabled());
+}
+
+/// Somebody else has the mouse: only says, again and again, what can be clicked where and what can be read.
+void Driver::watch()
+{
+    const QString folder = qEnvironmentVariable("WEDM_TEST_FOLDER");
+    while (!QFile::exists(folder + "/stop")) {
+        writePlaces(folder + "/places");
+        QTest::qWait(100);
+    }
 }

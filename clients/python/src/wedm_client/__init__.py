@@ -28,6 +28,7 @@ from .errors import (
 )
 from .find import find
 from .results import (
+    Bounds,
     Closure,
     Contour,
     ContourPiece,
@@ -41,6 +42,8 @@ from .results import (
     Picture,
     Program,
     Segment,
+    SimulatedBlock,
+    Simulation,
     Toolpath,
     WirePath,
 )
@@ -52,6 +55,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Action",
     "Arc",
+    "Bounds",
     "Change",
     "Checked",
     "Circle",
@@ -84,6 +88,8 @@ __all__ = [
     "Refused",
     "RequestFailed",
     "Segment",
+    "SimulatedBlock",
+    "Simulation",
     "Server",
     "ServerDied",
     "ServerNotFound",

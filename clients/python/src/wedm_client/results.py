@@ -214,6 +214,48 @@ class Program:
 
 
 @dataclass(frozen=True)
+class SimulatedBlock:
+    """A block or word of a program and where it takes the machine; points and deviation are µm, ``line`` counts from 1.
+
+    ``kind`` is ``line``, ``arc``, ``rapid``, ``pause`` or ``end``. ``end`` is where the machine stops, ``ideal_end`` where the line or
+    arc ends that the block means, ``deviation`` the way from one to the other.
+    """
+
+    line: int
+    kind: str
+    start: Point
+    end: Point
+    deviation: float
+    contour: int
+    number: int | None = None
+    ideal_end: Point | None = None
+    center: Point | None = None
+    radius: float | None = None
+    sweep: float | None = None
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """A box, µm."""
+
+    min: Point
+    max: Point
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """Where a program takes the machine. ``length`` is mm, ``deviation`` the largest of a block in µm."""
+
+    blocks: list[SimulatedBlock]
+    closure: Closure
+    length: float
+    deviation: float = 0.0
+    start_is_known: bool = False
+    bounds: Bounds | None = None
+    minutes: float | None = None
+
+
+@dataclass(frozen=True)
 class Picture:
     """Contours, faults and, where it can be made, the wire's path, as SVG. A notebook shows it as it is."""
 

@@ -12,7 +12,7 @@ import threading
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import TimeoutError as FutureTimeout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 from types import TracebackType
@@ -26,7 +26,7 @@ from .documents import LANGUAGES, Document, Drawing, TextDocument, read_text
 from .entities import Change, Delete, Put, Splice, change_from_json
 from .errors import NoAnswer, NotOpen, Outdated, ServerDied, WedmError
 from .find import find
-from .results import Contours, Diagnostic, Fixed, Inspection, Picture, Program, Toolpath, diagnostic_from_json, from_json
+from .results import Contours, Diagnostic, Fixed, Inspection, Picture, Program, Simulation, Toolpath, diagnostic_from_json, from_json
 from .settings import Settings, Units, to_json
 
 #: What a drawing can be opened from.
@@ -265,6 +265,13 @@ class Server:
         if force:
             params["force"] = True
         return from_json(self._ask(document, "wedm/generate", params), Program)
+
+    def simulate(self, document: Document, feed: float | None = None) -> Simulation:
+        """Where the program in the document takes the machine, block by block; with ``feed`` (mm/min) also how long it takes."""
+        params = {"uri": document.uri} if feed is None else {"uri": document.uri, "feed": feed}
+        simulation = from_json(self._ask(document, "wedm/simulate", params), Simulation)
+        # The protocol counts lines from 0.
+        return replace(simulation, blocks=[replace(block, line=block.line + 1) for block in simulation.blocks])
 
     @staticmethod
     def _with(document: Document, options: Settings | None) -> dict[str, Any]:

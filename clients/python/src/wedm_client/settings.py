@@ -26,6 +26,7 @@ class ProgramSettings(TypedDict, total=False):
     lead_in: float
     jumps: Literal["blocks", "none"]
     compensation: Literal["path", "controller", "none"]
+    profile: str
     end: str
     pause: str
 
@@ -43,11 +44,15 @@ class Settings(TypedDict, total=False):
     layers: Mapping[str, Role]
     rules: Mapping[str, RuleSeverity]
     program: ProgramSettings
+    profiles: Mapping[str, Mapping[str, Any]]
 
 
 def to_json(settings: Settings) -> dict[str, Any]:
     """The settings with the keys of the protocol. Names of layers, rules and handles stay as they are."""
-    return _camel(settings, {"passes", "program"})
+    written = _camel(settings, {"passes", "program"})
+    if "profiles" in written:
+        written["profiles"] = {name: _camel(profile, set()) for name, profile in written["profiles"].items()}
+    return written
 
 
 def _camel(table: Mapping[str, Any], within: set[str]) -> dict[str, Any]:

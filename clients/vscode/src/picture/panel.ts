@@ -10,8 +10,10 @@ import { type Fault, fromPage, type FromPage, type ToPage } from "./messages";
 import { page } from "./page";
 
 export const VIEW_TYPE = "wedm.picture";
-/** A picture is made at most this often while somebody types. */
+/** A picture is made at most this often while somebody types, in ms. */
 const CALM = 120;
+/** The picture of a very large drawing takes long: at least half of the time is left for everything else, up to this wait. */
+const LONGEST_CALM = 5_000;
 /** More chips than this nobody reads; all of them are under Problems. */
 const FAULTS = 200;
 
@@ -24,6 +26,7 @@ export class Picture implements vscode.Disposable {
   #stale = true;
   #making = false;
   #playWhenShown = false;
+  #calm = CALM;
   #timer: NodeJS.Timeout | undefined;
   #cursorTimer: NodeJS.Timeout | undefined;
 
@@ -99,7 +102,7 @@ export class Picture implements vscode.Disposable {
   #soon(): void {
     this.#stale = true;
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => void this.#make(), CALM);
+    this.#timer = setTimeout(() => void this.#make(), this.#calm);
   }
 
   /** One picture at a time; what changes meanwhile is drawn next. */
@@ -108,6 +111,7 @@ export class Picture implements vscode.Disposable {
       return;
     }
     this.#making = true;
+    const began = Date.now();
     const uri = this.#uri;
     this.#stale = false;
     try {
@@ -120,6 +124,7 @@ export class Picture implements vscode.Disposable {
       }
     } finally {
       this.#making = false;
+      this.#calm = Math.min(Math.max(Date.now() - began, CALM), LONGEST_CALM);
     }
     if (this.#stale || uri.toString() !== this.#uri.toString()) {
       this.#soon();

@@ -6,6 +6,7 @@ import * as vscode from "vscode";
 import { CloseAction, ErrorAction, LanguageClient, type LanguageClientOptions, State as ClientState } from "vscode-languageclient/node";
 import { selector } from "../languages";
 import type { Methods } from "../protocol";
+import { abilities } from "./abilities";
 import { Backoff } from "./backoff";
 import { findServer } from "./find";
 import { misfit } from "./handshake";
@@ -98,6 +99,7 @@ export class Server implements vscode.Disposable {
       this.log.info(`${program} (process ${child.pid ?? 0}) ended with ${signal ?? `code ${code ?? 0}`}`);
     });
     const client = new LanguageClient("wedm", "Wire EDM", () => Promise.resolve(child), this.#options());
+    client.registerFeature(abilities);
     this.#client = client;
     const clock = setTimeout(() => {
       this.log.error(`${program} has not answered within ${PATIENCE / 1_000} s`);

@@ -1,19 +1,62 @@
 // A 3B program: colours, diagnostics, the picture with the wire that is played along it.
 
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
 import { type Checks, expectEqual, expectSoon } from "./checks";
 import { HOLE } from "./drawings";
 import { Host } from "./host";
 import { WEDM } from "./paths";
 import { Window } from "./window";
 
+/** The hole with the axis on which the circle is counted mistaken. */
+const FIXABLE = HOLE.replace("GYNR1", "GXNR1");
+
+/** The same program as somebody types it. */
+const LOOSE = HOLE.toLowerCase().replaceAll("b", " b ");
+const SETTINGS = '[program]\nlayout = "compact"\n';
+
 export async function program(checks: Checks): Promise<void> {
-  const host = await Host.start({ "wedm.server.path": WEDM }, { "hole.3b": HOLE, "broken.3b": "B1000B0B1000GXL1\nQQQ\nDD\n" });
+  const host = await Host.start({ "wedm.server.path": WEDM }, { "hole.3b": HOLE, "broken.3b": "B1000B0B1000GXL1\nQQQ\nDD\n", "fixable.3b": FIXABLE, "loose.3b": LOOSE, "wedm.toml": SETTINGS });
   const window = new Window(host.page);
   checks.page = host.page;
   try {
     await checks.check("a fault in a program is underlined", async () => {
       await window.openOurs("broken.3b");
       await window.squiggles.first().waitFor();
+    });
+    await checks.check("a program is repaired by its quick fix", async () => {
+      await window.openOurs("fixable.3b");
+      await window.squiggles.first().waitFor();
+      await window.goToLine(2, 8);
+      await host.page.keyboard.press("Control+.");
+      await host.page.locator(".action-widget .monaco-list-row.action").first().waitFor();
+      await checks.shot("program-quick-fix");
+      await host.page.keyboard.press("Enter");
+      await window.squiggles.first().waitFor({ state: "hidden" });
+      await host.page.keyboard.press("Control+s");
+      await expectSoon("the program repaired", async () => (await readFile(join(host.folder, "fixable.3b"), "utf8")) === HOLE);
+    });
+    await checks.check("a program is formatted in the layout that is set", async () => {
+      await window.openOurs("loose.3b");
+      await window.command("Format Document");
+      await host.page.keyboard.press("Control+s");
+      await expectSoon("the same blocks", async () => (await readFile(join(host.folder, "loose.3b"), "utf8")) === HOLE, () =>
+        readFile(join(host.folder, "loose.3b"), "utf8"),
+      );
+    });
+    await checks.check("a program is scaled by a factor", async () => {
+      await window.command("Wire EDM: Scale Program…");
+      const box = host.page.locator(".quick-input-widget");
+      await box.getByText("Factor by which every length").waitFor();
+      await box.locator("input").fill("2");
+      await host.page.keyboard.press("Enter");
+      await host.page.locator(".view-lines", { hasText: "B19800" }).waitFor();
+    });
+    await checks.check("lenses above the first block play the wire and open the picture", async () => {
+      await window.openOurs("hole.3b");
+      await host.page.locator(".codelens-decoration a", { hasText: "Open picture" }).click();
+      await window.picture();
+      await checks.shot("lenses");
     });
     await checks.check("the wire is played along the program, and the text follows", async () => {
       await window.openOurs("hole.3b");
@@ -34,12 +77,8 @@ export async function program(checks: Checks): Promise<void> {
       const page = await window.picture();
       await window.goToLine(3);
       await expectSoon("line 3 selected", async () => (await page.locator("svg .selected").first().getAttribute("data-line")) === "2");
-      await page.locator('svg path[data-line="1"]').first().dispatchEvent("pointerdown", { button: 0, pointerId: 1 });
-      const box = await page.locator('svg path[data-line="1"]').first().boundingBox();
-      if (box === null) {
-        throw new Error("block 2 has no place");
-      }
-      await host.page.mouse.click(box.x + box.width / 2, box.y + 1);
+      await expectSoon("the wire at its beginning", async () => (await page.locator("#where").innerText()).includes("line 3"), () => page.locator("#where").innerText());
+      await window.clickPath(page, 'svg path[data-line="1"]');
       await window.expectLine(2);
     });
   } finally {

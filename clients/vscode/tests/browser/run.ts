@@ -13,7 +13,9 @@ const scenarios: Record<string, (checks: Checks) => Promise<void>> = { text, pic
 const checks = new Checks();
 const named = process.argv.slice(2);
 
-for (const [name, scenario] of Object.entries(scenarios).filter(([name]) => (named.length === 0 ? name !== ONLY_BY_NAME : named.includes(name)))) {
+const isWanted = (name: string): boolean => (named.length === 0 ? name !== ONLY_BY_NAME : named.includes(name));
+
+for (const [name, scenario] of Object.entries(scenarios).filter(([name]) => isWanted(name))) {
   console.log(`${name}:`);
   await scenario(checks).catch((error: unknown) => checks.fail(`${name} starts and ends`, error));
 }

@@ -108,6 +108,16 @@ export class Window {
     await this.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   }
 
+  /** Clicks a third of the way along a path of the picture: the box of an arc is larger than what is drawn. */
+  async clickPath(picture: Frame, selector: string): Promise<void> {
+    const point = await picture.locator(selector).first().evaluate((path: SVGPathElement) => {
+      const along = path.getPointAtLength(path.getTotalLength() / 3).matrixTransform(path.getScreenCTM() ?? undefined);
+      return { x: along.x, y: along.y };
+    });
+    const frame = await this.page.locator("iframe.webview.ready").boundingBox();
+    await this.page.mouse.click((frame?.x ?? 0) + point.x, (frame?.y ?? 0) + point.y);
+  }
+
   async expectLine(line: number): Promise<void> {
     await expectSoon(`the cursor in line ${line}`, async () => (await this.line()) === line, async () => `line ${await this.line()}`);
   }

@@ -40,6 +40,7 @@ interface Setting {
   enumDescriptions?: string[];
   description?: string;
   markdownDescription?: string;
+  additionalProperties?: Schema;
 }
 
 async function read(path: string): Promise<unknown> {
@@ -76,6 +77,15 @@ test("the package contributes every setting of the server, and no other", () => 
   const own = ["wedm.server.path", "wedm.server.log", "wedm.trace.server"];
   assert.ok(server.length >= 18, String(server.length));
   assert.deepEqual(Object.keys(contributed).toSorted(), [...server, ...own].toSorted());
+});
+
+test("a profile may hold what the server's profiles hold", () => {
+  const profile = contributed["wedm.profiles"]?.additionalProperties;
+  const server = protocol.$defs["ProfileSettings"]?.properties ?? {};
+  assert.deepEqual(Object.keys(profile?.properties ?? {}), Object.keys(server));
+  for (const [key, schema] of Object.entries(server)) {
+    assert.deepEqual(new Set(profile?.properties?.[key]?.enum), new Set(words(resolved(schema))), key);
+  }
 });
 
 test("each of them is not set by default, is described, and offers the words that the server knows", () => {

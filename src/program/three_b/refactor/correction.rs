@@ -67,6 +67,7 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
     };
     let paths = plan(&drawing, &outlines, &settings, None).map_err(|refusal| match refusal {
         Refusal::Sentence(sentence) => sentence,
+        Refusal::Cancelled => "the path was given up".into(),
         Refusal::Findings(findings) => {
             findings.first().map_or_else(|| "no path can be made".into(), |finding| crate::message::en::sentence(finding, 1.0))
         }

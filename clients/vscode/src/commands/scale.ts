@@ -1,0 +1,28 @@
+// Scales a program by a factor that the user names; the server makes the edit.
+
+import * as vscode from "vscode";
+import type { Front } from "../front";
+import { isProgram } from "../languages";
+import { subject } from "./subject";
+
+/** The server's command, which the client offers as its own while the server runs. */
+const COMMAND = "wedm.scale";
+
+export async function scaleProgram(front: Front, argument: unknown): Promise<void> {
+  const document = await subject(front, argument, isProgram);
+  if (document === undefined) {
+    return;
+  }
+  const entered = await vscode.window.showInputBox({
+    title: "Scale Program",
+    prompt: "Factor by which every length of the program is multiplied.",
+    validateInput: (text) => (factorOf(text) > 0 && Number.isFinite(factorOf(text)) ? null : "expected a number above 0"),
+  });
+  if (entered !== undefined) {
+    await vscode.commands.executeCommand(COMMAND, { uri: document.uri.toString(), factor: factorOf(entered) });
+  }
+}
+
+function factorOf(text: string): number {
+  return text.trim() === "" ? Number.NaN : Number(text.replace(",", "."));
+}

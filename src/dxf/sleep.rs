@@ -1,0 +1,125 @@
+//! A polyline in one of whose numbers somebody is typing: it is damaged, and will soon be whole again.
+//!
+//! As long as the edits keep within that vertex, all that was read of the polyline is kept aside, and nothing but the vertex is
+//! read. Holds for a LWPOLYLINE without any other fault: the finding is then the one about that number, as in a fresh reading.
+
+use super::Document;
+use super::edit::{Others, VertexZone, plain_vertex, shift};
+use super::entity::{Common, VertexLines, mirror};
+use super::lexer::{Lexer, Tag};
+use super::lines::Lines;
+use super::number::{self, Code, Number};
+use super::reader::range_key;
+use super::table::{Became, NO_ITEM, Named};
+use crate::drawing::{Delta, Entity, EntityId, Touched};
+use crate::finding::{Finding, Place, Rule};
+use std::ops::Range;
+use std::sync::Arc;
+
+#[derive(Clone, Debug)]
+pub(super) struct Sleeper {
+    item: usize,
+    id: EntityId,
+    entity: Arc<Entity>,
+    vertices: VertexLines,
+    index: usize,
+    /// The vertex, as it stood when the number was one.
+    lines: Range<usize>,
+    others: Others,
+}
+
+impl Document {
+    /// The sleeper, when the edit leaves the first and the last byte of its vertex alone.
+    pub(super) fn sleeper_about(&mut self, range: &Range<usize>) -> Option<Sleeper> {
+        let sleeper = self.sleeper.take()?;
+        let inside = range.start > self.text.line_start(sleeper.lines.start) && range.end < self.text.line_start(sleeper.lines.end);
+        inside.then_some(*sleeper)
+    }
+
+    /// Puts the polyline aside in one of whose numbers the edit has left no number. `None` where more than that came of it.
+    pub(super) fn put_to_sleep(&mut self, zone: &VertexZone, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
+        let VertexZone { entity: id, item, index, lines: ref old, others } = *zone;
+        let of_item = self.table.lines_of(item, Lines::new(&self.text).count());
+        let is_light = Lines::new(&self.text).trimmed(of_item.start + 1) == b"LWPOLYLINE";
+        let by_text = self.table.items.get(item)?.named == Named::ByText && self.table.named_anew == 0;
+        if lines != 0 || !is_light || !by_text || !self.drawing.is_editable(id) {
+            return None;
+        }
+        let fault = fault_in(Lines::new(&self.text), old.clone())?;
+        let (start, end) = (self.text.line_start(of_item.start), self.text.line_start(of_item.end));
+        let first = self.findings.partition_point(|finding| range_key(finding).0 < start);
+        if self.findings.get(first).is_some_and(|finding| (range_key(finding).0 as i64) < end as i64 - bytes) {
+            return None;
+        }
+        let vertices = self.table.vertices.remove(&id)?;
+        let entity = Arc::make_mut(&mut self.drawing).remove(id)?;
+        self.table.set_item_of(id, NO_ITEM);
+        self.table.items[item].became = Became::Damaged;
+        self.shift_findings(range.end, bytes);
+        self.findings.insert(first, fault);
+        self.sleeper = Some(Box::new(Sleeper { item, id, entity, vertices, index, lines: old.clone(), others }));
+        Some(Delta { touched: vec![Touched::Removed { entity: id }] })
+    }
+
+    /// Brings the polyline back when its number is one again, and lets it sleep while it is none. `None` where the edit did
+    /// more than that.
+    pub(super) fn wake(&mut self, mut sleeper: Sleeper, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
+        if lines != 0 {
+            return None;
+        }
+        let start = self.text.line_start(sleeper.lines.start);
+        let first = self.findings.partition_point(|finding| range_key(finding).0 < start);
+        let own = |finding: &Finding| finding.rule == Rule::Syntax && matches!(finding.place, Place::Text { .. });
+        self.findings.get(first).filter(|finding| own(finding))?;
+        let Some((mut vertex, others)) = plain_vertex(Lines::new(&self.text), sleeper.lines.clone()) else {
+            let fault = fault_in(Lines::new(&self.text), sleeper.lines.clone())?;
+            self.shift_findings(range.end, bytes);
+            self.findings[first] = fault;
+            self.sleeper = Some(Box::new(sleeper));
+            return Some(Delta::default());
+        };
+        if others != sleeper.others {
+            return None;
+        }
+        if sleeper.vertices.mirrored {
+            mirror(&mut vertex);
+        }
+        let drawing = Arc::make_mut(&mut self.drawing);
+        if !drawing.put_back(sleeper.id, sleeper.entity) {
+            return None;
+        }
+        let touched = drawing.splice(sleeper.id, sleeper.index, 1, &[vertex]).ok()?;
+        self.findings.remove(first);
+        self.shift_findings(range.end, bytes);
+        self.table.items[sleeper.item].became = Became::Entity(sleeper.id);
+        self.table.set_item_of(sleeper.id, sleeper.item as u32);
+        shift(&mut sleeper.vertices.lines[sleeper.index + 1..], lines);
+        self.table.vertices.insert(sleeper.id, sleeper.vertices);
+        Some(Delta { touched: vec![touched] })
+    }
+}
+
+/// The finding about the one number in a vertex's lines that is none; `None` where anything else is wrong there, or where the
+/// lines are out of step.
+fn fault_in(lines: Lines, range: Range<usize>) -> Option<Finding> {
+    let mut fault = None;
+    for line in range.clone().step_by(2) {
+        let Code::Known(code) = number::code(lines.content(line)) else { return None };
+        if !matches!(code, 10 | 20 | 42) || (line == range.start) != (code == 10) {
+            return None;
+        }
+        match number::number(lines.content(line + 1)) {
+            Number::Exact(_) => {}
+            Number::Bad if fault.is_none() => fault = Some(Tag { code, line }),
+            _ => return None,
+        }
+    }
+    let tag = fault?;
+    let (mut lexer, mut findings) = (Lexer::new(lines, tag.line), Vec::new());
+    lexer.next(&mut findings)?;
+    Common::default().coordinate(&mut lexer, tag, &mut findings);
+    if lexer.out_of_step || findings.len() != 1 {
+        return None;
+    }
+    findings.pop()
+}

@@ -1,0 +1,443 @@
+"""Every method that the server announces or the page on the protocol names, as a client that knows nothing else sees it.
+
+A method without a case here fails `test_every_method_has_a_case`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import pytest
+from conftest import CAPABILITIES, SCHEMA, Client, check_schema, check_standard, error_of, methods_of, methods_of_the_page
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+
+QUARTER = 0.41421356237309503
+DXF, PROGRAM, CAD = "file:///session/tight_fillet.dxf", "file:///session/numbered.3b", "cad:plate"
+UNTIDY = "file:///session/untidy.3b"
+NUMBERED = "; a hole\nN1 B9900B0B9900GXL1\nN2 B9900B0B39600GYNR1\nN3 B9900B0B9900GXL3\nDD\n"
+
+
+def plate(handle: str, radius: float, lift: float = 0.0) -> dict[str, Any]:
+    """A plate 20 × 10 with one rounded corner."""
+    vertices = [[0, lift], [20 - radius, lift, QUARTER], [20, lift + radius], [20, lift + 10], [0, lift + 10]]
+    return {"handle": handle, "type": "polyline", "closed": True, "role": "opening", "vertices": vertices}
+
+
+class Every:
+    """Stands in an expectation for a value that `holds` accepts."""
+
+    def __init__(self, holds: Any, what: str) -> None:
+        self.holds, self.what = holds, what
+
+    def __repr__(self) -> str:
+        return self.what
+
+
+def near(number: float) -> Every:
+    return Every(lambda value: isinstance(value, (int, float)) and math.isclose(value, number, abs_tol=1e-6), f"near {number}")
+
+
+def text(*parts: str) -> Every:
+    return Every(lambda value: isinstance(value, str) and all(part in value for part in parts), f"a text with {parts}")
+
+
+def some(*expected: Any) -> Every:
+    """A list in which each of the expected stands."""
+
+    def holds(value: Any) -> bool:
+        return isinstance(value, list) and all(any(differs(one, found) is None for found in value) for one in expected)
+
+    return Every(holds, f"a list with {expected}")
+
+
+anything = Every(lambda value: bool(value), "something")
+
+
+def differs(expected: Any, found: Any, at: str = "") -> str | None:
+    """Where the found is not as expected; keys that are not expected do not count."""
+    if isinstance(expected, Every):
+        return None if expected.holds(found) else f"{at}: {found!r} is not {expected}"
+    if isinstance(expected, dict):
+        if not isinstance(found, dict):
+            return f"{at}: {found!r} is no object"
+        return next((said for key, value in expected.items() if (said := differs(value, found.get(key), f"{at}.{key}"))), None)
+    if isinstance(expected, list):
+        if not isinstance(found, list) or len(found) != len(expected):
+            return f"{at}: {found!r} has not {len(expected)} entries"
+        return next((said for n, (one, other) in enumerate(zip(expected, found, strict=True)) if (said := differs(one, other, f"{at}[{n}]"))), None)
+    return None if expected == found else f"{at}: {found!r}, expected {expected!r}"
+
+
+@dataclass
+class Case:
+    method: str
+    uri: str
+    expected: Any
+    params: dict[str, Any] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        return f"{self.method} of {self.uri.rsplit('/', 1)[-1]}"
+
+
+def at(line: int, character: int) -> dict[str, Any]:
+    return {"position": {"line": line, "character": character}}
+
+
+def lines(first: int, last: int) -> dict[str, Any]:
+    return {"range": {"start": {"line": first, "character": 0}, "end": {"line": last, "character": 0}}}
+
+
+FORMAT = {"options": {"tabSize": 4, "insertSpaces": True}}
+
+#: The line, from 0, of the bulge at fault in tight_fillet.dxf.
+BULGE = 41
+
+CASES = [
+    Case("textDocument/hover", DXF, {"contents": anything, "range": anything}, at(BULGE, 2)),
+    Case("textDocument/hover", PROGRAM, {"contents": anything}, at(2, 6)),
+    Case("textDocument/hover", CAD, None, at(0, 0)),
+    Case("textDocument/completion", DXF, anything, at(BULGE - 1, 1)),
+    Case("textDocument/definition", DXF, [{"uri": DXF}], at(21, 1)),
+    Case("textDocument/references", DXF, some({"uri": DXF}), {**at(21, 1), "context": {"includeDeclaration": True}}),
+    Case("textDocument/documentHighlight", DXF, some({"range": anything}), at(21, 1)),
+    Case("textDocument/documentSymbol", DXF, some({"name": text("ENTITIES")})),
+    Case("textDocument/documentSymbol", PROGRAM, anything),
+    Case("textDocument/foldingRange", DXF, some({"startLine": anything})),
+    Case("textDocument/selectionRange", DXF, [{"range": anything, "parent": anything}], {"positions": [{"line": BULGE, "character": 3}]}),
+    Case("textDocument/inlayHint", DXF, some({"label": text("R 0.05 mm")}), lines(0, 80)),
+    Case("textDocument/inlayHint", PROGRAM, anything, lines(0, 5)),
+    Case("textDocument/semanticTokens/full", DXF, {"data": anything}),
+    Case("textDocument/semanticTokens/range", DXF, {"data": anything}, lines(30, 50)),
+    Case("textDocument/formatting", UNTIDY, some({"newText": text("B9900B0B9900GXL1")}), FORMAT),
+    Case("textDocument/rangeFormatting", PROGRAM, Every(lambda value: value is None or isinstance(value, list), "edits"), {**lines(1, 3), **FORMAT}),
+    Case("textDocument/onTypeFormatting", PROGRAM, Every(lambda value: value is None or isinstance(value, list), "edits"), {**at(2, 0), "ch": "\n", **FORMAT}),
+    Case("textDocument/prepareRename", PROGRAM, anything, at(1, 1)),
+    Case("textDocument/rename", PROGRAM, {"documentChanges": anything}, {**at(1, 1), "newName": "N77"}),
+    Case(
+        "textDocument/codeAction",
+        DXF,
+        [
+            {"kind": "quickfix", "isPreferred": True, "title": text("R 0.101"), "edit": {"documentChanges": [{"textDocument": {"uri": DXF, "version": 1}}]}},
+            {"kind": "quickfix", "title": text("Keep the end points")},
+            {"kind": "source.fixAll.wedm"},
+        ],
+        {**lines(BULGE, BULGE), "context": {"diagnostics": []}},
+    ),
+    Case(
+        "textDocument/codeAction",
+        CAD,
+        some({"kind": "quickfix", "command": {"command": "wedm.applyDrawingEdit", "arguments": [{"uri": CAD, "version": 1, "changes": anything}]}}),
+        {**lines(1, 1), "context": {"diagnostics": [], "only": ["quickfix"]}},
+    ),
+    Case("wedm/inspect", DXF, {"unitsToMm": 1.0, "entities": [{"handle": "2A", "layer": "DIE", "segments": some({"radius": near(0.05), "verdict": "small-radius"})}]}),
+    Case("wedm/inspect", CAD, {"entities": [{"handle": "2A"}]}, {"handle": "2A"}),
+    Case("wedm/contours", CAD, {"contours": [{"closed": True, "direction": "ccw", "role": "opening", "gaps": []}, {"handle": None}]}),
+    Case("wedm/toolpath", "cad:clean", {"paths": [{"contour": 0, "pass": 1, "correction": near(0.1)}]}),
+    Case("wedm/picture", CAD, {"svg": text("<svg", 'data-handle="2A"')}),
+    Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, at(BULGE, 0)),
+    Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, {"handle": "2A", "segment": 1}),
+    Case("wedm/settings", DXF, {"correction": near(0.1), "correctionFrom": "default", "side": "both"}),
+    Case("wedm/generate", "cad:clean", {"program": text("B", "DD"), "blocks": anything, "warnings": some({"code": "sharp-corner"})}, {"format": "3b"}),
+    Case("wedm/simulate", PROGRAM, {"blocks": anything}),
+]
+
+#: What is asked of the client, told to it, or tested below under its own name.
+ELSEWHERE = {
+    "wedm/didOpenDrawing",
+    "wedm/didChangeDrawing",
+    "wedm/didCloseDrawing",
+    "wedm/applyDrawingEdit",
+    "wedm/resendDrawing",
+    "textDocument/publishDiagnostics",
+    "workspace/executeCommand",
+    "workspace/configuration",
+    "workspace/didChangeConfiguration",
+    "window/logMessage",
+    "window/showMessage",
+    "textDocument/didOpen",
+}
+
+
+def asked(case: Case) -> dict[str, Any]:
+    document = {"uri": case.uri} if case.method.startswith("wedm/") else {"textDocument": {"uri": case.uri}}
+    return {**document, **case.params}
+
+
+async def open_everything(client: Client) -> None:
+    await client.open_text("tight_fillet.dxf")
+    await client.open_text("numbered.3b", NUMBERED, "3b")
+    await client.open_text("untidy.3b", "b9900 b0 b9900 gx l1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n", "3b")
+    await client.open_drawing(CAD, plate("2A", 0.05), plate("2B", 2.0, 30))
+    await client.open_drawing("cad:clean", plate("2A", 2.0))
+
+
+def is_there(client: Client, method: str) -> bool:
+    if method.startswith("wedm/"):
+        return method in SCHEMA["methods"]
+    return method in methods_of(client.initialized["capabilities"])
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+async def test_answers(client: Client, case: Case) -> None:
+    if not is_there(client, case.method):
+        # Named by the page as one of a later version.
+        with pytest.raises(JsonRpcException) as failed:
+            await client.ask(case.method, asked(case))
+        assert error_of(failed)[0] in (-32601, -32602)
+        return
+    await open_everything(client)
+    result = await client.ask(case.method, asked(case))
+    assert differs(case.expected, result) is None, differs(case.expected, result)
+    if case.method.startswith("wedm/"):
+        check_schema(SCHEMA["methods"][case.method]["result"], result)
+    else:
+        check_standard(case.method, result)
+
+
+async def test_every_method_has_a_case(client: Client) -> None:
+    tested = {case.method for case in CASES} | ELSEWHERE
+    announced = methods_of(client.initialized["capabilities"]) | set(SCHEMA["methods"]) | methods_of_the_page()
+    assert announced - tested == set()
+    assert client.initialized["capabilities"]["executeCommandProvider"]["commands"] == list(SCHEMA["commands"])
+    assert {case.method for case in CASES} - announced - {"wedm/simulate"} == set(), "cases of methods that are not there"
+
+
+METHODS = sorted({case.method for case in CASES} | {"workspace/executeCommand"})
+
+
+@pytest.mark.parametrize("method", METHODS)
+async def test_before_the_handshake(stranger: Client, method: str) -> None:
+    with pytest.raises(JsonRpcException) as failed:
+        await stranger.ask(method, {"uri": CAD, "textDocument": {"uri": CAD}})
+    assert error_of(failed)[0] == -32002
+
+
+async def test_after_the_shutdown(client: Client) -> None:
+    assert await client.ask("shutdown") is None
+    for method in METHODS:
+        with pytest.raises(JsonRpcException) as failed:
+            await client.ask(method, {"uri": CAD, "textDocument": {"uri": CAD}})
+        assert error_of(failed)[0] == -32600, method
+    client.tell("exit", None)
+    assert await client._server.wait() == 0
+
+
+@pytest.mark.parametrize("params", [None, {}, {"uri": 7, "textDocument": {"uri": 7}}, ["no", "object"]])
+async def test_params_that_do_not_fit(client: Client, params: Any) -> None:
+    await open_everything(client)
+    for method in METHODS:
+        if method != "workspace/executeCommand" and not is_there(client, method):
+            continue
+        with pytest.raises(JsonRpcException) as failed:
+            await client.ask(method, params)
+        assert error_of(failed)[0] in (-32602, -32600), f"{method} {params}: {error_of(failed)}"
+    # And it goes on.
+    assert await client.ask("wedm/inspect", {"uri": CAD})
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case.uri in (DXF, CAD, PROGRAM) and case.method != "wedm/settings"], ids=str)
+async def test_a_document_that_is_not_open(client: Client, case: Case) -> None:
+    if not is_there(client, case.method):
+        return
+    params = asked(Case(case.method, case.uri.replace("session", "nowhere").replace("plate", "none"), None, case.params))
+    if case.method.startswith("wedm/") or case.method == "textDocument/codeAction":
+        with pytest.raises(JsonRpcException, match="is not open") as failed:
+            await client.ask(case.method, params)
+        assert error_of(failed)[0] == -32602
+    else:
+        try:
+            assert await client.ask(case.method, params) is None
+        except JsonRpcException as error:
+            assert error.code == -32602
+
+
+REFUSALS = [
+    ("wedm/generate", {"uri": CAD, "format": "3b"}, -32803, "error"),
+    ("wedm/generate", {"uri": CAD, "format": "9b"}, -32602, '"9b"'),
+    ("wedm/generate", {"uri": CAD, "format": "3b", "handles": ["ZZ"]}, -32602, "ZZ"),
+    ("wedm/generate", {"uri": "cad:clean", "format": "3b", "options": {"correction": -1}}, -32602, "correction"),
+    ("wedm/generate", {"uri": "cad:clean", "format": "3b", "options": {"program": {"entry": [500, 500]}}}, -32803, "entry"),
+    ("wedm/generate", {"uri": DXF, "format": "3b", "force": True}, -32803, "side of contour 2A is not known"),
+    ("wedm/toolpath", {"uri": DXF}, -32803, "side of contour 2A is not known"),
+    ("wedm/inspect", {"uri": CAD, "handle": "ZZ"}, -32602, "ZZ"),
+    ("wedm/locate", {"uri": CAD, "handle": "2A"}, -32803, ""),
+    ("wedm/locate", {"uri": DXF, "handle": "ZZ"}, -32602, "ZZ"),
+    ("wedm/contours", {"uri": PROGRAM}, -32803, ""),
+    ("workspace/executeCommand", {"command": "wedm.no", "arguments": []}, -32602, "wedm.no"),
+    ("workspace/executeCommand", {"command": "wedm.applyDrawingEdit", "arguments": []}, -32602, ""),
+    ("workspace/executeCommand", {"command": "wedm.applyDrawingEdit", "arguments": [{"uri": CAD, "version": 7, "changes": []}]}, -32801, ""),
+    ("textDocument/noSuch", {}, -32601, ""),
+    ("wedm/noSuch", {}, -32601, ""),
+]
+
+
+@pytest.mark.parametrize(("method", "params", "code", "said"), REFUSALS)
+async def test_refusals(client: Client, method: str, params: dict[str, Any], code: int, said: str) -> None:
+    if method.startswith("wedm/") and method not in SCHEMA["methods"] and code != -32601:
+        return
+    await open_everything(client)
+    with pytest.raises(JsonRpcException) as failed:
+        await client.ask(method, params)
+    found, message, data = error_of(failed)
+    assert (found, said in message) == (code, True), (found, message)
+    assert message and not message.endswith(".")
+    if isinstance(data, dict) and "diagnostics" in data:
+        check_schema(SCHEMA["methods"]["wedm/generate"]["errorData"], data)
+
+
+async def test_findings_are_as_the_schema_says(client: Client) -> None:
+    await open_everything(client)
+    for (uri, version), diagnostics in client.published.items():
+        for diagnostic in diagnostics:
+            check_schema({"$ref": "#/$defs/Diagnostic"}, diagnostic)
+            assert diagnostic["source"] == "wedm" and version == 1, uri
+    (fault,) = [one for one in client.published[CAD, 1] if one["severity"] == 1]
+    assert differs({"code": "small-radius", "range": {"start": {"line": 1}}, "data": {"handle": "2A", "segment": 1, "radius": near(0.05)}}, fault) is None
+
+
+async def test_a_repair_is_asked_of_the_client_and_its_answer_passed_on(client: Client) -> None:
+    await open_everything(client)
+    answers = [{"applied": True}, {"applied": False, "failureReason": "the layer is locked"}]
+    for answer in answers:
+        client.answers["wedm/applyDrawingEdit"] = lambda params, answer=answer: answer
+        edit = {"uri": CAD, "version": 1, "changes": [{"handle": "2A", "vertices": {"start": 1, "deleteCount": 2, "insert": [[19, 0, QUARTER], [20, 1]]}}]}
+        assert await client.ask("workspace/executeCommand", {"command": "wedm.applyDrawingEdit", "arguments": [edit]}) == answer
+        check_schema({"$ref": "#/$defs/ApplyDrawingEdit"}, client.params_of("wedm/applyDrawingEdit")[-1])
+    # The client says itself what it did.
+    client.tell("wedm/didChangeDrawing", {"drawing": {"uri": CAD, "version": 2}, "changes": edit["changes"]})
+    assert [one for one in await client.publish(CAD, 2) if one["severity"] == 1] == []
+
+
+async def test_a_client_that_has_not_declared_it_is_not_asked(stranger: Client) -> None:
+    await stranger.initialize(capabilities={})
+    await stranger.open_drawing(CAD, plate("2A", 0.05))
+    with pytest.raises(JsonRpcException) as failed:
+        await stranger.ask("workspace/executeCommand", {"command": "wedm.applyDrawingEdit", "arguments": [{"uri": CAD, "version": 1, "changes": []}]})
+    assert error_of(failed)[0] == -32803
+    stranger.tell("wedm/didChangeDrawing", {"drawing": {"uri": CAD, "version": 2}, "changes": [{"handle": "ZZ", "entity": None}]})
+    await stranger.until(lambda: stranger.params_of("window/logMessage"), "log line")
+    await stranger.ask("wedm/inspect", {"uri": CAD})
+    asked_of_it = {method for method, _ in stranger.heard} - {"window/logMessage", "textDocument/publishDiagnostics"}
+    assert asked_of_it == set()
+
+
+UNSOUND = [
+    [{"handle": "ZZ", "entity": None}],
+    [{"handle": "2A", "vertices": {"start": 4, "deleteCount": 9, "insert": []}}],
+    [{"handle": "2A", "vertices": {"start": 0, "deleteCount": 1, "insert": [[None, 0]]}}],
+    [{"handle": "2A", "entity": None}, {"handle": "2A", "entity": None}],
+    [{"handle": "C", "entity": {"handle": "C", "type": "circle", "center": [0, 0], "radius": "NaN"}}],
+]
+
+
+@pytest.mark.parametrize("changes", UNSOUND)
+async def test_a_change_that_does_not_apply_changes_nothing_and_the_drawing_is_asked_for(client: Client, changes: list[Any]) -> None:
+    await open_everything(client)
+    whole = {"uri": CAD, "version": 3, "entities": [plate("2A", 2.0)]}
+    client.answers["wedm/resendDrawing"] = lambda params: {"drawing": whole}
+    client.tell("wedm/didChangeDrawing", {"drawing": {"uri": CAD, "version": 2}, "changes": changes})
+    assert [one for one in await client.publish(CAD, 3) if one["severity"] == 1] == []
+    assert client.params_of("wedm/resendDrawing") == [{"uri": CAD}]
+    assert client.params_of("window/logMessage"), "the reason is logged"
+    assert len((await client.ask("wedm/inspect", {"uri": CAD}))["entities"]) == 1
+
+
+async def test_drawings_are_opened_changed_and_closed(client: Client) -> None:
+    await client.open_drawing(CAD, plate("2A", 2.0))
+    for version, radius in enumerate([0.05, 3.0, 0.08], 2):
+        splice = {"start": 1, "deleteCount": 2, "insert": [[20 - radius, 0, QUARTER], [20, radius]]}
+        client.tell("wedm/didChangeDrawing", {"drawing": {"uri": CAD, "version": version}, "changes": [{"handle": "2A", "vertices": splice}]})
+        found = [one["code"] for one in await client.publish(CAD, version) if one["severity"] == 1]
+        assert found == (["small-radius"] if radius < 0.1 else [])
+    client.tell("wedm/didCloseDrawing", {"drawing": {"uri": CAD}})
+    assert await client.publish(CAD, None) == []
+    with pytest.raises(JsonRpcException, match="is not open"):
+        await client.ask("wedm/inspect", {"uri": CAD})
+
+
+async def test_texts_are_opened_changed_saved_and_closed(client: Client) -> None:
+    uri = await client.open_text("tight_fillet.dxf")
+    changes = [{"range": {"start": {"line": 37, "character": 0}, "end": {"line": 37, "character": 5}}, "text": "18.0"},
+               {"range": {"start": {"line": 45, "character": 0}, "end": {"line": 45, "character": 4}}, "text": "2.0"}]  # fmt: skip
+    client.tell("textDocument/didChange", {"textDocument": {"uri": uri, "version": 2}, "contentChanges": changes})
+    assert [one for one in await client.publish(uri, 2) if one["severity"] == 1] == []
+    client.tell("textDocument/didSave", {"textDocument": {"uri": uri}})
+    client.tell("textDocument/didClose", {"textDocument": {"uri": uri}})
+    assert await client.publish(uri, None) == []
+
+
+async def test_settings_come_in_three_ways(client: Client) -> None:
+    uri = await client.open_text("tight_fillet.dxf")
+    errors = [one["code"] for one in client.published.pop((uri, 1)) if one["severity"] == 1]
+    assert errors == ["small-radius"]
+    # Asked for, because it was declared; with null for what is not set.
+    client.answers["workspace/configuration"] = lambda params: [{"correction": 0.04, "gap": None} for _ in params["items"]]
+    client.tell("workspace/didChangeConfiguration", {"settings": None})
+    await client.until(lambda: client.published.get((uri, 1)) == [], "diagnostics under the new settings")
+    assert client.params_of("workspace/configuration")[0]["items"][0]["section"] == "wedm"
+    # A value that does not fit is said.
+    client.answers["workspace/configuration"] = lambda params: [{"correction": "wide"} for _ in params["items"]]
+    client.tell("workspace/didChangeConfiguration", {"settings": None})
+    await client.until(lambda: client.params_of("window/showMessage"), "a message")
+    assert "correction" in client.params_of("window/showMessage")[0]["message"]
+    # The registrations that were declared.
+    registered = [one["method"] for params in client.params_of("client/registerCapability") for one in params["registrations"]]
+    assert {"workspace/didChangeConfiguration", "workspace/didChangeWatchedFiles"} <= set(registered)
+
+
+async def test_settings_of_initialize(stranger: Client) -> None:
+    await stranger.initialize(initializationOptions={"wedm": {"correction": 0.04}})
+    uri = await stranger.open_text("tight_fillet.dxf")
+    assert stranger.published[uri, 1] == []
+
+
+async def test_progress_of_long_requests(client: Client) -> None:
+    await open_everything(client)
+    await client.ask("wedm/inspect", {"uri": CAD, "workDoneToken": "t1"})
+    await client.until(lambda: any(one["value"]["kind"] == "end" for one in client.params_of("$/progress")), "end of the progress")
+    assert [one["value"]["kind"] for one in client.params_of("$/progress")][0] == "begin"
+
+
+@pytest.mark.parametrize(
+    ("frame", "code"),
+    [
+        (b"Content-Length: 9\r\n\r\n{no json}", "-32700"),
+        (b'Content-Length: 17\r\n\r\n{"jsonrpc":"2.0"}', "-32600"),
+        (b"Content-Length: many\r\n\r\n", "-32700"),
+    ],
+)
+async def test_broken_frames_are_answered_and_the_server_goes_on(client: Client, frame: bytes, code: str) -> None:
+    client.protocol.writer.write(frame)
+    await client.open_drawing(CAD, plate("2A", 0.05))
+    assert await client.ask("wedm/inspect", {"uri": CAD})
+
+
+async def test_the_encoding_of_positions_is_the_clients_choice(stranger: Client) -> None:
+    answer = await stranger.initialize(capabilities={})
+    assert answer["capabilities"]["positionEncoding"] == "utf-16"
+
+
+async def test_the_handshake(client: Client) -> None:
+    answer = client.initialized
+    assert answer["serverInfo"]["name"] == "wedm"
+    assert answer["capabilities"]["experimental"]["wedm"] == {"protocol": 1}
+    assert answer["capabilities"]["positionEncoding"] == "utf-8"
+    assert "diagnosticProvider" not in answer["capabilities"], "diagnostics come one way only"
+    check_standard(types.INITIALIZE, answer)
+    assert CAPABILITIES["experimental"]["wedm"]["applyDrawingEdit"]
+
+
+async def test_a_cancelled_request_ends(client: Client) -> None:
+    # A drawing on which the answer takes a while.
+    circles = [{"handle": f"{i:X}", "type": "circle", "center": [i % 100 * 10, i // 100 * 10], "radius": 3} for i in range(5_000)]
+    await client.open_drawing("cad:long", *circles)
+    waiting = asyncio.ensure_future(client.ask("wedm/picture", {"uri": "cad:long"}))
+    await asyncio.sleep(0)
+    client.tell("$/cancelRequest", {"id": client.last_number})
+    with pytest.raises(JsonRpcException) as failed:
+        await waiting
+    assert error_of(failed)[0] == -32800

@@ -1,0 +1,119 @@
+"""What real clients once said to the server is said again, and the server must answer in the same way.
+
+Each file in sessions/ was written by record.py between a client and the server. Compared are results, errors and diagnostics: every key
+that was there must still be there with the same value, numbers within a millionth. Sentences for people may change, and new keys may come.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import Client
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+from pygls.protocol import default_converter
+
+SESSIONS = sorted((Path(__file__).parent / "sessions").glob("*.jsonl"))
+
+#: Clients of which there must be a session.
+CLIENTS = {"neovim-0.7", "neovim-0.11", "emacs", "helix", "kate", "librecad-live", "python"}
+
+#: Keys whose values are sentences, addresses of pages, versions of programs, or drawn.
+FREE = {"message", "title", "href", "version", "svg", "label", "detail", "documentation", "value", "tooltip", "filterText", "sortText", "contents"}
+
+
+def differs(recorded: Any, found: Any, at: str = "") -> str | None:
+    """Where an answer has not what the recorded one had."""
+    if isinstance(recorded, dict) and isinstance(found, dict):
+        for key, value in recorded.items():
+            if key not in FREE and (said := differs(value, found.get(key), f"{at}.{key}")):
+                return said
+        return None
+    if isinstance(recorded, list) and isinstance(found, list):
+        # Capabilities and lists of words may grow; answers may not.
+        if len(recorded) != len(found) and not at.startswith(".capabilities"):
+            return f"{at}: {len(recorded)} entries were recorded, {len(found)} found"
+        if at.startswith(".capabilities"):
+            return next((f"{at}: {one!r} is gone" for one in recorded if all(differs(one, other) for other in found)), None)
+        return next((said for n, (one, other) in enumerate(zip(recorded, found, strict=True)) if (said := differs(one, other, f"{at}[{n}]"))), None)
+    if isinstance(recorded, (int, float)) and isinstance(found, (int, float)) and not isinstance(recorded, bool):
+        return None if math.isclose(recorded, found, rel_tol=1e-6, abs_tol=1e-6) else f"{at}: {recorded} was recorded, {found} found"
+    return None if recorded == found else f"{at}: {recorded!r} was recorded, {found!r} found"
+
+
+def parts(path: Path) -> list[list[dict[str, Any]]]:
+    """The session, cut where the client started another server."""
+    cut: list[list[dict[str, Any]]] = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        said = json.loads(line)
+        if said["from"] == "client" and said["message"].get("method") == "initialize":
+            cut.append([])
+        if cut:
+            cut[-1].append(said)
+    return cut
+
+
+CUT = [pytest.param(part, id=f"{path.stem} {number}") for path in SESSIONS for number, part in enumerate(parts(path), 1)]
+
+
+@pytest.mark.parametrize("said", CUT)
+async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
+    waiting: dict[Any, asyncio.Task[Any]] = {}
+    numbers: dict[Any, int] = {}
+    answers = {one["message"]["id"]: one["message"].get("result") for one in said if one["from"] == "client" and "method" not in one["message"]}
+    asked = [one["message"] for one in said if one["from"] == "server" and "method" in one["message"] and "id" in one["message"]]
+    for method in {message["method"] for message in asked}:
+        given = [answers.get(message["id"]) for message in asked if message["method"] == method]
+        stranger.answers[method] = lambda params, given=given: given.pop(0) if len(given) > 1 else given[0]
+    compared = 0
+    for message, by in ((one["message"], one["from"]) for one in said):
+        if by == "client" and "method" in message:
+            method, params = message["method"], message.get("params")
+            if method == "initialize":
+                stranger.capabilities = default_converter().structure(params["capabilities"], types.ClientCapabilities)
+            if method == "$/cancelRequest":
+                stranger.tell(method, {"id": numbers[params["id"]]})
+            elif "id" in message:
+                waiting[message["id"]] = asyncio.ensure_future(stranger.ask(method, params))
+                # The task sends at its first turn; what comes behind must come behind.
+                await asyncio.sleep(0)
+                numbers[message["id"]] = stranger.last_number
+            else:
+                stranger.tell(method, params)
+        elif by == "server" and "method" not in message and message.get("id") in waiting:
+            try:
+                found: Any = {"result": await waiting.pop(message["id"])}
+            except JsonRpcException as error:
+                found = {"error": {"code": error.code}}
+            if "error" in message:
+                assert found == {"error": {"code": message["error"]["code"]}}
+            else:
+                assert "error" not in found, found
+                assert differs(message["result"], found["result"]) is None, differs(message["result"], found["result"])
+            compared += 1
+        elif message.get("method") == "textDocument/publishDiagnostics":
+            params = message["params"]
+            found = await stranger.publish(params["uri"], params.get("version"))
+            place = f"{params['uri']} {params.get('version')}"
+            assert differs(params["diagnostics"], found) is None, f"{place} {differs(params['diagnostics'], found)}"
+            compared += 1
+    for task in waiting.values():
+        task.cancel()
+    assert compared >= 2, "the session holds nothing to compare"
+
+
+def test_every_client_has_a_session() -> None:
+    assert {path.stem for path in SESSIONS} >= CLIENTS
+
+
+@pytest.mark.parametrize("path", SESSIONS, ids=lambda path: path.stem)
+def test_sessions_are_small_and_of_no_one_in_particular(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert len(text) < 200_000
+    assert "/home/" not in text and "/tmp/" not in text and "/root/" not in text
+    assert all(one["message"]["params"].get("processId") is None for part in parts(path) for one in part[:1])
