@@ -267,8 +267,8 @@ impl Cursor<'_> {
             b'B' | b'b' => {}
             _ if is_full_width(rest) => return Err(self.fault("a block in plain letters and digits, these are full-width ones")),
             // A column of names before the blocks: `AB`, `1-2`, a word in another script.
-            _ if !self.behind_block && !matches!(byte, b';' | b'N' | b'n' | b'0'..=b'9') && label(rest, words).is_some() => {
-                self.at += label(rest, words).unwrap_or(0);
+            _ if !self.behind_block && !matches!(byte, b'N' | b'n') && label(rest, words).is_some() => {
+                self.at += label(rest, words).unwrap_or(0)
             }
             b';' => {
                 self.at = self.line.len();
@@ -455,12 +455,19 @@ fn is_full_width(text: &[u8]) -> bool {
 
 /// The bytes before a sound block where they are a name for it: nothing of them belongs to a block, and they are no word.
 fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
+    // What opens a comment comments a block out.
+    let opens_comment = matches!(text.first(), Some(b';' | b'*' | b'#' | b'%' | b'\'' | b'"' | b'/'))
+        || [";", "(", "\u{ff1b}", "\u{ff08}"].iter().any(|mark| text.starts_with(mark.as_bytes()));
+    if opens_comment {
+        return None;
+    }
     let code = before_comment(text);
     let at = memchr::memchr2_iter(b'B', b'b', code).take(4).find(|&at| fields::strict(&code[at..]).is_some())?;
     let name = code.get(..at)?.trim_ascii();
     let is_word = name.split(|byte| !byte.is_ascii_alphanumeric()).any(|word| !word.is_empty() && words.meaning(word).is_some());
-    let is_row = name.first() == Some(&b'(') && row_number(name).is_some();
-    (at > 0 && !is_word && !is_row && !has_block_parts(name)).then_some(at)
+    // A number alone is that of the row, or of the block.
+    let is_number = name.iter().all(|byte| byte.is_ascii_digit() || matches!(byte, b'N' | b'n' | b' ' | b':' | b'.' | b')'));
+    (at > 0 && !is_word && !is_number && !has_block_parts(name)).then_some(at)
 }
 
 /// Whether anything of a block stands in a text: `B` and a digit, `G` and an axis, a quadrant.
@@ -620,14 +627,13 @@ mod tests {
         check("Conner R= 0.00000    , Offset F= 0.10000 ,Length= 125.000 mm", "text 0..60");
         check("START", "text 0..5");
         check(",", "");
+        for line in ["* B9900B0B9900GXL1", "/ B9900B0B9900GXL1", "(B9900B0B9900GXL1)", "\u{ff1b}B9900B0B9900GXL1"] {
+            check(line, "");
+        }
         check("B9900B0B9900GXL1 ,", "9900,0,9900 X L1");
-        for line in [
-            "OA: B9900B0B9900GXL1",
-            "1-2 B9900B0B9900GXL1 ; in",
-            "\u{76f4}\u{7ebf}OA B 9900 B 0 B 9900 GX L1",
-            "\u{2460} B9900B0B9900GXL1",
-            "* B9900B0B9900GXL1",
-        ] {
+        for line in
+            ["OA: B9900B0B9900GXL1", "1-2 B9900B0B9900GXL1 ; in", "\u{76f4}\u{7ebf}OA B 9900 B 0 B 9900 GX L1", "\u{2460} B9900B0B9900GXL1"]
+        {
             check(line, "9900,0,9900 X L1");
         }
     }
@@ -660,7 +666,7 @@ mod tests {
         check("B1B0B1GXL1 hello", "1,0,1 X L1 / text 11..16");
         check(
             "\u{ff22}9900B0B9900GXL1",
-            "! 0..19 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits, these are full-width ones",
+            "! 0..18 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits, these are full-width ones",
         );
     }
 }
