@@ -10,11 +10,9 @@
 mod figure;
 mod lens;
 mod marks;
-mod png;
 mod program;
 mod style;
 
-pub use png::png;
 pub use program::program_svg;
 
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};

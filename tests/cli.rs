@@ -136,7 +136,7 @@ fn commands_print_and_end_as_they_say() {
         ("inspect missing.dxf", 2, &["!missing.dxf"]),
         ("contours chain.dxf", 0, &["contour 0: closed, counter-clockwise, both sides, 6 segments", "1 contour\n"]),
         ("draw tight.dxf", 0, &["<svg", "R 0.080 mm, the correction is 0.100 mm", "</svg>"]),
-        ("draw tight.dxf -o tight.pdf", 2, &["!.pdf is not written, expected .svg, .png or .dxf"]),
+        ("draw tight.dxf -o tight.pdf", 2, &["!.pdf is not written, expected .svg or .dxf"]),
         ("completions bash", 0, &["_wedm"]),
         ("completions zsh", 0, &["#compdef wedm"]),
         ("convert hole.3b -o hole.dxf", 2, &["!unrecognized subcommand"]),
@@ -470,24 +470,6 @@ fn the_pictures_of_the_documentation_are_current() {
     let fixed = desk.run("draw small-radius.dxf --side opening").stdout;
     expect_test::expect_file!["../docs/pictures/small-radius.svg"].assert_eq(&faulty);
     expect_test::expect_file!["../docs/pictures/small-radius-fixed.svg"].assert_eq(&fixed);
-}
-
-#[test]
-fn a_picture_is_painted_as_png_at_twice_the_size_of_its_sheet() {
-    let desk = Desk::new();
-    check(&desk, "draw tight.dxf -o tight.svg", 0, &[]);
-    check(&desk, "draw tight.dxf -o tight.png", 0, &[]);
-    let svg = String::from_utf8(desk.read("tight.svg")).unwrap();
-    let side = |name: &str| {
-        let value = svg.split(&format!(" {name}=\"")).nth(1).and_then(|rest| rest.split('"').next());
-        value.unwrap().parse::<u32>().unwrap() * 2
-    };
-    let png = desk.read("tight.png");
-    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
-    // The head of a PNG: width and height follow the name IHDR.
-    assert_eq!(&png[12..16], b"IHDR");
-    assert_eq!(png[16..24], [side("width").to_be_bytes(), side("height").to_be_bytes()].concat());
-    assert!(png.len() > 10_000, "something is on it");
 }
 
 #[test]

@@ -13,12 +13,11 @@ use crate::{dxf, message::en, picture};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Draw contours, faults and wire path of a drawing, or the path of a program, as SVG or PNG; contours and wire path also as DXF
+/// Draw contours, faults and wire path of a drawing, or the path of a program, as SVG; contours and wire path also as DXF
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm draw plate.dxf -o plate.svg
-  wedm draw plate.dxf -o plate.png
   wedm draw plate.3b -o plate.svg                      the path that the blocks lead along
   wedm draw plate.dxf --side opening -o plate.svg      with the path of the wire
   wedm draw plate.dxf --side opening -o path.dxf       contours, and the path on the layer WIRE")]
@@ -26,7 +25,7 @@ pub struct Arguments {
     /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Write the picture there, as .svg, .png or .dxf [default: SVG to stdout]
+    /// Write the picture there, as .svg or .dxf [default: SVG to stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -63,10 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     });
     let picture = match arguments.output.as_deref().and_then(ending_of).as_deref() {
         Some("dxf") => dxf::write(&with_paths(&snapshot, &paths)).map_err(Failure)?,
-        ending => {
-            let svg = picture::svg(&snapshot.drawing, &snapshot.outlines, &findings, &paths, unit_mm);
-            if ending == Some("png") { picture::png(&svg).map_err(Failure)? } else { svg.into_bytes() }
-        }
+        _ => picture::svg(&snapshot.drawing, &snapshot.outlines, &findings, &paths, unit_mm).into_bytes(),
     };
     output::write(arguments.output.as_deref(), &picture)?;
     Ok(Verdict::Clean)
@@ -84,9 +80,7 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
     let fault = |finding: &Finding| Some((line(finding)?, finding.severity, en::sentence(finding, 1.0)));
     let faults: Vec<(usize, Severity, String)> = findings.iter().filter_map(fault).collect();
     let svg = picture::program_svg(&trace, &faults);
-    let is_painted = arguments.output.as_deref().and_then(ending_of).as_deref() == Some("png");
-    let picture = if is_painted { picture::png(&svg).map_err(Failure)? } else { svg.into_bytes() };
-    output::write(arguments.output.as_deref(), &picture)?;
+    output::write(arguments.output.as_deref(), svg.as_bytes())?;
     Ok(Verdict::Clean)
 }
 
@@ -121,9 +115,9 @@ fn ending_of(path: &Path) -> Option<String> {
 
 fn refuse_other_formats(target: &Path) -> Result<(), Failure> {
     match ending_of(target).as_deref() {
-        Some("svg" | "png" | "dxf") => Ok(()),
+        Some("svg" | "dxf") => Ok(()),
         _ if target == Path::new("-") => Ok(()),
-        Some(ending) => Err(Failure(format!("{}: .{ending} is not written, expected .svg, .png or .dxf", target.display()))),
-        None => Err(Failure(format!("{}: its name has no ending, expected .svg, .png or .dxf", target.display()))),
+        Some(ending) => Err(Failure(format!("{}: .{ending} is not written, expected .svg or .dxf", target.display()))),
+        None => Err(Failure(format!("{}: its name has no ending, expected .svg or .dxf", target.display()))),
     }
 }

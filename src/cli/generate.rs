@@ -26,7 +26,7 @@ pub struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Language of the program: 3b, iso
+    /// Language of the program: 3b, 4b, iso
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
     /// Write the program there [default: stdout]
@@ -94,7 +94,8 @@ fn planned(arguments: &Arguments, document: &Document) -> Result<Option<Vec<Wire
         return Err(Failure(format!("{}: there is no drawing in it", path.display())));
     };
     let handles = (!arguments.handle.is_empty()).then_some(arguments.handle.as_slice());
-    match toolpath::plan(&snapshot.drawing, &snapshot.outlines, &snapshot.settings, handles) {
+    let settings = arguments.format.settings(&snapshot.settings);
+    match toolpath::plan(&snapshot.drawing, &snapshot.outlines, &settings, handles) {
         Ok(paths) if paths.is_empty() => {
             output::complain(&format!("{}: it has no contour to cut", path.display()));
             Ok(None)
@@ -131,7 +132,7 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         program.length
     ));
     let drift = match arguments.format {
-        Format::ThreeB => format!("; a controller that counts J drifts by {x:.2}, {y:.2} µm"),
+        Format::ThreeB | Format::FourB => format!("; a controller that counts J drifts by {x:.2}, {y:.2} µm"),
         Format::Iso => String::new(),
     };
     output::say(&format!("decoded again: at most {:.2} µm from the path{drift}", program.deviation));

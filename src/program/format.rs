@@ -2,22 +2,25 @@
 
 use super::write::{ProofError, ProvedProgram};
 use super::{iso, three_b};
-use crate::settings::Effective;
+use crate::settings::{Compensation, Effective};
 use crate::toolpath::WirePath;
+use std::borrow::Cow;
 
 /// A format that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     ThreeB,
+    FourB,
     Iso,
 }
 
 impl Format {
-    pub const ALL: [Format; 2] = [Format::ThreeB, Format::Iso];
+    pub const ALL: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
 
     pub fn name(self) -> &'static str {
         match self {
             Format::ThreeB => "3b",
+            Format::FourB => "4b",
             Format::Iso => "iso",
         }
     }
@@ -27,8 +30,16 @@ impl Format {
         let found = Format::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name));
         found.ok_or_else(|| {
             let names = Format::ALL.map(|format| format!("\"{}\"", format.name()));
-            format!("format is \"{name}\", expected {}", names.join(" or "))
+            format!("format is \"{name}\", expected {}", names.join(", "))
         })
+    }
+
+    /// The settings under which paths for this format are laid: 4B holds the part's contour, whatever is set for the others.
+    pub fn settings<'a>(self, settings: &'a Effective) -> Cow<'a, Effective> {
+        match (self, settings.compensation) {
+            (Format::FourB, Compensation::Path) => Cow::Owned(Effective { compensation: Compensation::Controller, ..settings.clone() }),
+            _ => Cow::Borrowed(settings),
+        }
     }
 
     /// Writes the paths as one program and proves it; `go_on` hears how far it is, and ends the work with `false`.
@@ -41,6 +52,7 @@ impl Format {
     ) -> Result<ProvedProgram, ProofError> {
         match self {
             Format::ThreeB => three_b::write_with(paths, unit_mm, settings, go_on),
+            Format::FourB => three_b::write_four_b(paths, unit_mm, settings, go_on),
             Format::Iso => iso::write_with(paths, unit_mm, settings, go_on),
         }
     }

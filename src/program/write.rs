@@ -110,7 +110,7 @@ pub fn way(from: Node, to: Node) -> Segment {
 }
 
 /// The same segment in other units.
-fn scaled(segment: &Segment, scale: f64) -> Segment {
+pub fn scaled(segment: &Segment, scale: f64) -> Segment {
     match segment {
         Segment::Line(line) => Segment::line(line.start * scale, line.end * scale),
         Segment::Arc(arc) => Segment::Arc(Arc {

@@ -11,6 +11,9 @@ const DEEPEST: usize = 16;
 /// A program runs at most so many lines, or eight times those it has.
 const MOST_LINES: usize = 1_000_000;
 
+/// A program calls subprograms at most so often.
+const MOST_CALLS: usize = 20_000;
+
 /// The lines of a program in the order in which they run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Order {
@@ -23,7 +26,8 @@ pub struct Order {
 
 /// Follows the calls of a program that has some.
 pub fn order(text: &SourceText) -> Order {
-    let mut walk = Walk { text, labels: labels(text), order: Order::default(), left: MOST_LINES.max(text.line_count() * 8) };
+    let mut walk =
+        Walk { text, labels: labels(text), order: Order::default(), left: MOST_LINES.max(text.line_count() * 8), calls: MOST_CALLS };
     walk.run(0, 0);
     walk.order
 }
@@ -47,6 +51,8 @@ struct Walk<'a> {
     order: Order,
     /// How many lines may still run.
     left: usize,
+    /// How many calls may still be followed.
+    calls: usize,
 }
 
 impl Walk<'_> {
@@ -84,7 +90,10 @@ impl Walk<'_> {
 
     fn call(&mut self, number: u32, from: usize, depth: usize) -> bool {
         match self.labels.get(&number) {
-            Some(&line) if depth < DEEPEST => self.run(line, depth + 1),
+            Some(&line) if depth < DEEPEST && self.calls > 0 => {
+                self.calls -= 1;
+                self.run(line, depth + 1)
+            }
             Some(_) => {
                 self.order.endless.get_or_insert(from);
                 false

@@ -196,7 +196,7 @@ impl<'a> Report<'a> {
             self.push(Rule::NotClosed, severity, open.last_range.clone(), Detail::Iso(IsoFault::NotClosed { distance }));
         }
         // Contours that are only a line there and back have no inside.
-        let orientation = if closed.is_ok() && run.twice_area.abs() > 2_000_000 { run.twice_area.signum() } else { 0 };
+        let orientation = if closed.is_ok() && run.twice_area.unsigned_abs() > 2_000_000 { run.twice_area.signum() } else { 0 };
         let side = match run.side {
             RunSide::One(side) if run.moves >= FEWEST_MOVES && orientation != 0 => Some(side),
             _ => None,

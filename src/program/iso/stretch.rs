@@ -106,11 +106,11 @@ impl Run {
         let origin = self.start();
         let from = [step.from[0].wrapping_sub(origin[0]), step.from[1].wrapping_sub(origin[1])];
         let to = [step.to[0].wrapping_sub(origin[0]), step.to[1].wrapping_sub(origin[1])];
-        i128::from(from[0]) * i128::from(to[1]) - i128::from(from[1]) * i128::from(to[0]) + cap as i128
+        (i128::from(from[0]) * i128::from(to[1])).wrapping_sub(i128::from(from[1]) * i128::from(to[0])).wrapping_add(cap as i128)
     }
 
     fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
-        self.twice_area += self.term(&step, cap);
+        self.twice_area = self.twice_area.wrapping_add(self.term(&step, cap));
         if self.moves == 1 {
             self.first[1] = step;
         }
@@ -127,7 +127,8 @@ impl Run {
         let (origin, its) = (self.start(), next.start());
         let shift = [its[0].wrapping_sub(origin[0]), its[1].wrapping_sub(origin[1])];
         let along = [next.last[1].to[0].wrapping_sub(its[0]), next.last[1].to[1].wrapping_sub(its[1])];
-        self.twice_area += next.twice_area + i128::from(shift[0]) * i128::from(along[1]) - i128::from(shift[1]) * i128::from(along[0]);
+        let between = (i128::from(shift[0]) * i128::from(along[1])).wrapping_sub(i128::from(shift[1]) * i128::from(along[0]));
+        self.twice_area = self.twice_area.wrapping_add(next.twice_area).wrapping_add(between);
         if self.moves == 1 {
             self.first[1] = next.first[0];
         }

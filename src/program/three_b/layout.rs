@@ -3,12 +3,12 @@
 use super::block::{Block, CountingAxis, Motion, Node, PartArc};
 use crate::settings::Layout;
 
-/// Appends one block with its line end. `number` (from 1) and the absolute end point stand in the checking layout only.
-pub(super) fn push_block(out: &mut Vec<u8>, layout: Layout, number: usize, block: &Block, end: Node) {
+/// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point stand in the checking layout only.
+pub(super) fn push_block(out: &mut Vec<u8>, layout: Layout, number: usize, block: &Block, part: Option<&PartArc>, end: Node) {
     if layout == Layout::Checking {
         push_block_number(out, number as u64);
     }
-    push_fields(out, layout, block, None);
+    push_fields(out, layout, block, part);
     if layout == Layout::Checking {
         push_to_comment_column(out, block);
         push_end_point(out, end);

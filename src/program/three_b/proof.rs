@@ -1,6 +1,6 @@
 //! Decoding what was written and holding it against the path, block by block.
 
-use super::block::{Block, Node};
+use super::block::{Block, Node, PartArc};
 use super::decode::decode;
 use super::encode::{END_TOLERANCE, Encoded, MIDDLE_TOLERANCE, point_of};
 use super::parse::{Item, Words, read_line};
@@ -20,11 +20,11 @@ pub(super) struct Proof {
 
 impl Proof {
     /// Reads `line` again, decodes it from its own node and compares it with its piece of the path.
-    pub fn check_line(&mut self, line: &[u8], words: &Words<'_>, encoded: &Encoded) -> Result<(), String> {
-        let mut read: Option<Block> = None;
+    pub fn check_line(&mut self, line: &[u8], words: &Words<'_>, encoded: &Encoded, part: Option<PartArc>) -> Result<(), String> {
+        let mut read: Option<(Block, Option<PartArc>)> = None;
         let mut fault = None;
         read_line(line, 0, words, |item| match item {
-            Item::Block { block, .. } => read = Some(block),
+            Item::Block { block, part, .. } => read = Some((block, part)),
             Item::Fault(found) => fault = Some(found),
             _ => {}
         });
@@ -32,7 +32,7 @@ impl Proof {
             return Err(format!("a written block cannot be read again: {}", fault.sentence()));
         }
         match read {
-            Some(block) if block == encoded.block => self.check_block(&block, encoded),
+            Some((block, read)) if block == encoded.block && read == part => self.check_block(&block, encoded),
             _ => Err(format!("a written block reads as {read:?}, not as {:?}", encoded.block)),
         }
     }

@@ -135,6 +135,47 @@ fn several_contours_are_joined_by_pauses_and_a_jump() {
     assert!(text(Jumps::Blocks, Layout::Aligned).text.starts_with("; Start Point = 0.000 , 0.000\nB   1000 B      0 B   1000 GX L1\nD\n"));
 }
 
+/// A plate of 20 by 10 mm, entered in the middle of its lower side, and its 4B program for a wire on `side` of the travel.
+fn four_b(side: crate::finding::Side, last: [f64; 2]) -> Result<String, ProofError> {
+    let corners = [[10.0, 0.0], [20.0, 0.0], [20.0, 10.0], last, [0.0, 0.0], [10.0, 0.0]];
+    let out = if side == crate::finding::Side::Left { 3.0 } else { -3.0 };
+    let mut path = path_of(corners.windows(2).map(|pair| line(pair[0], pair[1])).collect());
+    path.thread_hole = Point::new(10.0, out);
+    path.side = Some(side);
+    super::write_four_b(&[path], 1.0, &Effective::default(), &mut |_, _| true).map(|program| program.text)
+}
+
+#[test]
+fn the_parts_contour_in_four_b_turns_in_arcs_only() {
+    use crate::finding::Side;
+    for (side, concave) in [(Side::Left, true), (Side::Right, false)] {
+        let text = four_b(side, [0.0, 10.0]).unwrap();
+        let (items, faults) = read(text.as_bytes(), &Words::default());
+        assert_eq!(faults, [], "{text}");
+        let parts = items.iter().filter_map(|item| if let Item::Block { block, part, .. } = item { Some((*block, *part)) } else { None });
+        let parts: Vec<_> = parts.collect();
+        let arcs: Vec<_> = parts.iter().filter_map(|(_, part)| *part).collect();
+        assert_eq!((parts.len(), arcs.len()), (11, 4), "{text}");
+        assert!(arcs.iter().all(|part| part.radius == 101 && part.concave == concave), "{text}");
+        // The blocks lead back to the thread hole, and the contour is as long as the plate's without its corners.
+        let end = parts.iter().fold(Point::origin(), |at, (block, _)| decode(block, at).unwrap().end());
+        assert!(end.coords.norm() <= 4.0, "{end:?} {text}");
+        assert_eq!((parts[0].0.j, parts[1].0.j, parts[5].0.j), (2900, 9899, 19_798), "{text}");
+    }
+    // A corner that its lines are too short for, and a path whose side nobody knows.
+    let refused = |program: Result<String, ProofError>, expected: &str| match program {
+        Err(ProofError::Refused(sentence)) => assert!(sentence.contains(expected), "{sentence}"),
+        other => panic!("{other:?}"),
+    };
+    refused(four_b(Side::Left, [19.95, 10.0]), "needs a transition arc of R 0.101 mm at the corner (20.000, 10.000)");
+    let unknown = super::write_four_b(&[path_of(vec![line([0.0, 0.0], [1.0, 0.0])])], 1.0, &Effective::default(), &mut |_, _| true);
+    refused(unknown.map(|program| program.text), "say opening or punch");
+    let mut tight = path_of(vec![arc([0.0, 0.0], [0.1, 0.0], [0.1, 0.0], true)]);
+    tight.side = Some(Side::Left);
+    let tight = super::write_four_b(&[tight], 1.0, &Effective::default(), &mut |_, _| true);
+    refused(tight.map(|program| program.text), "expected more than the correction 0.100 mm");
+}
+
 #[test]
 fn what_is_not_a_path_is_never_a_program() {
     let gap = [path_of(vec![line([0.0, 0.0], [1.0, 0.0]), line([1.1, 0.0], [2.0, 0.0])])];
@@ -320,7 +361,7 @@ proptest! {
         for layout in [Layout::Compact, Layout::Aligned, Layout::Checking] {
             let mut out = Vec::new();
             for (index, block) in list.iter().enumerate() {
-                super::layout::push_block(&mut out, layout, index + 1, block, Node { x: -block.x, y: block.y });
+                super::layout::push_block(&mut out, layout, index + 1, block, None, Node { x: -block.x, y: block.y });
             }
             prop_assert_eq!(&blocks(&String::from_utf8(out).expect("ASCII")), &list);
         }

@@ -1,12 +1,16 @@
 //! Paths to the text of one 3B program that is proved block by block while it is written.
 
 use super::block::Node;
+use super::block::PartArc;
+use super::decode::decode;
 use super::encode::{Encoded, encode};
 use super::layout::{push_block, push_start_point};
 use super::parse::{Item, Word, Words, read_line};
+use super::part::{is_concave, rounded};
 use super::proof::Proof;
 use crate::finding::Side;
-use crate::geometry::Segment;
+use crate::geometry::{Segment, Vector, turn};
+use crate::program::grid::point_of;
 use crate::program::write::{ProofError, ProvedProgram, Writer, walk, way};
 use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{Source, WirePath};
@@ -23,20 +27,42 @@ pub fn write_with(
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<ProvedProgram, ProofError> {
-    let mut blocks = Blocks {
-        settings,
-        words: Words { pause: settings.pause.trim(), end: settings.end.trim() },
-        out: Vec::new(),
-        blocks: 0,
-        length: 0.0,
-        proof: Proof::default(),
-        encoded: Vec::new(),
-    };
+    let mut blocks = Blocks::new(settings, None);
     walk(paths, unit_mm * 1000.0, 1.0, go_on, &mut blocks)?;
     blocks.finish()
 }
 
+/// The same for 4B: the part's contour, which the controller offsets by the correction of the settings. Corners between lines get
+/// transition arcs of the correction and the margin; what cannot be offset so is refused.
+pub fn write_four_b(
+    paths: &[WirePath],
+    unit_mm: f64,
+    settings: &Effective,
+    go_on: &mut dyn FnMut(usize, usize) -> bool,
+) -> Result<ProvedProgram, ProofError> {
+    let correction = settings.correction * 1000.0;
+    // Whole micrometres, and above the correction whatever the margin.
+    let radius = (correction + (settings.margin * 1000.0).max(1.0)).ceil();
+    let paths: Vec<WirePath> = paths.iter().map(|path| rounded(path, unit_mm * 1000.0, correction, radius)).collect::<Result<_, _>>()?;
+    let mut blocks = Blocks::new(settings, Some(Part { correction, side: Side::Left, direction: None }));
+    walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
+    blocks.finish()
+}
+
+/// What a 4B program is proved with beside its blocks.
+struct Part {
+    /// µm.
+    correction: f64,
+    side: Side,
+    /// Where the last block of the contour led.
+    direction: Option<Vector>,
+}
+
+/// How far the wire's path may be apart where two blocks of a part's contour join, µm: their directions are those of a grid.
+const WIRE_GAP: f64 = 3.0;
+
 struct Blocks<'a> {
+    part: Option<Part>,
     settings: &'a Effective,
     words: Words<'a>,
     out: Vec<u8>,
@@ -50,7 +76,9 @@ struct Blocks<'a> {
 impl Writer for Blocks<'_> {
     /// From one contour to the next the wire is taken out, the table moves, the wire is threaded.
     fn begin(&mut self, from: Option<Node>, first: Node, side: Option<Side>) -> Result<(), ProofError> {
-        if side.is_some() {
+        if let (Some(part), Some(side)) = (&mut self.part, side) {
+            (part.side, part.direction) = (side, None);
+        } else if side.is_some() {
             return Err(ProofError::Refused(
                 "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path".into(),
             ));
@@ -69,7 +97,7 @@ impl Writer for Blocks<'_> {
         Ok(())
     }
 
-    fn piece(&mut self, piece: &Segment, from: Node, to: Node, _source: Source) -> Result<(), ProofError> {
+    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Result<(), ProofError> {
         let mut encoded = std::mem::take(&mut self.encoded);
         encoded.clear();
         encode(piece, from, to, &mut encoded)
@@ -77,9 +105,10 @@ impl Writer for Blocks<'_> {
         for block in &encoded {
             self.blocks += 1;
             let start = self.out.len();
-            push_block(&mut self.out, self.settings.layout, self.blocks, &block.block, block.to);
+            let part = self.part_of(block, source)?;
+            push_block(&mut self.out, self.settings.layout, self.blocks, &block.block, part.as_ref(), block.to);
             let line = &self.out[start..self.out.len() - 1];
-            self.proof.check_line(line, &self.words, block).map_err(ProofError::Mismatch)?;
+            self.proof.check_line(line, &self.words, block, part).map_err(ProofError::Mismatch)?;
         }
         self.length += piece.length();
         self.encoded = encoded;
@@ -91,7 +120,49 @@ impl Writer for Blocks<'_> {
     }
 }
 
-impl Blocks<'_> {
+impl<'a> Blocks<'a> {
+    fn new(settings: &'a Effective, part: Option<Part>) -> Blocks<'a> {
+        Blocks {
+            part,
+            settings,
+            words: Words { pause: settings.pause.trim(), end: settings.end.trim() },
+            out: Vec::new(),
+            blocks: 0,
+            length: 0.0,
+            proof: Proof::default(),
+            encoded: Vec::new(),
+        }
+    }
+
+    /// What 4B says beside the block of an arc, proved: the wire's arc has a radius, and the wire's path joins before it.
+    fn part_of(&mut self, encoded: &Encoded, source: Source) -> Result<Option<PartArc>, ProofError> {
+        let Some(part) = &mut self.part else { return Ok(None) };
+        if matches!(source, Source::LeadIn | Source::LeadOut) {
+            part.direction = None;
+            return Ok(None);
+        }
+        let decoded = decode(&encoded.block, point_of(encoded.from))
+            .map_err(|fault| ProofError::Mismatch(format!("{:?} cannot be decoded: {fault:?}", encoded.block)))?;
+        if let Some(direction) = part.direction {
+            let gap = 2.0 * part.correction * (turn(direction, decoded.start_tangent()) / 2.0).sin().abs();
+            if gap > WIRE_GAP {
+                return Err(ProofError::Mismatch(format!("the wire's path has a gap of {gap:.3} µm at {:?}", encoded.from)));
+            }
+        }
+        part.direction = Some(decoded.end_tangent());
+        let Segment::Arc(arc) = decoded else { return Ok(None) };
+        let concave = is_concave(&arc, part.side);
+        let radius = arc.radius.round();
+        if concave && radius <= part.correction {
+            return Err(ProofError::Refused(format!(
+                "4B cannot have an arc of R {:.3} mm inside of which the wire runs, expected more than the correction {:.3} mm",
+                radius / 1e3,
+                part.correction / 1e3
+            )));
+        }
+        Ok(Some(PartArc { radius: radius as i64, concave }))
+    }
+
     /// Writes a pause or end word, and reads it again: it comes from the settings.
     fn word(&mut self, meaning: Word) -> Result<(), ProofError> {
         let word = match meaning {

@@ -81,7 +81,8 @@ impl Job {
         stop_if(cancel)?;
         progress.report("laying the wire's path");
         let handles = self.handles.as_deref();
-        let paths = plan_while(&task.drawing, &task.outlines, &task.settings, handles, &|| !cancel.is_cancelled())
+        let settings = self.format.settings(&task.settings);
+        let paths = plan_while(&task.drawing, &task.outlines, &settings, handles, &|| !cancel.is_cancelled())
             .map_err(|reason| refusal(&task, reason, self.encoding))?;
         if paths.is_empty() {
             return Err(refused("the drawing holds no contour to cut"));

@@ -37,6 +37,7 @@ void registerSessionTypes()
 {
     qRegisterMetaType<wedm::ProgramSearch>("wedm::ProgramSearch");
     qRegisterMetaType<wedm::Units>("wedm::Units");
+    qRegisterMetaType<wedm::InForce>("wedm::InForce");
     qRegisterMetaType<wedm::Repair>("wedm::Repair");
     qRegisterMetaType<wedm::Program>("wedm::Program");
     qRegisterMetaType<wedm::Session::State>("wedm::Session::State");
@@ -96,6 +97,11 @@ void Session::setSettings(const QJsonObject &settings)
     if (settings == m_settings)
         return;
     m_settings = settings;
+    reloadSettings();
+}
+
+void Session::reloadSettings()
+{
     if (m_state != State::Ready)
         return;
     sendSettings();
@@ -351,8 +357,25 @@ void Session::take(const QString &method, const QJsonObject &params)
     for (const QJsonValue &each : diagnostics)
         document->findings += findingFromJson(each.toObject());
     emit found(uri, version, document->findings);
+    askSettings(uri);
     if (document->watched)
         inspect(uri);
+}
+
+/// A change of settings, in wedm.toml too, is followed by new findings: so they are asked for with these.
+void Session::askSettings(const QString &uri)
+{
+    m_connection->request("wedm/settings", uriOnly(uri), [this, uri](const Answer &answer) {
+        if (answer.failed)
+            return;
+        const QJsonObject result = answer.result.toObject();
+        InForce settings;
+        settings.correction = result.value("correction").toDouble();
+        settings.from = result.value("correctionFrom").toString();
+        settings.side = result.value("side").toString();
+        settings.file = result.value("file").toString();
+        emit settingsInForce(uri, settings);
+    });
 }
 
 void Session::answer(const QJsonValue &id, const QString &method, const QJsonObject &params)

@@ -35,6 +35,16 @@ struct Program {
     QStringList warnings;
 };
 
+/// What the server takes for the correction, and where it has it from.
+struct InForce {
+    double correction = 0;
+    /// "default", "client" or "file".
+    QString from;
+    QString side;
+    /// URI of the wedm.toml, where there is one.
+    QString file;
+};
+
 class Session : public QObject {
     Q_OBJECT
 public:
@@ -65,6 +75,8 @@ public slots:
     void stop();
     /// `{correction, side, …}`; see "Settings" in the protocol.
     void setSettings(const QJsonObject &settings);
+    /// Has the server read its settings again, a wedm.toml that was edited elsewhere included.
+    void reloadSettings();
     /// The drawing as it is now; only differences go to the server. `looked` follows.
     void look(const QString &uri, const QVector<wedm::Entity> &entities, wedm::Units units);
     void close(const QString &uri);
@@ -81,6 +93,7 @@ signals:
     void looked(const QString &uri, int version, bool changed);
     void found(const QString &uri, int version, const QVector<wedm::Finding> &findings);
     void inspected(const QString &uri, int version, const QSharedPointer<wedm::Inspection> &inspection);
+    void settingsInForce(const QString &uri, const wedm::InForce &settings);
     void repairReady(const wedm::Repair &repair);
     void repairFailed(const QString &uri, const QString &reason);
     void generated(const QString &uri, const wedm::Program &program);
@@ -110,6 +123,7 @@ private:
     void open(Document &document);
     void sendSettings();
     void inspect(const QString &uri);
+    void askSettings(const QString &uri);
     void takeRepair(const QString &uri, const QJsonArray &actions);
     void takeProgram(const QString &uri, const QString &path, const QJsonObject &result);
     void drop();
@@ -139,6 +153,7 @@ void registerSessionTypes();
 Q_DECLARE_METATYPE(wedm::Entity)
 Q_DECLARE_METATYPE(wedm::Finding)
 Q_DECLARE_METATYPE(QSharedPointer<wedm::Inspection>)
+Q_DECLARE_METATYPE(wedm::InForce)
 Q_DECLARE_METATYPE(wedm::ProgramSearch)
 Q_DECLARE_METATYPE(wedm::Repair)
 Q_DECLARE_METATYPE(wedm::Program)

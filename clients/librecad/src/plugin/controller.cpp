@@ -186,6 +186,8 @@ void Controller::run(const QString &command, Document_Interface &drawing)
     } else {
         if (!own)
             startServer();
+        if (command == QLatin1String(command::CHECK))
+            post([](Session &session) { session.reloadSettings(); });
         look(drawing);
         const QString uri = openFor(host::currentWindow()).uri;
         if (command == QLatin1String(command::FIX))
@@ -238,6 +240,13 @@ void Controller::connectSession()
             open->inspection = inspection;
             if (open == current() && m_panel)
                 m_panel->setInspection(inspection);
+        }
+    });
+    connect(m_session, &Session::settingsInForce, this, [this](const QString &uri, const InForce &settings) {
+        if (Open *open = openOf(uri)) {
+            open->settings = settings;
+            if (open == current() && m_panel)
+                m_panel->setInForce(settings);
         }
     });
     connect(m_session, &Session::repairReady, this, &Controller::repairReady);
@@ -391,6 +400,8 @@ void Controller::showCurrent()
     if (open->version < 0)
         return;
     m_panel->setFindings(open->findings);
+    if (open->settings.correction > 0)
+        m_panel->setInForce(open->settings);
 }
 
 void Controller::setLive(bool on)

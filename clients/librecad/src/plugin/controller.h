@@ -47,6 +47,7 @@ private:
         QVector<Finding> findings;
         QSharedPointer<Inspection> inspection;
         QString unchecked;
+        InForce settings;
     };
 
     void settle();

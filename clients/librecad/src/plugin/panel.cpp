@@ -3,6 +3,7 @@
 
 #include <QBoxLayout>
 #include <QComboBox>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QHeaderView>
@@ -11,6 +12,7 @@
 #include <QPushButton>
 #include <QSplitter>
 #include <QTableView>
+#include <QUrl>
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +83,7 @@ Panel::Panel(QWidget *parent)
     , m_view(new QTableView)
     , m_list(new QListWidget)
     , m_server(wrapped("wedm_server"))
+    , m_inForce(wrapped("wedm_in_force"))
     , m_message(wrapped("wedm_message"))
     , m_live(new QLabel)
     , m_unchecked(wrapped("wedm_unchecked"))
@@ -160,6 +163,7 @@ Panel::Panel(QWidget *parent)
     form->addRow(tr("Correction"), m_correction);
     form->addRow(tr("Wire side"), m_side);
     layout->addLayout(form);
+    layout->addWidget(m_inForce);
     QHBoxLayout *buttons = new QHBoxLayout;
     for (QPushButton *button : {check, fix, m_fixOne, generate})
         buttons->addWidget(button);
@@ -221,6 +225,16 @@ void Panel::setServer(Session::State state, const QString &text)
 {
     const bool bad = state == Session::State::Missing || state == Session::State::Refused || state == Session::State::Waiting;
     say(m_server, text, bad ? BAD : PLAIN);
+}
+
+void Panel::setInForce(const InForce &settings)
+{
+    QString from = tr("the built-in default");
+    if (settings.from == QLatin1String("file"))
+        from = QDir::toNativeSeparators(QUrl(settings.file).toLocalFile());
+    else if (settings.from == QLatin1String("client"))
+        from = tr("this dock");
+    say(m_inForce, tr("in force: correction %1 mm, from %2").arg(settings.correction, 0, 'f', 3).arg(from), PLAIN);
 }
 
 void Panel::setMessage(const QString &text, Tone tone)
@@ -286,6 +300,7 @@ void Panel::clear()
     m_findings.clear();
     m_list->clear();
     m_count->clear();
+    say(m_inForce, QString(), PLAIN);
     m_table->setInspection(QSharedPointer<Inspection>());
     setMessage(QString(), Tone::Plain);
     setUnchecked(QString());

@@ -25,6 +25,8 @@ public:
 
     /// What the server is doing; shown until the next.
     void setServer(Session::State state, const QString &text);
+    /// The correction that radii are held against, and where it comes from.
+    void setInForce(const InForce &settings);
     /// What the last command came to.
     void setMessage(const QString &text, Tone tone);
     void setLive(const QString &text);
@@ -58,6 +60,7 @@ private:
     QTableView *m_view;
     QListWidget *m_list;
     QLabel *m_server;
+    QLabel *m_inForce;
     QLabel *m_message;
     QLabel *m_live;
     QLabel *m_unchecked;

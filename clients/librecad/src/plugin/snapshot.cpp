@@ -322,8 +322,8 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
             wrapper->updateData(&data);
             continue;
         }
-        add(drawing, entity, look);
-        drawing.removeEntity(wrapper);
+        if (add(drawing, entity, look))
+            drawing.removeEntity(wrapper);
     }
     for (const Entity &entity : qAsConst(fresh)) {
         // What a repair adds looks like an entity of its layer that is there already.

@@ -67,6 +67,10 @@ void Driver::run()
     if (m_main && action("Check radii"))
         scenario(qEnvironmentVariable("WEDM_TEST"));
     std::fflush(stdout);
+    QFile process(QFileInfo(m_file).absoluteDir().filePath("server"));
+    if (process.open(QIODevice::WriteOnly))
+        process.write(QByteArray::number(controller()->property("serverProcessId").toLongLong()));
+    process.close();
     // LibreCAD would ask whether the drawing is to be saved.
     QCoreApplication::exit(m_failed == 0 ? 0 : 1);
 }

@@ -30,6 +30,8 @@ private:
     void marks();
     void live();
     void missing();
+    void windows();
+    void settings();
     void otherVersion();
     void killed();
     void undoOnTheWay();

@@ -6,6 +6,7 @@
 #include <QAction>
 #include <QDialog>
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileInfo>
 #include <QMap>
@@ -35,6 +36,8 @@ void Driver::scenario(const QString &name)
         {"marks", &Driver::marks},
         {"live", &Driver::live},
         {"missing", &Driver::missing},
+        {"windows", &Driver::windows},
+        {"settings", &Driver::settings},
         {"otherVersion", &Driver::otherVersion},
         {"killed", &Driver::killed},
         {"undoOnTheWay", &Driver::undoOnTheWay},
@@ -178,6 +181,68 @@ void Driver::live()
     expect("there was something to find before", before > 0);
     choose("Live check");
     expect("it can be switched off", !action("Live check")->isChecked());
+}
+
+/// The dock's correction holds, until a wedm.toml beside the drawing says otherwise.
+void Driver::settings()
+{
+    choose("Check radii");
+    expectSoon("R 0.0800 is at fault", [this] { return verdictOf("0.0800").contains("small-radius"); });
+    expectSoon("the correction in force is said", [this] { return text("wedm_in_force").contains("0.100 mm, from the built-in default"); },
+               [this] { return text("wedm_in_force"); });
+    m_main->findChild<QDoubleSpinBox *>("wedm_correction")->setValue(0.05);
+    expectSoon("with a correction of 0.05 mm it is not", [this] { return verdictOf("0.0800") == "ok"; }, [this] { return verdictOf("0.0800"); });
+    expectSoon("said to be the dock's", [this] { return text("wedm_in_force").contains("0.050 mm, from this dock"); },
+               [this] { return text("wedm_in_force"); });
+    QFile file(QFileInfo(m_file).absoluteDir().filePath("wedm.toml"));
+    expect("a wedm.toml is written beside the drawing", file.open(QIODevice::WriteOnly) && file.write("correction = 0.09\n") > 0);
+    file.close();
+    m_main->findChild<QDoubleSpinBox *>("wedm_correction")->setValue(0.04);
+    expectSoon("it comes first", [this] { return verdictOf("0.0800").contains("small-radius"); }, [this] { return verdictOf("0.0800"); });
+    expectSoon("and is named", [this] { return text("wedm_in_force").contains("0.090 mm") && text("wedm_in_force").contains("wedm.toml"); },
+               [this] { return text("wedm_in_force"); });
+    expect("it is edited", file.open(QIODevice::WriteOnly) && file.write("correction = 0.07\n") > 0);
+    file.close();
+    choose("Check radii");
+    expectSoon("and read again with the next check", [this] { return verdictOf("0.0800") == "ok"; }, [this] { return text("wedm_in_force"); });
+}
+
+/// Several drawings, of which each has its own list; and none at all.
+void Driver::windows()
+{
+    choose("Live check");
+    expectSoon("the fault is found", [this] { return verdictOf("0.0800").contains("small-radius"); });
+    QMdiArea *area = m_main->findChild<QMdiArea *>();
+    QMdiSubWindow *first = area->currentSubWindow();
+    press("FileNew");
+    expectSoon("a new drawing has come to the front", [&] { return area->currentSubWindow() != first; });
+    touch();
+    expectSoon("its list is empty", [this] { return rows() == 0; }, [this] { return QString::number(rows()); });
+    QMdiSubWindow *second = area->currentSubWindow();
+    choose("Fix");
+    area->setActiveSubWindow(first);
+    expectSoon("a repair that comes when another drawing is in front is refused", [this] { return text("wedm_message").contains("othing"); },
+               [this] { return text("wedm_message"); });
+    touch();
+    expectSoon("back in the first, its list is there again", [this] { return verdictOf("0.0800").contains("small-radius"); },
+               [this] { return verdictOf("0.0800"); });
+    choose("Fix");
+    area->setActiveSubWindow(second);
+    expectSoon("so is one of the first while the second is in front", [this] { return text("wedm_message").contains("nothing was changed"); },
+               [this] { return text("wedm_message"); });
+    second->close();
+    expectSoon("the second is closed", [&] { return area->subWindowList().size() == 1; });
+    expectSoon("and the first shown as it was", [this] { return verdictOf("0.0800").contains("small-radius"); }, [this] { return verdictOf("0.0800"); });
+    choose("Fix");
+    first->close();
+    expectSoon("it is closed while a repair is on its way", [&] { return area->subWindowList().isEmpty(); });
+    touch();
+    QTest::qWait(500);
+    expect("LibreCAD goes on without a drawing", rows() <= 0, QString::number(rows()));
+    press("FileNew");
+    touch();
+    expectSoon("and with a new one", [&] { return area->subWindowList().size() == 1; });
+    QTest::qWait(300);
 }
 
 void Driver::missing()

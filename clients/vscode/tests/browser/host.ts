@@ -55,7 +55,7 @@ export class Host {
     path = process.env["PATH"] ?? "",
     view: BrowserContextOptions = {},
   ): Promise<Host> {
-    const root = await mkdtemp(join(tmpdir(), "wedm-vscode-"));
+    const root = await mkdtemp(join(tmpdir(), "vscode-test-"));
     const folder = join(root, "work");
     const [data, extensions] = [join(root, "data"), join(root, "extensions")];
     await mkdir(folder, { recursive: true });

@@ -117,7 +117,7 @@ impl Rewrite {
             let mut line = Vec::new();
             push_fields(&mut line, Layout::Compact, &new.encoded.block, new.part.as_ref());
             if !new.exact {
-                proof.check_line(&line, &words, &new.encoded)?;
+                proof.check_line(&line, &words, &new.encoded, new.part)?;
                 continue;
             }
             let mut read = None;
