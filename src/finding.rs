@@ -2,7 +2,7 @@
 //!
 //! The sentence that a person reads is made from it in [`crate::message`]; the protocol's form in `server`.
 
-use crate::drawing::{DrawingEdit, EntityId};
+use crate::drawing::{DrawingEdit, EntityId, Visibility};
 use crate::geometry::Point;
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -308,6 +308,12 @@ pub enum Detail {
         kind: String,
         count: usize,
         why: &'static str,
+    },
+    /// `count` entities are drawn on a layer that is not simply shown, or are invisible by themselves.
+    Unseen {
+        layer: std::sync::Arc<str>,
+        visibility: Visibility,
+        count: usize,
     },
     Units(String),
     /// What was found and what was expected, lower-case, no final dot.
