@@ -1,9 +1,12 @@
 //! What a wire path and its proved 3B program cost: `cargo bench --bench program`.
 
+mod generated;
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::program::three_b::{self, Words};
+use wedm::program::{Document, Language, language};
 use wedm::settings::{Effective, Layout};
 use wedm::toolpath::{WirePath, plan};
 
@@ -118,5 +121,20 @@ fn reading(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, program, reading);
+fn formatting(c: &mut Criterion) {
+    let settings = Effective::default();
+    let document = Document::read(Language::ThreeB, generated::three_b(200_000).into_bytes(), &settings);
+    let mut group = c.benchmark_group("format a program of 200,000 blocks");
+    group.sample_size(10);
+    group.throughput(Throughput::Bytes(document.text().len() as u64));
+    for layout in [Layout::Compact, Layout::Aligned, Layout::Checking] {
+        let settings = Effective { stated_layout: Some(layout), ..settings.clone() };
+        group.bench_function(format!("compact to {layout:?}"), |b| {
+            b.iter(|| black_box(language::format(&document, &settings, 0..document.text().line_count())));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, program, reading, formatting);
 criterion_main!(benches);

@@ -24,6 +24,7 @@ fn main() {
     ] {
         text_session(name, &text, rounds);
     }
+    program_session(rounds);
     drawing_session(rounds);
     generate_session(if quick { 200 } else { 1000 });
 }
@@ -119,6 +120,32 @@ fn language_rows(client: &mut Client, name: &str, uri: &str, line: usize, lines:
         let times = (0..rounds).map(|_| timed(|| client.request(&format!("textDocument/{method}"), params.clone())).1).collect();
         row(&format!("{name}: {what}"), times, goal);
     }
+}
+
+/// What an editor asks about a program of 200,000 blocks.
+fn program_session(rounds: usize) {
+    let (name, uri) = ("5 MB 3B", "file:///bench.3b");
+    let text = generated::three_b(200_000);
+    let mut all = capabilities();
+    all["textDocument"] = json!({ "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } });
+    let mut client = Client::start_with(all, json!({}));
+    let (found, time) = timed(|| client.open_text(uri, "3b", &text));
+    row(&format!("{name}: open, {} findings", found.len()), vec![time], "150 ms");
+    let line = text.lines().count() / 2;
+    language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
+    let whole = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
+    let format = |client: &mut Client| timed(|| client.request("textDocument/formatting", whole.clone())).1;
+    row(&format!("{name}: formatting, nothing to change"), (0..rounds / 20).map(|_| format(&mut client)).collect(), "200 ms");
+    client.notify("workspace/didChangeConfiguration", json!({ "settings": { "wedm": { "program": { "layout": "checking" } } } }));
+    row(&format!("{name}: formatting every line"), (0..rounds / 20).map(|_| format(&mut client)).collect(), "200 ms");
+    let place = json!({ "line": line, "character": 0 });
+    for kind in ["reverse", "rotate.left", "merge"] {
+        let context = json!({ "diagnostics": [], "only": [format!("refactor.rewrite.{kind}")] });
+        let params = json!({ "textDocument": { "uri": uri }, "range": { "start": place, "end": place }, "context": context });
+        let (_, time) = timed(|| client.request("textDocument/codeAction", params));
+        row(&format!("{name}: refactoring {kind}"), vec![time], "");
+    }
+    client.shut_down();
 }
 
 fn drawing_session(rounds: usize) {

@@ -4,7 +4,7 @@
 
 use crate::analysis::Analysis;
 use crate::drawing::{Delta, Drawing, EntityId, Outline};
-use crate::finding::{Edit, Finding, Fix, Place};
+use crate::finding::{Detail, Edit, Finding, Fix, Place};
 use crate::program;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -50,6 +50,9 @@ impl Document {
         if let Source::Program(program) = &mut source {
             program.set_settings(&settings);
         }
+        if let Source::Dxf(text) = &mut source {
+            text.set_arc_fit(settings.tolerances.arc_fit);
+        }
         let analysis = judged(&source, settings);
         Document { source, analysis, asked: Asked::default() }
     }
@@ -66,6 +69,9 @@ impl Document {
     pub fn set_settings(&mut self, settings: Arc<Effective>) {
         if *self.analysis.settings() != settings {
             self.asked = Asked::default();
+            if let Source::Dxf(text) = &mut self.source {
+                text.set_arc_fit(settings.tolerances.arc_fit);
+            }
             if let Source::Program(program) = &mut self.source {
                 program.set_settings(&settings);
             }
@@ -193,7 +199,9 @@ fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Find
     let (mut findings, mut count) = of_rules;
     for finding in of_source {
         // The reader knows no settings: severities are laid over its findings here.
-        if let Some(severity) = settings.severity_of(finding) {
+        // A layer that has a role is cut or not as that says.
+        let has_role = matches!(&finding.detail, Detail::Unseen { layer, .. } if settings.layers.contains_key(&**layer));
+        if let Some(severity) = settings.severity_of(finding).filter(|_| !has_role) {
             findings.push(Finding { severity, ..finding.clone() });
             count += 1;
         }

@@ -6,7 +6,7 @@ mod program_fault;
 
 pub use program_fault::{Axis, ProgramFault};
 
-use crate::drawing::{DrawingEdit, EntityId};
+use crate::drawing::{DrawingEdit, EntityId, Visibility};
 use crate::geometry::Point;
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -369,6 +369,12 @@ pub enum Detail {
         kind: String,
         count: usize,
         why: &'static str,
+    },
+    /// `count` entities are drawn on a layer that is not simply shown, or are invisible by themselves.
+    Unseen {
+        layer: std::sync::Arc<str>,
+        visibility: Visibility,
+        count: usize,
     },
     Units(String),
     /// What was found and what was expected, lower-case, no final dot.

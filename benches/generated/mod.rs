@@ -109,3 +109,25 @@ pub fn one_polyline(count: usize) -> String {
     text.push_str("0\nENDSEC\n0\nEOF\n");
     text
 }
+
+/// A 3B program of about 25 bytes for each of its blocks: squares that stand askew, each with a circle, and a pause behind every hundred.
+pub fn three_b(blocks: usize) -> String {
+    let square = [(123_456, 23_456, "GXL1"), (23_456, 123_456, "GYL2"), (123_456, 23_456, "GXL3"), (23_456, 123_456, "GYL4")];
+    let mut text = String::with_capacity(blocks * 26);
+    let mut written = 0;
+    for contour in 1.. {
+        for (x, y, z) in square {
+            text += &format!("B{x}B{y}B{}{z}\n", x.max(y));
+        }
+        text += "B100000B0B400000GYNR1\n";
+        written += 5;
+        if written >= blocks {
+            break;
+        }
+        if contour % 100 == 0 {
+            text += "D\nB500000B0B500000GXL1\nD\n";
+            written += 1;
+        }
+    }
+    text + "DD\n"
+}

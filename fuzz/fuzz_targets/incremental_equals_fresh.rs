@@ -11,7 +11,7 @@ use wedm::settings::{Effective, Settings, SideSetting};
 use wedm_fuzz::{Script, described, edit_of, segment_count, text_and_script};
 
 /// A document beyond this is left alone: every step looks at all of it.
-const SEGMENTS: usize = 300;
+const SEGMENTS: usize = 150;
 const STEPS: usize = 24;
 
 const PHRASES: [&str; 24] = [
@@ -46,7 +46,7 @@ fuzz_target!(|data: &[u8]| {
     let mut script = Script(script);
     let first = script.byte();
     let side = [SideSetting::Both, SideSetting::Auto, SideSetting::Opening, SideSetting::Punch][first / 2 % 4];
-    let settings = Arc::new(Effective::of(&Settings { correction: Some(0.8), side: Some(side), ..Settings::default() }));
+    let settings = Arc::new(Effective::of(&Settings { correction: Some(0.4), side: Some(side), ..Settings::default() }));
     let read = dxf::Document::read(text.to_vec());
     if segment_count(read.drawing()) > SEGMENTS {
         return;

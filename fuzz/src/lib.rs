@@ -71,7 +71,8 @@ pub fn described(document: &Document) -> Vec<String> {
     all.push(format!("{:?}", drawing.unit));
     for (order, (id, entity)) in drawing.entities().enumerate() {
         let editable = drawing.is_editable(id);
-        all.push(format!("{order} {entity:?} editable {editable} at {:?}", document.range_of(&Place::Entity { entity: id })));
+        let look = (drawing.visibility(id), drawing.color(id));
+        all.push(format!("{order} {entity:?} {look:?} editable {editable} at {:?}", document.range_of(&Place::Entity { entity: id })));
         for segment in 0..entity.geometry.segment_count() {
             all.push(format!("  {segment} at {:?}", document.range_of(&Place::Segment { entity: id, segment })));
         }

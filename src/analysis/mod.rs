@@ -10,7 +10,7 @@ use crate::drawing::{
     stated_role,
 };
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Point};
 use crate::rules::lost_pocket::{self, Lost};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
 use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall};
@@ -292,7 +292,17 @@ impl Analysis {
                 self.lost.insert(key, (asked, lost));
             }
             let (Some((_, lost)), Some(outlook)) = (self.lost.get(&key), self.outlook(drawing, key)) else { continue };
+            let slots = if lost.is_empty() || necks.is_none() { Vec::new() } else { self.pairs.slots_of(key) };
+            // What a slot is told of is not told again as what is lost in it.
+            let is_told = |near: Point, index: usize| {
+                slots.iter().any(|(walls, disc)| {
+                    walls.contains(&index) || disc.is_some_and(|(center, radius)| (near - center).norm() <= radius + self.limits.correction)
+                })
+            };
             for lost in lost {
+                if matches!(*lost, Lost::Pocket { near, index } if is_told(near, index)) {
+                    continue;
+                }
                 let (rule, index, detail) = match *lost {
                     Lost::All => (Rule::OffsetCollapse, 0, Detail::OffsetCollapse { required: self.limits.correction }),
                     Lost::Pocket { near, index } => (Rule::LostPocket, index, Detail::LostPocket { near }),
@@ -494,7 +504,7 @@ impl Analysis {
         for &key in keys {
             let Some(contour) = self.chains.get(key) else { continue };
             let index = ContourIndex::new(drawing, contour, self.limits.correction - self.limits.tolerances.report);
-            let mut known = Known::new(index, stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied()));
+            let mut known = Known::new(index, stated_role(contour, &|id| role_of(drawing, &self.settings, id)));
             known.look(drawing, contour, &self.limits, &self.settings, 0..contour.len());
             runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
             self.enter_known(key, known);
@@ -526,7 +536,7 @@ impl Analysis {
         let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.take_known(key)) else { return false };
         let Some(contour) = self.chains.get(key) else { return false };
         if vertices.is_none() {
-            known.stated = stated_role(drawing, contour, &|layer| self.settings.layers.get(layer).copied());
+            known.stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
         }
         // What holds of a whole entity is kept with its first and last segment.
         let mut own = segments_of(vertices, piece.count, geometry.is_closed());
@@ -622,12 +632,19 @@ impl Analysis {
     }
 }
 
-/// True when an entity is part of a contour: it has segments and its role is not `ignore`.
-fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
-    drawing.get(id).is_some_and(|entity| {
-        let role = entity.role.or_else(|| settings.layers.get(&*entity.layer).copied());
-        role != Some(Role::Ignore) && entity.geometry.segment_count() > 0
-    })
+/// The role that an entity states, else that of its layer, else that of its colour.
+fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Role> {
+    let entity = drawing.get(id)?;
+    let by_color = || if settings.colors.is_empty() { None } else { settings.colors.get(&drawing.color(id)?).copied() };
+    entity.role.or_else(|| settings.layers.get(&*entity.layer).copied()).or_else(by_color)
+}
+
+/// True when an entity is part of a contour: it has segments, its role is not `ignore`, and it is seen, or somebody has given it
+/// or its layer a role. A colour alone does not bring back what is frozen.
+pub fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
+    let Some(entity) = drawing.get(id).filter(|entity| entity.geometry.segment_count() > 0) else { return false };
+    let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);
+    role_of(drawing, settings, id) != Some(Role::Ignore) && (drawing.visibility(id).is_seen() || is_asked_for())
 }
 
 /// The segments of an entity that a splice of its vertices changed, in one or two ranges.

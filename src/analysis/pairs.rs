@@ -42,6 +42,9 @@ const GROUP: usize = 8;
 /// Runs whose segments are kept at hand while runs are compared.
 const KEPT: usize = 512;
 
+/// Two segments of a contour that form a slot, and the disc between them.
+pub type Slot = ([usize; 2], Option<(Point, f64)>);
+
 /// The runs of all contours by place, and what has been seen between them.
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
@@ -214,6 +217,13 @@ impl Pairs {
     pub fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
         let own = |each: &&Seen| PAIR_RULES[each.rule].rule == rule && each.one.0 == each.other.0 && !each.blocked;
         self.seen.values().flatten().filter(own).map(|each| each.one.0).collect()
+    }
+
+    /// What `narrow-slot` tells of one contour: the two segments, and the disc between them.
+    pub fn slots_of(&self, key: ContourKey) -> Vec<Slot> {
+        let own =
+            |each: &&Seen| PAIR_RULES[each.rule].rule == Rule::NarrowSlot && each.one.0 == key && each.other.0 == key && !each.blocked;
+        self.seen.values().flatten().filter(own).map(|each| ([each.one.1, each.other.1], each.disc)).collect()
     }
 
     /// Entities that lie in the same place as another.

@@ -7,7 +7,7 @@ use crate::finding::{Fix, Rule};
 use rustc_hash::FxHashSet;
 
 /// The rules whose safe repairs "fix all" makes, the first of them that has any.
-const SAFE: [Rule; 4] = [Rule::DuplicateEntity, Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
+const SAFE: [Rule; 5] = [Rule::DuplicateEntity, Rule::Overlap, Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing.
 const TRIES: usize = 24;

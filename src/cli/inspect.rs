@@ -110,7 +110,8 @@ fn table(printed: &Printed) -> String {
 
 fn heading(entity: &InspectedEntity) -> String {
     let closed = if entity.closed { "closed" } else { "open" };
-    format!("{} {} on layer {}, {closed}", entity.r#type, entity.handle, entity.layer)
+    let cut = if entity.cut { "" } else { ", not cut" };
+    format!("{} {} on layer {}, {closed}{cut}", entity.r#type, entity.handle, entity.layer)
 }
 
 fn columns() -> String {

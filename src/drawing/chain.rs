@@ -457,12 +457,9 @@ impl Open {
     }
 }
 
-/// Role that the entities of a contour state, or their layers: that of the first piece which has one.
-pub fn stated_role(drawing: &Drawing, contour: &Contour, of_layer: &dyn Fn(&str) -> Option<Role>) -> Option<Role> {
-    contour.pieces.iter().find_map(|piece| {
-        let entity = drawing.get(piece.entity)?;
-        entity.role.or_else(|| of_layer(&entity.layer))
-    })
+/// Role that the entities of a contour state, or what they are drawn on or in: that of the first piece which has one.
+pub fn stated_role(contour: &Contour, of_entity: &dyn Fn(EntityId) -> Option<Role>) -> Option<Role> {
+    contour.pieces.iter().find_map(|piece| of_entity(piece.entity))
 }
 
 fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<EntityId> {

@@ -3,6 +3,7 @@
 //! Every kind of document (DXF text, a drawing sent by a CAD program) is one of these to the rules.
 //! Coordinates are world coordinates in the drawing's own unit. Nothing here knows of text or protocols.
 
+mod appearance;
 mod chain;
 mod contour;
 mod edit;
@@ -12,6 +13,7 @@ mod nesting;
 mod orientation;
 mod outline;
 
+pub use appearance::{Color, Visibility};
 pub use chain::{Chains, Key as ContourKey, Rechained, stated_role};
 pub use contour::{Contour, ContourSegment, Piece};
 pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
@@ -59,6 +61,12 @@ pub struct Drawing {
     fixed: FxHashSet<EntityId>,
     /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
     straight: FxHashSet<EntityId>,
+    /// Entities that are not simply shown, with the layer that says so; the entity's own where it says so itself.
+    unseen: FxHashMap<EntityId, (Visibility, Arc<str>)>,
+    /// By id: the colour that an entity has of its own. Shorter than the drawing where the last ones have none.
+    colors: Vec<Option<Color>>,
+    /// By the name of the layer in lower case.
+    layer_colors: FxHashMap<String, Color>,
 }
 
 impl Drawing {
@@ -196,6 +204,43 @@ impl Drawing {
         self.straight.contains(&id)
     }
 
+    /// Says whether an entity is seen, and which layer decides it. True when that is something new.
+    pub fn set_visibility(&mut self, id: EntityId, visibility: Visibility, layer: &Arc<str>) -> bool {
+        let before = match visibility {
+            Visibility::Shown => self.unseen.remove(&id),
+            other => self.unseen.insert(id, (other, layer.clone())),
+        };
+        before.map_or(Visibility::Shown, |(before, _)| before) != visibility
+    }
+
+    pub fn visibility(&self, id: EntityId) -> Visibility {
+        self.unseen.get(&id).map_or(Visibility::Shown, |(visibility, _)| *visibility)
+    }
+
+    /// Entities that are not simply shown, with the layer that decides it; in no order.
+    pub fn unseen(&self) -> impl Iterator<Item = (EntityId, Visibility, &Arc<str>)> + '_ {
+        self.unseen.iter().map(|(&id, (visibility, layer))| (id, *visibility, layer))
+    }
+
+    /// Gives an entity a colour of its own, or leaves it that of its layer. True when that is something new.
+    pub fn set_color(&mut self, id: EntityId, color: Option<Color>) -> bool {
+        let index = id.0 as usize;
+        if color.is_some() && index >= self.colors.len() {
+            self.colors.resize(index + 1, None);
+        }
+        self.colors.get_mut(index).is_some_and(|slot| std::mem::replace(slot, color) != color)
+    }
+
+    pub fn set_layer_color(&mut self, layer: &str, color: Color) {
+        self.layer_colors.insert(layer.to_lowercase(), color);
+    }
+
+    /// The colour in which an entity is drawn: its own, else that of its layer; `None` where the source tells none.
+    pub fn color(&self, id: EntityId) -> Option<Color> {
+        let own = self.colors.get(id.0 as usize).copied().flatten();
+        own.or_else(|| self.layer_colors.get(&self.get(id)?.layer.to_lowercase()).copied())
+    }
+
     /// Puts another entity in the place of `id`, keeping id, handle and machining order.
     pub fn replace(&mut self, id: EntityId, entity: Entity) {
         if let Some(slot) = self.slots.get_mut(id.0 as usize)
@@ -251,6 +296,8 @@ impl Drawing {
         self.last_number.clear();
         self.fixed.remove(&id);
         self.straight.remove(&id);
+        self.unseen.remove(&id);
+        self.set_color(id, None);
         Some(entity)
     }
 

@@ -2,13 +2,14 @@
 //!
 //! Work is bounded before it begins: the size of a block is counted once, without drawing it.
 
-use super::entity::Outcome;
+use super::entity::{Look, Outcome, Paint};
 use super::insert::{Insert, block_key};
+use super::layer_table::LayerStates;
 use super::lexer::Lexer;
 use super::number::{self, Number};
 use super::place;
 use super::shape::{Affine, Shape};
-use crate::drawing::Geometry;
+use crate::drawing::{Color, Geometry, Visibility};
 use crate::geometry::Point;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
@@ -21,7 +22,7 @@ const REFERS_TO_A_FILE: i64 = 4 | 8;
 
 #[derive(Clone, Debug)]
 enum Content {
-    Shape { layer: Arc<str>, kind: &'static str, shape: Shape },
+    Shape { layer: Arc<str>, look: Look, kind: &'static str, shape: Shape },
     Reference(Box<Insert>),
 }
 
@@ -44,6 +45,10 @@ struct Size {
 /// One piece of what a reference draws, in the coordinates around it.
 pub(super) struct Part {
     pub(super) layer: Arc<str>,
+    /// Whether it is seen, and the layer that decides it.
+    pub(super) visibility: (Visibility, Arc<str>),
+    /// A colour that is not that of its layer.
+    pub(super) color: Option<Color>,
     pub(super) kind: &'static str,
     pub(super) geometry: Geometry,
 }
@@ -63,8 +68,10 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    pub(super) fn is_empty(&self) -> bool {
-        self.blocks.is_empty()
+    /// The same blocks, nothing drawn and nothing known of them: what was found out before they were whole may not hold.
+    pub(super) fn unasked(self) -> Blocks {
+        let count = self.blocks.len();
+        Blocks { blocks: self.blocks, by_name: self.by_name, sizes: vec![None; count], used: vec![false; count], ..Blocks::default() }
     }
 
     /// Begins the block whose record starts at `line` and ends before the lexer's place. A name that is taken stays with
@@ -96,14 +103,16 @@ impl Blocks {
     pub(super) fn add(&mut self, outcome: Outcome) {
         let Some(block) = self.blocks.last_mut() else { return };
         match outcome {
-            Outcome::Entity(read) => block.contents.push(Content::Shape { layer: read.layer, kind: read.kind, shape: read.shape }),
+            Outcome::Entity(read) => {
+                block.contents.push(Content::Shape { layer: read.layer, look: read.look, kind: read.kind, shape: read.shape });
+            }
             Outcome::Insert(insert) => block.contents.push(Content::Reference(insert)),
             Outcome::Unsupported(..) | Outcome::Damaged => {}
         }
     }
 
     /// What a reference in the modelspace draws; curves are fitted within `tolerance`. An error says why it draws nothing.
-    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64) -> Result<Vec<Part>, String> {
+    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64, states: &mut LayerStates) -> Result<Vec<Part>, String> {
         let Some(&block) = self.by_name.get(&insert.block) else {
             return Err("the block is not in the file: nothing is drawn for this INSERT".into());
         };
@@ -127,7 +136,8 @@ impl Blocks {
         }
         self.drawn += all;
         let mut parts = Vec::new();
-        self.draw(insert, block, &Affine::IDENTITY, &insert.layer, tolerance, &mut parts);
+        let inherited = Inherited::from(insert, &insert.layer, None, states);
+        self.draw(insert, block, &Affine::IDENTITY, &inherited, &mut Pen { tolerance, states, parts: &mut parts });
         self.mark_used(block);
         Ok(parts)
     }
@@ -178,7 +188,7 @@ impl Blocks {
         Ok(size)
     }
 
-    fn draw(&self, insert: &Insert, block: usize, around: &Affine, layer: &Arc<str>, tolerance: f64, parts: &mut Vec<Part>) {
+    fn draw(&self, insert: &Insert, block: usize, around: &Affine, inherited: &Inherited, pen: &mut Pen) {
         let Some(block) = self.blocks.get(block) else { return };
         let base = Affine { origin: Point::from(-block.base.coords), ..Affine::IDENTITY };
         for row in 0..insert.rows.0 {
@@ -192,15 +202,20 @@ impl Blocks {
                         Content::Reference(inner) => &inner.layer,
                     };
                     // What lies on layer 0 takes the layer of the reference.
-                    let layer = if **own == *"0" { layer } else { own };
+                    let layer = if **own == *"0" { &inherited.layer } else { own };
                     match content {
-                        Content::Shape { kind, shape, .. } => shape.placed(&map, kind, &mut |kind, shape| {
-                            let drawn = shape.drawn(tolerance).filter(Geometry::is_sound);
-                            parts.extend(drawn.map(|geometry| Part { layer: layer.clone(), kind, geometry }));
-                        }),
+                        Content::Shape { kind, shape, look, .. } => {
+                            let (visibility, color) = inherited.hand_on(*look, layer, pen.states);
+                            shape.placed(&map, kind, &mut |kind, shape| {
+                                let drawn = shape.drawn(pen.tolerance).filter(Geometry::is_sound);
+                                let part = |geometry| Part { layer: layer.clone(), visibility: visibility.clone(), color, kind, geometry };
+                                pen.parts.extend(drawn.map(part));
+                            });
+                        }
                         Content::Reference(inner) => {
                             if let Some(&block) = self.by_name.get(&inner.block) {
-                                self.draw(inner, block, &map, layer, tolerance, parts);
+                                let handed_on = Inherited::from(inner, layer, Some(inherited), pen.states);
+                                self.draw(inner, block, &map, &handed_on, pen);
                             }
                         }
                     }
@@ -221,6 +236,56 @@ impl Blocks {
             });
             open.extend(inner);
         }
+    }
+}
+
+/// What draws the parts of a block.
+struct Pen<'a> {
+    tolerance: f64,
+    states: &'a mut LayerStates,
+    parts: &'a mut Vec<Part>,
+}
+
+/// What a reference hands on to what it draws.
+struct Inherited {
+    /// The layer of what lies on layer 0.
+    layer: Arc<str>,
+    /// The colour of what has that of its block.
+    color: Option<Color>,
+    /// Where nothing of it is seen: a frozen layer, or a reference that is invisible. One that is switched off hides only what lies on
+    /// it.
+    hidden: Option<(Visibility, Arc<str>)>,
+}
+
+impl Inherited {
+    fn from(insert: &Insert, layer: &Arc<str>, around: Option<&Inherited>, states: &mut LayerStates) -> Inherited {
+        let around_hidden = around.and_then(|around| around.hidden.clone());
+        let own = match states.of(layer) {
+            _ if insert.look.invisible => Some((Visibility::Invisible, layer.clone())),
+            Visibility::Frozen => Some((Visibility::Frozen, layer.clone())),
+            _ => None,
+        };
+        let color = match insert.look.paint {
+            Paint::Own(color) => Some(color),
+            Paint::ByBlock => around.and_then(|around| around.color),
+            Paint::ByLayer => None,
+        };
+        Inherited { layer: layer.clone(), color, hidden: around_hidden.or(own) }
+    }
+
+    /// Whether a part with its own look is seen, with the layer that decides it; and its colour.
+    fn hand_on(&self, look: Look, layer: &Arc<str>, states: &mut LayerStates) -> ((Visibility, Arc<str>), Option<Color>) {
+        let visibility = match &self.hidden {
+            Some(hidden) => hidden.clone(),
+            None if look.invisible => (Visibility::Invisible, layer.clone()),
+            None => (states.of(layer), layer.clone()),
+        };
+        let color = match look.paint {
+            Paint::Own(color) => Some(color),
+            Paint::ByBlock => self.color,
+            Paint::ByLayer => None,
+        };
+        (visibility, color)
     }
 }
 

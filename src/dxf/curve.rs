@@ -127,14 +127,11 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
         return Outcome::Unsupported("SPLINE".into(), NOT_PLANE);
     }
     let spline = if controls.points.is_empty() {
-        let mut points = through.points;
-        if flags & CLOSED != 0
-            && let Some(&first) = points.first()
-        {
-            points.push(first);
-        }
+        let points = through.points;
         let tangent = |x: Option<f64>, y: Option<f64>| Some(Vector::new(x?, y?));
-        Spline::through(&points, tangent(tangents[0], tangents[1]), tangent(tangents[2], tangents[3]))
+        let closed = if flags & CLOSED != 0 { Spline::round(&points) } else { None };
+        closed
+            .or_else(|| Spline::through(&points, tangent(tangents[0], tangents[1]), tangent(tangents[2], tangents[3])))
             .ok_or_else(|| "has less than two different points".to_owned())
     } else {
         let degree = degree.unwrap_or(3);

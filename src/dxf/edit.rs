@@ -6,13 +6,13 @@
 use super::Document;
 use super::entity::{Outcome, Read, mirror};
 use super::foreign;
-use super::is_fitted;
 use super::lexer::{LOOKAHEAD, Lexer};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
 use super::reader::{ReadItem, Said, range_key, read_item};
 use super::shape::Shape;
 use super::table::{Became, Context, Item, NO_ITEM, Named};
+use super::{is_fitted, set_look};
 use crate::drawing::{Delta, Drawing, Entity, EntityId, Touched, Vertex};
 use crate::finding::{Finding, Place, Rule};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -188,6 +188,18 @@ impl Document {
         let before: Vec<Became> = old.iter().filter_map(|item| structure(&item.became)).collect();
         let after: Vec<Became> = read.iter().filter_map(|item| item.said.structure()).collect();
         let second_section = before.contains(&Became::Structure { entities: true, unit: None }) && self.table.sections > 1;
+        // What a layer says holds for all that lies on it.
+        let layers_before = old.iter().filter_map(|item| match item.became {
+            Became::Layer(index) => self.table.layers.get(index as usize),
+            _ => None,
+        });
+        let layers_after = read.iter().filter_map(|item| match &item.said {
+            Said::Layer(entry) => Some(entry),
+            _ => None,
+        });
+        if !layers_before.eq(layers_after) {
+            return None;
+        }
         if before != after || second_section || self.table.items.len() - old.len() + read.len() < 3 {
             return None;
         }
@@ -269,6 +281,9 @@ impl Document {
             table.items[old.clone()].iter().filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal).count();
         let mut position = if plan.come { table.items[..old.start].iter().map(|item| item.entities().count()).sum() } else { 0 };
         let mut planned = plan.entities.into_iter();
+        let layers: Vec<Became> =
+            table.items[old.clone()].iter().map(|item| item.became).filter(|became| matches!(became, Became::Layer(_))).collect();
+        let mut layers = layers.into_iter();
         let (mut starts, mut items) = (Vec::with_capacity(read.len()), Vec::with_capacity(read.len()));
         for ReadItem { line, context, said, .. } in read {
             let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
@@ -277,10 +292,15 @@ impl Document {
                     let Some((handle, id)) = planned.next() else { continue };
                     item.named = if read.handle.is_some() { Named::ByText } else { Named::ByOrdinal };
                     table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
-                    let Read { layer, kind, shape: Shape::Plain(geometry), vertices, .. } = read else { continue };
+                    let Read { layer, look, kind, shape: Shape::Plain(geometry), vertices, .. } = read else { continue };
+                    let on_layer = layer.clone();
                     let entity = Entity { handle, layer, role: None, kind, geometry };
                     let id = put(drawing, id, position, entity, &mut delta);
                     drawing.set_editable(id, !is_fitted(kind));
+                    let looks_new = set_look(drawing, id, look, &on_layer, &mut table.states);
+                    if looks_new && delta.touched.last() != Some(&Touched::Entity { entity: id }) {
+                        delta.touched.push(Touched::Entity { entity: id });
+                    }
                     drawing.set_straight(id, vertices.as_ref().is_some_and(|vertices| vertices.in_space));
                     position += 1;
                     item.became = Became::Entity(id);
@@ -292,6 +312,7 @@ impl Document {
                 }
                 Said::Entity(Outcome::Damaged) => item.became = Became::Damaged,
                 Said::Entity(Outcome::Unsupported(kind, why)) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
+                Said::Layer(_) => item.became = layers.next().unwrap_or(Became::Nothing),
                 other => item.became = other.structure().unwrap_or(Became::Nothing),
             }
             starts.push(line as u32);

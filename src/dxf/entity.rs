@@ -10,7 +10,7 @@ use super::number::{self, Code, Number};
 use super::shape::Shape;
 use super::strings::words_of_mtext;
 use super::{curve, insert};
-use crate::drawing::{Geometry, Vertex};
+use crate::drawing::{Color, Geometry, Vertex};
 use crate::finding::Finding;
 use crate::geometry::Point;
 use std::sync::Arc;
@@ -21,9 +21,26 @@ pub(super) struct Read {
     /// The handle, and the line it stands on.
     pub(super) handle: Option<(Arc<str>, usize)>,
     pub(super) layer: Arc<str>,
+    pub(super) look: Look,
     pub(super) kind: &'static str,
     pub(super) shape: Shape,
     pub(super) vertices: Option<VertexLines>,
+}
+
+/// What an entity says of how it looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Look {
+    pub(super) paint: Paint,
+    pub(super) invisible: bool,
+}
+
+/// Whence an entity has its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Paint {
+    ByLayer,
+    /// From the reference that draws it.
+    ByBlock,
+    Own(Color),
 }
 
 /// Where the vertices of a polyline stand.
@@ -69,6 +86,9 @@ pub(super) enum Plane {
 pub(super) struct Common {
     handle: Option<Tag>,
     layer: Option<Tag>,
+    color: Option<Tag>,
+    rgb: Option<Tag>,
+    invisible: bool,
     pub(super) paper_space: bool,
     extrusion: [Option<f64>; 3],
     /// A value was no number, a number was missing or the lines were out of step: there is a finding.
@@ -93,6 +113,9 @@ impl Common {
         match tag.code {
             5 => self.handle = Some(tag),
             8 => self.layer = Some(tag),
+            60 => self.invisible = lexer.lines.trimmed(tag.value_line()) == b"1",
+            62 => self.color = Some(tag),
+            420 => self.rgb = Some(tag),
             67 => self.paper_space = lexer.lines.trimmed(tag.value_line()) == b"1",
             210 | 220 | 230 => {
                 let value = self.coordinate(lexer, tag, findings);
@@ -187,6 +210,17 @@ impl Common {
         layers.name(self.layer.map_or(b"0", |tag| lexer.lines.trimmed(tag.value_line())))
     }
 
+    pub(super) fn look(&self, lexer: &Lexer) -> Look {
+        let rgb = self.rgb.and_then(|tag| Self::whole(lexer, tag)).and_then(|rgb| u32::try_from(rgb).ok());
+        let paint = match (rgb, self.color.and_then(|tag| Self::whole(lexer, tag))) {
+            (Some(rgb), _) => Paint::Own(Color::of_rgb(rgb)),
+            (None, Some(0)) => Paint::ByBlock,
+            (None, Some(index)) => u8::try_from(index).map_or(Paint::ByLayer, |index| Paint::Own(Color::Index(index))),
+            (None, None) => Paint::ByLayer,
+        };
+        Look { paint, invisible: self.invisible }
+    }
+
     /// Reads the handle and the layer, and puts the parts together.
     pub(super) fn finish(
         self,
@@ -197,7 +231,8 @@ impl Common {
         vertices: Option<VertexLines>,
         findings: &mut Vec<Finding>,
     ) -> Outcome {
-        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), kind, shape, vertices })
+        let look = self.look(lexer);
+        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), look, kind, shape, vertices })
     }
 }
 

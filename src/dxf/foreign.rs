@@ -6,7 +6,7 @@ pub(super) fn recognise(bytes: &[u8]) -> Option<&'static str> {
     let zeros = head.iter().filter(|&&byte| byte == 0).count();
     let known: [(&[u8], &str); 9] = [
         (b"AutoCAD Binary DXF", "the text is binary DXF, which an editor cannot keep: save it as ASCII DXF"),
-        (b"AutoCAD DXB", "the file is DXB, which is not read: save it as DXF"),
+        (b"AutoCAD DXB", "the text is DXB, which an editor cannot keep: save it as ASCII DXF"),
         (b"%PDF", "the file is a PDF, not DXF text"),
         (b"PK\x03\x04", "the file is a ZIP archive, not DXF text"),
         (b"\xff\xfe", "the text is UTF-16: save it as UTF-8"),

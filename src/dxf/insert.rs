@@ -1,6 +1,6 @@
 //! INSERT: which block it draws, where, how often and how it is stretched.
 
-use super::entity::{Common, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers};
+use super::entity::{Common, Look, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers};
 use super::fault::{damage, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
@@ -15,6 +15,7 @@ pub(super) struct Insert {
     /// The handle, and the line it stands on.
     pub(super) handle: Option<(Arc<str>, usize)>,
     pub(super) layer: Arc<str>,
+    pub(super) look: Look,
     /// The block's name as [`block_key`] has it.
     pub(super) block: String,
     /// The line of the block's name.
@@ -91,6 +92,7 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings:
         columns: (columns, seen(along * column_step.unwrap_or(0.0))),
         rows: (rows, seen(across * row_step.unwrap_or(0.0))),
         handle: common.handle(lexer, findings),
+        look: common.look(lexer),
         layer: common.layer(lexer, layers),
     };
     Outcome::Insert(Box::new(insert))

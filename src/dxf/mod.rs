@@ -11,12 +11,14 @@ mod blocks;
 mod change;
 mod code_page;
 mod curve;
+mod dxb;
 mod edit;
 mod entity;
 mod fault;
 mod foreign;
 mod insert;
 pub mod language;
+mod layer_table;
 mod layers;
 mod lexer;
 mod lines;
@@ -34,19 +36,21 @@ mod write;
 
 pub use write::write;
 
-use crate::drawing::{Drawing, Entity, EntityId, Unit};
+use crate::drawing::{Drawing, Entity, EntityId, Unit, Visibility};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use crate::text::SourceText;
 use blocks::{Blocks, Part};
 use code_page::CodePage;
-use entity::Outcome;
+use entity::{Look, Outcome, Paint};
 use insert::Insert;
+use layer_table::LayerStates;
 use layers::Layers;
 use lexer::Lexer;
 use lines::Lines;
 use reader::{ReadItem, Said, range_key, read_item};
 use shape::Shape;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use table::{Became, Context, Item, NO_ITEM, Named, Table};
 
@@ -60,14 +64,21 @@ pub struct Document {
     layers: Box<Layers>,
     sleeper: Option<Box<sleep::Sleeper>>,
     is_binary: bool,
+    /// How near arcs lie to the curves that they stand for, in mm; the default where none is set.
+    arc_fit: Option<f64>,
 }
 
 impl Document {
-    /// Reads a file: DXF text in the code page that it names, or binary DXF, which becomes text that says the same
+    /// Reads a file: DXF text in the code page that it names, or binary DXF or DXB, which become text that says the same
     /// (see [`Document::is_binary`]). Never fails: what is damaged is in [`Document::findings`].
     pub fn read_file(bytes: Vec<u8>) -> Document {
-        let is_binary = bytes.starts_with(binary::SENTINEL);
-        let (bytes, fault) = if is_binary { binary::to_text(&bytes) } else { (bytes, None) };
+        let (is_dxf, is_dxb) = (bytes.starts_with(binary::SENTINEL), bytes.starts_with(dxb::SENTINEL));
+        let is_binary = is_dxf || is_dxb;
+        let (bytes, fault) = match () {
+            () if is_dxf => binary::to_text(&bytes),
+            () if is_dxb => dxb::to_text(&bytes),
+            () => (bytes, None),
+        };
         let layers = Layers::in_code_page(CodePage::of_file(&bytes));
         let mut document = Document { layers: Box::new(layers), is_binary, ..Document::default() };
         document.take(bytes);
@@ -98,7 +109,20 @@ impl Document {
         &self.text
     }
 
-    /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF file says. It cannot be edited.
+    /// Says how near the arcs must lie to the ellipses and splines that they stand for, in mm. Where there are some and it is
+    /// something new, the text is read again: ids of entities may change.
+    pub fn set_arc_fit(&mut self, mm: f64) {
+        if self.arc_fit.unwrap_or(Tolerances::default().arc_fit) == mm {
+            return;
+        }
+        self.arc_fit = Some(mm);
+        if self.drawing.entities().any(|(_, entity)| is_fitted(entity.kind)) {
+            self.read_all();
+        }
+        self.table.fit_tolerance = fit_tolerance(self.arc_fit, self.drawing.unit);
+    }
+
+    /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF or DXB file says. It cannot be edited.
     pub fn is_binary(&self) -> bool {
         self.is_binary
     }
@@ -125,11 +149,13 @@ impl Document {
         }
         let mut reading = Reading::default();
         self.read_items(&mut reading);
-        if reading.early && !reading.blocks.is_empty() {
-            // Blocks that stand behind what refers to them.
+        if reading.early {
+            reading.states = std::mem::take(&mut self.table.states);
+            // Blocks, or parts of them, that stand behind what refers to them.
             self.findings.clear();
             *self.table = Table::default();
-            reading = Reading { known: Some(reading.blocks), ..Reading::default() };
+            self.table.states = std::mem::take(&mut reading.states);
+            reading = Reading { known: Some(reading.blocks.unasked()), ..Reading::default() };
             self.read_items(&mut reading);
         }
         let Reading { mut drawing, unit, any_record, blocks, known, .. } = reading;
@@ -155,11 +181,11 @@ impl Document {
     }
 
     fn read_items(&mut self, reading: &mut Reading) {
-        let Document { text, findings, table, layers, .. } = self;
+        let Document { text, findings, table, layers, arc_fit, .. } = self;
         let lines = Lines::new(text);
         let mut lexer = Lexer::new(lines, 0);
         let mut context = Context::Outside;
-        table.fit_tolerance = fit_tolerance(None);
+        table.fit_tolerance = fit_tolerance(*arc_fit, None);
         while let Some(read) = read_item(&mut lexer, context, table.fit_tolerance, layers, findings) {
             context = read.after;
             let ReadItem { line, context, said, .. } = read;
@@ -167,8 +193,19 @@ impl Document {
             let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
             match said {
                 Said::Nothing => {}
+                Said::Layer(entry) => {
+                    // What stands before its layer is read again.
+                    reading.early |= reading.known.is_none() && !reading.drawing.is_empty() && entry.visibility != Visibility::Shown;
+                    table.states.enter(&entry);
+                    if let Some(color) = entry.color {
+                        reading.drawing.set_layer_color(&entry.name, color);
+                    }
+                    item.became = Became::Layer(table.layers.len() as u32);
+                    table.layers.push(entry);
+                }
                 Said::Block => {
                     item.became = Became::Block;
+                    reading.early |= reading.known.is_none() && reading.refers;
                     reading.blocks.begin(&lexer, line);
                 }
                 Said::Structure { entities, unit: stated } => {
@@ -176,7 +213,7 @@ impl Document {
                     reading.unit = stated.or(reading.unit);
                     // One tolerance for all entities, also for those that are read again.
                     if table.sections == 0 {
-                        table.fit_tolerance = fit_tolerance(reading.unit.and_then(unit_of));
+                        table.fit_tolerance = fit_tolerance(*arc_fit, reading.unit.and_then(unit_of));
                     }
                     table.sections += usize::from(entities);
                     if entities && table.sections > 1 {
@@ -189,15 +226,20 @@ impl Document {
                     match outcome {
                         Outcome::Damaged => item.became = Became::Damaged,
                         Outcome::Unsupported(kind, why) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
-                        outcome if context == Context::Blocks => reading.blocks.add(outcome),
+                        outcome if context == Context::Blocks => {
+                            reading.early |= reading.known.is_none() && reading.refers;
+                            reading.blocks.add(outcome);
+                        }
                         Outcome::Insert(insert) => reading.push_reference(&insert, line, &mut item, table, findings, lines),
                         Outcome::Entity(read) => {
                             if let Shape::Plain(geometry) = read.shape {
+                                let layer = read.layer.clone();
                                 let entity = Entity { handle: "".into(), layer: read.layer, role: None, kind: read.kind, geometry };
                                 let id = reading.push_entity(entity, read.handle, line, &mut item, table, findings, lines);
                                 if is_fitted(read.kind) {
                                     reading.drawing.set_editable(id, false);
                                 }
+                                set_look(&mut reading.drawing, id, read.look, &layer, &mut table.states);
                                 item.became = Became::Entity(id);
                                 if let Some(vertices) = read.vertices {
                                     reading.drawing.set_straight(id, vertices.in_space);
@@ -247,7 +289,49 @@ impl Document {
                 related: Vec::new(),
             });
         }
+        self.name_unseen();
         self.findings.sort_by_key(range_key);
+    }
+
+    /// One finding for each layer that is not simply shown and has something drawn on it, at its entry; one for all that is
+    /// invisible by itself, at the first of it.
+    fn name_unseen(&mut self) {
+        let mut by_reason: BTreeMap<(Visibility, Arc<str>), (usize, u64, EntityId)> = BTreeMap::new();
+        for (id, visibility, layer) in self.drawing.unseen() {
+            if self.drawing.get(id).is_some_and(|entity| entity.geometry.segment_count() > 0) {
+                let layer = if visibility == Visibility::Invisible { "".into() } else { layer.clone() };
+                let rank = self.drawing.rank(id);
+                let (count, first, at) = by_reason.entry((visibility, layer)).or_insert((0, rank, id));
+                *count += 1;
+                if rank < *first {
+                    (*first, *at) = (rank, id);
+                }
+            }
+        }
+        for ((visibility, layer), (count, _, first)) in by_reason {
+            let range = self.entry_of(&layer).unwrap_or_else(|| self.range_of(&Place::Entity { entity: first }));
+            self.findings.push(Finding {
+                rule: Rule::UnsupportedEntity,
+                severity: Severity::Information,
+                place: Place::Text { range },
+                detail: Detail::Unseen { layer, visibility, count },
+                related: Vec::new(),
+            });
+        }
+    }
+
+    /// Where the name of a layer stands in the table LAYER.
+    fn entry_of(&self, layer: &str) -> Option<std::ops::Range<usize>> {
+        let is_it = |became: Became| match became {
+            Became::Layer(index) => {
+                self.table.layers.get(index as usize).is_some_and(|entry| entry.name.to_lowercase() == layer.to_lowercase())
+            }
+            _ => false,
+        };
+        let item = self.table.items.iter().position(|item| is_it(item.became))?;
+        let lines = Lines::new(&self.text);
+        let name = place::own_tags(lines, self.table.lines_of(item, lines.count())).filter(|tag| tag.code == 2).last()?;
+        Some(lines.trimmed_range(name.value_line()))
     }
 
     /// Makes the document one without a drawing and with one finding.
@@ -270,7 +354,11 @@ struct Reading {
     blocks: Blocks,
     /// The blocks of the file, when they are known from an earlier reading.
     known: Option<Blocks>,
-    /// A block was asked for before any block was read.
+    /// What is known of the layers once all has been read.
+    states: LayerStates,
+    /// Something in the modelspace refers to a block.
+    refers: bool,
+    /// A block was asked for before all blocks were read: what it draws is not known yet.
     early: bool,
 }
 
@@ -312,9 +400,13 @@ impl Reading {
         findings: &mut Vec<Finding>,
         lines: Lines,
     ) {
-        self.early |= self.known.is_none() && self.blocks.is_empty();
+        self.refers = true;
+        if self.early {
+            // All is read again.
+            return;
+        }
         let blocks = self.known.as_mut().unwrap_or(&mut self.blocks);
-        let parts = match blocks.resolve(insert, table.fit_tolerance) {
+        let parts = match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
             Ok(parts) => parts,
             Err(sentence) => {
                 item.became = Became::Damaged;
@@ -323,7 +415,7 @@ impl Reading {
         };
         let mut ids = EntityId(0)..EntityId(0);
         let mut name: Option<Arc<str>> = None;
-        for Part { layer, kind, geometry } in parts {
+        for Part { layer, visibility, color, kind, geometry } in parts {
             let entity = Entity { handle: "".into(), layer, role: None, kind, geometry };
             let id = match &name {
                 Some(handle) => self.drawing.push_part(Entity { handle: handle.clone(), ..entity }),
@@ -335,10 +427,23 @@ impl Reading {
                 }
             };
             table.set_item_of(id, table.items.len() as u32);
+            self.drawing.set_visibility(id, visibility.0, &visibility.1);
+            self.drawing.set_color(id, color);
             ids.end = EntityId(id.0 + 1);
         }
         item.became = Became::Parts { first: ids.start, count: ids.end.0 - ids.start.0 };
     }
+}
+
+/// Takes note of how an entity looks. True when that is something new.
+fn set_look(drawing: &mut Drawing, id: EntityId, look: Look, layer: &Arc<str>, states: &mut LayerStates) -> bool {
+    let visibility = if look.invisible { Visibility::Invisible } else { states.of(layer) };
+    let color = match look.paint {
+        Paint::Own(color) => Some(color),
+        Paint::ByLayer | Paint::ByBlock => None,
+    };
+    let seen_otherwise = drawing.set_visibility(id, visibility, layer);
+    drawing.set_color(id, color) | seen_otherwise
 }
 
 /// Kinds that become arcs within a tolerance.
@@ -347,8 +452,8 @@ fn is_fitted(kind: &str) -> bool {
 }
 
 /// The setting for fitted arcs in drawing units. A drawing that does not say its unit may be taken for inches.
-fn fit_tolerance(unit: Option<Unit>) -> f64 {
-    Tolerances::default().in_units(unit.unwrap_or(Unit::INCH).mm).arc_fit
+fn fit_tolerance(arc_fit: Option<f64>, unit: Option<Unit>) -> f64 {
+    arc_fit.unwrap_or(Tolerances::default().arc_fit) / unit.unwrap_or(Unit::INCH).mm
 }
 
 /// The unit that a value of `$INSUNITS` stands for (DXF reference, HEADER section); `None` where it is no length.

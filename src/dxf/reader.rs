@@ -2,6 +2,7 @@
 
 use super::entity::{self, OUTSIDE, Outcome};
 use super::fault::{self, damage, oddity, quoted};
+use super::layer_table::{self, LayerEntry};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::lines::BYTE_ORDER_MARK;
@@ -23,6 +24,8 @@ pub(super) enum Said {
     Entity(Outcome),
     /// A block of the drawing begins.
     Block,
+    /// An entry of the table LAYER.
+    Layer(LayerEntry),
 }
 
 impl Said {
@@ -113,6 +116,11 @@ pub(super) fn read_item(
         (Context::Entities, _) => {
             let outcome = entity::read(start, lexer, layers, findings);
             item(Said::Entity(drawn(outcome, start, lexer, tolerance, findings)), context)
+        }
+        (Context::Other, b"LAYER") => {
+            entity::pass_over(lexer, findings);
+            let entry = layer_table::read(lexer.lines, line..lexer.at(), |name| layers.name(name));
+            item(entry.map_or(Said::Nothing, Said::Layer), context)
         }
         (Context::Other, _) => {
             entity::pass_over(lexer, findings);

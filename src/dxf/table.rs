@@ -1,6 +1,7 @@
 //! The records of the text in their order: where each begins, and what it became.
 
 use super::entity::VertexLines;
+use super::layer_table::{LayerEntry, LayerStates};
 use crate::drawing::EntityId;
 use rustc_hash::FxHashMap;
 
@@ -33,6 +34,8 @@ pub(super) enum Became {
     },
     /// A block begins.
     Block,
+    /// An entry of the table LAYER, by its index in [`Table::layers`].
+    Layer(u32),
     /// An entity that is not cut, by its index in [`Kinds`].
     Unsupported(u32),
     /// An entity with a fault.
@@ -120,6 +123,8 @@ pub(super) struct Table {
     pub(super) item_of: Vec<u32>,
     pub(super) vertices: FxHashMap<EntityId, VertexLines>,
     pub(super) kinds: Kinds,
+    pub(super) layers: Vec<LayerEntry>,
+    pub(super) states: LayerStates,
     /// Entities that are named by their ordinal, and that were named anew.
     pub(super) by_ordinal: usize,
     pub(super) named_anew: usize,

@@ -3,5 +3,6 @@
 mod blocks;
 mod editing;
 mod faults;
-mod reading;
+mod layers;
+pub(super) mod reading;
 mod writing;

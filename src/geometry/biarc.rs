@@ -53,7 +53,8 @@ pub fn fit(curve: &impl Curve, tolerance: f64) -> Chain {
             }
             match biarc(curve, piece, from, to, tolerance) {
                 Some(arcs) => chain.extend(arcs),
-                None if depth < HALVINGS => {
+                // Where the curve stands still, halves of it do so, too.
+                None if depth < HALVINGS && !is_tiny(curve, piece, (from, to), tolerance * SAME_CIRCLE) => {
                     let middle = from + (to - from) * 0.5;
                     open.push((middle, to, depth + 1));
                     open.push((from, middle, depth + 1));
@@ -68,6 +69,12 @@ pub fn fit(curve: &impl Curve, tolerance: f64) -> Chain {
     let Some(last) = last.filter(|_| !chain.is_empty()) else { return Vec::new() };
     chain.push((last, 0.0));
     merged(chain, tolerance * SAME_CIRCLE)
+}
+
+/// True where a part of a piece stays within `least` of where it begins.
+fn is_tiny(curve: &impl Curve, piece: usize, (from, to): (f64, f64), least: f64) -> bool {
+    let start = curve.at(piece, from).0;
+    (1..=SAMPLES).all(|sample| (curve.at(piece, from + (to - from) * (sample as f64 / SAMPLES as f64)).0 - start).norm() <= least)
 }
 
 /// Two arcs for a part of a piece, `None` where they are not near enough.
@@ -252,6 +259,17 @@ mod tests {
         let line = vec![Point::new(0.0, 0.0), Point::new(1.0, 1.0), Point::new(2.0, 2.0), Point::new(4.0, 4.0)];
         let spline = Spline::new(3, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], line, Vec::new()).unwrap();
         assert_eq!(fit(&SplineCurve::from(&spline), 1e-3), [(Point::new(0.0, 0.0), 0.0), (Point::new(4.0, 4.0), 0.0)]);
+    }
+
+    #[test]
+    fn a_curve_that_stands_still_on_its_way_has_no_tiny_pieces() {
+        // Four control points in one place: a whole span of the cubic is one point.
+        let points = [(0.0, 0.0), (1.0, 3.0), (5.0, 1.0), (5.0, 1.0), (5.0, 1.0), (5.0, 1.0), (9.0, 3.0), (10.0, 0.0)];
+        let points = points.map(|(x, y)| Point::new(x, y)).to_vec();
+        let knots = [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 5.0, 5.0, 5.0].to_vec();
+        let spline = Spline::new(3, knots, points, Vec::new()).unwrap();
+        let fitted = segments(&fit(&SplineCurve::from(&spline), 1e-3));
+        assert!(fitted.len() < 200 && fitted.iter().all(|segment| segment.length() > 0.0), "{}", fitted.len());
     }
 
     #[test]

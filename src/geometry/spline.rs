@@ -99,6 +99,34 @@ impl Spline {
         Spline::new(3, knots, controls, Vec::new()).ok()
     }
 
+    /// The closed cubic spline through `points`: as [`Spline::through`], but its curvature is continuous also where it begins.
+    /// The first point need not be repeated. `None` for less than three different points.
+    pub fn round(points: &[Point]) -> Option<Spline> {
+        let mut round: Vec<Point> = points.to_vec();
+        round.dedup();
+        while round.len() > 1 && round.first() == round.last() {
+            round.pop();
+        }
+        let count = round.len();
+        if count < 3 {
+            return None;
+        }
+        // What a point is bent by falls to a quarter with each point between: behind so many on both sides nothing is left of how
+        // the ends of the longer curve are bent.
+        const BEHIND: usize = 30;
+        let longer: Vec<Point> = (0..count + 1 + 2 * BEHIND).map(|at| round[(at + count * BEHIND - BEHIND) % count]).collect();
+        let longer = Spline::through(&longer, None, None)?;
+        let (from, to) = (BEHIND, BEHIND + count);
+        let knot = |point: usize| longer.knots.get(4 + 3 * point - 3).copied();
+        let start = knot(from)?;
+        let mut knots = vec![0.0; 4];
+        for point in from + 1..=to {
+            knots.extend([knot(point)? - start; 3]);
+        }
+        knots.push(knot(to)? - start);
+        Spline::new(3, knots, longer.points.get(3 * from..=3 * to)?.to_vec(), Vec::new()).ok()
+    }
+
     /// Number of its control points.
     pub fn point_count(&self) -> usize {
         self.points.len()

@@ -1,5 +1,6 @@
 //! English.
 
+use crate::drawing::Visibility;
 use crate::finding::{Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
@@ -8,6 +9,7 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
         Detail::SmallRadius(numbers) => small_radius(numbers, unit_mm),
         Detail::UnsupportedEntity { kind, count: 1, why } => format!("{kind} is not cut: {why}"),
         Detail::UnsupportedEntity { kind, count, why } => format!("{kind} ({count} of them) is not cut: {why}"),
+        Detail::Unseen { layer, visibility, count } => unseen(layer, *visibility, *count),
         Detail::SharpCorner { turn, radius, uncut, count: None } => format!(
             "corner of {:.1}° is left with R {} mm: {} mm of it stay uncut",
             turn.abs().to_degrees(),
@@ -47,15 +49,28 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
                 if *touches { "touches itself or another" } else { "crosses itself or another" }
             )
         }
-        Detail::ArcAsChords { chords, radius, deviation, .. } => format!(
-            "{chords} chords lie on one arc of R {} mm, within {} mm: the wire leaves facets",
-            mm(radius * unit_mm),
-            mm(deviation * unit_mm)
-        ),
+        Detail::ArcAsChords { chords, radius, deviation, .. } => {
+            // Less than a nanometre is rounding.
+            let within = if deviation * unit_mm < 1e-6 { String::new() } else { format!(", within {} mm", mm(deviation * unit_mm)) };
+            format!("{chords} chords lie on one arc of R {} mm{within}: the wire leaves facets", mm(radius * unit_mm))
+        }
         Detail::Iso(fault) => iso(fault),
         Detail::Program(fault) => program(fault),
         Detail::More { count } => format!("{count} more findings are not shown"),
         Detail::LeadIn(sentence) | Detail::Units(sentence) | Detail::Syntax(sentence) | Detail::Settings(sentence) => sentence.clone(),
+    }
+}
+
+fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
+    let (entities, are) = if count == 1 { ("1 entity".to_string(), "is") } else { (format!("{count} entities"), "are") };
+    let of_layer = |what: &str| format!("layer {layer} is {what}: {entities} on it {are} not cut, unless the layer has a role ([layers])");
+    match visibility {
+        Visibility::Frozen => of_layer("frozen"),
+        Visibility::Off => of_layer("switched off"),
+        Visibility::Invisible => format!("{entities} {are} invisible (group code 60): not cut"),
+        Visibility::Unplotted | Visibility::Shown => {
+            format!("layer {layer} is not plotted: {entities} on it {are} cut all the same, unless its role is ignore ([layers])")
+        }
     }
 }
 

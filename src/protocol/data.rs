@@ -116,7 +116,7 @@ impl FindingData {
                 data.kind = Some(kind.clone());
                 data.count = Some(*count);
             }
-            Detail::More { count } => data.count = Some(*count),
+            Detail::Unseen { count, .. } | Detail::More { count } => data.count = Some(*count),
             Detail::SharpCorner { turn, radius, uncut, count } => {
                 data.turn = Some(turn.to_degrees());
                 data.radius = Some(*radius);

@@ -24,6 +24,8 @@ pub struct InspectedEntity {
     pub r#type: String,
     pub layer: String,
     pub closed: bool,
+    /// False where it is no part of a contour: its layer is frozen or switched off, or its role is `ignore`.
+    pub cut: bool,
     pub segments: Vec<InspectedSegment>,
 }
 
@@ -44,12 +46,20 @@ impl Inspection {
         let drawing = document.drawing()?;
         let unit = document.settings().unit_of(drawing);
         let zero_length = document.settings().tolerances.in_units(unit.mm).zero_length;
-        Some(Inspection::new(drawing, unit.mm, zero_length, &findings, handle))
+        let is_cut = |id| crate::analysis::is_cut(drawing, document.settings(), id);
+        Some(Inspection::new(drawing, unit.mm, zero_length, &findings, &is_cut, handle))
     }
 
     /// The list of all of `drawing`, or of the entity `handle`. `findings` are all of the drawing's; a segment shorter
     /// than `zero_length` (drawing units) is left out, its neighbours keep their index.
-    pub fn new(drawing: &Drawing, unit_mm: f64, zero_length: f64, findings: &[Finding], handle: Option<&str>) -> Inspection {
+    pub fn new(
+        drawing: &Drawing,
+        unit_mm: f64,
+        zero_length: f64,
+        findings: &[Finding],
+        is_cut: &dyn Fn(EntityId) -> bool,
+        handle: Option<&str>,
+    ) -> Inspection {
         let mut rules: FxHashMap<(EntityId, usize), Vec<&'static str>> = FxHashMap::default();
         for finding in findings.iter().filter(|finding| finding.severity <= Severity::Warning) {
             if let Place::Segment { entity, segment } = finding.place {
@@ -75,6 +85,7 @@ impl Inspection {
             r#type: entity.kind.into(),
             layer: entity.layer.to_string(),
             closed: entity.geometry.is_closed(),
+            cut: is_cut(id),
             segments: segments_of(id, entity),
         });
         Inspection { units_to_mm: unit_mm, entities: entities.collect() }

@@ -9,7 +9,7 @@
 use super::{Fact, LocalRule, Outlook};
 use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry, Vertex};
 use crate::finding::{Detail, Fix, FixKind, Rule};
-use crate::geometry::{Arc, Point, Segment, cross, left_normal, line_line, positive_angle};
+use crate::geometry::{Arc, Line, Point, Segment, cross, left_normal, line_line, positive_angle};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -91,33 +91,51 @@ fn window_fits(outlook: &Outlook, first: isize) -> bool {
 }
 
 fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
-    if outlook.contour.len() < LEAST {
-        return;
+    // From the segment before the range on.
+    let fits = windows(outlook, range.start as isize - 1..range.end as isize);
+    for (index, pair) in range.zip(fits.windows(2)) {
+        // A round of nothing but chords has no beginning: it may be given one at the first segment.
+        if pair[1] && (!pair[0] || (outlook.contour.closed && index == 0)) {
+            facts.push(Fact { index: index as u32, side: None, needs_side: false });
+        }
     }
-    // Lines from the segment before the range on, `None` for what is no line.
-    let from = range.start as isize - 1;
+}
+
+/// Whether [`LEAST`] chords of one circle follow each other from each of some segments on.
+fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
+    if outlook.contour.len() < LEAST {
+        return vec![false; starts.len()];
+    }
+    // `None` for what is no line.
     let line = |index: isize| match outlook.segment(index)?.geometry {
         Segment::Line(line) => Some(line),
         Segment::Arc(_) => None,
     };
-    let lines: Vec<_> = (from..(range.end + LEAST) as isize - 1).map(line).collect();
+    let lines: Vec<_> = (starts.start..starts.end + LEAST as isize - 1).map(line).collect();
     let mut points = [Point::origin(); LEAST + 1];
-    let mut fits = |at: usize| {
-        for (chord, slot) in lines.get(at..at + LEAST).unwrap_or_default().iter().enumerate() {
+    let fits = |window: &[Option<Line>]| {
+        for (chord, slot) in window.iter().enumerate() {
             let Some(line) = slot else { return false };
             (points[chord], points[chord + 1]) = (line.start, line.end);
         }
-        at + LEAST <= lines.len() && fit(&points, outlook.limits.tolerances.chords).is_some()
+        fit(&points, outlook.limits.tolerances.chords).is_some()
     };
-    let mut before = fits(0);
-    for index in range {
-        let here = fits((index as isize - from) as usize);
-        // A round of nothing but chords has no beginning: it may be given one at the first segment.
-        if here && (!before || (outlook.contour.closed && index == 0)) {
-            facts.push(Fact { index: index as u32, side: None, needs_side: false });
-        }
-        before = here;
-    }
+    lines.windows(LEAST).map(fits).collect()
+}
+
+/// For each of some segments: whether the corner where it begins is one between chords that are told as an arc.
+pub fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<bool> {
+    // The chord before the corner and the one behind it lie in one window.
+    let starts = range.start as isize - (LEAST as isize - 1)..range.end as isize - 1;
+    windows(outlook, starts).windows(LEAST - 1).map(|windows| windows.contains(&true)).collect()
+}
+
+/// What is told of a corner may depend on so many segments before and behind it.
+pub const REACH: usize = LEAST;
+
+/// Corners that turn by more (radians) are none between chords.
+pub fn steepest() -> f64 {
+    STEEPEST.atan()
 }
 
 /// At the first segment of a closed contour: whether the sequence begins there, or is one that has no beginning.

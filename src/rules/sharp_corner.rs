@@ -1,8 +1,9 @@
 //! `sharp-corner`: a corner that the wire runs inside of.
 //!
 //! A round wire leaves at least its own radius and the spark gap there, whatever was drawn. Fix: a fillet of that radius,
-//! so that the drawing says what comes off the machine.
+//! so that the drawing says what comes off the machine. Corners between chords that `arc-as-chords` takes for an arc are none.
 
+use super::arc_as_chords::{self, are_between_chords};
 use super::small_radius::{Travel, fillet};
 use super::{Fact, LocalRule, Outlook};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
@@ -11,7 +12,7 @@ use std::ops::Range;
 pub const RULE: LocalRule = LocalRule {
     rule: Rule::SharpCorner,
     look,
-    reach: |_, _| (0, 1),
+    reach: |_, _| (arc_as_chords::REACH, arc_as_chords::REACH),
     holds: |_, _| true,
     related: |_, _| Vec::new(),
     detail,
@@ -31,10 +32,17 @@ pub fn inner_side(turn: f64) -> Option<Side> {
 }
 
 fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
-    for index in range {
+    // Asked only where some corner is flat enough.
+    let mut between: Option<Vec<bool>> = None;
+    let (first, steepest) = (range.start, arc_as_chords::steepest());
+    for index in range.clone() {
         if let Some(turn) = outlook.turn_at(index)
             && let Some(side) = inner_side(turn)
         {
+            let mut is_between = || between.get_or_insert_with(|| are_between_chords(outlook, range.clone())).get(index - first).copied();
+            if turn.abs() <= steepest && is_between().unwrap_or(false) {
+                continue;
+            }
             facts.push(Fact { index: index as u32, side: Some(side), needs_side: turn.abs() < CLEAR });
         }
     }

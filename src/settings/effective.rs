@@ -2,7 +2,7 @@
 
 use super::profile::DEFAULT_PROFILE;
 use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting};
-use crate::drawing::{Role, Unit};
+use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,6 +20,7 @@ pub struct Effective {
     pub unit: Unit,
     pub margin: f64,
     pub layers: BTreeMap<String, Role>,
+    pub colors: BTreeMap<Color, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,
     /// The rules whose severity somebody has set.
     pub stated: BTreeSet<Rule>,
@@ -76,6 +77,7 @@ impl Effective {
             },
             margin: settings.margin.unwrap_or(0.001),
             layers: settings.layers.clone().unwrap_or_default(),
+            colors: settings.colors.iter().flatten().filter_map(|(name, role)| Some((Color::named(name)?, *role))).collect(),
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             layout: program.layout.unwrap_or_default(),
@@ -90,7 +92,7 @@ impl Effective {
             profile: Profile::of(program.profile.as_deref().unwrap_or(DEFAULT_PROFILE), settings.profiles.as_ref()),
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),
-            tolerances: Tolerances::default(),
+            tolerances: Tolerances { arc_fit: settings.arc_fit.unwrap_or(Tolerances::default().arc_fit), ..Tolerances::default() },
         }
     }
 

@@ -197,6 +197,13 @@ pub struct Settings {
     /// Role by layer name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layers: Option<BTreeMap<String, Role>>,
+    /// Role by colour, where neither entity nor layer has one: `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255`
+    /// (AutoCAD colour index) or `#rrggbb`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colors: Option<BTreeMap<String, Role>>,
+    /// How near the arcs lie to the ellipses and splines that they stand for, in mm.
+    #[serde(skip_serializing_if = "Option::is_none", alias = "arc-fit")]
+    pub arc_fit: Option<f64>,
     /// Severity by rule name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rules: Option<BTreeMap<String, RuleSeverity>>,
@@ -227,6 +234,8 @@ impl Settings {
             margin: later.margin.or(earlier.margin),
             passes: later.passes.clone().or(earlier.passes),
             layers: merged(earlier.layers, later.layers.clone()),
+            colors: merged(earlier.colors, later.colors.clone()),
+            arc_fit: later.arc_fit.or(earlier.arc_fit),
             rules: merged(earlier.rules, later.rules.clone()),
             program: match (earlier.program, &later.program) {
                 (Some(earlier), Some(later)) => Some(earlier.overlaid(later)),

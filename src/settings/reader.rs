@@ -3,7 +3,7 @@
 use super::profile::DECIMALS;
 use super::value::{Entry, Node, Value};
 use super::{Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings, SettingsError, shipped_profiles};
-use crate::drawing::Role;
+use crate::drawing::{Color, Role};
 use crate::finding::Rule;
 use serde::de::value::{Error, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
@@ -34,13 +34,15 @@ impl Reader {
                 "margin" => settings.margin = reader.number_from_zero(key, node),
                 "passes" => settings.passes = reader.passes(key, node),
                 "layers" => settings.layers = reader.layers(key, node),
+                "colors" => settings.colors = reader.colors(key, node),
+                "arcFit" => settings.arc_fit = reader.arc_fit(key, node),
                 "rules" => settings.rules = reader.rules(key, node),
                 "program" => settings.program = reader.program(key, node),
                 "profiles" => settings.profiles = reader.profiles(key, node),
                 _ => reader.unknown(
                     key,
                     entry,
-                    "correction, wire-diameter, gap, side, units, margin, passes, layers, rules, program or profiles",
+                    "correction, wire-diameter, gap, side, units, margin, passes, layers, colors, arc-fit, rules, program or profiles",
                 ),
             }
         });
@@ -100,6 +102,24 @@ impl Reader {
             }
         })
         .then_some(layers)
+    }
+
+    fn colors(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
+        let mut colors = BTreeMap::new();
+        self.table(key, node, |reader, key, entry| {
+            if Color::named(&entry.key).is_none() {
+                let expected = "red, yellow, green, cyan, blue, magenta, white, a number from 1 to 255 or #rrggbb";
+                reader.unknown(key, entry, expected);
+            } else if let Some(role) = reader.name(key, &entry.node) {
+                colors.insert(entry.key.clone(), role);
+            }
+        })
+        .then_some(colors)
+    }
+
+    /// Coarser than a tenth of a millimetre is no arc of the drawing any more, finer than a nanometre is noise.
+    fn arc_fit(&mut self, key: &str, node: &Node) -> Option<f64> {
+        self.number(key, node, "a number from 0.000001 to 0.1", |number| (1e-6..=0.1).contains(&number))
     }
 
     fn rules(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, RuleSeverity>> {
@@ -381,10 +401,14 @@ gap = 0.01
 side = "opening"
 units = "inch"
 margin = 0
+arc-fit = 0.002
 [passes]
 corrections = [0.175, 0.146, 0.140]
 [layers]
 "DIE" = "opening"
+[colors]
+red = "punch"
+30 = "ignore"
 [rules]
 small-radius = "hint"
 units = "off"
@@ -404,6 +428,7 @@ end = "DD"
         assert_eq!(settings.passes.unwrap().corrections, Some(vec![0.175, 0.146, 0.140]));
         assert_eq!(settings.layers.unwrap()["DIE"], Role::Opening);
         assert_eq!(settings.rules.unwrap()["units"], RuleSeverity::Off);
+        assert_eq!((settings.colors.unwrap()["red"], settings.arc_fit), (Role::Punch, Some(0.002)));
         assert_eq!((program.layout, program.corner), (Some(Layout::Checking), Some(Corner::Intersection)));
         assert_eq!(program.thread, Some(PointSetting::One([115.0, -10.0])));
         assert_eq!(program.entry, Some(PointSetting::ByHandle([("2A".to_string(), [105.0, -10.0])].into())));
@@ -426,6 +451,8 @@ end = "DD"
         check("correction = \"0.1\"", "\"0.1\"", "correction is \"0.1\", expected a number above 0");
         check("gap = -0.1", "-0.1", "gap is -0.1, expected a number of 0 or above");
         check("side = \"left\"", "\"left\"", "side is \"left\", expected one of both, auto, opening, punch");
+        check("arc-fit = 0", "0", "arc-fit is 0, expected a number from 0.000001 to 0.1");
+        check("colors = { pink = \"punch\" }", "pink", "colors.pink is not known, expected red,");
         check("corection = 1", "corection", "corection is not known, expected correction,");
         check("passes = { corrections = [0.1, 0] }", "0", "passes.corrections[1] is 0, expected a number above 0");
         check("passes = { corrections = [] }", "[]", "passes.corrections is empty");

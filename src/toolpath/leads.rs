@@ -69,7 +69,8 @@ struct Mark {
 
 /// Every text "O", with the contour that it marks.
 fn marks(drawing: &Drawing, outlines: &[Outline]) -> Vec<Mark> {
-    let texts = drawing.entities().filter_map(|(_, entity)| match &entity.geometry {
+    let seen = drawing.entities().filter(|(id, _)| drawing.visibility(*id).is_seen());
+    let texts = seen.filter_map(|(_, entity)| match &entity.geometry {
         Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
         _ => None,
     });

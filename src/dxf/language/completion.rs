@@ -3,6 +3,9 @@
 use super::codes::{self, SECTIONS, TABLES};
 use super::spot::{Spot, section_of, spot, text_of};
 use crate::dxf::Document;
+use crate::dxf::lines::Lines;
+use crate::dxf::place::own_tags;
+use crate::dxf::table::{Became, Item};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -46,6 +49,7 @@ pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
                     spot.item.checked_sub(1).and_then(|item| section_of(document, item)).map_or_else(String::new, |(name, _)| name);
                 codes::records_of(&section).iter().map(|(name, about)| ((*name).into(), *about, CompletionKind::Record)).collect()
             }
+            (2, "INSERT") => blocks(document).into_iter().map(|name| (name, "block of the drawing", CompletionKind::Name)).collect(),
             (8, _) => layers(document).into_iter().map(|name| (name, "layer of the drawing", CompletionKind::Name)).collect(),
             (2, "SECTION") => SECTIONS.iter().map(|name| ((*name).into(), "section", CompletionKind::Name)).collect(),
             (2, "TABLE") => TABLES.iter().map(|name| ((*name).into(), "table", CompletionKind::Name)).collect(),
@@ -76,8 +80,20 @@ fn codes_after(spot: &Spot<'_>, record: &str, section: &str) -> Vec<(String, &'s
     list.into_iter().map(|(code, about, _)| (code.to_string(), about, CompletionKind::Code)).collect()
 }
 
+/// Names of blocks that somebody may mean: not those of layouts and of what programs make for themselves.
+fn blocks(document: &Document) -> BTreeSet<String> {
+    let lines = Lines::new(&document.text);
+    let items = document.table.items.iter().enumerate().filter(|(_, item)| item.became == Became::Block);
+    let name = |(item, _): (usize, &Item)| {
+        let name = own_tags(lines, document.table.lines_of(item, lines.count())).filter(|tag| tag.code == 2).last()?;
+        Some(text_of(lines.trimmed(name.value_line())))
+    };
+    items.filter_map(name).filter(|name| !name.is_empty() && !name.starts_with('*')).take(NAMES).collect()
+}
+
 fn layers(document: &Document) -> BTreeSet<String> {
     let mut found: BTreeSet<String> = BTreeSet::new();
+    found.extend(document.table.layers.iter().take(NAMES).map(|entry| entry.name.to_string()));
     let mut last: Option<&str> = None;
     for (_, entity) in document.drawing.entities() {
         // Entities of one layer mostly stand together.

@@ -127,3 +127,19 @@ fn blocks_that_follow_their_references_are_found() {
     assert_eq!(entities(&turned), entities(&read));
     assert!(turned.findings().is_empty());
 }
+
+#[test]
+fn a_block_that_grows_behind_what_refers_to_it_is_drawn_whole() {
+    let insert = "0 SECTION 2 ENTITIES 0 INSERT 5 A 8 P 2 B 10 0 20 0 0 ENDSEC ";
+    let block = "0 SECTION 2 BLOCKS 0 BLOCK 2 B 10 0 20 0 0 LINE 8 0 10 0 20 0 11 1 21 1 0 ENDSEC ";
+    let text = |more: &str| {
+        let tags = format!("{block}{insert}0 SECTION 2 BLOCKS {more} 0 ENDSEC {} 0 EOF", insert.replace("5 A", "5 C"));
+        tags.split_whitespace().map(|tag| format!("{tag}\n")).collect::<String>()
+    };
+    let document = Document::read(text("0 CIRCLE 8 0 10 1 20 0 40 1").into_bytes());
+    assert_eq!(entities(&document).len(), 4, "{:?}", entities(&document));
+    // It came to hold itself, after its size had been found.
+    let document = Document::read(text("0 INSERT 8 0 2 B 10 0 20 0").into_bytes());
+    assert!(entities(&document).is_empty());
+    assert_eq!(findings(&document).iter().filter(|finding| finding.contains("holds itself")).count(), 2);
+}

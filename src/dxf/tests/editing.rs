@@ -1,6 +1,7 @@
 //! After any edits a document equals a fresh reading of its text; a drawing's edit does in the text what it does in the drawing.
 
 use super::blocks::with_blocks;
+use super::layers::with_layers;
 use super::reading::dxf;
 use crate::drawing::{EntityId, Touched};
 use crate::dxf::Document;
@@ -12,7 +13,12 @@ fn all_of(document: &Document) -> String {
     let drawing = document.drawing();
     let mut all = format!("{:?}\n", drawing.unit);
     for (order, (id, entity)) in drawing.entities().enumerate() {
-        all += &format!("{order} {entity:?} at {:?}\n", document.range_of(&Place::Entity { entity: id }));
+        all += &format!(
+            "{order} {entity:?} {:?} {:?} at {:?}\n",
+            drawing.visibility(id),
+            drawing.color(id),
+            document.range_of(&Place::Entity { entity: id })
+        );
         for segment in 0..entity.geometry.segment_count() {
             let range = document.range_of(&Place::Segment { entity: id, segment });
             let order_of = |id: EntityId| drawing.order().iter().position(|&other| other == id);
@@ -81,6 +87,9 @@ const REFERENCES: &str = "0 LINE 5 A1 10 1 20 2 11 3 21 4 0 INSERT 5 A2 8 P 2 B 
      0 ELLIPSE 5 A7 8 X 10 1 20 2 11 3 21 0 40 0.5 41 0 42 3 0 CIRCLE 5 A8 10 1 20 2 40 5 0 INSERT 5 A9 2 C 10 0 20 0 \
      0 INSERT 2 NONE 10 0 20 0 0 SPLINE 5 AA 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 1 20 1 10 2 20 0 0 POINT 5 AB 10 1 20 2";
 
+const LAYERED: &str = "0 LINE 5 A1 8 COLD 10 1 20 2 11 3 21 4 0 LINE 5 A2 8 DARK 62 1 10 1 20 2 11 3 21 4 0 LINE 5 A3 8 AIDS 10 1 20 2 11 3 21 4 \
+     0 LINE 5 A4 8 Q 10 1 20 2 11 3 21 4 0 LINE 5 A5 60 1 62 256 10 1 20 2 11 3 21 4 0 CIRCLE 5 A6 8 cold 420 255 10 1 20 2 40 3";
+
 /// An edit as shares of the text, so that it fits every text.
 fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
     let replacement = prop_oneof![
@@ -98,7 +107,7 @@ fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
 proptest! {
     #[test]
     fn after_any_edits_a_document_is_as_if_read_afresh(
-        drawing in 0..DRAWINGS.len() + 2,
+        drawing in 0..DRAWINGS.len() + 3,
         line_end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
         edits in prop::collection::vec(any_edit(), 1..12),
     ) {
@@ -107,6 +116,7 @@ proptest! {
         let text = match DRAWINGS.get(drawing) {
             Some(tags) => dxf(tags),
             None if drawing == DRAWINGS.len() => with_blocks(BLOCKS, REFERENCES),
+            None if drawing == DRAWINGS.len() + 1 => with_layers("", LAYERED),
             None => dxf(&long()),
         };
         let text = text.replace('\n', line_end);

@@ -11,7 +11,7 @@ pub(super) fn dxf(entities: &str) -> String {
 }
 
 /// Handle and geometry of each entity, in short.
-pub(super) fn entities(document: &Document) -> Vec<String> {
+pub(in crate::dxf) fn entities(document: &Document) -> Vec<String> {
     let drawing = document.drawing();
     drawing
         .entities()
@@ -48,6 +48,7 @@ pub(super) fn findings(document: &Document) -> Vec<String> {
             let sentence = match &finding.detail {
                 Detail::Syntax(sentence) | Detail::Units(sentence) => sentence.clone(),
                 Detail::UnsupportedEntity { kind, count, why } => format!("{count} {kind}: {why}"),
+                Detail::Unseen { .. } => crate::message::en::sentence(finding, 1.0),
                 other => format!("{other:?}"),
             };
             let severity = match finding.severity {

@@ -7,6 +7,7 @@ mod document;
 mod encode;
 mod evidence;
 mod fixes;
+mod layout;
 mod machine;
 mod order;
 mod report;
@@ -18,6 +19,7 @@ mod write;
 
 pub use block::{Block, Compensation, Motion, Note, Offset, Stop, read_line};
 pub use document::Document;
+pub use layout::format;
 pub use machine::{CenterRule, Course, Machine, Move, Reading};
 pub use word::{Number, Token, WordFault, words};
 pub use write::{write, write_with};

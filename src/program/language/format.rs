@@ -1,6 +1,6 @@
 //! A program brought into a layout.
 
-use crate::program::{Document, three_b};
+use crate::program::{Document, iso, three_b};
 use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -11,6 +11,6 @@ use std::ops::Range;
 pub fn format(document: &Document, settings: &Effective, lines: Range<usize>) -> Vec<TextEdit> {
     match document {
         Document::ThreeB(program) => three_b::language::format(program.text(), settings.stated_layout, &program.words(), lines),
-        Document::Iso(_) => Vec::new(),
+        Document::Iso(program) => iso::format(program.text(), settings.stated_layout, lines),
     }
 }

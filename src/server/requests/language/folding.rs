@@ -34,7 +34,11 @@ pub(in crate::server) fn folding_range(state: &mut State, uri: &Uri, errand: Err
             collapsed_text: Some(fold.text),
             ..FoldingRange::default()
         };
-        Some(written(&folds(&tree, limit).into_iter().map(range).collect::<Vec<_>>()))
+        let folds = folds(&tree, limit);
+        if folds.len() >= limit {
+            tracing::warn!("more than {limit} folds: only what holds others is folded");
+        }
+        Some(written(&folds.into_iter().map(range).collect::<Vec<_>>()))
     });
 }
 

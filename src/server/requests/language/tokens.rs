@@ -86,6 +86,9 @@ pub(in crate::server) fn full(state: &mut State, uri: &Uri, errand: Errand) {
     }
     whole(state, "Colouring", uri.as_str(), errand, move |text, stop| {
         let tokens = tokens(text, LIMIT, stop)?;
+        if tokens.len() >= LIMIT {
+            tracing::warn!("only the first {LIMIT} tokens of a text of {} lines are coloured", text.line_count());
+        }
         let answer = SemanticTokens { result_id: None, data: encoded(text, &tokens, encoding) };
         (!stop()).then(|| written(&answer))
     });

@@ -1,0 +1,89 @@
+//! The table LAYER: which layers are seen, and in which colour they are drawn.
+
+use super::lines::Lines;
+use super::number::{self, Number};
+use super::place::own_tags;
+use crate::drawing::{Color, Visibility};
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// One entry of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LayerEntry {
+    pub(super) name: Arc<str>,
+    pub(super) visibility: Visibility,
+    pub(super) color: Option<Color>,
+}
+
+/// The layer on which AutoCAD keeps the points that dimensions hang on: it is never plotted.
+const NEVER_PLOTTED: &str = "defpoints";
+
+/// The entry whose record stands in some lines; `name` makes its name of the bytes in the text. `None` for one without a name.
+pub(super) fn read(lines: Lines, range: Range<usize>, mut name: impl FnMut(&[u8]) -> Arc<str>) -> Option<LayerEntry> {
+    const FROZEN: i64 = 1;
+    let whole = |line: usize| match number::number(lines.content(line)) {
+        Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e9 => Some(value as i64),
+        _ => None,
+    };
+    let mut entry = LayerEntry { name: "".into(), visibility: Visibility::Shown, color: None };
+    let (mut named, mut frozen, mut off, mut plotted, mut rgb) = (false, false, false, true, None);
+    for tag in own_tags(lines, range) {
+        let line = tag.value_line();
+        match tag.code {
+            2 => {
+                entry.name = name(lines.trimmed(line));
+                named = true;
+            }
+            70 => frozen = whole(line).is_some_and(|flags| flags & FROZEN != 0),
+            62 => {
+                // A colour below 0 is that of a layer that is switched off.
+                let index = whole(line).unwrap_or(7);
+                off = index < 0;
+                entry.color = u8::try_from(index.unsigned_abs()).ok().filter(|index| *index > 0).map(Color::Index);
+            }
+            420 => rgb = whole(line).and_then(|rgb| u32::try_from(rgb).ok()),
+            290 => plotted = lines.trimmed(line) != b"0",
+            _ => {}
+        }
+    }
+    entry.color = rgb.map(Color::of_rgb).or(entry.color);
+    entry.visibility = match () {
+        () if frozen => Visibility::Frozen,
+        () if off => Visibility::Off,
+        () if !plotted || entry.name.eq_ignore_ascii_case(NEVER_PLOTTED) => Visibility::Unplotted,
+        () => Visibility::Shown,
+    };
+    named.then_some(entry)
+}
+
+/// What the table says of each layer that is not simply shown. Names are the same in upper and in lower case.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LayerStates {
+    unlike: FxHashMap<String, Visibility>,
+    /// The layer that was asked for last: neighbours lie on the same.
+    last: Option<(Arc<str>, Visibility)>,
+}
+
+impl LayerStates {
+    pub(super) fn enter(&mut self, entry: &LayerEntry) {
+        if entry.visibility != Visibility::Shown {
+            self.unlike.insert(entry.name.to_lowercase(), entry.visibility);
+        }
+        self.last = None;
+    }
+
+    pub(super) fn of(&mut self, layer: &Arc<str>) -> Visibility {
+        if self.unlike.is_empty() {
+            return Visibility::Shown;
+        }
+        if let Some((last, visibility)) = &self.last
+            && Arc::ptr_eq(last, layer)
+        {
+            return *visibility;
+        }
+        let visibility = self.unlike.get(&layer.to_lowercase()).copied().unwrap_or_default();
+        self.last = Some((layer.clone(), visibility));
+        visibility
+    }
+}

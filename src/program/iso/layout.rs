@@ -1,0 +1,182 @@
+//! ISO text in an even form: words in upper case, with one space between them or none, and nothing that they say changed.
+//!
+//! No number is rewritten: whether it has a decimal point, and how many digits, means something to a control.
+
+use super::word::{Token, words};
+use crate::settings::Layout;
+use crate::text::{SourceText, TextEdit};
+use std::ops::Range;
+
+/// Lines that are looked at to find out whether words are parted by spaces.
+const LOOKED_AT: usize = 1000;
+
+/// The edits that bring `lines` into an even form, sorted and disjoint: words close up in the compact layout and are parted by one
+/// space in the others; without a layout, as most lines of the text have it.
+///
+/// Lines with what cannot be read, with variables, and with comments in another code page stay byte for byte.
+pub fn format(text: &SourceText, layout: Option<Layout>, lines: Range<usize>) -> Vec<TextEdit> {
+    let parted = layout.map_or_else(|| is_parted(text), |layout| layout != Layout::Compact);
+    let mut edits: Vec<TextEdit> = Vec::new();
+    let mut last = None;
+    for line in lines.start..lines.end.min(text.line_count()) {
+        let range = text.line_range(line);
+        let Some(new) = formed(&text.bytes()[range.clone()], parted) else { continue };
+        match edits.last_mut().filter(|_| last.is_some() && last == line.checked_sub(1)) {
+            // Lines that follow each other become one edit.
+            Some(edit) => {
+                edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..range.start]).unwrap_or("\n"));
+                edit.text.push_str(&new);
+                edit.range.end = range.end;
+            }
+            None => edits.push(TextEdit { range, text: new }),
+        }
+        last = Some(line);
+    }
+    edits
+}
+
+fn is_parted(text: &SourceText) -> bool {
+    let (mut parted, mut closed) = (0, 0);
+    for line in 0..text.line_count().min(LOOKED_AT) {
+        let range = text.line_range(line);
+        let mut end = None;
+        words(&text.bytes()[range], 1, |token| {
+            if let Token::Word { range, .. } = token {
+                match end {
+                    Some(end) if end == range.start => closed += 1,
+                    Some(_) => parted += 1,
+                    None => {}
+                }
+                end = Some(range.end);
+            }
+        });
+    }
+    parted >= closed
+}
+
+/// A line in its new form; `None` where it stays.
+fn formed(line: &[u8], parted: bool) -> Option<String> {
+    let tokens = tokens_of(line);
+    let mut out = String::with_capacity(line.len() + 16);
+    let (mut covered, mut may_touch) = (0, true);
+    for token in &tokens {
+        let (range, is_comment) = match token {
+            Token::Word { range, .. } | Token::Definition { range, .. } | Token::Tape { range } | Token::Skip { range } => (range, false),
+            Token::Comment { range } => (range, true),
+            Token::Foreign { .. } | Token::Fault { .. } => return None,
+        };
+        let bytes = line.get(range.clone())?;
+        if !line.get(covered..range.start)?.iter().all(|byte| matches!(byte, b' ' | b'\t')) {
+            return None;
+        }
+        covered = range.end;
+        let text = std::str::from_utf8(bytes).ok()?.trim_end();
+        // A semicolon that ends a block is no comment.
+        let closes_up = may_touch || text == ";" || (!parted && !is_comment);
+        if !closes_up {
+            out.push(' ');
+        }
+        if is_comment {
+            out.push_str(text);
+        } else {
+            out.extend(text.chars().filter(|character| !matches!(character, ' ' | '\t')).map(|character| character.to_ascii_uppercase()));
+        }
+        // Behind a comment in brackets the next word stands apart in every form.
+        may_touch = matches!(token, Token::Skip { .. });
+    }
+    let is_blank = |rest: &[u8]| rest.iter().all(|byte| matches!(byte, b' ' | b'\t'));
+    if !is_blank(line.get(covered..)?) || out.as_bytes() == line {
+        return None;
+    }
+    let says = |tokens: Vec<Token>, line: &[u8]| tokens.into_iter().map(|token| meaning(token, line)).collect::<Vec<_>>();
+    let again = tokens_of(out.as_bytes());
+    (says(tokens, line) == says(again, out.as_bytes())).then_some(out)
+}
+
+fn tokens_of(line: &[u8]) -> Vec<Token> {
+    let mut tokens = Vec::new();
+    // Counted from 1 so that no byte order mark is looked for: such a line stays.
+    words(line, 1, |token| tokens.push(token));
+    let shift = |range: Range<usize>| range.start - 1..range.end - 1;
+    let unshifted = |token: Token| match token {
+        Token::Word { letter, number, range } => Token::Word { letter, number, range: shift(range) },
+        Token::Definition { letter, index, value, range } => Token::Definition { letter, index, value, range: shift(range) },
+        Token::Foreign { range } => Token::Foreign { range: shift(range) },
+        Token::Comment { range } => Token::Comment { range: shift(range) },
+        Token::Tape { range } => Token::Tape { range: shift(range) },
+        Token::Skip { range } => Token::Skip { range: shift(range) },
+        Token::Fault { fault, range } => Token::Fault { fault, range: shift(range) },
+    };
+    tokens.into_iter().map(unshifted).collect()
+}
+
+/// A token without its place; what a comment or a definition says is its text.
+fn meaning(token: Token, line: &[u8]) -> (Token, String) {
+    let text = |range: Range<usize>| {
+        String::from_utf8_lossy(line.get(range).unwrap_or_default()).trim_end().to_ascii_uppercase().replace([' ', '\t'], "")
+    };
+    match token {
+        Token::Word { letter, number, .. } => (Token::Word { letter, number, range: 0..0 }, String::new()),
+        Token::Definition { letter, index, value, range } => (Token::Definition { letter, index, value, range: 0..0 }, text(range)),
+        Token::Comment { range } => (Token::Comment { range: 0..0 }, text(range)),
+        Token::Tape { .. } => (Token::Tape { range: 0..0 }, String::new()),
+        Token::Skip { range } => (Token::Skip { range: 0..0 }, text(range)),
+        Token::Foreign { range } => (Token::Foreign { range: 0..0 }, text(range)),
+        Token::Fault { fault, range } => (Token::Fault { fault, range: 0..0 }, text(range)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn formatted(text: &str, layout: Option<Layout>) -> String {
+        let source = SourceText::new(text.as_bytes().to_vec());
+        let mut result = text.to_owned();
+        for edit in format(&source, layout, 0..source.line_count()).into_iter().rev() {
+            result.replace_range(edit.range, &edit.text);
+        }
+        result
+    }
+
+    #[track_caller]
+    fn check(layout: Option<Layout>, text: &str, expected: &str) {
+        assert_eq!(formatted(text, layout), expected, "{layout:?} of {text}");
+        assert_eq!(formatted(expected, layout), expected, "again, {layout:?} of {text}");
+    }
+
+    #[test]
+    fn words_are_parted_or_close_up_and_nothing_else_changes() {
+        let text = "%\nn10 g01 x1.50  y-0\t(in ) \r\nN20G02X1Y2I0J1;\n/n30 m00\n\nm02\n";
+        check(Some(Layout::Aligned), text, "%\nN10 G01 X1.50 Y-0 (in )\r\nN20 G02 X1 Y2 I0 J1;\n/N30 M00\n\nM02\n");
+        check(Some(Layout::Compact), text, "%\nN10G01X1.50Y-0 (in )\r\nN20G02X1Y2I0J1;\n/N30M00\n\nM02\n");
+        check(None, "G01X1Y2\ng01 x5\nG01X1Y2\n", "G01X1Y2\nG01X5\nG01X1Y2\n");
+    }
+
+    #[test]
+    fn lines_that_cannot_be_read_stay() {
+        check(
+            Some(Layout::Compact),
+            "g01 x1,5\ng01 x#3\ng01 x1 (open\n\u{feff}g01 x1\n",
+            "g01 x1,5\ng01 x#3\ng01 x1 (open\n\u{feff}g01 x1\n",
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn formatting_keeps_what_is_read_and_is_the_same_when_repeated(lines in prop::collection::vec("[NGXYIJMHnxg0-9 .()/;%=-]{0,24}", 0..6), layout in 0_usize..3) {
+            let layout = [None, Some(Layout::Compact), Some(Layout::Checking)][layout];
+            let text = lines.join("\n");
+            let once = formatted(&text, layout);
+            let said = |text: &str| {
+                let of_line = |line: &str| tokens_of(line.as_bytes()).into_iter().map(|token| meaning(token, line.as_bytes())).collect::<Vec<_>>();
+                text.split('\n').map(of_line).collect::<Vec<_>>()
+            };
+            prop_assert_eq!(said(&once), said(&text));
+            if layout.is_some() {
+                prop_assert_eq!(formatted(&once, layout), once);
+            }
+        }
+    }
+}
