@@ -140,7 +140,15 @@ fn commands_print_and_end_as_they_say() {
         ("completions bash", 0, &["_wedm"]),
         ("completions zsh", 0, &["#compdef wedm"]),
         ("convert hole.3b -o hole.dxf", 2, &["!unrecognized subcommand"]),
-        ("simulate hole.3b", 2, &["!unrecognized subcommand"]),
+        (
+            "simulate hole.3b --feed 2",
+            0,
+            &["R 9.900 mm, +360.000\u{b0}", "3 blocks, 82.004 mm, 41.0 min, ends 0, 0 \u{b5}m from its start", "19.800 x 19.800 mm"],
+        ),
+        ("simulate hole.3b --output json", 0, &["\"closure\":{\"x\":0.0,\"y\":0.0}", "\"kind\":\"arc\""]),
+        ("simulate clean.dxf", 2, &["!it is a drawing, expected a program"]),
+        ("simulate hole.3b --feed 0", 2, &["!above 0"]),
+        ("draw hole.3b", 0, &["<svg", "data-line=\"1\"", "</svg>"]),
         ("--version", 0, &["wedm "]),
         ("--help", 0, &["check", "generate", "Exit codes"]),
     ];
