@@ -139,7 +139,7 @@ fn commands_print_and_end_as_they_say() {
         ("draw tight.dxf -o tight.pdf", 2, &["!.pdf is not written, expected .svg or .dxf"]),
         ("completions bash", 0, &["_wedm"]),
         ("completions zsh", 0, &["#compdef wedm"]),
-        ("convert hole.3b -o hole.dxf", 2, &["!unrecognized subcommand"]),
+        ("convert hole.3b -o hole.dxf", 0, &["!written hole.dxf: 1 contour"]),
         (
             "simulate hole.3b --feed 2",
             0,
