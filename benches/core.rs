@@ -26,24 +26,15 @@ fn reading(c: &mut Criterion) {
     group.finish();
 }
 
-fn the_dxf_crate(c: &mut Criterion) {
-    let mut group = c.benchmark_group("read DXF, the dxf crate");
-    group.sample_size(10);
-    for (name, text) in
-        [("5 MB of LWPOLYLINE", generated::polylines(5 * MEGABYTE)), ("5 MB of LINE and ARC", generated::lines_and_arcs(5 * MEGABYTE))]
-    {
-        group.throughput(Throughput::Bytes(text.len() as u64));
-        group.bench_function(name, |b| b.iter(|| black_box(dxf::Drawing::load(&mut text.as_bytes()).unwrap())));
-    }
-    group.finish();
-}
-
 fn analysing(c: &mut Criterion) {
     let mut group = c.benchmark_group("drawing to contours and findings");
     group.sample_size(20);
-    for (name, text) in
-        [("5 MB of LWPOLYLINE", generated::polylines(5 * MEGABYTE)), ("5 MB of LINE and ARC", generated::lines_and_arcs(5 * MEGABYTE))]
-    {
+    for (name, text) in [
+        ("5 MB of LWPOLYLINE", generated::polylines(5 * MEGABYTE)),
+        ("5 MB of LINE and ARC", generated::lines_and_arcs(5 * MEGABYTE)),
+        ("100,000 segments of LWPOLYLINE", generated::polylines_of(12_500)),
+        ("100,000 LINE and ARC", generated::lines_and_arcs_of(12_500)),
+    ] {
         let document = wedm::dxf::Document::read(text.into_bytes());
         let settings = Arc::new(Effective::default());
         group.bench_function(name, |b| {
@@ -116,5 +107,5 @@ fn writing(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reading, the_dxf_crate, analysing, editing, writing);
+criterion_group!(benches, reading, analysing, editing, writing);
 criterion_main!(benches);

@@ -61,6 +61,66 @@ fn program(c: &mut Criterion) {
     group.finish();
 }
 
+/// A program of 200,000 blocks, about 5 MB, and what an editor asks of it; and a million blocks followed by the controller.
+fn reading(c: &mut Criterion) {
+    let settings = settings();
+    let text =
+        three_b::write(&paths(134_000), 1.0, &Effective { layout: Layout::Aligned, ..settings.clone() }).expect("a proved program").text;
+    let bytes = text.as_bytes();
+    let blocks = text.lines().filter(|line| line.starts_with('B')).count();
+    println!("the program has {blocks} blocks and {} bytes", bytes.len());
+    let mut group = c.benchmark_group("a 3B program of 200,000 blocks");
+    group.sample_size(20);
+    group.throughput(Throughput::Bytes(bytes.len() as u64));
+    group.bench_function("parse", |b| {
+        b.iter(|| {
+            let mut items = 0_usize;
+            for line in text.lines() {
+                three_b::read_line(line.as_bytes(), 1, &Words::default(), |_| items += 1);
+            }
+            black_box(items)
+        })
+    });
+    group.bench_function("open with findings", |b| {
+        b.iter(|| {
+            let document = three_b::Document::read_with(bytes.to_vec(), &settings);
+            black_box(document.findings_under(&settings, 500))
+        })
+    });
+    group.bench_function("trace", |b| {
+        let document = three_b::Document::read_with(bytes.to_vec(), &settings);
+        b.iter(|| black_box(document.trace()))
+    });
+    // A digit in front of J in the middle of the file comes and goes: the contour is torn, and whole again.
+    let mut document = three_b::Document::read_with(bytes.to_vec(), &settings);
+    let line = text[..text.len() / 2].rfind('\n').map_or(0, |at| at + 1);
+    let at = line + text[line..].rmatch_indices('B').map(|(at, _)| at).find(|at| line + at < line + 40).unwrap_or(0) + 2;
+    let mut is_in = false;
+    group.bench_function("one character, edit to findings", |b| {
+        b.iter(|| {
+            if is_in {
+                document.edit(at..at + 1, "")
+            } else {
+                document.edit(at..at, "1")
+            }
+            is_in = !is_in;
+            black_box(document.findings_under(&settings, 500))
+        })
+    });
+    group.finish();
+
+    let mut group = c.benchmark_group("the controller");
+    group.sample_size(10);
+    let million = bytes.repeat(1_000_000_usize.div_ceil(blocks));
+    let million: Vec<u8> =
+        million.split(|&byte| byte == b'\n').filter(|line| *line != b"DD").flat_map(|line| [line, b"\n"].concat()).collect();
+    group.throughput(Throughput::Elements(1_000_000));
+    group.bench_function("1,000,000 blocks, text to every end point", |b| {
+        b.iter(|| black_box(three_b::Document::read_with(million.clone(), &settings).trace()))
+    });
+    group.finish();
+}
+
 fn formatting(c: &mut Criterion) {
     let settings = Effective::default();
     let document = Document::read(Language::ThreeB, generated::three_b(200_000).into_bytes(), &settings);
@@ -76,5 +136,5 @@ fn formatting(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, program, formatting);
+criterion_group!(benches, program, reading, formatting);
 criterion_main!(benches);

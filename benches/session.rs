@@ -24,6 +24,9 @@ fn main() {
     ] {
         text_session(name, &text, rounds);
     }
+    if !quick {
+        large_sessions(rounds / 4);
+    }
     program_session(rounds);
     drawing_session(rounds);
     generate_session(if quick { 200 } else { 1000 });
@@ -50,6 +53,53 @@ fn resident(client: &Client) -> Option<u64> {
     line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kibibytes| kibibytes * 1024)
 }
 
+/// Right after the opening, and when what the opening left behind has been given back.
+fn memory_row(name: &str, client: &Client, length: usize) {
+    for (when, pause) in [("", 0), (", a second later", 1000)] {
+        std::thread::sleep(Duration::from_millis(pause));
+        if let Some(bytes) = resident(client) {
+            println!("{name}: resident memory{when} {:.1} times the text   goal 10 times", bytes as f64 / length as f64);
+        }
+    }
+}
+
+fn large_sessions(rounds: usize) {
+    for (name, text) in [
+        ("50 MB DXF of LWPOLYLINE", generated::polylines(50_000_000)),
+        ("50 MB DXF of LINE and ARC", generated::lines_and_arcs(50_000_000)),
+    ] {
+        large_session(name, &text, rounds);
+    }
+}
+
+/// An edit of one entity in the middle of a large text.
+fn large_session(name: &str, text: &str, rounds: usize) {
+    let uri = "file:///bench.dxf";
+    let mut client = Client::start();
+    let (found, time) = timed(|| client.open_text(uri, "dxf", text));
+    row(&format!("{name}: open, {} findings", found.len()), vec![time], "");
+    memory_row(name, &client, text.len());
+    let middle = text[..text.len() / 2].rfind("\n10\n").map_or(0, |at| at + 4);
+    let line = text[..middle].matches('\n').count();
+    let dot = text[middle..].find('.').unwrap_or(0);
+    let mut version = 1;
+    let edits = (0..rounds).map(|_| {
+        version += 1;
+        // A digit behind the decimal point: the one entity moves a little.
+        let (end, new) = if version % 2 == 0 { (dot + 1, "1") } else { (dot + 2, "") };
+        let range = json!({ "start": { "line": line, "character": dot + 1 }, "end": { "line": line, "character": end } });
+        let changes = json!([{ "range": range, "text": new }]);
+        timed(|| {
+            client
+                .notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
+            client.diagnostics(uri, version)
+        })
+        .1
+    });
+    row(&format!("{name}: one digit, edit to diagnostics"), edits.collect(), "p50 10 ms");
+    client.shut_down();
+}
+
 fn start(rounds: usize) {
     let times = (0..rounds).map(|_| timed(|| Client::start_with(capabilities(), json!({}))).1).collect();
     row("start to initialize answered", times, "20 ms");
@@ -60,9 +110,7 @@ fn text_session(name: &str, text: &str, rounds: usize) {
     let mut client = Client::start();
     let (found, time) = timed(|| client.open_text(uri, "dxf", text));
     row(&format!("{name}: open, {} findings", found.len()), vec![time], "250 ms");
-    if let Some(bytes) = resident(&client) {
-        println!("{name}: resident memory {:.1} times the text   goal 10 times", bytes as f64 / text.len() as f64);
-    }
+    memory_row(name, &client, text.len());
     // A digit of a coordinate in the middle of the file comes and goes.
     let middle = text[..text.len() / 2].rfind("\n10\n").map_or(0, |at| at + 4);
     let line = text[..middle].matches('\n').count();

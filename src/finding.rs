@@ -2,6 +2,10 @@
 //!
 //! The sentence that a person reads is made from it in [`crate::message`]; the protocol's form in `server`.
 
+mod program_fault;
+
+pub use program_fault::{Axis, ProgramFault};
+
 use crate::drawing::{DrawingEdit, EntityId, Visibility};
 use crate::geometry::Point;
 use crate::text::TextEdit;
@@ -38,6 +42,28 @@ pub enum Rule {
     AmbiguousCenter,
     /// Words that one machine takes otherwise than another, or not at all.
     MachineDependent,
+    /// A block of 3B in which one of the three `B` is lost.
+    MissingB,
+    /// `B25` where the block number `N25` was meant.
+    BlockNumberAsB,
+    /// J is the length of a line, not its projection.
+    LengthInJ,
+    /// J is not the projection of the line, or not what leads to the end.
+    WrongJ,
+    /// J of an arc counts more than once round.
+    JOverTurn,
+    /// G names the axis on which the block hardly moves at its end.
+    WrongCountingAxis,
+    /// Z contradicts the direction of the block.
+    WrongQuadrant,
+    /// A block that moves nothing.
+    ZeroBlock,
+    /// A number with more digits than the controller has.
+    TooManyDigits,
+    /// Coordinates behind a block that are not where it ends.
+    PositionMismatch,
+    /// The path of a program goes through itself.
+    PathCrossesItself,
     NotClosed,
     MissingEnd,
     TextAfterEnd,
@@ -51,7 +77,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 29] = [
+    pub const ALL: [Rule; 40] = [
         Rule::SmallRadius,
         Rule::SharpCorner,
         Rule::NarrowSlot,
@@ -74,6 +100,17 @@ impl Rule {
         Rule::WrongSide,
         Rule::AmbiguousCenter,
         Rule::MachineDependent,
+        Rule::MissingB,
+        Rule::BlockNumberAsB,
+        Rule::LengthInJ,
+        Rule::WrongJ,
+        Rule::JOverTurn,
+        Rule::WrongCountingAxis,
+        Rule::WrongQuadrant,
+        Rule::ZeroBlock,
+        Rule::TooManyDigits,
+        Rule::PositionMismatch,
+        Rule::PathCrossesItself,
         Rule::NotClosed,
         Rule::MissingEnd,
         Rule::TextAfterEnd,
@@ -107,6 +144,17 @@ impl Rule {
             Rule::WrongSide => "wrong-side",
             Rule::AmbiguousCenter => "ambiguous-center",
             Rule::MachineDependent => "machine-dependent",
+            Rule::MissingB => "missing-b",
+            Rule::BlockNumberAsB => "block-number-as-b",
+            Rule::LengthInJ => "length-in-j",
+            Rule::WrongJ => "wrong-j",
+            Rule::JOverTurn => "j-over-turn",
+            Rule::WrongCountingAxis => "wrong-counting-axis",
+            Rule::WrongQuadrant => "wrong-quadrant",
+            Rule::ZeroBlock => "zero-block",
+            Rule::TooManyDigits => "too-many-digits",
+            Rule::PositionMismatch => "position-mismatch",
+            Rule::PathCrossesItself => "path-crosses-itself",
             Rule::NotClosed => "not-closed",
             Rule::MissingEnd => "missing-end",
             Rule::TextAfterEnd => "text-after-end",
@@ -130,6 +178,15 @@ impl Rule {
             | Rule::ArcWithoutRadius
             | Rule::CompensationSwitch
             | Rule::WrongSide
+            | Rule::MissingB
+            | Rule::BlockNumberAsB
+            | Rule::LengthInJ
+            | Rule::WrongJ
+            | Rule::JOverTurn
+            | Rule::WrongCountingAxis
+            | Rule::WrongQuadrant
+            | Rule::ZeroBlock
+            | Rule::TooManyDigits
             | Rule::Syntax
             | Rule::Settings => Severity::Error,
             Rule::SharpCorner
@@ -141,7 +198,9 @@ impl Rule {
             | Rule::NotClosed
             | Rule::MissingEnd
             | Rule::TextAfterEnd
-            | Rule::BlockNumber => Severity::Warning,
+            | Rule::BlockNumber
+            | Rule::PositionMismatch
+            | Rule::PathCrossesItself => Severity::Warning,
             Rule::UnsupportedEntity | Rule::AmbiguousCenter | Rule::MachineDependent | Rule::More => Severity::Information,
             Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
@@ -302,6 +361,8 @@ pub enum Detail {
         deviation: f64,
     },
     Iso(IsoFault),
+    /// A fault in a block or contour of 3B.
+    Program(Box<ProgramFault>),
     LeadIn(String),
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
@@ -415,27 +476,85 @@ impl<E> Fix<E> {
 #[derive(Clone, Debug, PartialEq)]
 pub enum FixKind {
     /// One arc of `radius` replaces `arcs` arcs; the contour moves by at most `moved`.
-    Refillet { radius: f64, arcs: usize, moved: f64 },
+    Refillet {
+        radius: f64,
+        arcs: usize,
+        moved: f64,
+    },
     /// The end points stay, only the bulge changes; the contour kinks by `kink` radians at each end.
-    KeepEndPoints { radius: f64, kink: f64 },
+    KeepEndPoints {
+        radius: f64,
+        kink: f64,
+    },
     /// A sharp corner gets a fillet of `radius`.
-    Fillet { radius: f64 },
+    Fillet {
+        radius: f64,
+    },
     /// The ends of an open contour are joined by a line of `length`, or become one where it is 0.
-    Close { length: f64 },
+    Close {
+        length: f64,
+    },
     /// Two ends are moved onto each other.
-    Snap { distance: f64 },
+    Snap {
+        distance: f64,
+    },
     /// One of two entities in the same place goes.
     DeleteDouble,
     /// A segment too short to cut goes, its neighbours meet.
     Merge,
     /// An arc is changed so that it leaves its neighbour without a kink.
-    MakeTangent { moved: f64 },
+    MakeTangent {
+        moved: f64,
+    },
     /// One arc takes the place of `chords` lines.
-    OneArc { chords: usize, radius: f64 },
+    OneArc {
+        chords: usize,
+        radius: f64,
+    },
     /// A program gets the word that ends it.
-    AddEnd { word: String },
+    AddEnd {
+        word: String,
+    },
     /// What stands behind the end of a program goes.
     DeleteBehindEnd,
+    /// J of a block becomes `j`, µm.
+    SetJ {
+        j: i64,
+    },
+    /// X or Y of a block becomes `value`, µm.
+    SetEnd {
+        axis: Axis,
+        value: i64,
+    },
+    /// G of a block becomes the other axis; J with it where it is there, µm.
+    SetAxis {
+        axis: Axis,
+        j: Option<i64>,
+    },
+    /// Z of a block becomes `name`.
+    SetMotion {
+        name: &'static str,
+    },
+    /// The `B` that is lost is put back.
+    InsertB,
+    /// `B25` becomes `N25`.
+    NumberWithN,
+    /// The letter O becomes a zero.
+    ZeroForO,
+    DeleteBlock,
+    /// A block becomes several that fit.
+    SplitBlock {
+        pieces: usize,
+    },
+    /// A block gets the number of its turn.
+    SetNumber {
+        number: u32,
+    },
+    /// All blocks are numbered anew.
+    Renumber {
+        first: u32,
+        step: u32,
+    },
     /// A rapid becomes a cut.
     CutRapid,
     /// G41 becomes G42 or the other way round.

@@ -10,7 +10,10 @@
 mod figure;
 mod lens;
 mod marks;
+mod program;
 mod style;
+
+pub use program::program_svg;
 
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Outline, Role};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};

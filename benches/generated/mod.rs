@@ -31,10 +31,20 @@ fn place(i: usize) -> (f64, f64) {
 
 /// DXF of at least `bytes` bytes: openings as LWPOLYLINEs, every fiftieth with a fillet below the correction of 0.1.
 pub fn polylines(bytes: usize) -> String {
-    let mut text = String::with_capacity(bytes + 1000);
+    polylines_while(|_, length| length < bytes)
+}
+
+/// DXF of so many such openings, of eight vertices each.
+pub fn polylines_of(openings: usize) -> String {
+    polylines_while(|i, _| i < openings)
+}
+
+/// `goes_on` is asked with the number of openings and the length of the text.
+fn polylines_while(goes_on: impl Fn(usize, usize) -> bool) -> String {
+    let mut text = String::new();
     header(&mut text);
     let mut i = 0;
-    while text.len() < bytes {
+    while goes_on(i, text.len()) {
         let (x, y) = place(i);
         let vertices = opening(x, y, if i % 50 == 7 { 0.05 } else { 0.3 });
         let _ =
@@ -53,10 +63,19 @@ pub fn polylines(bytes: usize) -> String {
 
 /// The same openings as chains of LINE and ARC.
 pub fn lines_and_arcs(bytes: usize) -> String {
-    let mut text = String::with_capacity(bytes + 1000);
+    lines_and_arcs_while(|_, length| length < bytes)
+}
+
+/// DXF of so many such openings, of eight entities each.
+pub fn lines_and_arcs_of(openings: usize) -> String {
+    lines_and_arcs_while(|i, _| i < openings)
+}
+
+fn lines_and_arcs_while(goes_on: impl Fn(usize, usize) -> bool) -> String {
+    let mut text = String::new();
     header(&mut text);
     let (mut i, mut handle) = (0, 100);
-    while text.len() < bytes {
+    while goes_on(i, text.len()) {
         let (x, y) = place(i);
         let vertices = opening(x, y, if i % 50 == 7 { 0.05 } else { 0.3 });
         for (k, &[x0, y0, bulge]) in vertices.iter().enumerate() {

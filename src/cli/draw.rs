@@ -3,8 +3,9 @@
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files};
-use crate::document::Snapshot;
+use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
+use crate::finding::{Finding, Severity};
 use crate::geometry::Segment;
 use crate::settings::Settings;
 use crate::toolpath::{self, Refusal, WirePath};
@@ -12,15 +13,16 @@ use crate::{dxf, message::en, picture};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Draw contours, faults and wire path as SVG, or contours and wire path as DXF
+/// Draw contours, faults and wire path of a drawing, or the path of a program, as SVG; contours and wire path also as DXF
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm draw plate.dxf -o plate.svg
+  wedm draw plate.3b -o plate.svg                      the path that the blocks lead along
   wedm draw plate.dxf --side opening -o plate.svg      with the path of the wire
   wedm draw plate.dxf --side opening -o path.dxf       contours, and the path on the layer WIRE")]
 pub struct Arguments {
-    /// The drawing
+    /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
     /// Write the picture there, as .svg or .dxf [default: SVG to stdout]
@@ -38,9 +40,12 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::refuse_input(target, &arguments.path)?;
     }
     let last = Settings { program: Some(arguments.program.settings()), ..arguments.common.settings() };
-    let opened = files::open_drawing(&arguments.path, &arguments.common, &last)?;
+    let opened = files::open(&arguments.path, &arguments.common, &last)?;
     files::refuse_faulty_settings(&opened)?;
     let mut document = opened.document;
+    if document.program().is_some() {
+        return draw_program(arguments, &document);
+    }
     let (findings, _) = document.findings(usize::MAX);
     let Some(snapshot) = document.snapshot() else {
         return Err(Failure(format!("{}: there is no drawing in it", arguments.path.display())));
@@ -60,6 +65,22 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         _ => picture::svg(&snapshot.drawing, &snapshot.outlines, &findings, &paths, unit_mm).into_bytes(),
     };
     output::write(arguments.output.as_deref(), &picture)?;
+    Ok(Verdict::Clean)
+}
+
+/// The way of the wire of a program.
+fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, Failure> {
+    if arguments.output.as_deref().and_then(ending_of).as_deref() == Some("dxf") {
+        let path = arguments.path.display();
+        return Err(Failure(format!("{path}: a program is drawn as .svg; as a drawing: wedm convert {path} -o OUT.dxf")));
+    }
+    let trace = document.program().map(crate::program::Document::trace).unwrap_or_default();
+    let line = |finding: &Finding| Some(document.text()?.line_of(document.range_of(&finding.place)?.start));
+    let findings = document.all_findings();
+    let fault = |finding: &Finding| Some((line(finding)?, finding.severity, en::sentence(finding, 1.0)));
+    let faults: Vec<(usize, Severity, String)> = findings.iter().filter_map(fault).collect();
+    let svg = picture::program_svg(&trace, &faults);
+    output::write(arguments.output.as_deref(), svg.as_bytes())?;
     Ok(Verdict::Clean)
 }
 

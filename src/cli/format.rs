@@ -137,7 +137,9 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         output::write(Some(path), &after)?;
     }
     let (findings, _) = opened.document.findings(usize::MAX);
-    let damaged = findings.iter().filter(|finding| finding.rule == Rule::Syntax).count();
+    // What was meant may be plain and the block read: its text is damaged all the same.
+    let is_of_text = |rule: Rule| matches!(rule, Rule::Syntax | Rule::MissingB | Rule::BlockNumberAsB);
+    let damaged = findings.iter().filter(|finding| is_of_text(finding.rule)).count();
     if damaged > 0 {
         output::say(&format!("{}: left as they stand: {} with a syntax error, see wedm check", path.display(), counted(damaged, "line")));
     }

@@ -19,6 +19,7 @@ mod options;
 mod output;
 mod report;
 mod serve;
+mod simulate;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
@@ -58,6 +59,7 @@ enum Command {
     Draw(draw::Arguments),
     Contours(contours::Arguments),
     Convert(convert::Arguments),
+    Simulate(simulate::Arguments),
     Demo(demo::Arguments),
     Serve(serve::Arguments),
     Completions(completions::Arguments),
@@ -102,6 +104,7 @@ pub fn run() -> ExitCode {
         Some(Command::Draw(arguments)) => draw::run(&arguments),
         Some(Command::Contours(arguments)) => contours::run(&arguments),
         Some(Command::Convert(arguments)) => convert::run(&arguments),
+        Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
         Some(Command::Completions(arguments)) => completions::run(&arguments, &mut CommandLine::command()),
     };

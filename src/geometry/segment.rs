@@ -92,6 +92,14 @@ impl Segment {
         }
     }
 
+    /// The same segment elsewhere.
+    pub fn moved(&self, by: Vector) -> Segment {
+        match self {
+            Segment::Line(line) => Segment::line(line.start + by, line.end + by),
+            Segment::Arc(arc) => Segment::Arc(Arc { center: arc.center + by, start: arc.start + by, end: arc.end + by, ..*arc }),
+        }
+    }
+
     /// The point at `share` (0 … 1) of the length.
     pub fn point_at(&self, share: f64) -> Point {
         match self {

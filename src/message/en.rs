@@ -1,7 +1,7 @@
 //! English.
 
 use crate::drawing::Visibility;
-use crate::finding::{Detail, Finding, FixKind, IsoFault, NoFix, Side, SmallRadius};
+use crate::finding::{Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
 pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
@@ -55,6 +55,7 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
             format!("{chords} chords lie on one arc of R {} mm{within}: the wire leaves facets", mm(radius * unit_mm))
         }
         Detail::Iso(fault) => iso(fault),
+        Detail::Program(fault) => program(fault),
         Detail::More { count } => format!("{count} more findings are not shown"),
         Detail::LeadIn(sentence) | Detail::Units(sentence) | Detail::Syntax(sentence) | Detail::Settings(sentence) => sentence.clone(),
     }
@@ -105,6 +106,19 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::DeleteDouble => "Delete the double".into(),
         FixKind::Merge => "Remove the short segment, its neighbours meet".into(),
         FixKind::MakeTangent { moved } => format!("Make the segments tangent (moves the contour by {} mm)", mm(moved * unit_mm)),
+        FixKind::SetJ { j } => format!("Set J to {j}"),
+        FixKind::SetEnd { axis, value } => format!("Set {} to {value}", axis.letter()),
+        FixKind::SetAxis { axis, j: None } => format!("Count G{}", axis.letter()),
+        FixKind::SetAxis { axis, j: Some(j) } => format!("Count G{}, J {j}", axis.letter()),
+        FixKind::SetMotion { name } => format!("Set Z to {name}"),
+        FixKind::InsertB => "Put the lost B back".into(),
+        FixKind::NumberWithN => "Write the block number with N".into(),
+        FixKind::ZeroForO => "Write a zero for the letter O".into(),
+        FixKind::DeleteBlock => "Delete the block".into(),
+        FixKind::SplitBlock { pieces } => format!("Split the block into {pieces} that fit"),
+        FixKind::SetNumber { number } => format!("Number the block N{number}"),
+        FixKind::Renumber { first, step: 1 } => format!("Number all blocks from N{first} on"),
+        FixKind::Renumber { first, step } => format!("Number all blocks from N{first} on, in steps of {step}"),
         FixKind::AddEnd { word } => format!("End the program with {word}"),
         FixKind::DeleteBehindEnd => "Delete what stands behind the end".into(),
         FixKind::CutRapid => "Cut there (G01) instead of the rapid".into(),
@@ -119,6 +133,79 @@ pub fn fix_all_title() -> &'static str {
 }
 
 /// What is wrong in an ISO program. Its lengths are µm.
+/// What is wrong in a 3B program, in µm as its blocks count, and what comes of it at the machine.
+fn program(fault: &ProgramFault) -> String {
+    match fault {
+        ProgramFault::MissingB => "a B of the block is missing: the controller takes its numbers for others, or stops".into(),
+        ProgramFault::BlockNumberAsB { number } => {
+            format!("B{number} stands where the block number N{number} was meant: the controller takes {number} for X")
+        }
+        ProgramFault::LengthInJ { j, projection, axis } => format!(
+            "J {j} is the length of the line, the controller counts its projection on {}, {projection} µm: the wire runs too far",
+            axis.letter()
+        ),
+        ProgramFault::WrongJ { j: 0, projection, axis } => {
+            format!("J is 0, the line's projection on {} is {projection} µm: the wire does not move", axis.letter())
+        }
+        ProgramFault::WrongJ { j, projection, axis } => format!(
+            "J {j} is not the line's projection on {}, {projection} µm: the wire ends {} µm {}",
+            axis.letter(),
+            (j - projection).abs(),
+            if j > projection { "too far" } else { "too early" }
+        ),
+        ProgramFault::JKeepsOpen { j, meant } => format!("J {j} keeps the contour open: with J {meant} it closes"),
+        ProgramFault::JOverTurn { j, turn } => {
+            format!("J {j} is more than one turn counts, {turn} µm: the wire goes on past its start")
+        }
+        ProgramFault::SmallerProjection { axis, counted, larger } => {
+            format!("G{} counts the smaller projection, {counted} of {larger} units: expected G{}", axis.letter(), axis.other().letter())
+        }
+        ProgramFault::ArcEndAxis { axis, x, y } => format!(
+            "G{} does not fit the arc's end at ({:.0}, {:.0}) µm from its centre, where it hardly moves on {}: expected G{}",
+            axis.letter(),
+            x,
+            y,
+            axis.letter(),
+            axis.other().letter()
+        ),
+        ProgramFault::AxisKeepsOpen { axis } => {
+            format!("G{} keeps the contour open: with G{} it closes", axis.letter(), axis.other().letter())
+        }
+        ProgramFault::AxisQuadrant { found, expected: [one, other], axis } => {
+            format!("{found} contradicts a line along {}: expected {one} or {other}", axis.letter())
+        }
+        ProgramFault::QuadrantKeepsOpen { found, meant } => format!("{found} keeps the contour open: with {meant} it closes"),
+        ProgramFault::ZeroBlock => "the block moves nothing: its J is 0".into(),
+        ProgramFault::ArcWithoutRadius => "the arc has no radius: X and Y are 0, its start is its centre".into(),
+        ProgramFault::TooManyDigits { field, value, digits } => {
+            format!("{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops")
+        }
+        ProgramFault::NotClosed { x, y, .. } => format!(
+            "the contour does not close: it ends {} mm beside its beginning (X {:+.3}, Y {:+.3})",
+            mm(x.hypot(*y) / 1000.0),
+            x / 1000.0,
+            y / 1000.0
+        ),
+        ProgramFault::MissingEnd { word } => {
+            format!("the program has no end, expected {word}: the machine waits, or runs what it held before")
+        }
+        ProgramFault::TextAfterEnd { word } => format!("text behind {word}, which ends the program: the machine does not run it"),
+        ProgramFault::DoubledNumber { number } => format!("block number N{number} stands twice"),
+        ProgramFault::NumberOutOfOrder { expected, number } => format!("block number N{number} is out of turn, expected N{expected}"),
+        ProgramFault::Unnumbered { expected } => format!("the block has no number, expected N{expected}"),
+        ProgramFault::PositionMismatch { x, y } => format!(
+            "the coordinates behind the block are {} mm from where it ends (X {:+.3}, Y {:+.3})",
+            mm(x.hypot(*y) / 1000.0),
+            x / 1000.0,
+            y / 1000.0
+        ),
+        ProgramFault::PathCrossesItself { at: [x, y], other } => format!(
+            "the wire crosses its own path of line {} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two",
+            other + 1
+        ),
+    }
+}
+
 fn iso(fault: &IsoFault) -> String {
     let side_word = |side: &Side| match side {
         Side::Left => "G41 lets the wire run on the left",

@@ -75,6 +75,37 @@ pub(super) fn empty_sheet() -> String {
     sheet
 }
 
+/// What is shown of a program that moves nothing.
+pub(super) fn empty_program() -> String {
+    let mut sheet = opening(SHEET_WIDTH, 120.0, "Nothing to draw");
+    let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="64">the program moves nothing</text>"#);
+    sheet.push_str("</svg>\n");
+    sheet
+}
+
+/// What the lines of a program mean, as far as they occur.
+pub(super) fn program_legend(sheet: &mut String, top: f64, has_ways: bool, has_faults: bool) {
+    let mut entries = vec![
+        (r#"<path class="wire" d="M0 0h24"/>"#, "wire"),
+        (r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#, "start of a contour"),
+    ];
+    if has_ways {
+        entries.push((r#"<path class="lead" d="M0 0h24"/>"#, "way without a cut"));
+    }
+    if has_faults {
+        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, "error"));
+        entries.push((r#"<path class="other" d="M0 0h24"/>"#, "warning"));
+    }
+    let mut x = MARGIN;
+    let _ = writeln!(sheet, r#"<g class="chrome">"#);
+    for (sample, text) in entries {
+        let (left, y) = (number(x), number(top + 8.0));
+        let _ = writeln!(sheet, r#"<g transform="translate({left} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#);
+        x += 32.0 + text.chars().count() as f64 * 6.6 + 22.0;
+    }
+    sheet.push_str("</g>\n");
+}
+
 /// What occurs in a picture.
 pub(super) struct Shown {
     pub faults: bool,

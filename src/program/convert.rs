@@ -60,7 +60,7 @@ pub struct Cuts {
 ///
 /// Where coordinates stand behind the blocks of a 3B program the nodes are those; else they are where the machine stops.
 pub fn cuts(document: &Document) -> Cuts {
-    let trace = document.trace();
+    let trace = document.trace().as_meant();
     let sides = document.sides();
     let stated = stated_ends(document);
     let mut cuts = Cuts::default();

@@ -96,7 +96,7 @@ impl Document {
     /// are in all.
     pub fn findings(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let of_reader = match self {
-            Document::ThreeB(document) => document.findings(),
+            Document::ThreeB(document) => return document.findings_under(settings, limit),
             Document::Iso(document) => document.findings(),
         };
         let mut findings: Vec<Finding> = Vec::new();

@@ -72,6 +72,20 @@ impl Trace {
         self.steps.last().map_or(self.start, |step| step.end)
     }
 
+    /// The same program as its blocks mean it: every step begins where the one before means to end, not where a counting machine has
+    /// drifted to.
+    pub fn as_meant(mut self) -> Trace {
+        let mut at = self.start;
+        for step in &mut self.steps {
+            let by = at - step.start;
+            step.ideal = step.ideal.as_ref().map(|ideal| ideal.moved(by));
+            step.end = step.ideal.as_ref().map_or(step.end + by, Segment::end);
+            step.start = at;
+            at = step.end;
+        }
+        self
+    }
+
     /// From the program's start to its end, µm: zero for a program that closes.
     pub fn closure(&self) -> Vector {
         self.end() - self.start

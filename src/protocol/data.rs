@@ -2,7 +2,7 @@
 
 use super::drawing::Point;
 use crate::drawing::Drawing;
-use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, Side, SmallRadius};
+use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, ProgramFault, Side, SmallRadius};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -142,9 +142,35 @@ impl FindingData {
                 data.distance = Some(*deviation);
             }
             Detail::Iso(fault) => data.iso(fault),
+            Detail::Program(fault) => data.program(fault),
             Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
         }
         data
+    }
+
+    /// Lengths in mm, as in every text.
+    fn program(&mut self, fault: &ProgramFault) {
+        let mm = |um: i64| um as f64 / 1000.0;
+        match *fault {
+            ProgramFault::LengthInJ { j, projection, .. } | ProgramFault::WrongJ { j, projection, .. } => {
+                self.length = Some(mm(j));
+                self.required = Some(mm(projection));
+            }
+            ProgramFault::JKeepsOpen { j, meant: required } | ProgramFault::JOverTurn { j, turn: required } => {
+                self.length = Some(mm(j));
+                self.required = Some(mm(required));
+            }
+            ProgramFault::SmallerProjection { counted, larger, .. } => {
+                self.length = Some(mm(counted));
+                self.required = Some(mm(larger));
+            }
+            ProgramFault::TooManyDigits { value, .. } => self.length = Some(mm(value)),
+            ProgramFault::NotClosed { x, y, .. } | ProgramFault::PositionMismatch { x, y } => {
+                self.distance = Some(x.hypot(y) / 1000.0);
+            }
+            ProgramFault::PathCrossesItself { at, .. } => self.at = Some(crate::geometry::Point::from(at).into()),
+            _ => {}
+        }
     }
 
     fn small_radius(&mut self, detail: &SmallRadius) {

@@ -16,6 +16,7 @@ mod number;
 mod requests;
 mod schema;
 mod segment;
+mod simulate;
 mod toolpath;
 
 pub use change::{DrawingChange, Splice, apply, changes_of};
@@ -33,6 +34,7 @@ pub use requests::{
 };
 pub use schema::schema;
 pub use segment::{SegmentKind, SegmentShape};
+pub use simulate::{Simulate, SimulatedBlock, SimulatedBounds, Simulation, StepKind};
 pub use toolpath::{PathPiece, PathSource, Toolpath, ToolpathPath};
 
 /// Version of the `wedm/` name space that the handshake states.
@@ -50,6 +52,7 @@ pub mod method {
     pub const CONTOURS: &str = "wedm/contours";
     pub const TOOLPATH: &str = "wedm/toolpath";
     pub const PICTURE: &str = "wedm/picture";
+    pub const SIMULATE: &str = "wedm/simulate";
     pub const LOCATE: &str = "wedm/locate";
     pub const SETTINGS: &str = "wedm/settings";
     /// The command that a drawing's code actions hold.

@@ -19,6 +19,7 @@ pub fn schema() -> Value {
         method::CONTOURS: { "params": of::<DrawingName>(&mut types), "result": of::<Contours>(&mut types) },
         method::TOOLPATH: { "params": of::<OptionsOf>(&mut types), "result": of::<Toolpath>(&mut types) },
         method::PICTURE: { "params": of::<OptionsOf>(&mut types), "result": of::<Picture>(&mut types) },
+        method::SIMULATE: { "params": of::<Simulate>(&mut types), "result": of::<Simulation>(&mut types) },
         method::LOCATE: { "params": of::<Locate>(&mut types), "result": of::<Option<Located>>(&mut types) },
         method::SETTINGS: { "params": of::<DrawingName>(&mut types), "result": of::<SettingsInForce>(&mut types) },
         method::GENERATE: {

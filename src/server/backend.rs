@@ -8,7 +8,8 @@ use super::requests::code_action::FIX_ALL;
 use super::requests::language::formatting::Scope;
 use super::requests::language::navigate::{Question, navigate};
 use super::requests::{
-    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, scale, settings, toolpath,
+    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, scale, settings, simulate,
+    toolpath,
 };
 use super::state::{Mailbox, Reply, State};
 use super::transport::Prepared;
@@ -55,7 +56,7 @@ pub(super) fn service(mailbox: Mailbox, prepared: Prepared, flags: Arc<Flags>, o
         .custom_method(method::GENERATE, Backend::generate)
         .custom_method(method::LOCATE, Backend::locate)
         .custom_method(method::SETTINGS, Backend::settings)
-        .custom_method("wedm/simulate", Backend::not_there_yet)
+        .custom_method(method::SIMULATE, Backend::simulate)
         .custom_method("wedm/test/panic", Backend::test_panic)
         .custom_method("wedm/test/ask", Backend::test_ask)
         .finish();
@@ -214,10 +215,10 @@ impl Backend {
         serde_json::to_value(in_force).map_err(|error| internal(error.to_string()))
     }
 
-    /// Methods that the protocol names and this version does not have.
-    async fn not_there_yet(&self, _: Value) -> Result<Value> {
-        let there = [method::INSPECT, method::CONTOURS, method::TOOLPATH, method::PICTURE, method::GENERATE];
-        Err(Error::invalid_params(format!("wedm/simulate is not there yet, expected {}", there.join(", "))))
+    async fn simulate(&self, params: Value) -> Result<Value> {
+        let (params, token) = read::<protocol::Simulate>(params)?;
+        let uri = params.uri.clone();
+        self.written(method::SIMULATE, &uri, token, move |state, errand| simulate::simulate(state, params, errand)).await
     }
 
     async fn test_panic(&self, params: probe::Panic) -> Result<Value> {

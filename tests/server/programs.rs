@@ -55,8 +55,9 @@ fn what_cannot_be_asked_for_is_refused_and_what_can_is_named() {
     check(json!({ "uri": URI, "format": "3b", "options": { "correction": -1 } }), -32602, "correction is -1");
     check(json!({ "uri": URI, "format": "3b", "options": { "colour": 1 } }), -32602, "colour is not known");
     let error = client.request("wedm/simulate", json!({ "uri": URI })).unwrap_err();
-    assert_eq!(error["code"], -32602);
-    assert!(error["message"].as_str().unwrap().contains("wedm/generate"), "{error}");
+    assert_eq!(error["code"], -32803);
+    assert!(error["message"].as_str().unwrap().contains("expected a program"), "{error}");
+    assert_eq!(client.code("wedm/simulate", json!({ "uri": "file:///none.3b" })), -32602);
     client.open_drawing("cad:///empty", json!([]));
     assert_eq!(client.code("wedm/generate", json!({ "uri": "cad:///empty", "format": "3b" })), -32803);
     client.shut_down();
@@ -207,5 +208,46 @@ fn a_long_request_reports_progress_may_be_cancelled_and_ends_when_the_drawing_mo
     let outdated = generate(&mut client, "outdated");
     client.change_drawing(URI, 2, json!([{ "handle": "C", "vertices": { "start": 0, "deleteCount": 1, "insert": [[0, -6]] } }]));
     assert_eq!(client.answer(outdated).unwrap_err()["code"], -32801);
+    client.shut_down();
+}
+
+/// A program is followed, drawn and repaired as a drawing is.
+#[test]
+fn a_program_is_followed_drawn_and_repaired() {
+    let mut client = Client::start();
+    let uri = "file:///a/hole.3b";
+    let text = "; Start Point = 1.000 , 2.000\nN1: B9900B0B9900GXL1\nN2: B9900B0B39600GYNR1\nD\nN3: B9900B0B9900GXL3\nDD\n";
+    assert_eq!(client.open_text(uri, "3b", text), Vec::<Value>::new());
+    let simulation = client.request("wedm/simulate", json!({ "uri": uri, "feed": 2.0 })).unwrap();
+    assert_eq!(simulation["blocks"].as_array().unwrap().len(), 5);
+    assert_eq!(
+        simulation["blocks"][1],
+        json!({ "line": 2, "number": 2, "kind": "arc", "start": [10900.0, 2000.0], "end": [10900.0, 2000.0],
+            "idealEnd": [10900.0, 2000.0], "deviation": 0.0, "center": [1000.0, 2000.0], "radius": 9900.0, "sweep": 360.0, "contour": 0 })
+    );
+    assert_eq!(simulation["blocks"][2]["kind"], "pause");
+    assert_eq!(simulation["blocks"][3]["contour"], 1);
+    assert_eq!(simulation["closure"], json!({ "x": 0.0, "y": 0.0 }));
+    assert_eq!(simulation["bounds"], json!({ "min": [-8900.0, -7900.0], "max": [10900.0, 11900.0] }));
+    let length = 2.0 * 9.9 + std::f64::consts::TAU * 9.9;
+    assert!((simulation["length"].as_f64().unwrap() - length).abs() < 1e-6);
+    assert!((simulation["minutes"].as_f64().unwrap() - length / 2.0).abs() < 1e-6);
+    let svg = client.request("wedm/picture", json!({ "uri": uri })).unwrap()["svg"].as_str().unwrap().to_owned();
+    for line in [1, 2, 4] {
+        assert!(svg.contains(&format!("data-line=\"{line}\"")), "{line}: {svg}");
+    }
+
+    let found = client.open_text("file:///a/length.3b", "3b", "B3000B4000B5000GYL1\nB3000B4000B4000GYL4\nB6000B0B6000GXL3\nDD\n");
+    let codes: Vec<_> = found.iter().map(|found| found["code"].as_str().unwrap()).collect();
+    assert_eq!(codes, ["length-in-j", "not-closed"]);
+    let position = json!({ "line": 0, "character": 12 });
+    let params = json!({ "textDocument": { "uri": "file:///a/length.3b" }, "range": { "start": position, "end": position },
+        "context": { "diagnostics": [found[0]] } });
+    let actions = client.request("textDocument/codeAction", params).unwrap();
+    let titles: Vec<_> = actions.as_array().unwrap().iter().map(|action| action["title"].as_str().unwrap()).collect();
+    assert_eq!(titles, ["Set J to 4000", "Fix all that can be fixed safely"]);
+    let edit = actions[0]["edit"]["documentChanges"][0]["edits"][0].clone();
+    assert_eq!(edit["newText"], "4000");
+    assert_eq!(edit["range"]["start"], json!({ "line": 0, "character": 11 }));
     client.shut_down();
 }

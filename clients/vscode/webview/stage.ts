@@ -70,10 +70,9 @@ export class Stage {
     this.#zoomAt(factor, x + width / 2, y + height / 2);
   }
 
-  /** Brings a part into view where it is not; the scale stays. */
+  /** Brings a part into view where it is not; the scale stays. Of the whole drawing every part is in view. */
   bring(box: Box | null): void {
-    if (box !== null && !sees(this.#view, box)) {
-      this.#isFitted = false;
+    if (box !== null && !this.#isFitted && !sees(this.#view, box)) {
       this.#show(centred(this.#view, box.x + box.width / 2, box.y + box.height / 2));
     }
   }

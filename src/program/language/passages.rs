@@ -59,9 +59,17 @@ fn passage(steps: &[Step], offset: usize) -> Passage {
         return Passage { is_way: true, ..all };
     }
     let arcs = steps.iter().filter(|step| step.kind == Kind::Arc).count();
-    let is_near = |a: Point, b: Point| (a - b).norm() <= NEAR + arcs as f64;
-    // Where the machine stands before the step `index`, or at the end.
+    // Where the machine stands before the step `index`, or at the end; and where it would, did it not drift while it counts.
     let node = |index: usize| steps.get(index).map_or_else(|| steps.last().map_or(Point::origin(), |step| step.end), |step| step.start);
+    let mut meant = vec![node(0)];
+    for step in steps {
+        let travel = step.ideal.as_ref().map_or(step.end - step.start, |ideal| ideal.end() - ideal.start());
+        meant.extend(meant.last().map(|before| before + travel));
+    }
+    let is_near = |one: usize, other: usize| {
+        let near = |a: Point, b: Point| (a - b).norm() <= NEAR + arcs as f64;
+        near(node(one), node(other)) || matches!((meant.get(one), meant.get(other)), (Some(a), Some(b)) if near(*a, *b))
+    };
     let count = steps.len();
     let encloses = |lead_in: usize, lead_out: usize| match steps.get(lead_in..count.saturating_sub(lead_out)) {
         None | Some([]) => false,
@@ -70,11 +78,11 @@ fn passage(steps: &[Step], offset: usize) -> Passage {
         Some([there, back]) => there.kind == Kind::Arc || back.kind == Kind::Arc,
         Some(_) => true,
     };
-    let is_closed = |lead_in: usize, lead_out: usize| encloses(lead_in, lead_out) && is_near(node(lead_in), node(count - lead_out));
-    if is_near(node(0), node(count)) {
+    let is_closed = |lead_in: usize, lead_out: usize| encloses(lead_in, lead_out) && is_near(lead_in, count - lead_out);
+    if is_near(0, count) {
         // The way out runs back along the way in.
         let mut leads = 0;
-        while encloses(leads + 1, leads + 1) && is_near(node(leads + 1), node(count - leads - 1)) {
+        while encloses(leads + 1, leads + 1) && is_near(leads + 1, count - leads - 1) {
             leads += 1;
         }
         return Passage { lead_in: leads, lead_out: leads, closed: encloses(leads, leads), ..all };

@@ -35,6 +35,25 @@ pub fn decode(block: &Block, start: Point) -> Result<Segment, DecodeFault> {
     }
 }
 
+/// The line or arc that a block means, also where its J contradicts its X and Y: the controller goes by J.
+///
+/// `None` where it leads nowhere: no J, no radius, more than one turn, or a line that does not move on the axis it counts.
+pub(super) fn meant(block: &Block, start: Point) -> Option<Segment> {
+    match decode(block, start) {
+        Ok(segment) => Some(segment),
+        Err(DecodeFault::WrongLength) => {
+            let larger = block.x.max(block.y);
+            let scaled = |value: i64| value as f64 * block.j as f64;
+            let counted = if block.axis == CountingAxis::X { block.x } else { block.y };
+            let Motion::Line(quadrant) = block.motion else { return None };
+            let (sign_x, sign_y) = quadrant.signs();
+            let (counted, x, y) = (counted as f64, scaled(block.x), scaled(block.y));
+            (larger > 0 && counted > 0.0).then(|| Segment::line(start, start + Vector::new(sign_x * x / counted, sign_y * y / counted)))
+        }
+        Err(_) => None,
+    }
+}
+
 fn line(block: &Block, quadrant: Quadrant, start: Point) -> Result<Segment, DecodeFault> {
     let (x, y, j) = (block.x as f64, block.y as f64, block.j as f64);
     let (sign_x, sign_y) = quadrant.signs();

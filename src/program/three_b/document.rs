@@ -1,103 +1,154 @@
-//! 3B text as an open document: its lines and what is wrong in them.
+//! 3B text as an open document: what its lines say, where the machine goes, and what is wrong.
+//!
+//! The text is cut into runs of lines. What a line says hangs on no other line, so an edit reads again the runs that it touched;
+//! what hangs on the whole program (contours, numbers, the end) is made from a few sums of each run.
 
-use super::decode::decode;
-use super::parse::{Item, SyntaxFault, Word, Words, read_line, unexpected};
-use crate::finding::{Detail, Finding, Fix, Place, Rule};
-use crate::geometry::{Point, Segment};
+use super::block::{Block, Node, PartArc};
+use super::decode::meant;
+use super::encode::line_block;
+use super::fields::fields_of;
+use super::layout::push_fields;
+use super::parse::{Word, Words, unexpected};
+use super::rules::block_number::Numbered;
+use super::rules::{
+    self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, path_crosses_itself, position_mismatch,
+    text_after_end,
+};
+use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Run, Sum, What, travel_of};
+use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault, Rule, Severity};
+use crate::geometry::{Point, Segment, Vector};
 use crate::program::trace::{Kind, Step, Trace};
-use crate::settings::Effective;
+use crate::settings::{Effective, Layout, SideSetting};
 use crate::text::{SourceText, TextEdit};
+use rayon::prelude::*;
 use std::ops::Range;
 
-/// A 3B program as text, and the faults found in it.
-///
-/// What a line says hangs on no other line, so an edit reads again only the lines that it touched.
-#[derive(Clone, Debug, Default)]
+/// A 3B or 4B program as text, and what was read from it.
+#[derive(Clone, Debug)]
 pub struct Document {
     text: SourceText,
-    end_word: String,
-    pause_word: String,
-    /// In the order of the text; all have a range of it.
-    findings: Vec<Finding>,
+    words: OwnWords,
+    limits: Limits,
+    runs: Vec<Run>,
+    view: View,
 }
 
+#[derive(Clone, Debug, PartialEq)]
+struct OwnWords {
+    pause: String,
+    end: String,
+}
+
+impl OwnWords {
+    fn of(settings: &Effective) -> OwnWords {
+        OwnWords { pause: settings.pause.trim().into(), end: settings.end.trim().into() }
+    }
+
+    fn words(&self) -> Words<'_> {
+        Words { pause: &self.pause, end: &self.end }
+    }
+}
+
+/// An entry by its run and its index in there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct At {
+    run: usize,
+    entry: usize,
+}
+
+/// Blocks between two words.
+#[derive(Clone, Debug, PartialEq)]
+struct Section {
+    /// First and last part, by run and index in there.
+    parts: [(usize, usize); 2],
+    sum: Sum,
+    /// The way between two contours, without the wire.
+    is_jump: bool,
+    closed: bool,
+}
+
+/// What hangs on the program as a whole.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct View {
+    /// Bytes and lines before each run.
+    starts: Vec<(usize, usize)>,
+    sections: Vec<Section>,
+    /// The word that ends the program.
+    end: Option<At>,
+    last_block: Option<At>,
+    /// In no order; the places are bytes of the text.
+    findings: Vec<Finding>,
+    /// Crossings of the contours, by the marks of their sections; those of the last view are kept for an edit that is taken back.
+    crossings: Vec<Crossings>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Crossings {
+    mark: u64,
+    found: std::sync::Arc<Vec<path_crosses_itself::Crossing>>,
+}
+
+/// Where a finding is kept.
+#[derive(Clone, Copy, Debug)]
+enum Found {
+    InBlock { run: usize, index: usize },
+    OnWhole { index: usize },
+}
+
+/// A block and what stands about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedBlock {
+    /// Bytes of the text, from the first `B` to the quadrant.
+    pub range: Range<usize>,
+    /// From 0.
+    pub line: usize,
+    pub number: Option<u32>,
+    pub block: Block,
+    /// What a 4B block says beside a 3B block.
+    pub part: Option<PartArc>,
+    /// Coordinates behind the block, mm.
+    pub stated_end: Option<[f64; 2]>,
+}
+
+/// Contours of more blocks are not asked for crossings while they do not close: torn open they cross for that reason.
+const CROSSINGS_WHILE_OPEN: usize = 2_000;
+
+/// A way of at most this many lines between two pauses leads from one contour to the next.
+const JUMP_BLOCKS: usize = 3;
+
 impl Document {
-    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    /// Reads program text with the words and limits of the default settings.
     pub fn read(bytes: Vec<u8>) -> Document {
         Document::read_with(bytes, &Effective::default())
     }
 
-    /// The same with the words and limits of a controller.
+    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
     pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let text = SourceText::new(bytes);
-        let mut document = Document { text, end_word: settings.end.clone(), pause_word: settings.pause.clone(), findings: Vec::new() };
-        document.findings = document.findings_in(0..document.text.line_count());
+        let (words, limits) = (OwnWords::of(settings), Limits::of(settings));
+        let count = text.line_count();
+        let read = |first: usize| run_of(&text, first..(first + LINES).min(count), &words.words(), &limits);
+        let firsts: Vec<usize> = (0..count).step_by(LINES).collect();
+        let runs = if count > 20 * LINES { firsts.into_par_iter().map(read).collect() } else { firsts.into_iter().map(read).collect() };
+        let mut document = Document { text, words, limits, runs, view: View::default() };
+        document.view = document.look();
         document
-    }
-
-    /// Reads again where the words between blocks have changed.
-    pub fn set_settings(&mut self, settings: &Effective) {
-        if (&self.end_word, &self.pause_word) != (&settings.end, &settings.pause) {
-            *self = Document::read_with(std::mem::take(&mut self.text).into_bytes(), settings);
-        }
     }
 
     /// The words between blocks.
     pub(in crate::program) fn words(&self) -> Words<'_> {
-        Words { pause: self.pause_word.trim(), end: self.end_word.trim() }
-    }
-
-    /// The fixes of one finding, the preferred one first.
-    pub fn fixes(&self, _finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
-        Vec::new()
-    }
-
-    /// Where the machine goes, block by block.
-    pub fn trace(&self) -> Trace {
-        let mut trace = Trace::default();
-        let mut at = trace.start;
-        let mut contour = 0;
-        for line in 0..self.text.line_count() {
-            let range = self.text.line_range(line);
-            let start = range.start;
-            read_line(&self.text.bytes()[range], start, &self.words(), |item| match item {
-                Item::StartPoint { at: [x, y], .. } => {
-                    if trace.steps.is_empty() {
-                        at = Point::new((x * 1000.0).round(), (y * 1000.0).round());
-                        (trace.start, trace.start_is_known) = (at, true);
-                    }
-                }
-                Item::Word { word, range, .. } => {
-                    let kind = if word == Word::End { Kind::End } else { Kind::Pause };
-                    trace.steps.push(Step { range, line, number: None, kind, start: at, end: at, ideal: None, contour });
-                    contour += usize::from(word == Word::Pause);
-                }
-                Item::Block { block, range, number, .. } => {
-                    let ideal = decode(&block, at).ok();
-                    let end = ideal.map_or(at, |ideal| ideal.end());
-                    let kind = if matches!(ideal, Some(Segment::Arc(_))) { Kind::Arc } else { Kind::Line };
-                    trace.steps.push(Step { range, line, number, kind, start: at, end, ideal, contour });
-                    at = end;
-                }
-                Item::Text { .. } | Item::Fault(_) => {}
-            });
-        }
-        trace
-    }
-
-    /// The steps whose text overlaps or touches a range of bytes.
-    pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
-        let mut steps = self.trace().steps;
-        steps.retain(|step| step.range.start <= range.end && range.start <= step.range.end);
-        steps
+        self.words.words()
     }
 
     pub fn text(&self) -> &SourceText {
         &self.text
     }
 
-    pub fn findings(&self) -> Vec<Finding> {
-        self.findings.clone()
+    /// Reads again where the settings change what the text means or what is a fault of it.
+    pub fn set_settings(&mut self, settings: &Effective) {
+        if self.words != OwnWords::of(settings) || self.limits != Limits::of(settings) {
+            *self = Document::read_with(std::mem::take(&mut self.text).into_bytes(), settings);
+        }
     }
 
     /// Replaces a range of bytes and reads again what it touched.
@@ -105,54 +156,729 @@ impl Document {
         let end = range.end.min(self.text.len());
         let start = range.start.min(end);
         // The byte before belongs to it: a CR there may become one line end with an inserted LF.
-        let first = self.text.line_of(start.saturating_sub(1));
-        let behind = self.text.line_start(self.text.line_of(end) + 1);
+        let first = self.run_at(start.saturating_sub(1));
+        let last = self.run_at(end).max(first);
+        let starts = &self.view.starts;
+        let first_byte = starts.get(first).map_or(0, |start| start.0);
+        let first_line = starts.get(first).map_or(0, |start| start.1);
+        let behind = starts.get(last + 1).map_or(self.text.len(), |start| start.0);
         let tail = self.text.len() - behind;
-        let kept_before = self.findings.partition_point(|finding| start_of(finding) < self.text.line_start(first));
-        let kept_behind = if tail == 0 { self.findings.len() } else { self.findings.partition_point(|finding| start_of(finding) < behind) };
-
         self.text.replace(start..end, replacement);
-
         let new_behind = self.text.len() - tail;
-        let last = self.text.line_of(new_behind.saturating_sub(usize::from(tail > 0)));
-        for finding in &mut self.findings[kept_behind..] {
-            if let Place::Text { range } = &mut finding.place {
-                *range = range.start - behind + new_behind..range.end - behind + new_behind;
+        debug_assert_eq!(self.text.line_start(first_line), first_byte);
+        let last_line = if tail == 0 { self.text.line_count() } else { self.text.line_of(new_behind) };
+        let words = self.words.words();
+        let fresh: Vec<Run> = (first_line..last_line)
+            .step_by(LINES)
+            .map(|line| run_of(&self.text, line..(line + LINES).min(last_line), &words, &self.limits))
+            .collect();
+        self.runs.splice(first..(last + 1).min(self.runs.len()), fresh);
+        self.view = self.look();
+    }
+
+    /// The run that holds a byte; the last one for bytes past the end.
+    fn run_at(&self, byte: usize) -> usize {
+        self.view.starts.partition_point(|start| start.0 <= byte).saturating_sub(1)
+    }
+
+    fn base(&self, run: usize) -> usize {
+        self.view.starts.get(run).map_or(0, |start| start.0)
+    }
+
+    fn entry(&self, at: At) -> Option<&Entry> {
+        self.runs.get(at.run)?.entries.get(at.entry)
+    }
+
+    /// Bytes of an entry in the text.
+    fn range_of(&self, at: At, starts: &[(usize, usize)]) -> Range<usize> {
+        let base = starts.get(at.run).map_or(0, |start| start.0);
+        self.entry(at).map_or(0..0, |entry| entry.range().start + base..entry.range().end + base)
+    }
+
+    // What hangs on the whole.
+
+    fn look(&self) -> View {
+        let mut view = View { starts: Vec::with_capacity(self.runs.len()), ..View::default() };
+        let (mut bytes, mut lines) = (0, 0);
+        for run in &self.runs {
+            view.starts.push((bytes, lines));
+            bytes += run.bytes;
+            lines += run.lines;
+        }
+        view.end = self.end_word();
+        view.sections = self.sections(view.end);
+        view.last_block = self.last_block(view.end);
+        self.judge_contours(&mut view);
+        self.judge_crossings(&mut view);
+        self.judge_end(&mut view);
+        self.judge_texts(&mut view);
+        self.judge_numbers(&mut view);
+        self.judge_positions(&mut view);
+        view
+    }
+
+    /// The words of the program in their order.
+    fn words_in(&self) -> impl Iterator<Item = (At, Word, bool)> + '_ {
+        self.runs.iter().enumerate().flat_map(|(run, of)| {
+            of.parts.iter().filter_map(move |part| part.word.map(|(word, own)| (At { run, entry: part.entries.end }, word, own)))
+        })
+    }
+
+    /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere, else a pause
+    /// with no block behind it.
+    fn end_word(&self) -> Option<At> {
+        let own = self.words_in().find(|(_, word, own)| *word == Word::End && *own);
+        let foreign = || self.words_in().filter(|(_, word, _)| *word == Word::End).last();
+        let pause = || {
+            let last = self.words_in().last()?;
+            let is_last = self.last_block(None).is_none_or(|block| block < last.0);
+            (is_last && self.last_block(None).is_some()).then_some(last)
+        };
+        own.or_else(foreign).or_else(pause).map(|(at, ..)| at)
+    }
+
+    fn last_block(&self, end: Option<At>) -> Option<At> {
+        let runs = self.runs.iter().enumerate().rev().filter(|(_, run)| run.blocks > 0);
+        let mut blocks = runs.flat_map(|(run, of)| {
+            of.entries.iter().enumerate().rev().filter(|(_, entry)| entry.block().is_some()).map(move |(entry, _)| At { run, entry })
+        });
+        blocks.find(|at| end.is_none_or(|end| *at < end))
+    }
+
+    fn sections(&self, end: Option<At>) -> Vec<Section> {
+        let mut sections = Vec::new();
+        let mut open: Option<Section> = None;
+        let mut is_behind_pause = false;
+        'runs: for (run, of) in self.runs.iter().enumerate() {
+            for (index, part) in of.parts.iter().enumerate() {
+                if end.is_some_and(|end| end < At { run, entry: part.entries.start }) {
+                    break 'runs;
+                }
+                let section = open.get_or_insert(Section { parts: [(run, index); 2], sum: Sum::default(), is_jump: false, closed: true });
+                section.parts[1] = (run, index);
+                section.sum = section.sum.then(&part.sum);
+                if part.word.is_some() {
+                    let is_end = end == Some(At { run, entry: part.entries.end });
+                    let sum = &section.sum;
+                    section.is_jump = is_behind_pause && !is_end && (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0;
+                    section.closed = section.is_jump || not_closed::is_closed(sum);
+                    sections.extend(open.take());
+                    is_behind_pause = true;
+                }
             }
         }
-        let fresh = self.findings_in(first..last + 1);
-        self.findings.splice(kept_before..kept_behind, fresh);
+        if let Some(mut section) = open {
+            section.closed = not_closed::is_closed(&section.sum);
+            sections.push(section);
+        }
+        sections
     }
 
-    fn findings_in(&self, lines: Range<usize>) -> Vec<Finding> {
-        let words = self.words();
+    /// `not-closed`, and the block that is to blame where it is plain. A contour that pauses before its last piece goes on behind the pause.
+    fn judge_contours(&self, view: &mut View) {
+        let mut index = 0;
+        while index < view.sections.len() {
+            if view.sections[index].closed {
+                index += 1;
+                continue;
+            }
+            let mut whole = view.sections[index].sum;
+            let closes_at = view.sections[index + 1..].iter().position(|next| {
+                whole = whole.then(&next.sum);
+                not_closed::is_closed(&whole)
+            });
+            if let Some(more) = closes_at {
+                view.sections[index..=index + 1 + more].iter_mut().for_each(|section| section.closed = true);
+                index += more + 2;
+                continue;
+            }
+            self.judge_open(view, index);
+            index += 1;
+        }
+    }
+
+    fn judge_open(&self, view: &mut View, index: usize) {
+        let section = &view.sections[index];
+        let Some(last) = self.last_block_of(section).filter(|_| section.sum.unread == 0) else { return };
+        let is_fragment = view.end.is_none() || section.sum.blocks <= not_closed::FRAGMENT;
+        let fault = not_closed::fault(&section.sum);
+        let severity = if is_fragment { Severity::Information } else { fault.rule().default_severity() };
+        let mut findings = vec![Finding { severity, ..finding(self.range_of(last, &view.starts), fault) }];
+        if !is_fragment && section.sum.errors == 0 && culprit::BLOCKS.contains(&section.sum.blocks) {
+            let blocks = self.blocks_of(section).filter_map(|at| self.entry(at)?.block());
+            if let Some((nth, fault)) = culprit::culprit(&section.sum, blocks)
+                && let Some(at) = self.blocks_of(section).nth(nth)
+            {
+                let spot = match fault.rule() {
+                    Rule::WrongQuadrant => rules::Spot::Motion,
+                    Rule::WrongCountingAxis => rules::Spot::Axis,
+                    _ => rules::Spot::J,
+                };
+                let block = self.range_of(at, &view.starts);
+                let range = fields_of(self.text.bytes(), block.clone()).map_or(block.clone(), |fields| spot.range(&fields, block));
+                findings.push(finding(range, fault));
+            }
+        }
+        view.findings.extend(findings);
+    }
+
+    /// The blocks of a section in their order.
+    fn blocks_of(&self, section: &Section) -> impl Iterator<Item = At> + '_ {
+        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        (first_run..=last_run).flat_map(move |run| {
+            let entries = self.runs.get(run).map(|of| {
+                let from = if run == first_run { of.parts.get(first_part).map_or(0, |part| part.entries.start) } else { 0 };
+                let to = if run == last_run { of.parts.get(last_part).map_or(0, |part| part.entries.end) } else { of.entries.len() };
+                (from..to).filter(move |entry| of.entries[*entry].block().is_some())
+            });
+            entries.into_iter().flatten().map(move |entry| At { run, entry })
+        })
+    }
+
+    fn last_block_of(&self, section: &Section) -> Option<At> {
+        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        (first_run..=last_run).rev().find_map(|run| {
+            let of = self.runs.get(run)?;
+            let from = if run == first_run { of.parts.get(first_part)?.entries.start } else { 0 };
+            let to = if run == last_run { of.parts.get(last_part)?.entries.end } else { of.entries.len() };
+            let entry = (from..to).rev().find(|entry| of.entries.get(*entry).is_some_and(|entry| entry.block().is_some()))?;
+            Some(At { run, entry })
+        })
+    }
+
+    fn judge_crossings(&self, view: &mut View) {
+        let mut all = Vec::new();
         let mut findings = Vec::new();
-        for line in lines {
-            let range = self.text.line_range(line);
-            let start = range.start;
-            read_line(&self.text.bytes()[range], start, &words, |item| match item {
-                Item::Fault(fault) => findings.push(finding(fault)),
-                Item::Text { range, column } => findings.push(finding(unexpected(self.text.bytes(), range, column))),
-                _ => {}
+        for section in &view.sections {
+            let is_asked = !section.is_jump && section.sum.blocks >= 4 && (section.closed || section.sum.blocks <= CROSSINGS_WHILE_OPEN);
+            if !is_asked {
+                continue;
+            }
+            let mark = section.sum.mark;
+            let known = self.view.crossings.iter().find(|known| known.mark == mark).map(|known| known.found.clone());
+            let found = known.unwrap_or_else(|| {
+                let pieces = self.pieces(section);
+                std::sync::Arc::new(path_crosses_itself::crossings(&pieces, section.sum.arcs))
+            });
+            for crossing in found.iter() {
+                let mut blocks = self.blocks_of(section);
+                let first = blocks.nth(crossing.first);
+                let second = blocks.nth(crossing.second - crossing.first - 1);
+                if let (Some(first), Some(second)) = (first, second) {
+                    let from = self.range_of(first, &view.starts);
+                    let fault = ProgramFault::PathCrossesItself {
+                        at: [crossing.at.x / 1000.0, crossing.at.y / 1000.0],
+                        other: self.text.line_of(from.start),
+                    };
+                    let related = vec![Place::Text { range: from }];
+                    findings.push(Finding { related, ..finding(self.range_of(second, &view.starts), fault) });
+                }
+            }
+            all.push(Crossings { mark, found });
+        }
+        // What was known before is kept once more: an edit that is taken back costs nothing.
+        let is_new = |old: &&Crossings| !all.iter().any(|new: &Crossings| new.mark == old.mark);
+        let kept: Vec<Crossings> = self.view.crossings.iter().filter(is_new).take(4).cloned().collect();
+        all.extend(kept);
+        view.crossings = all;
+        view.findings.extend(findings);
+    }
+
+    /// The way of a section from the origin, µm.
+    fn pieces(&self, section: &Section) -> Vec<Segment> {
+        let mut at = Move::default();
+        let mut pieces = Vec::with_capacity(section.sum.blocks);
+        for entry in self.blocks_of(section).filter_map(|at| self.entry(at)?.block()) {
+            let [x, y] = at.meant_um();
+            let start = Point::new(x, y);
+            pieces.push(meant(&entry.block, start).unwrap_or(Segment::line(start, start)));
+            at = at.plus(entry.travel);
+        }
+        pieces
+    }
+
+    /// `missing-end` and `text-after-end`.
+    fn judge_end(&self, view: &mut View) {
+        let Some(last_block) = view.last_block else { return };
+        let Some(end) = view.end else {
+            let blocks: usize = self.runs.iter().map(|run| run.blocks).sum();
+            let fault = ProgramFault::MissingEnd { word: self.words.end.clone() };
+            let severity = if blocks == 1 { Severity::Information } else { fault.rule().default_severity() };
+            view.findings.push(Finding { severity, ..finding(self.range_of(last_block, &view.starts), fault) });
+            return;
+        };
+        let behind =
+            self.runs.iter().enumerate().skip(end.run).flat_map(|(run, of)| (0..of.entries.len()).map(move |entry| At { run, entry }));
+        if let Some(first) = behind.into_iter().find(|at| *at > end) {
+            let word = self.range_of(end, &view.starts);
+            let word = String::from_utf8_lossy(self.text.bytes().get(word).unwrap_or_default()).into_owned();
+            let fault = ProgramFault::TextAfterEnd { word };
+            view.findings.push(finding(self.range_of(first, &view.starts), fault));
+        }
+    }
+
+    /// Text that is no block is a heading before the first block, a fault between blocks.
+    fn judge_texts(&self, view: &mut View) {
+        let first_block = self.runs.iter().enumerate().find(|(_, run)| run.blocks > 0).and_then(|(run, of)| {
+            let entry = of.entries.iter().position(|entry| entry.block().is_some())?;
+            Some(At { run, entry })
+        });
+        let mut findings = Vec::new();
+        let texts = self.runs.iter().enumerate().filter(|(_, run)| run.texts > 0).flat_map(|(run, of)| {
+            of.entries.iter().enumerate().filter_map(move |(entry, what)| match what.what {
+                What::Text { column } => Some((At { run, entry }, column)),
+                _ => None,
+            })
+        });
+        let has_fault = self.runs.iter().any(|run| !run.faults.is_empty());
+        for (at, column) in texts {
+            let range = self.range_of(at, &view.starts);
+            let is_fault = match (first_block, view.end) {
+                (Some(first), end) => first < at && end.is_none_or(|end| at < end),
+                // One sentence for a text that is no program at all.
+                (None, _) => !has_fault && findings.is_empty() && view.end.is_none(),
+            };
+            if is_fault {
+                let fault = unexpected(self.text.bytes(), range.clone(), column);
+                findings.push(syntax(range, fault.sentence()));
+            }
+        }
+        view.findings.extend(findings);
+    }
+
+    fn judge_numbers(&self, view: &mut View) {
+        let numbering = self.runs.iter().fold(Numbering::Empty, |before, run| before.then(run.numbering));
+        if numbering != Numbering::Irregular || self.runs.iter().all(|run| run.numbered == 0) {
+            return;
+        }
+        let (places, blocks) = self.numbered(view.end);
+        for (index, fault, _) in block_number::look(&blocks) {
+            if let Some(at) = places.get(index) {
+                view.findings.push(finding(self.range_of(*at, &view.starts), fault));
+            }
+        }
+    }
+
+    /// Blocks and numbered words up to the end, with their numbers.
+    fn numbered(&self, end: Option<At>) -> (Vec<At>, Vec<Numbered>) {
+        let (mut places, mut blocks) = (Vec::new(), Vec::new());
+        let mut is_after_pause = false;
+        for (run, of) in self.runs.iter().enumerate() {
+            for (entry, what) in of.entries.iter().enumerate() {
+                let at = At { run, entry };
+                if end.is_some_and(|end| at > end) {
+                    return (places, blocks);
+                }
+                let number = what.number();
+                let is_word = matches!(what.what, What::Word { .. });
+                if what.block().is_some() || (is_word && number.is_some()) {
+                    places.push(at);
+                    blocks.push(Numbered { number, is_after_pause });
+                }
+                is_after_pause = is_word;
+            }
+        }
+        (places, blocks)
+    }
+
+    fn judge_positions(&self, view: &mut View) {
+        let mut anchor = None;
+        let (mut compared, mut ordinal) = (0, 0);
+        let mut off: Vec<(usize, At, [f64; 2])> = Vec::new();
+        for (run, of) in self.runs.iter().enumerate() {
+            let positions = &of.positions;
+            if let (Some(before), Some((entry, stated, travel))) = (&anchor, &positions.first) {
+                compared += 1;
+                off.extend(position_mismatch::mismatch(before, travel, stated).map(|by| (ordinal, At { run, entry: *entry }, by)));
+            }
+            compared += positions.compared;
+            off.extend(positions.off.iter().map(|(nth, entry, by)| (ordinal + nth, At { run, entry: *entry }, *by)));
+            ordinal += of.blocks;
+            anchor = positions.anchor.unwrap_or(anchor);
+        }
+        if off.len() > 2 && off.len() as f64 > position_mismatch::FOREIGN * compared as f64 {
+            return;
+        }
+        let mut before: Option<(usize, [f64; 2])> = None;
+        for (ordinal, at, [x, y]) in off {
+            // One end point that is off on its own is off once there and once back.
+            let goes_back = before.is_some_and(|(last, [a, b])| last + 1 == ordinal && (a + x).abs() <= 4.0 && (b + y).abs() <= 4.0);
+            before = (!goes_back).then_some((ordinal, [x, y]));
+            if !goes_back {
+                view.findings.push(finding(self.range_of(at, &view.starts), ProgramFault::PositionMismatch { x, y }));
+            }
+        }
+    }
+
+    // Findings and fixes.
+
+    /// All findings as the reader and the rules see them, in no order.
+    pub fn findings(&self) -> Vec<Finding> {
+        let of_blocks = self.locals().map(|(run, local)| self.materialized(run, local));
+        of_blocks.chain(self.view.findings.iter().cloned()).collect()
+    }
+
+    /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there are.
+    pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
+        let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
+        let mut order: Vec<(Severity, usize, Found)> = Vec::new();
+        for (run, of) in self.runs.iter().enumerate().filter(|(_, of)| !of.faults.is_empty()) {
+            for (index, local) in of.faults.iter().enumerate().filter(|(_, local)| self.counts(run, local)) {
+                if let Some(severity) = severity(local.rule, local.rule.default_severity()) {
+                    order.push((severity, local.range.start + self.base(run), Found::InBlock { run, index }));
+                }
+            }
+        }
+        for (index, finding) in self.view.findings.iter().enumerate() {
+            if let (Some(severity), Place::Text { range }) = (severity(finding.rule, finding.severity), &finding.place) {
+                order.push((severity, range.start, Found::OnWhole { index }));
+            }
+        }
+        order.sort_by_key(|(severity, start, _)| (*severity, *start));
+        let count = order.len();
+        order.truncate(limit);
+        let made = order.into_iter().filter_map(|(severity, _, which)| {
+            let finding = match which {
+                Found::InBlock { run, index } => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
+                Found::OnWhole { index } => self.view.findings.get(index)?.clone(),
+            };
+            Some(Finding { severity, ..finding })
+        });
+        (made.collect(), count)
+    }
+
+    fn locals(&self) -> impl Iterator<Item = (usize, &Local)> {
+        let all = self.runs.iter().enumerate().flat_map(|(run, of)| of.faults.iter().map(move |local| (run, local)));
+        all.filter(|(run, local)| self.counts(*run, local))
+    }
+
+    fn counts(&self, run: usize, local: &Local) -> bool {
+        let section = || {
+            let index = self.view.sections.partition_point(|section| section.parts[1] < (run, local.part));
+            self.view.sections.get(index)
+        };
+        match local.counts {
+            Counts::Always => true,
+            Counts::IfOpen => section().is_some_and(|section| !section.closed),
+            Counts::IfInside { turns_left } => section().is_some_and(|section| {
+                let runs_left = section.sum.twice_area > 0.0;
+                let wire_is_inside = self.limits.side == SideSetting::Opening;
+                (runs_left == wire_is_inside) == turns_left
+            }),
+        }
+    }
+
+    fn materialized(&self, run: usize, local: &Local) -> Finding {
+        let base = self.base(run);
+        let block = local.range.start + base..local.range.end + base;
+        let range = match local.spot {
+            rules::Spot::Block => block,
+            spot => fields_of(self.text.bytes(), block.clone()).map_or(block.clone(), |fields| spot.range(&fields, block)),
+        };
+        Finding {
+            rule: local.rule,
+            severity: local.rule.default_severity(),
+            place: Place::Text { range },
+            detail: local.detail.clone(),
+            related: Vec::new(),
+        }
+    }
+
+    /// The fixes of one finding, the preferred one first.
+    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+        let Place::Text { range } = &finding.place else { return Vec::new() };
+        let fault = match &finding.detail {
+            Detail::Program(fault) => fault,
+            Detail::Syntax(_) => return self.letter_fixes(range),
+            _ => return Vec::new(),
+        };
+        match &**fault {
+            ProgramFault::MissingEnd { word } => missing_end::fixes(&self.text, range.end, word),
+            ProgramFault::TextAfterEnd { .. } => match self.view.end {
+                Some(end) => text_after_end::fixes(&self.text, self.range_of(end, &self.view.starts).start),
+                None => Vec::new(),
+            },
+            ProgramFault::NotClosed { .. } => self.closing_fixes(range),
+            ProgramFault::DoubledNumber { .. } | ProgramFault::NumberOutOfOrder { .. } | ProgramFault::Unnumbered { .. } => {
+                self.number_fixes(range)
+            }
+            fault => self.block_fixes(range, fault),
+        }
+    }
+
+    /// The block that a range lies in or before.
+    fn block_at(&self, range: &Range<usize>) -> Option<(At, &BlockEntry)> {
+        let run = self.run_at(range.start);
+        let of = self.runs.get(run)?;
+        let local = range.start.checked_sub(self.base(run))?;
+        let entry = of.entries.partition_point(|entry| entry.range().end <= local);
+        Some((At { run, entry }, of.entries.get(entry)?.block()?))
+    }
+
+    fn section_of(&self, at: At) -> Option<&Section> {
+        let part = self.runs.get(at.run)?.parts.partition_point(|part| part.entries.end <= at.entry);
+        let index = self.view.sections.partition_point(|section| section.parts[1] < (at.run, part));
+        self.view.sections.get(index)
+    }
+
+    fn block_fixes(&self, range: &Range<usize>, fault: &ProgramFault) -> Vec<TextFix> {
+        let Some((at, entry)) = self.block_at(range) else { return Vec::new() };
+        let own = self.range_of(at, &self.view.starts);
+        // A number that stands before the block belongs to it.
+        let block = if matches!(fault, ProgramFault::BlockNumberAsB { .. }) { range.clone() } else { own.clone() };
+        let Some(fields) = fields_of(self.text.bytes(), own) else { return Vec::new() };
+        let line = self.text.line_of(block.start);
+        let site = Site {
+            text: self.text.bytes(),
+            range: if matches!(fault, ProgramFault::MissingB) { range.clone() } else { block },
+            line: self.text.line_start(line)..self.text.line_start(line + 1),
+            fields,
+            block: entry.block,
+            closes_with: &|blocks| self.closes_with(at, entry, blocks),
+        };
+        rules::fixes(&site, fault)
+    }
+
+    /// Whether the contour of a block closes with other blocks in its place.
+    fn closes_with(&self, at: At, entry: &BlockEntry, blocks: &[Block]) -> bool {
+        let Some(section) = self.section_of(at) else { return false };
+        let new = blocks.iter().map(travel_of).fold(Move::default(), Move::plus);
+        let mut sum = Sum { travel: section.sum.travel.minus(entry.travel).plus(new), ..section.sum };
+        if self.blocks_of(section).next() == Some(at) {
+            sum.first = blocks.first().map(travel_of).or(sum.first);
+        }
+        if self.last_block_of(section) == Some(at) {
+            sum.last = blocks.last().map(travel_of).or(sum.last);
+        }
+        section.sum.blocks >= 3 && not_closed::is_closed(&sum)
+    }
+
+    /// A straight block that closes the contour.
+    fn closing_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
+        let Some((at, _)) = self.block_at(range) else { return Vec::new() };
+        let Some(section) = self.section_of(at) else { return Vec::new() };
+        let [x, y] = not_closed::gap(&section.sum).map(|um| um.round() as i64);
+        let largest = self.limits.largest();
+        if x.abs().max(y.abs()) > largest || (x, y) == (0, 0) {
+            return Vec::new();
+        }
+        let block = line_block(Node { x: 0, y: 0 }, Node { x, y });
+        let own = self.text.bytes().get(range.clone()).unwrap_or_default();
+        let layout = if own.contains(&b' ') { Layout::Aligned } else { Layout::Compact };
+        let mut text = missing_end::line_end_of(&self.text).as_bytes().to_vec();
+        push_fields(&mut text, layout, &block, None);
+        let behind = self.text.line_range(self.text.line_of(range.start)).end;
+        let Ok(text) = String::from_utf8(text) else { return Vec::new() };
+        let length = (x as f64).hypot(y as f64) / 1000.0;
+        let edit = vec![TextEdit { range: behind..behind, text }];
+        vec![crate::finding::Fix { kind: FixKind::Close { length }, preferred: true, in_fix_all: false, edit }]
+    }
+
+    fn number_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
+        let (places, blocks) = self.numbered(self.view.end);
+        let found = block_number::look(&blocks);
+        let Some((index, _, meant)) =
+            found.into_iter().find(|(index, ..)| places.get(*index).is_some_and(|at| self.range_of(*at, &self.view.starts) == *range))
+        else {
+            return Vec::new();
+        };
+        let mut fixes = Vec::new();
+        if let Some(meant) = meant
+            && let Some(edit) = places.get(index).map(|at| self.number_edit(*at, meant))
+        {
+            fixes.push(crate::finding::Fix {
+                kind: FixKind::SetNumber { number: meant },
+                preferred: true,
+                in_fix_all: true,
+                edit: vec![edit],
             });
         }
-        findings
+        let numbers = || blocks.iter().filter_map(|block| block.number);
+        if let (Some(first), Some(second)) = (numbers().next(), numbers().nth(1)) {
+            let step = second.saturating_sub(first).max(1);
+            let edit = places.iter().enumerate().filter_map(|(index, at)| {
+                let number = first.saturating_add(step.saturating_mul(u32::try_from(index).ok()?));
+                (self.entry(*at)?.number() != Some(number)).then(|| self.number_edit(*at, number))
+            });
+            let edit: Vec<TextEdit> = edit.collect();
+            fixes.push(crate::finding::Fix {
+                kind: FixKind::Renumber { first, step },
+                preferred: fixes.is_empty(),
+                in_fix_all: false,
+                edit,
+            });
+        }
+        fixes
+    }
+
+    /// Writes the number of a block or word, in the place of the one that it has.
+    fn number_edit(&self, at: At, number: u32) -> TextEdit {
+        let range = self.range_of(at, &self.view.starts);
+        let has_number = self.entry(at).is_some_and(|entry| entry.number().is_some());
+        let line = self.text.line_range(self.text.line_of(range.start));
+        let before = self.text.bytes().get(line.start..range.start).unwrap_or_default();
+        let digits_end = before.iter().rposition(u8::is_ascii_digit).map_or(0, |last| last + 1);
+        let digits_start = before[..digits_end].iter().rposition(|byte| !byte.is_ascii_digit()).map_or(0, |last| last + 1);
+        if has_number && digits_end > 0 {
+            // Padding is kept as wide as it was.
+            let width = digits_end - digits_start;
+            let padded = before.get(digits_start) == Some(&b'0');
+            let text = if padded { format!("{number:0width$}") } else { number.to_string() };
+            return TextEdit { range: line.start + digits_start..line.start + digits_end, text };
+        }
+        TextEdit { range: range.start..range.start, text: format!("N{number} ") }
+    }
+
+    fn letter_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
+        match self.text.bytes().get(range.clone()) {
+            Some(b"O" | b"o") => {
+                let edit = vec![TextEdit { range: range.clone(), text: "0".into() }];
+                vec![crate::finding::Fix { kind: FixKind::ZeroForO, preferred: true, in_fix_all: true, edit }]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    // The way.
+
+    /// Where the machine goes, block by block, up to the end word.
+    pub fn trace(&self) -> Trace {
+        let mut trace = Trace::default();
+        let mut walk = self.walk();
+        (trace.start, trace.start_is_known) = (walk.at, walk.start_is_known);
+        for run in 0..self.runs.len() {
+            walk.run(run, |_| true, &mut |step| trace.steps.push(step));
+        }
+        trace
+    }
+
+    /// The steps whose text overlaps or touches a range of bytes.
+    pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
+        let (first, last) = (self.run_at(range.start), self.run_at(range.end));
+        let mut walk = self.walk();
+        (0..first).for_each(|run| walk.skip(run));
+        let mut steps = Vec::new();
+        for run in first..=last {
+            walk.run(run, |bytes| bytes.start <= range.end && range.start <= bytes.end, &mut |step| steps.push(step));
+        }
+        steps
+    }
+
+    /// The blocks whose text overlaps or touches a range of bytes, as they stand there.
+    pub fn blocks_in(&self, range: Range<usize>) -> Vec<PlacedBlock> {
+        let mut blocks = Vec::new();
+        for run in self.run_at(range.start)..=self.run_at(range.end) {
+            let (Some(of), (base, first_line)) = (self.runs.get(run), self.view.starts.get(run).copied().unwrap_or_default()) else {
+                continue;
+            };
+            for entry in &of.entries {
+                let own = entry.range().start + base..entry.range().end + base;
+                if let Some(block) = entry.block().filter(|_| own.start <= range.end && range.start <= own.end) {
+                    let (line, number) = (first_line + entry.line as usize, entry.number());
+                    let (part, stated_end) = (block.part(), block.stated_end().map(|stated| stated.at));
+                    blocks.push(PlacedBlock { range: own, line, number, block: block.block, part, stated_end });
+                }
+            }
+        }
+        blocks
+    }
+
+    fn walk(&self) -> Walk<'_> {
+        let mut starts = self.runs.iter().take_while(|run| run.blocks == 0).chain(self.runs.iter().find(|run| run.blocks > 0));
+        let start = starts.find_map(|run| {
+            run.entries.iter().take_while(|entry| entry.block().is_none()).find_map(|entry| match entry.what {
+                What::StartPoint(at) => Some(at),
+                _ => None,
+            })
+        });
+        let [x, y] = start.unwrap_or([0.0, 0.0]).map(|mm| (mm * 1000.0).round());
+        Walk { document: self, at: Point::new(x, y), start_is_known: start.is_some(), section: 0 }
     }
 }
 
-fn start_of(finding: &Finding) -> usize {
-    match &finding.place {
-        Place::Text { range } => range.start,
-        _ => 0,
+/// The machine on its way through the program.
+struct Walk<'a> {
+    document: &'a Document,
+    at: Point,
+    start_is_known: bool,
+    section: usize,
+}
+
+impl Walk<'_> {
+    /// Goes through a run, and hands out the steps whose bytes are `wanted`.
+    fn run(&mut self, index: usize, wanted: impl Fn(&Range<usize>) -> bool, each: &mut dyn FnMut(Step)) {
+        let document = self.document;
+        let Some(run) = document.runs.get(index) else { return };
+        let (base, first_line) = document.view.starts.get(index).copied().unwrap_or_default();
+        for (entry_index, entry) in run.entries.iter().enumerate() {
+            let at = At { run: index, entry: entry_index };
+            if document.view.end.is_some_and(|end| at > end) {
+                return;
+            }
+            let range = entry.range().start + base..entry.range().end + base;
+            let (line, number, contour, start) = (first_line + entry.line as usize, entry.number(), self.section, self.at);
+            match &entry.what {
+                What::Block(block) => {
+                    let [x, y] = block.travel.machine;
+                    let end = start + Vector::new(x as f64, y as f64);
+                    self.at = end;
+                    if wanted(&range) {
+                        let is_jump = document.view.sections.get(contour).is_some_and(|section| section.is_jump);
+                        let kind = match block.is_line() {
+                            _ if is_jump => Kind::Rapid,
+                            true => Kind::Line,
+                            false => Kind::Arc,
+                        };
+                        each(Step { range, line, number, kind, start, end, ideal: meant(&block.block, start), contour });
+                    }
+                }
+                What::Word { .. } => {
+                    let kind = if document.view.end == Some(at) { Kind::End } else { Kind::Pause };
+                    if wanted(&range) {
+                        each(Step { range, line, number, kind, start, end: start, ideal: None, contour });
+                    }
+                    self.section += 1;
+                }
+                What::StartPoint(_) | What::Text { .. } => {}
+            }
+        }
+    }
+
+    /// Goes through a run without a look.
+    fn skip(&mut self, index: usize) {
+        let Some(run) = self.document.runs.get(index) else { return };
+        if self.document.view.end.is_some_and(|end| end.run <= index) {
+            return self.run(index, |_| false, &mut |_| {});
+        }
+        for part in &run.parts {
+            let [x, y] = part.sum.travel.machine;
+            self.at += Vector::new(x as f64, y as f64);
+            self.section += usize::from(part.word.is_some());
+        }
     }
 }
 
-fn finding(fault: SyntaxFault) -> Finding {
+fn run_of(text: &SourceText, lines: Range<usize>, words: &Words<'_>, limits: &Limits) -> Run {
+    let whole = text.line_start(lines.start)..text.line_start(lines.end);
+    Run::read(text.bytes(), whole, lines.map(|line| text.line_range(line)), words, limits)
+}
+
+fn finding(range: Range<usize>, fault: ProgramFault) -> Finding {
+    Finding {
+        rule: fault.rule(),
+        severity: fault.rule().default_severity(),
+        place: Place::Text { range },
+        detail: Detail::Program(Box::new(fault)),
+        related: Vec::new(),
+    }
+}
+
+fn syntax(range: Range<usize>, sentence: String) -> Finding {
     Finding {
         rule: Rule::Syntax,
         severity: Rule::Syntax.default_severity(),
-        detail: Detail::Syntax(fault.sentence()),
-        place: Place::Text { range: fault.range },
+        place: Place::Text { range },
+        detail: Detail::Syntax(sentence),
         related: Vec::new(),
     }
 }
@@ -162,26 +888,62 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    #[test]
-    fn each_damaged_line_is_named_once_and_the_rest_is_read() {
-        let document = Document::read(b"B1000B0B1000GXL1\nB1B2GXL1\nB0B1000B1000GYL2\n9900B0B9900GXL1\nDD\n".to_vec());
-        let sentences: Vec<_> = document.findings().iter().map(|finding| (start_of(finding), finding.detail.clone())).collect();
-        let expected = [(21, "column 5: found `GXL1`, expected digits of Y, or B before J"), (43, "a B of the block is missing")];
-        assert_eq!(sentences, expected.map(|(start, sentence)| (start, Detail::Syntax(sentence.into()))));
+    /// Findings in one order, whatever runs the lines lie in.
+    fn sorted(document: &Document) -> Vec<String> {
+        let mut findings: Vec<String> = document.findings().iter().map(|finding| format!("{finding:?}")).collect();
+        findings.sort();
+        findings
     }
+
+    fn assert_is_fresh(document: &Document) -> Result<(), TestCaseError> {
+        let fresh = Document::read(document.text().bytes().to_vec());
+        prop_assert_eq!(document.text(), fresh.text());
+        prop_assert_eq!(sorted(document), sorted(&fresh));
+        prop_assert_eq!(document.trace(), fresh.trace());
+        let all = 0..document.text().len();
+        prop_assert_eq!(document.steps_in(all.clone()), fresh.steps_in(all));
+        Ok(())
+    }
+
+    const PROGRAM: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)(\r\n|\n|\r)){0,40}";
+    const REPLACEMENT: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)|\r|\n| |7){0,3}";
 
     proptest! {
         #[test]
         fn an_edited_document_is_the_one_read_afresh(
-            text in "(B12B0B12GXL1|BxB|[;DN1 ]|\r\n|\n|\r){0,30}",
-            edits in prop::collection::vec((0_usize..80, 0_usize..12, "(B5B5B5GYL1|q|\r|\n| ){0,3}"), 1..6),
+            text in PROGRAM,
+            copies in 1_usize..12,
+            edits in prop::collection::vec((0_usize..4000, 0_usize..60, REPLACEMENT), 1..6),
         ) {
-            let mut document = Document::read(text.into_bytes());
+            // More lines than one run holds.
+            let mut document = Document::read(text.repeat(copies).into_bytes());
             for (start, length, replacement) in edits {
                 document.edit(start..start + length, &replacement);
-                let fresh = Document::read(document.text().bytes().to_vec());
-                prop_assert_eq!(document.findings(), fresh.findings());
-                prop_assert_eq!(document.text(), fresh.text());
+                assert_is_fresh(&document)?;
+            }
+        }
+
+        #[test]
+        fn steps_of_a_range_are_those_of_the_whole(
+            text in PROGRAM,
+            (start, length) in (0_usize..600, 0_usize..200),
+        ) {
+            let document = Document::read(text.repeat(6).into_bytes());
+            let range = start..start + length;
+            let touches = |step: &Step| step.range.start <= range.end && range.start <= step.range.end;
+            let whole: Vec<Step> = document.trace().steps.into_iter().filter(touches).collect();
+            prop_assert_eq!(document.steps_in(range.clone()), whole);
+        }
+
+        #[test]
+        fn fixes_of_damaged_programs_never_panic(text in PROGRAM) {
+            let document = Document::read(text.into_bytes());
+            for finding in document.findings() {
+                for fix in document.fixes(&finding) {
+                    for edit in fix.edit {
+                        prop_assert!(edit.range.start <= edit.range.end && edit.range.end <= document.text().len());
+                    }
+                }
             }
         }
     }

@@ -174,6 +174,18 @@ fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -
     }
 }
 
+/// What a controller counts on an axis along an arc.
+pub(super) fn counted(arc: &Arc, axis: CountingAxis) -> f64 {
+    let (first, last) = match axis {
+        CountingAxis::X => (arc.start.x - arc.center.x, arc.end.x - arc.center.x),
+        CountingAxis::Y => (arc.start.y - arc.center.y, arc.end.y - arc.center.y),
+    };
+    if arc.is_full_turn() {
+        return 4.0 * arc.radius;
+    }
+    projections(first, last, arc.radius, phase(axis, arc.start_angle, arc.sweep > 0.0), arc.sweep.abs())
+}
+
 /// Sum of the absolute projections of an arc on the counting axis, piece by piece between the axis crossings, from the first to
 /// the last counted coordinate. `phase` is the start's, see [`phase`].
 fn projections(first: f64, last: f64, radius: f64, phase: f64, sweep: f64) -> f64 {

@@ -14,6 +14,8 @@ mod parse;
 mod part;
 mod proof;
 pub mod refactor;
+mod rules;
+mod run;
 #[cfg(test)]
 mod tests;
 mod write;
@@ -21,7 +23,7 @@ mod write;
 pub use crate::program::write::{ProofError, ProvedProgram};
 pub use block::{Block, CountingAxis, LARGEST, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
-pub use document::Document;
+pub use document::{Document, PlacedBlock};
 pub use encode::{Encoded, encode, snap};
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};

@@ -252,8 +252,8 @@ impl Cursor<'_> {
     }
 
     fn skip_space(&mut self) {
-        // 0x1A ends a text of DOS; bars part the columns of a table.
-        while matches!(self.peek(), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|')) {
+        // 0x1A ends a text of DOS; bars and commas part the columns of a table.
+        while matches!(self.peek(), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|' | b',')) {
             self.at += 1;
         }
     }
@@ -265,6 +265,11 @@ impl Cursor<'_> {
         let rest = &self.line[start..];
         match byte {
             b'B' | b'b' => {}
+            _ if is_full_width(rest) => return Err(self.fault("a block in plain letters and digits, these are full-width ones")),
+            // A column of names before the blocks: `AB`, `1-2`, a word in another script.
+            _ if !self.behind_block && !matches!(byte, b'N' | b'n') && label(rest, words).is_some() => {
+                self.at += label(rest, words).unwrap_or(0)
+            }
             b';' => {
                 self.at = self.line.len();
                 if let Some(at) = start_point(&rest[1..]) {
@@ -289,7 +294,7 @@ impl Cursor<'_> {
                     return Ok(Some(Token::Coordinates(end)));
                 }
                 if !self.behind_block
-                    && let Some((number, length)) = row_number(rest)
+                    && let Some((number, length)) = row_number(rest).or_else(|| row_of_word(rest, words))
                 {
                     self.at += length;
                     return Ok(Some(Token::Number(number)));
@@ -332,6 +337,9 @@ impl Cursor<'_> {
         }
         if !wants_to_be_a_block(rest) {
             self.at = self.line.len();
+            if !rest.iter().any(u8::is_ascii_alphanumeric) {
+                return Ok(None);
+            }
             let end = start + rest.trim_ascii_end().len();
             return Ok(Some(Token::Other(Item::Text { range: self.offset + start..self.offset + end, column: start + 1 })));
         }
@@ -426,10 +434,51 @@ fn row_number(text: &[u8]) -> Option<(u32, usize)> {
     Some((number, open + length + mark))
 }
 
+/// The bare number of a row in which a word stands.
+fn row_of_word(text: &[u8], words: &Words<'_>) -> Option<(u32, usize)> {
+    let (number, length) = digits_of(text)?;
+    let behind = text[length..].trim_ascii_start();
+    let word = &behind[..behind.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(behind.len())];
+    (behind.len() < text.len() - length && words.meaning(word).is_some()).then_some((number, length))
+}
+
 fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
     let length = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
     let digits = std::str::from_utf8(text.get(..length)?).ok().filter(|digits| !digits.is_empty())?;
     Some((digits.parse().unwrap_or(u32::MAX), length))
+}
+
+/// Letters and digits as wide as a Chinese character, which editors of that script make.
+fn is_full_width(text: &[u8]) -> bool {
+    matches!(text, [0xef, 0xbc, 0x90..=0x99 | 0xa1..=0xba, ..] | [0xef, 0xbd, 0x81..=0x9a, ..])
+}
+
+/// The bytes before a sound block where they are a name for it: nothing of them belongs to a block, and they are no word.
+fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
+    // What opens a comment comments a block out.
+    let opens_comment = matches!(text.first(), Some(b';' | b'*' | b'#' | b'%' | b'\'' | b'"' | b'/'))
+        || [";", "(", "\u{ff1b}", "\u{ff08}"].iter().any(|mark| text.starts_with(mark.as_bytes()));
+    if opens_comment {
+        return None;
+    }
+    let code = before_comment(text);
+    let at = memchr::memchr2_iter(b'B', b'b', code).take(4).find(|&at| fields::strict(&code[at..]).is_some())?;
+    let name = code.get(..at)?.trim_ascii();
+    let is_word = name.split(|byte| !byte.is_ascii_alphanumeric()).any(|word| !word.is_empty() && words.meaning(word).is_some());
+    // A number alone is that of the row, or of the block.
+    let is_number = name.iter().all(|byte| byte.is_ascii_digit() || matches!(byte, b'N' | b'n' | b' ' | b':' | b'.' | b')'));
+    (at > 0 && !is_word && !is_number && !has_block_parts(name)).then_some(at)
+}
+
+/// Whether anything of a block stands in a text: `B` and a digit, `G` and an axis, a quadrant.
+fn has_block_parts(text: &[u8]) -> bool {
+    let is_part = |pair: &[u8]| {
+        matches!(
+            (pair[0].to_ascii_uppercase(), pair[1].to_ascii_uppercase()),
+            (b'B', b'0'..=b'9') | (b'G', b'X' | b'Y') | (b'R', b'1'..=b'4')
+        )
+    };
+    text.windows(2).any(is_part)
 }
 
 /// Whether text has enough of a block to be taken for a broken one.
@@ -577,6 +626,16 @@ mod tests {
         check("CAXAWEDM -Version 2.0 , Name : 1.3B", "text 0..35");
         check("Conner R= 0.00000    , Offset F= 0.10000 ,Length= 125.000 mm", "text 0..60");
         check("START", "text 0..5");
+        check(",", "");
+        for line in ["* B9900B0B9900GXL1", "/ B9900B0B9900GXL1", "(B9900B0B9900GXL1)", "\u{ff1b}B9900B0B9900GXL1"] {
+            check(line, "");
+        }
+        check("B9900B0B9900GXL1 ,", "9900,0,9900 X L1");
+        for line in
+            ["OA: B9900B0B9900GXL1", "1-2 B9900B0B9900GXL1 ; in", "\u{76f4}\u{7ebf}OA B 9900 B 0 B 9900 GX L1", "\u{2460} B9900B0B9900GXL1"]
+        {
+            check(line, "9900,0,9900 X L1");
+        }
     }
 
     #[test]
@@ -605,5 +664,9 @@ mod tests {
         );
         check("B1x2B0B12GXL1 DD", "! 2..13 column 3: found `x2B0B12GXL1`, expected digits of X, or B before Y / End");
         check("B1B0B1GXL1 hello", "1,0,1 X L1 / text 11..16");
+        check(
+            "\u{ff22}9900B0B9900GXL1",
+            "! 0..18 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits, these are full-width ones",
+        );
     }
 }

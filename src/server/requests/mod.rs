@@ -11,6 +11,7 @@ pub(super) mod picture;
 pub(super) mod probe;
 pub(super) mod scale;
 pub(super) mod settings;
+pub(super) mod simulate;
 pub(super) mod toolpath;
 
 use super::convert;
@@ -76,6 +77,17 @@ pub(super) fn subject_of(state: &mut State, uri: &str) -> Result<Subject> {
     let document = open.document().ok_or_else(|| refused(format!("{uri} holds no drawing")))?.clone();
     let drawing = document.drawing().ok_or_else(|| refused(format!("{uri} is a program, expected a drawing")))?;
     let small = is_small(drawing) && open.findings <= SMALL;
+    Ok(Subject { stamp: open.stamp, small, document })
+}
+
+/// A program as it stands now, to be looked at from any thread.
+pub(super) fn program_of(state: &mut State, uri: &str) -> Result<Subject> {
+    let open = state.document(uri)?;
+    let document = open.document().ok_or_else(|| refused(format!("{uri} holds no program")))?.clone();
+    if document.program().is_none() {
+        return Err(refused(format!("{uri} is a drawing, expected a program")));
+    }
+    let small = document.text().is_none_or(|text| text.line_count() <= SMALL);
     Ok(Subject { stamp: open.stamp, small, document })
 }
 

@@ -1,13 +1,19 @@
-//! `wedm/picture`: contours, faults and wire path as SVG.
+//! `wedm/picture`: contours, faults and wire path of a drawing, or the path of a program, as SVG.
 
-use super::{Errand, Subject, Task, run, subject_of, with_options, written};
-use crate::picture::svg;
+use super::{Errand, Subject, Task, program_of, run, subject_of, with_options, written};
+use crate::document::Document;
+use crate::finding::{Finding, Severity};
+use crate::message::en;
+use crate::picture::{program_svg, svg};
 use crate::protocol::Picture;
 use crate::server::state::State;
 use crate::toolpath::plan_while;
 use serde_json::Value;
 
 pub(in crate::server) fn picture(state: &mut State, uri: &str, options: Option<&Value>, errand: Errand) {
+    if state.document(uri).is_ok_and(|open| open.document().is_some_and(|document| document.program().is_some())) {
+        return of_program(state, uri, errand);
+    }
     let prepared = subject_of(state, uri).and_then(|subject| Ok((subject, with_options(state, uri, options)?)));
     match prepared {
         Err(error) => {
@@ -22,4 +28,22 @@ pub(in crate::server) fn picture(state: &mut State, uri: &str, options: Option<&
             });
         }
     }
+}
+
+fn of_program(state: &mut State, uri: &str, errand: Errand) {
+    match program_of(state, uri) {
+        Err(error) => {
+            let _ = errand.reply.send(Err(error));
+        }
+        Ok(Subject { document, stamp, small }) => run(state, "Drawing the picture", uri, (stamp, small), errand, move |_, _| {
+            let trace = document.program().map(crate::program::Document::trace).unwrap_or_default();
+            written(&Picture { svg: program_svg(&trace, &faults(&document)) })
+        }),
+    }
+}
+
+/// What is wrong, by lines from 0.
+fn faults(document: &Document) -> Vec<(usize, Severity, String)> {
+    let line = |finding: &Finding| Some(document.text()?.line_of(document.range_of(&finding.place)?.start));
+    document.all_findings().iter().filter_map(|finding| Some((line(finding)?, finding.severity, en::sentence(finding, 1.0)))).collect()
 }

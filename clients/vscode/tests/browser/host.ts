@@ -61,6 +61,9 @@ export class Host {
     await mkdir(folder, { recursive: true });
     await mkdir(join(data, "User"), { recursive: true });
     await mkdir(ARTIFACTS, { recursive: true });
+    // Where the window is not on the machine of the files, a program's path counts only among the machine's own settings.
+    await mkdir(join(data, "Machine"), { recursive: true });
+    await writeFile(join(data, "Machine", "settings.json"), JSON.stringify(settings));
     await writeFile(join(data, "User", "settings.json"), JSON.stringify({ ...QUIET, ...settings }));
     for (const [name, content] of Object.entries(files)) {
       await writeFile(join(folder, name), content);

@@ -56,8 +56,13 @@ export class Window {
   async path(path: string): Promise<void> {
     const input = this.page.locator(".quick-input-widget input");
     await input.waitFor();
-    await input.fill(path);
-    await this.page.waitForTimeout(300);
+    // The dialog puts its own proposal in when it is ready, also over what has been typed before.
+    await expectSoon("the dialog's proposal", async () => (await input.inputValue()).startsWith("/"));
+    await expectSoon(path, async () => {
+      await input.fill(path);
+      await this.page.waitForTimeout(500);
+      return (await input.inputValue()) === path;
+    });
     await this.page.keyboard.press("Enter");
   }
 

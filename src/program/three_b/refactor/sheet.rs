@@ -70,7 +70,7 @@ pub struct Content {
 
 impl<'a> Sheet<'a> {
     pub fn new(document: &'a Document, settings: &'a Effective, selection: Range<usize>) -> Sheet<'a> {
-        let trace = document.trace();
+        let trace = document.trace().as_meant();
         let content = content(document, &trace);
         Sheet { document, settings, selection, trace, content }
     }

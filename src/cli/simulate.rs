@@ -1,0 +1,102 @@
+//! `wedm simulate`: where the machine goes, block by block.
+
+use super::inspect::Format;
+use super::options::Common;
+use super::output::{self, FAINT, WARNING, styled};
+use super::{Failure, Verdict, files};
+use crate::protocol::{SimulatedBlock, Simulation, StepKind};
+use clap::Args;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Say where the machine really goes
+///
+/// A 3B controller counts micrometres on one axis and stops: every block is followed as it does that, one µm at a time, and where it
+/// ends beside the line or arc that was meant, both ends are shown. Points are mm from the program's start, or absolute where the
+/// program says where it begins. JSON is the result of `wedm/simulate`, in µm.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm simulate plate.3b
+  wedm simulate plate.3b --feed 2.5            with the time at 2.5 mm/min
+  wedm simulate plate.3b --output json | jq '.closure'")]
+pub struct Arguments {
+    /// The program
+    #[arg(value_name = "PROG")]
+    path: PathBuf,
+    /// Form of what is printed
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    output: Format,
+    /// Speed of the cut, for the time
+    #[arg(long, value_name = "MM/MIN", value_parser = feed)]
+    feed: Option<f64>,
+    #[command(flatten)]
+    common: Common,
+}
+
+fn feed(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|feed: &f64| *feed > 0.0 && feed.is_finite()).ok_or_else(|| "expected a number above 0".into())
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let opened = files::open(&arguments.path, &arguments.common, &arguments.common.settings())?;
+    let Some(program) = opened.document.program() else {
+        return Err(Failure(format!("{}: it is a drawing, expected a program (.3b, .iso)", arguments.path.display())));
+    };
+    let simulation = Simulation::of(&program.trace(), arguments.feed);
+    match arguments.output {
+        Format::Json => {
+            let json = serde_json::to_string(&simulation).map_err(|error| Failure(error.to_string()))?;
+            output::print(format!("{json}\n"))?;
+        }
+        Format::Text => output::print(table(&simulation))?,
+    }
+    Ok(Verdict::Clean)
+}
+
+/// Deviations below this are rounding, µm.
+const SHOWN: f64 = 0.01;
+
+fn table(simulation: &Simulation) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "{}", styled(FAINT, format!("{:>6} {:>6}  {:<6} {:>12} {:>12}", "line", "N", "", "end X", "end Y")));
+    simulation.blocks.iter().for_each(|block| row(&mut text, block));
+    let closure = &simulation.closure;
+    let moving = simulation.blocks.iter().filter(|block| !matches!(block.kind, StepKind::Pause | StepKind::End)).count();
+    let _ = write!(text, "{moving} blocks, {:.3} mm", simulation.length);
+    if let Some(minutes) = simulation.minutes {
+        let _ = write!(text, ", {minutes:.1} min");
+    }
+    let _ = writeln!(
+        text,
+        ", ends {:.0}, {:.0} µm from its start, at most {:.2} µm beside a block's end",
+        closure.x, closure.y, simulation.deviation
+    );
+    if let Some(bounds) = &simulation.bounds {
+        let [width, height] = [bounds.max.0 - bounds.min.0, bounds.max.1 - bounds.min.1].map(|um| um / 1000.0);
+        let corner = [bounds.min.0, bounds.min.1].map(|um| um / 1000.0);
+        let _ = writeln!(text, "{width:.3} x {height:.3} mm, from {:.3}, {:.3}", corner[0], corner[1]);
+    }
+    text
+}
+
+fn row(text: &mut String, block: &SimulatedBlock) {
+    let number = block.number.map_or_else(String::new, |number| number.to_string());
+    let kind = match block.kind {
+        StepKind::Line => "line",
+        StepKind::Arc => "arc",
+        StepKind::Rapid => "way",
+        StepKind::Pause => "pause",
+        StepKind::End => "end",
+    };
+    let mm = |um: f64| um / 1000.0;
+    let _ = write!(text, "{:>6} {number:>6}  {kind:<6} {:>12.3} {:>12.3}", block.line + 1, mm(block.end.0), mm(block.end.1));
+    if let (Some(radius), Some(sweep)) = (block.radius, block.sweep) {
+        let _ = write!(text, "  R {:.3} mm, {sweep:+.3}°", mm(radius));
+    }
+    if let Some(ideal) = block.ideal_end.filter(|_| block.deviation > SHOWN) {
+        let meant = format!("  meant {:.4}, {:.4}: {:.2} µm beside", mm(ideal.0), mm(ideal.1), block.deviation);
+        let _ = write!(text, "{}", styled(if block.deviation > 2.0 { WARNING } else { FAINT }, meant));
+    }
+    text.push('\n');
+}

@@ -1,0 +1,113 @@
+//! `block-number`: a number stands twice, is out of its turn, or is missing where the others have one.
+
+use crate::finding::ProgramFault;
+
+/// A block's place in its program and its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) struct Numbered {
+    pub number: Option<u32>,
+    /// The first block behind a pause: counting may begin anew.
+    pub is_after_pause: bool,
+}
+
+/// What is wrong in the sequence: the index of each block concerned, and the number that it should have where that is plain.
+///
+/// The step is the one that most of the first numbers have. Where fewer than three of four blocks have a number, or more than half of
+/// them are out of turn, the numbers follow another rule, and nothing is said.
+pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, ProgramFault, Option<u32>)> {
+    let Some(step) = usual_step(&blocks[..blocks.len().min(16)]) else { return Vec::new() };
+    let (Some(first), numbered) =
+        (blocks.iter().find_map(|block| block.number), blocks.iter().filter(|block| block.number.is_some()).count())
+    else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    let mut before: Option<u32> = None;
+    for (index, block) in blocks.iter().enumerate() {
+        let expected = before.map_or(first, |before| before.saturating_add(step));
+        let follows = |number: u32| blocks.get(index + 1).is_some_and(|next| next.number == Some(number));
+        match block.number {
+            None => {
+                let takes_one = follows(expected.saturating_add(step));
+                found.push((index, ProgramFault::Unnumbered { expected }, takes_one.then_some(expected)));
+                if takes_one {
+                    before = Some(expected);
+                }
+            }
+            Some(number) if number == expected || (block.is_after_pause && number == first) => before = Some(number),
+            Some(number) => {
+                let is_seen = before.is_some_and(|before| (first..=before).contains(&number) && (number - first).is_multiple_of(step));
+                let meant = follows(expected.saturating_add(step)).then_some(expected);
+                let fault =
+                    if is_seen { ProgramFault::DoubledNumber { number } } else { ProgramFault::NumberOutOfOrder { expected, number } };
+                found.push((index, fault, meant));
+                before = match (meant, is_seen) {
+                    (Some(meant), _) => Some(meant),
+                    (None, true) => before,
+                    (None, false) => Some(number),
+                };
+            }
+        }
+    }
+    let without = blocks.len() - numbered;
+    let out_of_turn = found.iter().filter(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. })).count();
+    if 2 * out_of_turn > numbered {
+        return Vec::new();
+    }
+    if 4 * without > blocks.len() {
+        found.retain(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }));
+    }
+    found
+}
+
+/// The difference that most of the numbers have to the one before; the smaller one of two that are as frequent.
+fn usual_step(blocks: &[Numbered]) -> Option<u32> {
+    let step = |pair: &[Numbered]| pair[1].number?.checked_sub(pair[0].number?);
+    let steps: Vec<u32> = blocks.windows(2).filter_map(step).filter(|step| *step > 0).collect();
+    let count = |step: u32| steps.iter().filter(|other| **other == step).count();
+    steps.iter().copied().max_by(|a, b| count(*a).cmp(&count(*b)).then(b.cmp(a)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(numbers: &[u32], expected: &str) {
+        let blocks: Vec<Numbered> =
+            numbers.iter().map(|&number| Numbered { number: (number > 0).then_some(number), is_after_pause: false }).collect();
+        let found: Vec<String> = look(&blocks)
+            .into_iter()
+            .map(|(index, fault, meant)| {
+                let kind = match fault {
+                    ProgramFault::DoubledNumber { number } => format!("{number} twice"),
+                    ProgramFault::NumberOutOfOrder { expected, number } => format!("{number} for {expected}"),
+                    _ => "none".into(),
+                };
+                format!("{index}: {kind}{}", meant.map_or_else(String::new, |meant| format!(" = {meant}")))
+            })
+            .collect();
+        assert_eq!(found.join(", "), expected, "{numbers:?}");
+    }
+
+    #[test]
+    fn numbers_in_their_turn_are_silent() {
+        check(&[1, 2, 3, 4, 5], "");
+        check(&[10, 20, 30], "");
+        check(&[5, 6, 7], "");
+        check(&[], "");
+        check(&[0, 0, 0, 0], "");
+        check(&[1, 0, 0, 2, 0, 0, 3], "");
+        check(&[7, 3, 9, 1, 4], "");
+    }
+
+    #[test]
+    fn what_is_out_of_turn_is_named_once() {
+        check(&[1, 2, 2, 3, 4], "2: 2 twice");
+        check(&[1, 2, 2, 4, 5], "2: 2 twice = 3");
+        check(&[1, 2, 4, 5, 6], "2: 4 for 3");
+        check(&[1, 2, 30, 4, 5], "2: 30 for 3 = 3");
+        check(&[1, 2, 0, 4, 5], "2: none = 3");
+        check(&[1, 2, 3, 4, 0, 5, 6], "4: none");
+        check(&[10, 20, 20, 40], "2: 20 twice = 30");
+    }
+}

@@ -1,0 +1,12 @@
+//! `block-number-as-b`: `B25` before a block where the number `N25` was meant. The reader finds it; this is its repair.
+
+use super::{Site, TextFix, one_edit};
+use crate::finding::FixKind;
+use crate::text::TextEdit;
+
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+    let Some(&b) = site.text.get(site.range.start) else { return Vec::new() };
+    let n = if b == b'b' { "n" } else { "N" };
+    let edit = vec![TextEdit { range: site.range.start..site.range.start + 1, text: n.into() }];
+    vec![one_edit(FixKind::NumberWithN, edit, true, true)]
+}

@@ -1,0 +1,21 @@
+//! `j-over-turn`: J of an arc counts more than once round, 4R.
+
+use super::{J_TOLERANCE, Seen, Sight, Site, Spot, TextFix, one_edit};
+use crate::finding::{FixKind, ProgramFault};
+
+pub(super) fn look(seen: &Seen) -> Option<Sight> {
+    let turn = 4.0 * seen.radius();
+    let is_over = !seen.is_line() && seen.block.j as f64 > turn + J_TOLERANCE;
+    is_over.then(|| Sight::at(Spot::J, ProgramFault::JOverTurn { j: seen.block.j, turn: turn.round() as i64 }))
+}
+
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+    let turn = (4.0 * (site.block.x as f64).hypot(site.block.y as f64)).round() as i64;
+    let candidates = [turn, site.block.j / 10, site.block.j - turn];
+    let closing = candidates
+        .into_iter()
+        .filter(|&j| j > 0 && j <= turn)
+        .find(|&j| (site.closes_with)(&[crate::program::three_b::block::Block { j, ..site.block }]));
+    let j = closing.unwrap_or(turn);
+    vec![one_edit(FixKind::SetJ { j }, vec![site.set_j(j)], closing.is_some(), closing.is_some())]
+}

@@ -1,0 +1,23 @@
+//! `missing-b`: one of a block's three `B` is not there. The reader finds it; this is its repair.
+
+use super::{Site, TextFix, one_edit};
+use crate::finding::FixKind;
+use crate::program::three_b::parse::{Flaw, Item, Words, read_line};
+use crate::text::TextEdit;
+
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+    let Some(line) = site.text.get(site.line.clone()) else { return Vec::new() };
+    let mut found = None;
+    read_line(line, site.line.start, &Words::default(), |item| {
+        if let Item::Fault(fault) = item
+            && let Flaw::MissingB { at } = fault.flaw
+            && fault.range == site.range
+        {
+            found = Some(at);
+        }
+    });
+    let Some(at) = found else { return Vec::new() };
+    let is_lower = line.contains(&b'b') && !line.contains(&b'B');
+    let edit = vec![TextEdit { range: at..at, text: if is_lower { "b" } else { "B" }.into() }];
+    vec![one_edit(FixKind::InsertB, edit, true, true)]
+}

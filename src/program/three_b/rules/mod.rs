@@ -1,0 +1,257 @@
+//! The rules on 3B programs: one file each, its check and its fixes.
+//!
+//! A rule on a single block sees that block alone ([`Seen`]) and is asked when its line is read; a rule on the whole program sees the
+//! runs of lines that have been read. Fixes are made when somebody asks for them, from the text as it stands then ([`Site`]).
+
+mod arc_without_radius;
+mod block_number_as_b;
+mod j_over_turn;
+mod length_in_j;
+mod missing_b;
+mod projection;
+mod small_radius;
+mod too_many_digits;
+mod wrong_counting_axis;
+mod wrong_j;
+mod wrong_quadrant;
+mod zero_block;
+
+pub(super) mod block_number;
+pub(super) mod culprit;
+pub(super) mod missing_end;
+pub(super) mod not_closed;
+pub(super) mod path_crosses_itself;
+pub(super) mod position_mismatch;
+pub(super) mod text_after_end;
+
+use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
+use super::fields::Fields;
+use crate::finding::{Axis, Detail, Fix, FixKind, ProgramFault, Rule};
+use crate::settings::{Compensation, Effective, SideSetting};
+use crate::text::TextEdit;
+use std::ops::Range;
+
+/// How far J may lie from the exact projection, µm: published programs stay within it.
+pub(super) const J_TOLERANCE: f64 = 2.0;
+
+/// How near to a tie of the two axes nothing is said about G, µm.
+pub(super) const TIE: i64 = 1;
+
+/// The same for the end of an arc: the end moves with what J is rounded by, twice where both coordinates change.
+pub(super) const ARC_TIE: f64 = 2.0 * J_TOLERANCE;
+
+/// What the settings make of the rules.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Limits {
+    /// Digits of the controller's numbers.
+    pub digits: u32,
+    /// mm.
+    pub correction: f64,
+    /// The program holds the part's contour, not the wire's path.
+    pub holds_part: bool,
+    pub side: SideSetting,
+    pub pass: Option<usize>,
+}
+
+impl Limits {
+    pub fn of(settings: &Effective) -> Limits {
+        Limits {
+            digits: super::block::LARGEST.ilog10() + 1,
+            correction: settings.correction,
+            holds_part: matches!(settings.compensation, Compensation::None | Compensation::Controller),
+            side: settings.side,
+            pass: settings.pass,
+        }
+    }
+
+    pub fn largest(&self) -> i64 {
+        10_i64.pow(self.digits) - 1
+    }
+}
+
+/// The part of a block that a fault lies in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Spot {
+    Block,
+    X,
+    Y,
+    J,
+    Axis,
+    Motion,
+}
+
+impl Spot {
+    /// Bytes of the spot, of `block` where the number is left out.
+    pub fn range(self, fields: &Fields, block: Range<usize>) -> Range<usize> {
+        let range = match self {
+            Spot::Block => block.clone(),
+            Spot::X => fields.x.clone(),
+            Spot::Y => fields.y.clone(),
+            Spot::J => fields.j.clone(),
+            Spot::Axis => fields.axis.clone(),
+            Spot::Motion => fields.motion.clone(),
+        };
+        if range.is_empty() { block } else { range }
+    }
+}
+
+/// When a fault of a block counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Counts {
+    Always,
+    /// Only where the contour does not close: else the block is what was meant, in an unusual way.
+    IfOpen,
+    /// Only where the wire runs on the arc's centre side; the arc turns left or not.
+    IfInside {
+        turns_left: bool,
+    },
+}
+
+/// What a rule sees in a block.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Sight {
+    pub rule: Rule,
+    pub spot: Spot,
+    pub detail: Detail,
+    pub counts: Counts,
+}
+
+impl Sight {
+    fn at(spot: Spot, fault: ProgramFault) -> Sight {
+        Sight { rule: fault.rule(), spot, detail: Detail::Program(Box::new(fault)), counts: Counts::Always }
+    }
+}
+
+/// A block as a rule sees it.
+pub(super) struct Seen<'a> {
+    pub block: &'a Block,
+    pub part: Option<PartArc>,
+    pub limits: &'a Limits,
+}
+
+impl Seen<'_> {
+    fn is_line(&self) -> bool {
+        matches!(self.block.motion, Motion::Line(_))
+    }
+
+    fn axis(&self) -> Axis {
+        axis_of(self.block.axis)
+    }
+
+    fn radius(&self) -> f64 {
+        (self.block.x as f64).hypot(self.block.y as f64)
+    }
+}
+
+pub(super) fn axis_of(axis: CountingAxis) -> Axis {
+    match axis {
+        CountingAxis::X => Axis::X,
+        CountingAxis::Y => Axis::Y,
+    }
+}
+
+/// The rules that leave nothing for others to see in a block, and then the others.
+const FIRST: [fn(&Seen) -> Option<Sight>; 2] = [zero_block::look, arc_without_radius::look];
+const OTHERS: [fn(&Seen) -> Option<Sight>; 7] = [
+    length_in_j::look,
+    wrong_j::look,
+    j_over_turn::look,
+    wrong_counting_axis::look,
+    wrong_quadrant::look,
+    too_many_digits::look,
+    small_radius::look,
+];
+
+/// What is wrong with a block for itself.
+pub(super) fn look(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Sight> {
+    let seen = Seen { block, part, limits };
+    match FIRST.iter().find_map(|look| look(&seen)) {
+        Some(sight) => vec![sight],
+        None => OTHERS.iter().filter_map(|look| look(&seen)).collect(),
+    }
+}
+
+/// A block in its text, for those who make fixes.
+pub(super) struct Site<'a> {
+    pub text: &'a [u8],
+    /// The block's bytes, and those of its line with its line end.
+    pub range: Range<usize>,
+    pub line: Range<usize>,
+    pub fields: Fields,
+    pub block: Block,
+    /// Whether a contour closes when other blocks stand in the place of this one.
+    pub closes_with: &'a dyn Fn(&[Block]) -> bool,
+}
+
+pub(super) type TextFix = Fix<Vec<TextEdit>>;
+
+impl Site<'_> {
+    fn replace(&self, range: &Range<usize>, text: impl Into<String>) -> TextEdit {
+        TextEdit { range: range.clone(), text: text.into() }
+    }
+
+    fn set_j(&self, j: i64) -> TextEdit {
+        self.replace(&self.fields.j, j.to_string())
+    }
+
+    fn set_axis(&self, axis: Axis) -> TextEdit {
+        let is_lower = self.text.get(self.fields.axis.start).is_some_and(u8::is_ascii_lowercase);
+        let text = format!("G{}", axis.letter());
+        self.replace(&self.fields.axis, if is_lower { text.to_lowercase() } else { text })
+    }
+
+    fn set_motion(&self, name: &str) -> TextEdit {
+        let is_lower = self.text.get(self.fields.motion.start).is_some_and(u8::is_ascii_lowercase);
+        self.replace(&self.fields.motion, if is_lower { name.to_lowercase() } else { name.into() })
+    }
+
+    /// The line with its line end where the block stands alone in it, else the block.
+    fn whole(&self) -> Range<usize> {
+        let outside = |range: Range<usize>| self.text.get(range).unwrap_or_default();
+        let before = outside(self.line.start..self.range.start);
+        let is_alone = before.iter().all(|byte| !matches!(byte, b'B' | b'b' | b'D' | b'd'))
+            && !outside(self.range.end..self.line.end).iter().any(|byte| matches!(byte, b'B' | b'b' | b'D' | b'd'));
+        if is_alone { self.line.clone() } else { self.range.clone() }
+    }
+
+    fn delete(&self, kind: FixKind, in_fix_all: bool) -> TextFix {
+        Fix { kind, preferred: true, in_fix_all, edit: vec![self.replace(&self.whole(), "")] }
+    }
+}
+
+/// The fixes of a fault in a block, the preferred one first.
+pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
+    match fault.rule() {
+        Rule::MissingB => missing_b::fixes(site),
+        Rule::BlockNumberAsB => block_number_as_b::fixes(site),
+        Rule::LengthInJ => length_in_j::fixes(site),
+        Rule::WrongJ => wrong_j::fixes(site, fault),
+        Rule::JOverTurn => j_over_turn::fixes(site),
+        Rule::WrongCountingAxis => wrong_counting_axis::fixes(site, fault),
+        Rule::WrongQuadrant => wrong_quadrant::fixes(site, fault),
+        Rule::ZeroBlock => zero_block::fixes(site),
+        Rule::ArcWithoutRadius => arc_without_radius::fixes(site),
+        Rule::TooManyDigits => too_many_digits::fixes(site),
+        _ => Vec::new(),
+    }
+}
+
+/// Z as it is written.
+pub(super) fn motion_name(motion: Motion) -> &'static str {
+    let name = |names: [&'static str; 4], quadrant: Quadrant| match quadrant {
+        Quadrant::First => names[0],
+        Quadrant::Second => names[1],
+        Quadrant::Third => names[2],
+        Quadrant::Fourth => names[3],
+    };
+    match motion {
+        Motion::Line(quadrant) => name(["L1", "L2", "L3", "L4"], quadrant),
+        Motion::Clockwise(quadrant) => name(["SR1", "SR2", "SR3", "SR4"], quadrant),
+        Motion::CounterClockwise(quadrant) => name(["NR1", "NR2", "NR3", "NR4"], quadrant),
+    }
+}
+
+/// A fix that changes one thing, to be made without asking only where the contour then closes.
+fn one_edit(kind: FixKind, edit: Vec<TextEdit>, preferred: bool, in_fix_all: bool) -> TextFix {
+    Fix { kind, preferred, in_fix_all, edit }
+}

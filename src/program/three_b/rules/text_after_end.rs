@@ -1,0 +1,12 @@
+//! `text-after-end`: something stands behind the word that ends the program. The controller never comes to it.
+
+use super::{TextFix, one_edit};
+use crate::finding::FixKind;
+use crate::text::{SourceText, TextEdit};
+
+/// Takes away all lines behind the one in which the program ends.
+pub(in super::super) fn fixes(text: &SourceText, end: usize) -> Vec<TextFix> {
+    let kept = text.line_range(text.line_of(end)).end;
+    let edit = vec![TextEdit { range: kept..text.len(), text: String::new() }];
+    vec![one_edit(FixKind::DeleteBehindEnd, edit, true, false)]
+}

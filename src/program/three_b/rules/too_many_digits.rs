@@ -1,0 +1,48 @@
+//! `too-many-digits`: a number that the controller has no digits for.
+
+use super::{Seen, Sight, Site, Spot, TextFix, one_edit};
+use crate::finding::{FixKind, ProgramFault};
+use crate::geometry::Point;
+use crate::program::three_b::block::{LARGEST, Node};
+use crate::program::three_b::decode::meant;
+use crate::program::three_b::encode::{encode, snap};
+use crate::program::three_b::layout::push_fields;
+use crate::settings::Layout;
+
+pub(super) fn look(seen: &Seen) -> Option<Sight> {
+    let block = seen.block;
+    let numbers = [(Spot::J, "J", block.j), (Spot::X, "X", block.x), (Spot::Y, "Y", block.y)];
+    let (spot, field, value) = numbers.into_iter().find(|(_, _, value)| *value > seen.limits.largest())?;
+    Some(Sight::at(spot, ProgramFault::TooManyDigits { field, value, digits: seen.limits.digits }))
+}
+
+/// The way in pieces that fit. More than this many are a fault of the number, not of its size.
+const MOST_PIECES: usize = 64;
+
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+    let Some(segment) = meant(&site.block, Point::origin()).filter(|segment| segment.length() <= LARGEST as f64 * MOST_PIECES as f64)
+    else {
+        return Vec::new();
+    };
+    let mut pieces = Vec::new();
+    let made = snap(segment.end()).and_then(|end| encode(&segment, Node { x: 0, y: 0 }, end, &mut pieces));
+    if made.is_none() || pieces.len() < 2 || pieces.len() > MOST_PIECES {
+        return Vec::new();
+    }
+    let line_end: &[u8] = match site.text.get(site.line.clone()) {
+        Some(line) if line.ends_with(b"\r\n") => b"\r\n",
+        Some(line) if line.ends_with(b"\r") => b"\r",
+        _ => b"\n",
+    };
+    let is_spaced = site.text.get(site.range.clone()).is_some_and(|block| block.contains(&b' '));
+    let layout = if is_spaced { Layout::Aligned } else { Layout::Compact };
+    let mut text = Vec::new();
+    for (index, piece) in pieces.iter().enumerate() {
+        if index > 0 {
+            text.extend_from_slice(line_end);
+        }
+        push_fields(&mut text, layout, &piece.block, None);
+    }
+    let Ok(text) = String::from_utf8(text) else { return Vec::new() };
+    vec![one_edit(FixKind::SplitBlock { pieces: pieces.len() }, vec![site.replace(&site.range, text)], true, true)]
+}

@@ -1,0 +1,60 @@
+//! `wrong-quadrant`: Z contradicts a line along an axis, or it is what keeps the contour open.
+//!
+//! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to the same place;
+//! it is said only where nothing but Z tells the direction, or where the contour does not close.
+
+use super::{Counts, Seen, Sight, Site, Spot, TextFix, motion_name, one_edit};
+use crate::finding::{Axis, FixKind, ProgramFault};
+use crate::program::three_b::block::{Block, Motion, Quadrant};
+
+pub(super) fn look(seen: &Seen) -> Option<Sight> {
+    let Motion::Line(quadrant) = seen.block.motion else { return None };
+    let Block { x, y, j, .. } = *seen.block;
+    let axis = seen.axis();
+    let along = match (x, y) {
+        (0, 0) => axis,
+        (_, 0) => Axis::X,
+        (0, _) => Axis::Y,
+        _ => return None,
+    };
+    let belongs = match along {
+        Axis::X => matches!(quadrant, Quadrant::First | Quadrant::Third),
+        Axis::Y => matches!(quadrant, Quadrant::Second | Quadrant::Fourth),
+    };
+    if belongs || j == 0 || along != axis {
+        return None;
+    }
+    let expected = if along == Axis::X { ["L1", "L3"] } else { ["L2", "L4"] };
+    let sight = Sight::at(Spot::Motion, ProgramFault::AxisQuadrant { found: motion_name(seen.block.motion), expected, axis: along });
+    Some(Sight { counts: if (x, y) == (0, 0) { Counts::Always } else { Counts::IfOpen }, ..sight })
+}
+
+pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
+    match fault {
+        ProgramFault::QuadrantKeepsOpen { meant, .. } => {
+            vec![one_edit(FixKind::SetMotion { name: meant }, vec![site.set_motion(meant)], true, true)]
+        }
+        ProgramFault::AxisQuadrant { expected, .. } => {
+            let motion = |name: &str| match name {
+                "L1" => Motion::Line(Quadrant::First),
+                "L2" => Motion::Line(Quadrant::Second),
+                "L3" => Motion::Line(Quadrant::Third),
+                _ => Motion::Line(Quadrant::Fourth),
+            };
+            let closing = expected.iter().copied().find(|name| (site.closes_with)(&[Block { motion: motion(name), ..site.block }]));
+            // The half axis that the controller takes it for now.
+            let same = match (site.block.motion, expected[0]) {
+                (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => expected[0],
+                _ => expected[1],
+            };
+            let first = closing.unwrap_or(same);
+            let mut names = vec![first];
+            names.extend(expected.iter().copied().filter(|name| *name != first));
+            let fix = |(index, name): (usize, &'static str)| {
+                one_edit(FixKind::SetMotion { name }, vec![site.set_motion(name)], index == 0, index == 0 && closing.is_some())
+            };
+            names.into_iter().enumerate().map(fix).collect()
+        }
+        _ => Vec::new(),
+    }
+}

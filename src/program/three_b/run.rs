@@ -1,0 +1,428 @@
+//! A run of consecutive lines: what they say, what is wrong in each block for itself, and where their blocks lead to in sum.
+//!
+//! Places count from the run's first byte and line, so that an edit elsewhere changes nothing here.
+
+use super::block::{Block, Motion, Node, PartArc};
+use super::decode::meant;
+use super::machine::travel;
+use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
+use super::rules::position_mismatch::mismatch;
+use super::rules::{self, Counts, Limits, Spot};
+use crate::finding::{Detail, ProgramFault, Rule};
+use crate::geometry::{Point, Segment};
+use std::ops::Range;
+
+/// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Move {
+    pub machine: [i64; 2],
+    pub meant: [i64; 2],
+}
+
+impl Move {
+    pub fn plus(self, other: Move) -> Move {
+        let sum = |a: [i64; 2], b: [i64; 2]| [a[0].saturating_add(b[0]), a[1].saturating_add(b[1])];
+        Move { machine: sum(self.machine, other.machine), meant: sum(self.meant, other.meant) }
+    }
+
+    pub fn minus(self, other: Move) -> Move {
+        let difference = |a: [i64; 2], b: [i64; 2]| [a[0].saturating_sub(b[0]), a[1].saturating_sub(b[1])];
+        Move { machine: difference(self.machine, other.machine), meant: difference(self.meant, other.meant) }
+    }
+
+    /// True where machine or meaning come back within `tolerance` µm.
+    pub fn is_within(&self, tolerance: f64) -> bool {
+        let near = |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
+        near(self.machine, 1.0) || near(self.meant, 1e-3)
+    }
+
+    /// What the blocks mean, µm.
+    pub fn meant_um(&self) -> [f64; 2] {
+        self.meant.map(|nm| nm as f64 * 1e-3)
+    }
+}
+
+/// A block as it stands in the text, and where it leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct BlockEntry {
+    pub block: Block,
+    pub travel: Move,
+    /// What only some blocks have.
+    pub extra: Option<Box<Extra>>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Extra {
+    pub part: Option<PartArc>,
+    pub stated_end: Option<StatedPoint>,
+}
+
+impl BlockEntry {
+    pub fn new(block: Block, part: Option<PartArc>, stated_end: Option<StatedPoint>) -> BlockEntry {
+        let extra = (part.is_some() || stated_end.is_some()).then(|| Box::new(Extra { part, stated_end }));
+        BlockEntry { block, travel: travel_of(&block), extra }
+    }
+
+    /// What a 4B block says beside a 3B block.
+    pub fn part(&self) -> Option<PartArc> {
+        self.extra.as_ref().and_then(|extra| extra.part)
+    }
+
+    pub fn stated_end(&self) -> Option<StatedPoint> {
+        self.extra.as_ref().and_then(|extra| extra.stated_end)
+    }
+
+    pub fn is_line(&self) -> bool {
+        matches!(self.block.motion, Motion::Line(_))
+    }
+}
+
+/// Where a block leads to.
+pub(super) fn travel_of(block: &Block) -> Move {
+    let machine = travel(block).map_or([0, 0], |Node { x, y }| [x, y]);
+    let meant = match meant(block, Point::origin()) {
+        Some(segment) => [segment.end().x, segment.end().y].map(|um| (um * 1e3).round() as i64),
+        None => machine.map(|um| um.saturating_mul(1000)),
+    };
+    Move { machine, meant }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum What {
+    Block(BlockEntry),
+    Word {
+        word: Word,
+        is_own: bool,
+    },
+    /// mm.
+    StartPoint([f64; 2]),
+    Text {
+        column: usize,
+    },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    start: u32,
+    length: u32,
+    pub line: u32,
+    number: u32,
+    pub what: What,
+}
+
+const NO_NUMBER: u32 = u32::MAX;
+
+impl Entry {
+    /// Bytes from the run's first byte.
+    pub fn range(&self) -> Range<usize> {
+        self.start as usize..(self.start + self.length) as usize
+    }
+
+    pub fn number(&self) -> Option<u32> {
+        (self.number != NO_NUMBER).then_some(self.number)
+    }
+
+    pub fn block(&self) -> Option<&BlockEntry> {
+        match &self.what {
+            What::Block(block) => Some(block),
+            _ => None,
+        }
+    }
+}
+
+/// Something found at bytes of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Local {
+    pub range: Range<usize>,
+    pub rule: Rule,
+    pub detail: Detail,
+    pub spot: Spot,
+    pub counts: Counts,
+    /// Index of the part that it lies in.
+    pub part: usize,
+}
+
+/// What a stretch of blocks without a word between them comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sum {
+    pub blocks: usize,
+    pub arcs: usize,
+    pub travel: Move,
+    /// Twice the area between the way and its chord, µm²; only its sign is used.
+    pub twice_area: f64,
+    /// Faults that change where the way leads.
+    pub errors: usize,
+    /// Blocks that could not be read: where the way leads is not known.
+    pub unread: usize,
+    /// Tells two stretches apart: equal ways have equal marks.
+    pub mark: u64,
+    pub first: Option<Move>,
+    pub second: Option<Move>,
+    pub last: Option<Move>,
+}
+
+impl Default for Sum {
+    fn default() -> Self {
+        Sum {
+            blocks: 0,
+            arcs: 0,
+            travel: Move::default(),
+            twice_area: 0.0,
+            errors: 0,
+            unread: 0,
+            mark: 0,
+            first: None,
+            second: None,
+            last: None,
+        }
+    }
+}
+
+impl Sum {
+    /// This stretch and then the next.
+    pub fn then(&self, next: &Sum) -> Sum {
+        if next.blocks == 0 {
+            return Sum { errors: self.errors + next.errors, unread: self.unread + next.unread, ..*self };
+        }
+        let (a, b) = (self.travel.meant_um(), next.travel.meant_um());
+        Sum {
+            blocks: self.blocks + next.blocks,
+            arcs: self.arcs + next.arcs,
+            travel: self.travel.plus(next.travel),
+            twice_area: self.twice_area + next.twice_area + a[0] * b[1] - a[1] * b[0],
+            errors: self.errors + next.errors,
+            unread: self.unread + next.unread,
+            mark: self.mark.wrapping_mul(POLYNOMIAL.wrapping_pow(next.blocks as u32)).wrapping_add(next.mark),
+            first: self.first.or(next.first),
+            second: self.second.or(if self.blocks == 1 {
+                next.first
+            } else if self.blocks == 0 {
+                next.second
+            } else {
+                None
+            }),
+            last: next.last.or(self.last),
+        }
+    }
+
+    fn push(&mut self, entry: &BlockEntry, segment: Option<&Segment>) {
+        let origin = Point::origin();
+        let one = Sum {
+            blocks: 1,
+            arcs: usize::from(!entry.is_line()),
+            travel: entry.travel,
+            twice_area: segment.and_then(Segment::as_arc).map_or(0.0, |arc| Segment::Arc(*arc).twice_area(origin)),
+            errors: 0,
+            unread: 0,
+            mark: mark_of(entry),
+            first: Some(entry.travel),
+            second: None,
+            last: Some(entry.travel),
+        };
+        *self = self.then(&one);
+    }
+}
+
+const POLYNOMIAL: u64 = 0x9e37_79b9_7f4a_7c15;
+
+fn mark_of(entry: &BlockEntry) -> u64 {
+    let Block { x, y, j, axis, motion } = entry.block;
+    let (kind, quadrant) = match motion {
+        Motion::Line(quadrant) => (0, quadrant),
+        Motion::Clockwise(quadrant) => (1, quadrant),
+        Motion::CounterClockwise(quadrant) => (2, quadrant),
+    };
+    let fields = [x as u64, y as u64, j as u64, axis as u64 * 16 + kind * 4 + u64::from(quadrant.number())];
+    fields.into_iter().fold(POLYNOMIAL, |mark, field| (mark ^ field).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23))
+}
+
+/// Blocks up to a word or to the end of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Part {
+    pub entries: Range<usize>,
+    pub sum: Sum,
+    /// The word behind it, at `entries.end`.
+    pub word: Option<(Word, bool)>,
+}
+
+/// Consecutive lines of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Run {
+    pub bytes: usize,
+    pub lines: usize,
+    pub entries: Vec<Entry>,
+    pub faults: Vec<Local>,
+    pub parts: Vec<Part>,
+    pub blocks: usize,
+    pub texts: usize,
+    /// Entries with a number, and blocks with an end point behind them.
+    pub numbered: usize,
+    pub stated: usize,
+    pub numbering: Numbering,
+    pub positions: Positions,
+}
+
+/// How the blocks of a run are numbered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Numbering {
+    /// There is no block.
+    #[default]
+    Empty,
+    /// Every block has the number before it and `step`; `step` is 0 for a single block.
+    Regular {
+        first: u32,
+        last: u32,
+        step: u32,
+    },
+    Irregular,
+}
+
+impl Numbering {
+    fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
+        match (self, number) {
+            (same, None) if !is_block => same,
+            (Numbering::Empty, Some(number)) => Numbering::Regular { first: number, last: number, step: 0 },
+            (Numbering::Regular { first, last, step }, Some(number)) if number > last && (step == 0 || number - last == step) => {
+                Numbering::Regular { first, last: number, step: number - last }
+            }
+            _ => Numbering::Irregular,
+        }
+    }
+
+    /// This run and then the next.
+    pub fn then(self, next: Numbering) -> Numbering {
+        match (self, next) {
+            (Numbering::Empty, other) | (other, Numbering::Empty) => other,
+            (Numbering::Regular { first, last: a, step }, Numbering::Regular { first: b, last, step: next_step }) => {
+                let between = b.saturating_sub(a);
+                let agree = between > 0 && [step, next_step].iter().all(|step| *step == 0 || *step == between);
+                if agree { Numbering::Regular { first, last, step: between } } else { Numbering::Irregular }
+            }
+            _ => Numbering::Irregular,
+        }
+    }
+}
+
+/// The end points that stand behind the blocks of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Positions {
+    /// Pairs of end points in the run that were held against each other.
+    pub compared: usize,
+    /// Those that are off, by the number of the block in the run, its entry, and by how much in µm.
+    pub off: Vec<(usize, usize, [f64; 2])>,
+    /// Entry, end point and displacement of the first block, where nothing in the run stands before it.
+    pub first: Option<(usize, StatedPoint, Move)>,
+    /// What the next run's first end point is held against: `None` where nothing in this run says.
+    pub anchor: Option<Option<StatedPoint>>,
+}
+
+impl Positions {
+    fn block(&mut self, nth: usize, entry: usize, block: &BlockEntry) {
+        let stated = block.stated_end();
+        match (self.anchor, stated) {
+            (Some(Some(before)), Some(stated)) => {
+                self.compared += 1;
+                self.off.extend(mismatch(&before, &block.travel, &stated).map(|by| (nth, entry, by)));
+            }
+            (None, Some(stated)) => self.first = Some((entry, stated, block.travel)),
+            _ => {}
+        }
+        self.anchor = Some(stated);
+    }
+}
+
+/// Lines that one run holds at most.
+pub(super) const LINES: usize = 96;
+
+impl Run {
+    /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it.
+    pub fn read(text: &[u8], whole: Range<usize>, lines: impl Iterator<Item = Range<usize>>, words: &Words<'_>, limits: &Limits) -> Run {
+        let mut run = Run {
+            bytes: whole.len(),
+            lines: 0,
+            entries: Vec::new(),
+            faults: Vec::new(),
+            parts: Vec::new(),
+            blocks: 0,
+            texts: 0,
+            numbered: 0,
+            stated: 0,
+            numbering: Numbering::Empty,
+            positions: Positions::default(),
+        };
+        let mut open = Part { entries: 0..0, sum: Sum::default(), word: None };
+        for range in lines {
+            let line = run.lines as u32;
+            run.lines += 1;
+            let start = range.start;
+            read_line(&text[range], start, words, |item| run.take(item, line, whole.start, &mut open, limits));
+        }
+        open.entries.end = run.entries.len();
+        run.parts.push(open);
+        run
+    }
+
+    fn take(&mut self, item: Item, line: u32, base: usize, open: &mut Part, limits: &Limits) {
+        let local = |range: Range<usize>| range.start - base..range.end - base;
+        match item {
+            Item::Block { block, range, number, stated_end, part } => {
+                let entry = BlockEntry::new(block, part, stated_end);
+                let range = local(range);
+                let part_index = self.parts.len();
+                let segment = meant(&block, Point::origin());
+                for sight in rules::look(&block, part, limits) {
+                    // What is only unusual, or too tight, leads where it says.
+                    open.sum.errors += usize::from(sight.counts == Counts::Always && sight.rule != Rule::SmallRadius);
+                    let (rule, spot, counts, detail) = (sight.rule, sight.spot, sight.counts, sight.detail);
+                    self.faults.push(Local { range: range.clone(), rule, detail, spot, counts, part: part_index });
+                }
+                self.stated += usize::from(entry.stated_end().is_some());
+                open.sum.push(&entry, segment.as_ref());
+                self.positions.block(self.blocks, self.entries.len(), &entry);
+                self.blocks += 1;
+                self.push(range, line, number, What::Block(entry));
+            }
+            Item::Word { word, is_own, range, number } => {
+                open.entries.end = self.entries.len();
+                open.word = Some((word, is_own));
+                self.push(local(range), line, number, What::Word { word, is_own });
+                let next = self.entries.len();
+                self.parts.push(std::mem::replace(open, Part { entries: next..next, sum: Sum::default(), word: None }));
+            }
+            Item::StartPoint { at, range } => {
+                self.positions.anchor = Some(Some(StatedPoint { at, decimals: 3 }));
+                self.push(local(range), line, None, What::StartPoint(at));
+            }
+            Item::Text { range, column } => {
+                self.texts += 1;
+                self.push(local(range), line, None, What::Text { column });
+            }
+            Item::Fault(fault) => {
+                open.sum.errors += 1;
+                open.sum.unread += usize::from(matches!(fault.flaw, Flaw::Unreadable(_)));
+                let sentence = || Detail::Syntax(fault.sentence());
+                let program = |fault| Detail::Program(Box::new(fault));
+                let (rule, detail) = match fault.flaw {
+                    Flaw::Unreadable(_) | Flaw::LetterO => (Rule::Syntax, sentence()),
+                    Flaw::MissingB { .. } => (Rule::MissingB, program(ProgramFault::MissingB)),
+                    Flaw::BlockNumberAsB { number } => (Rule::BlockNumberAsB, program(ProgramFault::BlockNumberAsB { number })),
+                };
+                let part = self.parts.len();
+                self.faults.push(Local {
+                    range: local(fault.range.clone()),
+                    rule,
+                    detail,
+                    spot: Spot::Block,
+                    counts: Counts::Always,
+                    part,
+                });
+            }
+        }
+    }
+
+    fn push(&mut self, range: Range<usize>, line: u32, number: Option<u32>, what: What) {
+        self.numbered += usize::from(number.is_some());
+        self.numbering = self.numbering.with(number, matches!(what, What::Block(_)));
+        self.entries.push(Entry { start: range.start as u32, length: range.len() as u32, line, number: number.unwrap_or(NO_NUMBER), what });
+    }
+}

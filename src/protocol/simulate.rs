@@ -1,0 +1,137 @@
+//! The reply of `wedm/simulate`: where the machine goes, block by block.
+
+use super::drawing::Point;
+use super::generate::Closure;
+use crate::geometry::{Point as CorePoint, Segment};
+use crate::program::trace::{Kind, Step, Trace};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Params of `wedm/simulate`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Simulate {
+    pub uri: String,
+    /// mm/min: with it the reply says how many minutes the way takes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed: Option<f64>,
+}
+
+/// What a step of the program does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StepKind {
+    Line,
+    Arc,
+    /// A way without a cut.
+    Rapid,
+    Pause,
+    End,
+}
+
+/// A block or word and what it makes the machine do; points in µm, in the program's own frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct SimulatedBlock {
+    /// Line of the text, from 0.
+    pub line: usize,
+    /// Number that the block carries.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub number: Option<u32>,
+    pub kind: StepKind,
+    pub start: Point,
+    /// Where the machine stops.
+    pub end: Point,
+    /// Where the line or arc ends that the block means; not there where it means none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ideal_end: Option<Point>,
+    /// From the ideal end to the machine's, µm.
+    pub deviation: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center: Option<Point>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Degrees, positive counter-clockwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<f64>,
+    /// Index of the contour; a pause is between two of them.
+    pub contour: usize,
+}
+
+/// A box, µm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SimulatedBounds {
+    pub min: Point,
+    pub max: Point,
+}
+
+/// Result of `wedm/simulate`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Simulation {
+    pub blocks: Vec<SimulatedBlock>,
+    /// From the program's start to where the machine ends, µm.
+    pub closure: Closure,
+    /// mm, along the lines and arcs; ways without a cut are counted in.
+    pub length: f64,
+    /// The largest deviation of a block, µm.
+    pub deviation: f64,
+    /// The text says where the program begins; else that is the origin.
+    pub start_is_known: bool,
+    /// Not there where nothing moves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<SimulatedBounds>,
+    /// At the feed that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minutes: Option<f64>,
+}
+
+impl Simulation {
+    /// `feed` in mm/min; one that is not above 0 says no time.
+    pub fn of(trace: &Trace, feed: Option<f64>) -> Simulation {
+        let closure = trace.closure();
+        let length = trace.length() / 1000.0;
+        Simulation {
+            blocks: trace.steps.iter().map(SimulatedBlock::of).collect(),
+            closure: Closure { x: closure.x, y: closure.y },
+            length,
+            deviation: trace.steps.iter().map(Step::deviation).fold(0.0, f64::max),
+            start_is_known: trace.start_is_known,
+            bounds: trace.bounds().map(|bounds| SimulatedBounds { min: bounds.min.into(), max: bounds.max.into() }),
+            minutes: feed.filter(|feed| *feed > 0.0 && feed.is_finite()).map(|feed| length / feed),
+        }
+    }
+}
+
+impl SimulatedBlock {
+    fn of(step: &Step) -> SimulatedBlock {
+        let arc = step.ideal.as_ref().and_then(Segment::as_arc);
+        SimulatedBlock {
+            line: step.line,
+            number: step.number,
+            kind: match step.kind {
+                Kind::Line => StepKind::Line,
+                Kind::Arc => StepKind::Arc,
+                Kind::Rapid => StepKind::Rapid,
+                Kind::Pause => StepKind::Pause,
+                Kind::End => StepKind::End,
+            },
+            start: step.start.into(),
+            end: step.end.into(),
+            ideal_end: step.ideal.as_ref().map(|ideal| tidy(ideal.end()).into()),
+            deviation: rounded(step.deviation()),
+            center: arc.map(|arc| tidy(arc.center).into()),
+            radius: arc.map(|arc| rounded(arc.radius)),
+            sweep: arc.map(|arc| arc.sweep.to_degrees()),
+            contour: step.contour,
+        }
+    }
+}
+
+/// Nanometres are more than anybody measures.
+fn rounded(um: f64) -> f64 {
+    (um * 1000.0).round() / 1000.0
+}
+
+fn tidy(point: CorePoint) -> CorePoint {
+    CorePoint::new(rounded(point.x), rounded(point.y))
+}

@@ -1,0 +1,94 @@
+//! Programs as files: the right ones are silent; in the wrong ones every fault is found at its line and column, and what can be
+//! repaired safely is repaired.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use wedm::document::{Document, Source};
+use wedm::finding::{Edit, Place, Severity};
+use wedm::program::{self, Language};
+use wedm::settings::Effective;
+
+fn folder(name: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/programs").join(name);
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "3b" || ending == "4b"));
+    files.sort();
+    files
+}
+
+fn read(bytes: Vec<u8>) -> Document {
+    let settings = Arc::new(Effective::default());
+    Document::new(Source::Program(program::Document::read(Language::ThreeB, bytes, &settings)), settings)
+}
+
+/// `LINE:COLUMN severity rule` of every finding, in the order of the text.
+fn said(document: &mut Document) -> Vec<String> {
+    let (findings, _) = document.findings(usize::MAX);
+    let text = document.text().unwrap().clone();
+    let mut said: Vec<(usize, usize, String)> = findings
+        .iter()
+        .map(|finding| {
+            let Place::Text { range } = &finding.place else { panic!("{finding:?} has no place") };
+            let line = text.line_of(range.start);
+            let column = range.start - text.line_start(line) + 1;
+            let severity = format!("{:?}", finding.severity).to_lowercase();
+            (line, column, format!("{}:{column} {severity} {}", line + 1, finding.rule.name()))
+        })
+        .collect();
+    said.sort();
+    said.into_iter().map(|(_, _, row)| row).collect()
+}
+
+/// The text after every safe fix, made again and again until there is none left.
+fn repaired(mut document: Document) -> Document {
+    for _ in 0..12 {
+        let Some(Edit::Text(edits)) = document.fix_all() else { break };
+        let mut bytes = document.text().unwrap().bytes().to_vec();
+        for edit in edits.iter().rev() {
+            bytes.splice(edit.range.clone(), edit.text.bytes());
+        }
+        document = read(bytes);
+    }
+    document
+}
+
+#[test]
+fn right_programs_are_silent() {
+    for path in folder("right") {
+        let mut document = read(std::fs::read(&path).unwrap());
+        let (findings, _) = document.findings(usize::MAX);
+        let worse: Vec<_> = findings.iter().filter(|finding| finding.severity < Severity::Information).collect();
+        assert!(worse.is_empty(), "{}: {worse:?}", path.display());
+        let blocks = document.program().unwrap().trace().steps.iter().filter(|step| step.moves()).count();
+        let is_fragment = blocks == 1;
+        assert!(findings.is_empty() || is_fragment, "{}: {findings:?}", path.display());
+        assert!(document.fix_all().is_none() || is_fragment, "{}", path.display());
+    }
+}
+
+#[test]
+fn every_fault_of_wrong_programs_is_found_at_its_place() {
+    let mut failures: Vec<String> = Vec::new();
+    for path in folder("wrong") {
+        let expected = std::fs::read_to_string(path.with_extension("expected")).unwrap();
+        let mut document = read(std::fs::read(&path).unwrap());
+        let is_clean = |line: &&str| *line == "fixed: clean";
+        let rows: Vec<&str> = expected.lines().filter(|line| !is_clean(line)).collect();
+        let sentences: Vec<String> =
+            document.findings(usize::MAX).0.iter().map(|finding| wedm::message::en::sentence(finding, 1.0)).collect();
+        let found = said(&mut document);
+        if found != rows {
+            failures.push(format!("{}:\n  found {found:?}\n  expected {rows:?}\n  {sentences:#?}", path.display()));
+            continue;
+        }
+        if expected.lines().any(|line| is_clean(&line)) {
+            let mut repaired = repaired(document);
+            let text = String::from_utf8_lossy(repaired.text().unwrap().bytes()).into_owned();
+            let left = said(&mut repaired);
+            if !left.is_empty() {
+                failures.push(format!("{}: {left:?} is left in\n{text}", path.display()));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
