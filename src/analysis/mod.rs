@@ -295,8 +295,9 @@ impl Analysis {
             let slots = if lost.is_empty() || necks.is_none() { Vec::new() } else { self.pairs.slots_of(key) };
             // What a slot is told of is not told again as what is lost in it.
             let is_told = |near: Point, index: usize| {
-                slots.iter().any(|(walls, disc)| {
-                    walls.contains(&index) || disc.is_some_and(|(center, radius)| (near - center).norm() <= radius + self.limits.correction)
+                slots.iter().any(|(walls, disc)| match disc {
+                    Some((center, radius)) => (near - center).norm() <= radius + self.limits.correction,
+                    None => walls.contains(&index),
                 })
             };
             for lost in lost {

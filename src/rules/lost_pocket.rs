@@ -22,7 +22,7 @@ pub const MOST_SEGMENTS: usize = 5_000;
 pub enum Lost {
     /// Nothing is left of it.
     All,
-    /// A part, by a point of its loop and the index of the segment beside it.
+    /// A part, by the point of its loop that lies deepest in it and the index of the segment beside that.
     Pocket { near: Point, index: usize },
 }
 
@@ -61,8 +61,12 @@ pub fn look(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
     }
     // The wire is threaded into the largest; outside a punch that is the one round it.
     loops.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let largest = Bounds::of_points(&loops[0].0);
+    let threaded = nalgebra::center(&largest.min, &largest.max);
     let pocket = |(points, _): &(Vec<Point>, f64)| {
-        let near = *points.first()?;
+        // Away from the neck, which is told of by itself.
+        let depth = |point: &Point| nalgebra::distance(point, &threaded);
+        let near = *points.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
         Some(Lost::Pocket { near, index: nearest(outlook, near, 1.01 * correction)? })
     };
     loops[1..].iter().filter_map(pocket).collect()

@@ -242,7 +242,7 @@ fn a_program_is_followed_drawn_and_repaired() {
     assert_eq!(codes, ["length-in-j", "not-closed"]);
     let position = json!({ "line": 0, "character": 12 });
     let params = json!({ "textDocument": { "uri": "file:///a/length.3b" }, "range": { "start": position, "end": position },
-        "context": { "diagnostics": [found[0]] } });
+        "context": { "diagnostics": [found[0]], "only": ["quickfix", "source"] } });
     let actions = client.request("textDocument/codeAction", params).unwrap();
     let titles: Vec<_> = actions.as_array().unwrap().iter().map(|action| action["title"].as_str().unwrap()).collect();
     assert_eq!(titles, ["Set J to 4000", "Fix all that can be fixed safely"]);
