@@ -8,6 +8,7 @@ use std::sync::Arc;
 use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, DrawingEdit, Geometry};
 use wedm::dxf;
+use wedm::finding::Edit;
 use wedm::message::en;
 use wedm::protocol::{Contours, Inspection};
 use wedm::settings::{Effective, Settings, SideSetting};
@@ -38,7 +39,7 @@ fuzz_target!(|data: &[u8]| {
     let document = Document::new(Source::Dxf(text), settings);
     let unit = document.settings().unit_of(&drawing);
     let findings = document.all_findings();
-    for finding in &findings {
+    for finding in findings.iter() {
         assert!(!en::sentence(finding, unit.mm).is_empty());
         let range = document.range_of(&finding.place).expect("a text");
         assert!(range.end <= length, "{finding:?}");
@@ -51,6 +52,7 @@ fuzz_target!(|data: &[u8]| {
     }
     let fixes = findings.iter().take(REPAIRS).flat_map(|finding| document.fixes(finding)).map(|fix| fix.edit);
     for edit in fixes.chain(document.fix_all()) {
+        let Edit::Drawing(edit) = edit else { panic!("a drawing is not repaired as text: {edit:?}") };
         apply(&document, &drawing, &edit);
     }
 });
