@@ -36,7 +36,7 @@ CAPABILITIES: dict[str, Any] = {
         "didChangeWatchedFiles": {"dynamicRegistration": True},
     },
     "textDocument": {"documentSymbol": {"hierarchicalDocumentSymbolSupport": True}, "publishDiagnostics": {"versionSupport": True}},
-    "experimental": {"wedm": {"applyDrawingEdit": True, "resendDrawing": True}},
+    "experimental": {"wedm": {"applyDrawingEdit": True, "resendDrawing": True, "codeLens": True}},
 }
 
 

@@ -52,7 +52,7 @@ def test_with_ezdxf(tmp_path: Path) -> None:
 def test_archive(tmp_path: Path, data: Path) -> None:
     code, said = run(tmp_path, "archive.py", data)
     assert code == 1
-    files = len([path for path in data.iterdir() if path.suffix in (".dxf", ".3b")])
+    files = len([path for path in data.rglob("*") if path.suffix in (".dxf", ".dxb", ".3b", ".iso", ".nc")])
     assert f"{files} files, " in said and "tight.dxf: 1 errors, the first: error[small-radius]" in said
 
 

@@ -1,7 +1,7 @@
 //! What an editor asks about a program: the machine's way in words, contours, numbers, layouts.
 //!
 //! Functions of a document, without a protocol: places are bytes. What hangs on the machine's way is asked of its trace and is the
-//! same for every language; what the pieces of a line are and mean is told by the language itself, through [`words`].
+//! same for every language; what the pieces of a line are and mean is told by the language itself, through `words`.
 
 mod folding;
 mod format;

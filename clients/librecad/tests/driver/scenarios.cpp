@@ -113,7 +113,8 @@ void Driver::fixOne()
     button->click();
     expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
     expectSoon("the other fault is left", [this] { return text("wedm_count").startsWith("errors: 1"); }, [this] { return text("wedm_count"); });
-    expect("the first arc is as it was", cell(0, RADIUS) == "0.0800" && cell(1, RADIUS) == "0.1010", cell(0, RADIUS) + " " + cell(1, RADIUS));
+    expectSoon("the first arc is as it was", [this] { return cell(0, RADIUS) == "0.0800" && cell(1, RADIUS) == "0.1010"; },
+        [this] { return cell(0, RADIUS) + " " + cell(1, RADIUS); });
 }
 
 void Driver::generate()

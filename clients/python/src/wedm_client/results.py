@@ -96,6 +96,7 @@ class InspectedEntity:
     type: str
     layer: str
     closed: bool
+    cut: bool
     segments: list[Segment]
 
 

@@ -40,8 +40,10 @@ class Settings(TypedDict, total=False):
     side: Side
     units: Units
     margin: float
+    arc_fit: float
     passes: Passes
     layers: Mapping[str, Role]
+    colors: Mapping[str, Role]
     rules: Mapping[str, RuleSeverity]
     program: ProgramSettings
     profiles: Mapping[str, Mapping[str, Any]]

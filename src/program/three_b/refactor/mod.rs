@@ -1,6 +1,6 @@
 //! Refactorings of 3B: the same part, written otherwise; or exactly mirrored, turned, scaled, offset.
 //!
-//! One file a refactoring, all in [`ALL`]. Each says what stands in the place of which block; [`rewrite`] writes the text, reads it
+//! One file a refactoring, all in [`ALL`]. Each says what stands in the place of which block; `rewrite` writes the text, reads it
 //! again and holds every new block against the piece of the path that it stands for. What fails that is not offered.
 
 mod correction;
