@@ -30,7 +30,7 @@ pub use inspection::{InspectedEntity, InspectedSegment, Inspection};
 pub use locate::{Locate, Located};
 pub use requests::{
     Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, DrawingVersion, Inspect, OpenDrawing, OptionsOf,
-    Picture, ResendDrawing, Resent,
+    Picture, ResendDrawing, Resent, ScaleProgram,
 };
 pub use schema::schema;
 pub use segment::{SegmentKind, SegmentShape};

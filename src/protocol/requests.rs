@@ -57,6 +57,14 @@ pub struct DrawingEdit {
     pub changes: Vec<DrawingChange>,
 }
 
+/// The only argument of the command `wedm.scale`: a program, and the factor by which all its lengths grow.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScaleProgram {
+    pub uri: String,
+    pub factor: f64,
+}
+
 /// Params of the server's request `wedm/applyDrawingEdit`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ApplyDrawingEdit {

@@ -38,7 +38,10 @@ pub fn schema() -> Value {
             "result": of::<Resent>(&mut types),
         },
     });
-    let commands = json!({ method::APPLY_DRAWING_EDIT_COMMAND: { "arguments": [of::<DrawingEdit>(&mut types)] } });
+    let commands = json!({
+        method::APPLY_DRAWING_EDIT_COMMAND: { "arguments": [of::<DrawingEdit>(&mut types)] },
+        method::SCALE_COMMAND: { "arguments": [of::<ScaleProgram>(&mut types)] },
+    });
     let settings = of::<Settings>(&mut types);
     let data = of::<FindingData>(&mut types);
     json!({

@@ -2,19 +2,12 @@
 
 use super::{Target, internal, refused, workspace_edit};
 use crate::program::language::scaled;
+use crate::protocol::ScaleProgram;
 use crate::server::convert::lsp_edits;
 use crate::server::state::{Reply, State};
 use ls_types::{ApplyWorkspaceEditParams, Uri, WorkspaceEdit};
-use serde::Deserialize;
 use serde_json::Value;
 use tower_lsp::jsonrpc::{Error, Result};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Argument {
-    uri: Uri,
-    factor: f64,
-}
 
 /// Asks the client to apply the edit; the command is answered when the client has.
 pub(in crate::server) fn execute(state: &mut State, arguments: Vec<Value>, reply: Reply<Option<Value>>) {
@@ -32,7 +25,7 @@ pub(in crate::server) fn execute(state: &mut State, arguments: Vec<Value>, reply
 }
 
 fn prepared(state: &mut State, mut arguments: Vec<Value>) -> Result<WorkspaceEdit> {
-    let argument: Argument = match arguments.pop().filter(|_| arguments.is_empty()).map(serde_json::from_value) {
+    let argument: ScaleProgram = match arguments.pop().filter(|_| arguments.is_empty()).map(serde_json::from_value) {
         Some(Ok(argument)) => argument,
         Some(Err(error)) => return Err(Error::invalid_params(format!("the argument does not fit: {error}"))),
         None => return Err(Error::invalid_params("the command takes one argument { uri, factor }")),
@@ -40,11 +33,12 @@ fn prepared(state: &mut State, mut arguments: Vec<Value>) -> Result<WorkspaceEdi
     if !state.client.abilities.apply_edit {
         return Err(refused("the client did not declare workspace.applyEdit, so it cannot be asked to change its text"));
     }
-    let target = Target::of(state, &argument.uri)?;
-    let open = state.document(argument.uri.as_str())?;
+    let uri: Uri = argument.uri.parse().map_err(|_| Error::invalid_params(format!("{:?} is no URI", argument.uri)))?;
+    let target = Target::of(state, &uri)?;
+    let open = state.document(uri.as_str())?;
     let document = open.document().cloned();
     let program = document.as_ref().and_then(|document| Some((document.program()?, document.settings())));
-    let Some((program, settings)) = program else { return Err(refused(format!("{} is no program", argument.uri.as_str()))) };
+    let Some((program, settings)) = program else { return Err(refused(format!("{} is no program", uri.as_str()))) };
     let edits = scaled(program, settings, argument.factor).map_err(refused)?;
     Ok(workspace_edit(&target, lsp_edits(program.text(), edits, target.encoding)))
 }
