@@ -129,12 +129,12 @@ pub fn one_polyline(count: usize) -> String {
     text
 }
 
-/// A 3B program of about 25 bytes for each of its blocks: squares that stand askew, each with a circle, and a pause behind every hundred.
+/// A 3B program of about 25 bytes for each of its blocks: squares that stand askew, each with a circle, beside each other with pauses between.
 pub fn three_b(blocks: usize) -> String {
     let square = [(123_456, 23_456, "GXL1"), (23_456, 123_456, "GYL2"), (123_456, 23_456, "GXL3"), (23_456, 123_456, "GYL4")];
     let mut text = String::with_capacity(blocks * 26);
     let mut written = 0;
-    for contour in 1.. {
+    loop {
         for (x, y, z) in square {
             text += &format!("B{x}B{y}B{}{z}\n", x.max(y));
         }
@@ -143,10 +143,8 @@ pub fn three_b(blocks: usize) -> String {
         if written >= blocks {
             break;
         }
-        if contour % 100 == 0 {
-            text += "D\nB500000B0B500000GXL1\nD\n";
-            written += 1;
-        }
+        text += "D\nB500000B0B500000GXL1\nD\n";
+        written += 1;
     }
     text + "DD\n"
 }
