@@ -3,7 +3,9 @@
 use std::ops::Range;
 use wedm::document::Document;
 use wedm::drawing::{Drawing, EntityId};
-use wedm::finding::{Finding, Place};
+use wedm::finding::{Finding, Fix, Place};
+use wedm::program::trace::Trace;
+use wedm::text::{SourceText, TextEdit};
 
 /// An input of two parts: a text, and behind the first byte 0 what is done with it. A text without such a byte stands alone, so
 /// that a plain file is an input, too.
@@ -60,6 +62,34 @@ pub fn edit_of(script: &mut Script, length: usize, phrases: &[&str]) -> (Range<u
     (start..(start + removed).min(length), typed)
 }
 
+/// What is edited, as the first bytes of a program themselves say: from where, how much, and what comes in its place.
+pub fn edit_of_program(data: &[u8]) -> (Range<usize>, String) {
+    let number = |at: usize| data.get(at).copied().map_or(0, usize::from);
+    let start = (number(0) * 256 + number(1)) % (data.len() + 1);
+    let replacement = String::from_utf8_lossy(data.get(..number(2) % 8).unwrap_or_default()).into_owned();
+    (start..start + number(3) % 64, replacement)
+}
+
+/// Everything that is said of a program has its place in the text, and edits of a fix are sorted and disjoint.
+pub fn check_program(text: &SourceText, findings: &[Finding], fixes: impl Fn(&Finding) -> Vec<Fix<Vec<TextEdit>>>, trace: &Trace) {
+    let length = text.len();
+    for finding in findings.iter().take(64) {
+        let Place::Text { range } = &finding.place else { panic!("{finding:?} has no place") };
+        assert!(range.start <= range.end && range.end <= length, "{finding:?} in {length} bytes");
+        for fix in fixes(finding) {
+            let mut from = 0;
+            for edit in &fix.edit {
+                assert!(from <= edit.range.start && edit.range.start <= edit.range.end && edit.range.end <= length, "{fix:?}");
+                from = edit.range.end;
+            }
+        }
+    }
+    for step in &trace.steps {
+        assert!(step.range.end <= length && step.line < text.line_count(), "{step:?}");
+        assert!(step.end.x.is_finite() && step.end.y.is_finite(), "{step:?}");
+    }
+}
+
 /// Everything that can be asked of an open document, the ids of entities replaced by their places in the machining order: two
 /// documents that say the same here are the same to everybody.
 pub fn described(document: &Document) -> Vec<String> {
@@ -79,7 +109,8 @@ pub fn described(document: &Document) -> Vec<String> {
     }
     if let Some(snapshot) = document.snapshot() {
         for outline in snapshot.outlines.iter() {
-            let pieces: Vec<String> = outline.contour.segments(drawing).map(|piece| in_order(drawing, piece.entity, piece.segment)).collect();
+            let pieces: Vec<String> =
+                outline.contour.segments(drawing).map(|piece| in_order(drawing, piece.entity, piece.segment)).collect();
             all.push(format!("contour {:?} closed {} {pieces:?}", outline.role, outline.contour.closed));
         }
     }
