@@ -167,7 +167,7 @@ fn faults_are_repaired_and_programs_rewritten() {
     assert!(applied(HOLE, &named("reverse")["edits"]).contains("N30 G42 D1\nN40 G01 X5.\nN50 G02 X-10. I-5. J0. (half)\n"));
     let absolute = applied(HOLE, &named("coordinates.absolute")["edits"]);
     assert!(absolute.contains("N20 G90\nN30 G41 D1\nN40 G01 X5.\nN50 G03 X-5. I-5. J0. (half)\nN60 X5. I5. J0.\n"), "{absolute}");
-    assert!(applied(HOLE, &named("rotate.left")["edits"]).contains("N50 G03 Y-10. J-5. I0. (half)\nN60 Y10. J5.\n"));
+    assert!(applied(HOLE, &named("rotate.left")["edits"]).contains("N50 G03 Y-10. I0. J-5. (half)\nN60 Y10. J5.\n"));
     assert!(applied(HOLE, &named("profile")["edits"]).starts_with("G92 X0 Y0\nG91\nG41 D0\nG01 X5000 Y0\n"));
     let id = client.ask("workspace/executeCommand", json!({ "command": "wedm.scale", "arguments": [{ "uri": URI, "factor": 2 }] }));
     let asked = client.asked("workspace/applyEdit");
