@@ -12,7 +12,7 @@ use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::{SourceText, TextEdit};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 /// Lines that are run together: an edit costs as many, and a program has as many fewer stretches.
 const STRETCH: usize = 128;
@@ -53,7 +53,7 @@ pub(super) struct Limits {
     pub known: BTreeSet<Code>,
     /// Where full circles alone leave open how I and J are meant.
     pub center: CenterRule,
-    pub profile: Option<Profile>,
+    pub profile: Option<Arc<Profile>>,
 }
 
 impl Limits {
@@ -65,13 +65,13 @@ impl Limits {
             end: end_word(settings),
             known: known_words(settings),
             center: settings.profile.as_ref().map_or(CenterRule::StartToCenter, |profile| profile.center),
-            profile: settings.profile.as_ref().ok().cloned(),
+            profile: settings.profile.as_ref().ok().map(|profile| Arc::new(profile.clone())),
         }
     }
 
     /// The lines that the settings' profile writes besides those that move the wire.
     pub fn lines(&self) -> impl Iterator<Item = &str> {
-        self.profile.iter().flat_map(lines_of).map(String::as_str)
+        self.profile.iter().flat_map(|profile| lines_of(profile)).map(String::as_str)
     }
 }
 
@@ -246,9 +246,8 @@ impl Document {
 
     /// The correction in nm that the program itself puts into a place of the control's table.
     pub(super) fn table_value(&self, offset: Offset) -> Option<i64> {
-        let all = self.stretches.iter().flat_map(|stretch| &stretch.definitions);
-        let last = all.filter(|(its, ..)| *its == offset).last();
-        last.map(|&(_, value, inch)| self.reading.length(value, inch))
+        let mut all = self.stretches.iter().flat_map(|stretch| &stretch.definitions);
+        all.rfind(|(its, ..)| *its == offset).map(|&(_, value, inch)| self.reading.length(value, inch))
     }
 
     /// The places of the control's table that the program fills, with their values in nm, and those that its first lines use.

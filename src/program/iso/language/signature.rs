@@ -77,7 +77,7 @@ pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
             Some(crate::program::iso::block::Compensation::Right) => ("G42 D", &CORRECTION),
             _ => return None,
         }
-    } else if !coordinates && !(letter == b'G' && block.motion.is_some()) {
+    } else if !(coordinates || letter == b'G' && block.motion.is_some()) {
         return None;
     } else if is_arc && block.r.is_some() {
         (if motion == Motion::Clockwise { "G02 X Y R" } else { "G03 X Y R" }, &RADIUS[incremental])

@@ -109,12 +109,15 @@ fn transformed(sheet: &Sheet<'_>, transform: Transform) -> Result<Vec<TextEdit>,
     rewrite.edits(sheet, content)
 }
 
+/// Where a number stands with its letter, and what takes its place.
+type Turned = (Range<usize>, String);
+
 /// The words of a line that change.
 fn line_words(line: &[u8], start: usize, transform: Transform, edits: &mut Vec<TextEdit>) -> Result<(), String> {
     let block = read_line(line, 1, |_| {});
     let mut fault = None;
     // X and Y, I and J: place and text of the number without its sign.
-    let mut pairs: [[Option<(Range<usize>, String)>; 2]; 2] = Default::default();
+    let mut pairs: [[Option<Turned>; 2]; 2] = Default::default();
     words(line, 1, |token| {
         let Token::Word { letter, number, range } = token else { return };
         let range = range.start - 1..range.end - 1;
