@@ -27,5 +27,7 @@ mod programs;
 mod settings;
 #[path = "server/texts.rs"]
 mod texts;
+#[path = "server/token_deltas.rs"]
+mod token_deltas;
 #[path = "server/wire.rs"]
 mod wire;
