@@ -41,6 +41,9 @@ def differs(recorded: Any, found: Any, at: str = "") -> str | None:
         if at.startswith(".capabilities"):
             return next((f"{at}: {one!r} is gone" for one in recorded if all(differs(one, other) for other in found)), None)
         return next((said for n, (one, other) in enumerate(zip(recorded, found, strict=True)) if (said := differs(one, other, f"{at}[{n}]"))), None)
+    if at.startswith(".capabilities") and recorded is True and isinstance(found, dict):
+        # What can be done at all, said in more detail.
+        return None
     if isinstance(recorded, (int, float)) and isinstance(found, (int, float)) and not isinstance(recorded, bool):
         return None if math.isclose(recorded, found, rel_tol=1e-6, abs_tol=1e-6) else f"{at}: {recorded} was recorded, {found} found"
     return None if recorded == found else f"{at}: {recorded!r} was recorded, {found!r} found"

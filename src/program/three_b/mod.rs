@@ -3,6 +3,7 @@
 //! Everything in here counts in micrometres on the program's grid; only [`write()`] knows of a drawing's unit.
 
 mod block;
+mod crossings;
 mod decode;
 mod document;
 mod encode;

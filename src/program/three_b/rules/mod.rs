@@ -99,8 +99,10 @@ impl Spot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Counts {
     Always,
-    /// Only where the contour does not close: else the block is what was meant, in an unusual way.
+    /// Only where the contour does not close: else the block is what was meant.
     IfOpen,
+    /// Where the contour closes, the block is what was meant in an unusual way: it is told as that.
+    MildIfClosed,
     /// Only where the wire runs on the arc's centre side; the arc turns left or not.
     IfInside {
         turns_left: bool,
