@@ -157,7 +157,7 @@ impl FindingData {
                 self.length = Some(mm(j));
                 self.required = Some(mm(projection));
             }
-            ProgramFault::JKeepsOpen { j, meant: required } | ProgramFault::JOverTurn { j, turn: required } => {
+            ProgramFault::JKeepsOpen { j, meant: required, .. } | ProgramFault::JOverTurn { j, turn: required } => {
                 self.length = Some(mm(j));
                 self.required = Some(mm(required));
             }
@@ -170,6 +170,7 @@ impl FindingData {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
             ProgramFault::PathCrossesItself { at, .. } => self.at = Some(crate::geometry::Point::from(at).into()),
+            ProgramFault::PathOnItself { blocks } => self.count = Some(blocks),
             _ => {}
         }
     }

@@ -4,6 +4,7 @@
 //! what hangs on the whole program (contours, numbers, the end) is made from a few sums of each run.
 
 use super::block::{Block, Node, PartArc};
+use super::crossings::{Found, Known, Stretch, pieces_of, search};
 use super::decode::meant;
 use super::encode::line_block;
 use super::fields::fields_of;
@@ -11,12 +12,11 @@ use super::layout::push_fields;
 use super::parse::{Word, Words, unexpected};
 use super::rules::block_number::Numbered;
 use super::rules::{
-    self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, path_crosses_itself, position_mismatch,
-    text_after_end,
+    self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, position_mismatch, text_after_end,
 };
-use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Run, Sum, What, travel_of};
+use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Part, Run, Sum, What, travel_of};
 use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault, Rule, Severity};
-use crate::geometry::{Point, Segment, Vector};
+use crate::geometry::{Point, Vector};
 use crate::program::trace::{Kind, Step, Trace};
 use crate::settings::{Effective, Layout, SideSetting};
 use crate::text::{SourceText, TextEdit};
@@ -31,6 +31,8 @@ pub struct Document {
     limits: Limits,
     runs: Vec<Run>,
     view: View,
+    /// What the search for crossings has seen.
+    known: Known,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -78,19 +80,11 @@ struct View {
     last_block: Option<At>,
     /// In no order; the places are bytes of the text.
     findings: Vec<Finding>,
-    /// Crossings of the contours, by the marks of their sections; those of the last view are kept for an edit that is taken back.
-    crossings: Vec<Crossings>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-struct Crossings {
-    mark: u64,
-    found: std::sync::Arc<Vec<path_crosses_itself::Crossing>>,
 }
 
 /// Where a finding is kept.
 #[derive(Clone, Copy, Debug)]
-enum Found {
+enum Kept {
     InBlock { run: usize, index: usize },
     OnWhole { index: usize },
 }
@@ -110,9 +104,6 @@ pub struct PlacedBlock {
     pub stated_end: Option<[f64; 2]>,
 }
 
-/// Contours of more blocks are not asked for crossings while they do not close: torn open they cross for that reason.
-const CROSSINGS_WHILE_OPEN: usize = 2_000;
-
 /// A way of at most this many lines between two pauses leads from one contour to the next.
 const JUMP_BLOCKS: usize = 3;
 
@@ -130,14 +121,19 @@ impl Document {
         let read = |first: usize| run_of(&text, first..(first + LINES).min(count), &words.words(), &limits);
         let firsts: Vec<usize> = (0..count).step_by(LINES).collect();
         let runs = if count > 20 * LINES { firsts.into_par_iter().map(read).collect() } else { firsts.into_iter().map(read).collect() };
-        let mut document = Document { text, words, limits, runs, view: View::default() };
-        document.view = document.look();
+        let mut document = Document { text, words, limits, runs, view: View::default(), known: Known::default() };
+        document.look_again();
         document
     }
 
     /// The words between blocks.
     pub(in crate::program) fn words(&self) -> Words<'_> {
         self.words.words()
+    }
+
+    /// The largest number that the controller takes, µm.
+    pub(in crate::program) fn largest(&self) -> i64 {
+        self.limits.largest()
     }
 
     pub fn text(&self) -> &SourceText {
@@ -173,7 +169,7 @@ impl Document {
             .map(|line| run_of(&self.text, line..(line + LINES).min(last_line), &words, &self.limits))
             .collect();
         self.runs.splice(first..(last + 1).min(self.runs.len()), fresh);
-        self.view = self.look();
+        self.look_again();
     }
 
     /// The run that holds a byte; the last one for bytes past the end.
@@ -197,7 +193,13 @@ impl Document {
 
     // What hangs on the whole.
 
-    fn look(&self) -> View {
+    fn look_again(&mut self) {
+        let mut known = std::mem::take(&mut self.known);
+        self.view = self.look(&mut known);
+        self.known = known;
+    }
+
+    fn look(&self, known: &mut Known) -> View {
         let mut view = View { starts: Vec::with_capacity(self.runs.len()), ..View::default() };
         let (mut bytes, mut lines) = (0, 0);
         for run in &self.runs {
@@ -209,7 +211,7 @@ impl Document {
         view.sections = self.sections(view.end);
         view.last_block = self.last_block(view.end);
         self.judge_contours(&mut view);
-        self.judge_crossings(&mut view);
+        self.judge_crossings(&mut view, known);
         self.judge_end(&mut view);
         self.judge_texts(&mut view);
         self.judge_numbers(&mut view);
@@ -304,9 +306,10 @@ impl Document {
         let fault = not_closed::fault(&section.sum);
         let severity = if is_fragment { Severity::Information } else { fault.rule().default_severity() };
         let mut findings = vec![Finding { severity, ..finding(self.range_of(last, &view.starts), fault) }];
-        if !is_fragment && section.sum.errors == 0 && culprit::BLOCKS.contains(&section.sum.blocks) {
-            let blocks = self.blocks_of(section).filter_map(|at| self.entry(at)?.block());
-            if let Some((nth, fault)) = culprit::culprit(&section.sum, blocks)
+        let may_be_one_field = section.sum.errors == 0 && culprit::BLOCKS.contains(&section.sum.blocks) && !self.lacks_a_number(section);
+        if !is_fragment && may_be_one_field {
+            let blocks: Vec<&BlockEntry> = self.blocks_of(section).filter_map(|at| self.entry(at)?.block()).collect();
+            if let Some((nth, fault)) = culprit::culprit(&section.sum, &blocks)
                 && let Some(at) = self.blocks_of(section).nth(nth)
             {
                 let spot = match fault.rule() {
@@ -320,6 +323,13 @@ impl Document {
             }
         }
         view.findings.extend(findings);
+    }
+
+    /// Whether a number is left out among the numbers of a section: a block is lost then.
+    fn lacks_a_number(&self, section: &Section) -> bool {
+        let numbers: Vec<u32> = self.blocks_of(section).filter_map(|at| self.entry(at)?.number()).collect();
+        let steps = || numbers.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).filter(|step| *step > 0);
+        steps().min().is_some_and(|usual| steps().any(|step| step > usual))
     }
 
     /// The blocks of a section in their order.
@@ -346,21 +356,17 @@ impl Document {
         })
     }
 
-    fn judge_crossings(&self, view: &mut View) {
-        let mut all = Vec::new();
+    fn judge_crossings(&self, view: &mut View, known: &mut Known) {
         let mut findings = Vec::new();
+        let mut pairs = 0;
         for section in &view.sections {
-            let is_asked = !section.is_jump && section.sum.blocks >= 4 && (section.closed || section.sum.blocks <= CROSSINGS_WHILE_OPEN);
-            if !is_asked {
+            // Where a block is wrong the path behind it is not the one that is meant.
+            if section.is_jump || section.sum.blocks < 4 || section.sum.errors > 0 {
                 continue;
             }
-            let mark = section.sum.mark;
-            let known = self.view.crossings.iter().find(|known| known.mark == mark).map(|known| known.found.clone());
-            let found = known.unwrap_or_else(|| {
-                let pieces = self.pieces(section);
-                std::sync::Arc::new(path_crosses_itself::crossings(&pieces, section.sum.arcs))
-            });
-            for crossing in found.iter() {
+            let found = self.crossings_in(section, known);
+            pairs += found.pairs;
+            for crossing in &found.crossings {
                 let mut blocks = self.blocks_of(section);
                 let first = blocks.nth(crossing.first);
                 let second = blocks.nth(crossing.second - crossing.first - 1);
@@ -374,27 +380,40 @@ impl Document {
                     findings.push(Finding { related, ..finding(self.range_of(second, &view.starts), fault) });
                 }
             }
-            all.push(Crossings { mark, found });
+            if let Some(last) = self.last_block_of(section).filter(|_| found.is_crowded) {
+                let fault = ProgramFault::PathOnItself { blocks: section.sum.blocks };
+                findings.push(Finding { severity: Severity::Information, ..finding(self.range_of(last, &view.starts), fault) });
+            }
         }
-        // What was known before is kept once more: an edit that is taken back costs nothing.
-        let is_new = |old: &&Crossings| !all.iter().any(|new: &Crossings| new.mark == old.mark);
-        let kept: Vec<Crossings> = self.view.crossings.iter().filter(is_new).take(4).cloned().collect();
-        all.extend(kept);
-        view.crossings = all;
+        known.tidy(pairs);
         view.findings.extend(findings);
     }
 
-    /// The way of a section from the origin, µm.
-    fn pieces(&self, section: &Section) -> Vec<Segment> {
-        let mut at = Move::default();
-        let mut pieces = Vec::with_capacity(section.sum.blocks);
-        for entry in self.blocks_of(section).filter_map(|at| self.entry(at)?.block()) {
-            let [x, y] = at.meant_um();
-            let start = Point::new(x, y);
-            pieces.push(meant(&entry.block, start).unwrap_or(Segment::line(start, start)));
-            at = at.plus(entry.travel);
+    fn crossings_in(&self, section: &Section, known: &mut Known) -> Found {
+        let mut stretches: Vec<Stretch<'_>> = Vec::new();
+        let mut places: Vec<(usize, Range<usize>)> = Vec::new();
+        let mut start = Move::default();
+        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        for (run, of) in self.runs.iter().enumerate().take(last_run + 1).skip(first_run) {
+            let from = if run == first_run { first_part } else { 0 };
+            let to = if run == last_run { last_part + 1 } else { of.parts.len() };
+            for part in of.parts.get(from..to).unwrap_or_default().iter().filter(|part| part.sum.blocks > 0) {
+                let Part { bounds, near, sum, entries, .. } = part;
+                stretches.push(Stretch { mark: sum.mark, blocks: sum.blocks, start, bounds: *bounds, near });
+                places.push((run, entries.clone()));
+                start = start.plus(sum.travel);
+            }
         }
-        pieces
+        if let [one] = &stretches[..]
+            && one.near.is_empty()
+        {
+            return Found::default();
+        }
+        let pieces = |stretch: usize| {
+            let entries = places.get(stretch).and_then(|(run, entries)| self.runs.get(*run)?.entries.get(entries.clone()));
+            pieces_of(entries.unwrap_or_default().iter().filter_map(Entry::block))
+        };
+        search(&stretches, section.sum.arcs, known, &pieces)
     }
 
     /// `missing-end` and `text-after-end`.
@@ -471,9 +490,10 @@ impl Document {
                 }
                 let number = what.number();
                 let is_word = matches!(what.what, What::Word { .. });
-                if what.block().is_some() || (is_word && number.is_some()) {
+                let is_unread = what.what == What::Unread;
+                if what.block().is_some() || is_unread || (is_word && number.is_some()) {
                     places.push(at);
-                    blocks.push(Numbered { number, is_after_pause });
+                    blocks.push(Numbered { number, is_after_pause, is_unread });
                 }
                 is_after_pause = is_word;
             }
@@ -521,17 +541,17 @@ impl Document {
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there are.
     pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
-        let mut order: Vec<(Severity, usize, Found)> = Vec::new();
+        let mut order: Vec<(Severity, usize, Kept)> = Vec::new();
         for (run, of) in self.runs.iter().enumerate().filter(|(_, of)| !of.faults.is_empty()) {
             for (index, local) in of.faults.iter().enumerate().filter(|(_, local)| self.counts(run, local)) {
-                if let Some(severity) = severity(local.rule, local.rule.default_severity()) {
-                    order.push((severity, local.range.start + self.base(run), Found::InBlock { run, index }));
+                if let Some(severity) = severity(local.rule, self.own_severity(run, local)) {
+                    order.push((severity, local.range.start + self.base(run), Kept::InBlock { run, index }));
                 }
             }
         }
         for (index, finding) in self.view.findings.iter().enumerate() {
             if let (Some(severity), Place::Text { range }) = (severity(finding.rule, finding.severity), &finding.place) {
-                order.push((severity, range.start, Found::OnWhole { index }));
+                order.push((severity, range.start, Kept::OnWhole { index }));
             }
         }
         order.sort_by_key(|(severity, start, _)| (*severity, *start));
@@ -539,8 +559,8 @@ impl Document {
         order.truncate(limit);
         let made = order.into_iter().filter_map(|(severity, _, which)| {
             let finding = match which {
-                Found::InBlock { run, index } => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
-                Found::OnWhole { index } => self.view.findings.get(index)?.clone(),
+                Kept::InBlock { run, index } => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
+                Kept::OnWhole { index } => self.view.findings.get(index)?.clone(),
             };
             Some(Finding { severity, ..finding })
         });
@@ -552,13 +572,23 @@ impl Document {
         all.filter(|(run, local)| self.counts(*run, local))
     }
 
+    fn section_of_local(&self, run: usize, local: &Local) -> Option<&Section> {
+        let index = self.view.sections.partition_point(|section| section.parts[1] < (run, local.part));
+        self.view.sections.get(index)
+    }
+
+    fn is_unusual_only(&self, run: usize, local: &Local) -> bool {
+        local.counts == Counts::MildIfClosed && self.section_of_local(run, local).is_none_or(|section| section.closed)
+    }
+
+    fn own_severity(&self, run: usize, local: &Local) -> Severity {
+        if self.is_unusual_only(run, local) { Severity::Information } else { local.rule.default_severity() }
+    }
+
     fn counts(&self, run: usize, local: &Local) -> bool {
-        let section = || {
-            let index = self.view.sections.partition_point(|section| section.parts[1] < (run, local.part));
-            self.view.sections.get(index)
-        };
+        let section = || self.section_of_local(run, local);
         match local.counts {
-            Counts::Always => true,
+            Counts::Always | Counts::MildIfClosed => true,
             Counts::IfOpen => section().is_some_and(|section| !section.closed),
             Counts::IfInside { turns_left } => section().is_some_and(|section| {
                 let runs_left = section.sum.twice_area > 0.0;
@@ -575,13 +605,12 @@ impl Document {
             rules::Spot::Block => block,
             spot => fields_of(self.text.bytes(), block.clone()).map_or(block.clone(), |fields| spot.range(&fields, block)),
         };
-        Finding {
-            rule: local.rule,
-            severity: local.rule.default_severity(),
-            place: Place::Text { range },
-            detail: local.detail.clone(),
-            related: Vec::new(),
-        }
+        let detail = match &local.detail {
+            Detail::Program(fault) if self.is_unusual_only(run, local) => Detail::Program(Box::new(fault.as_unusual())),
+            detail => detail.clone(),
+        };
+        let severity = self.own_severity(run, local);
+        Finding { rule: local.rule, severity, place: Place::Text { range }, detail, related: Vec::new() }
     }
 
     /// The fixes of one finding, the preferred one first.
@@ -634,6 +663,7 @@ impl Document {
             line: self.text.line_start(line)..self.text.line_start(line + 1),
             fields,
             block: entry.block,
+            largest: self.limits.largest(),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         };
         rules::fixes(&site, fault)
@@ -839,7 +869,7 @@ impl Walk<'_> {
                     }
                     self.section += 1;
                 }
-                What::StartPoint(_) | What::Text { .. } => {}
+                What::StartPoint(_) | What::Text { .. } | What::Unread => {}
             }
         }
     }
