@@ -15,10 +15,7 @@ pub(super) fn decoded(bytes: &[u8]) -> String {
     while let Some(at) = rest.find('\\') {
         let (before, escape) = rest.split_at(at);
         decoded.push_str(before);
-        let (character, length) = match unicode(escape).or_else(|| multibyte(escape)) {
-            Some(found) => found,
-            None => ('\\', 1),
-        };
+        let (character, length) = unicode(escape).or_else(|| multibyte(escape)).unwrap_or(('\\', 1));
         decoded.push(character);
         rest = escape.get(length..).unwrap_or_default();
     }
