@@ -1,6 +1,7 @@
 //! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
 
 use super::block::{Code, Motion, Note, Offset, Stop, read_line};
+use super::crossings::Crossings;
 use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
@@ -36,6 +37,8 @@ pub struct Document {
     evidence: Evidence,
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
+    /// Where the cuts cross themselves.
+    crossings: Crossings,
     /// What settings a fault is held against.
     pub(super) limits: Limits,
 }
@@ -140,6 +143,7 @@ impl Document {
             reading: Evidence::default().reading(limits.center),
             evidence: Evidence::default(),
             order: None,
+            crossings: Crossings::default(),
             limits,
         };
         document.guess_reading();
@@ -185,6 +189,26 @@ impl Document {
     /// The fixes of one finding, the preferred one first.
     pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
         super::fixes::fixes(self, finding)
+    }
+
+    pub(super) fn stretches(&self) -> &[Stretch] {
+        &self.stretches
+    }
+
+    pub(super) fn crossings(&self) -> &Crossings {
+        &self.crossings
+    }
+
+    /// Runs a stretch once more and tells `each` of its moves; gives the byte from which their places count.
+    pub(super) fn run_again(&self, index: usize, each: &mut dyn FnMut(usize, &Move, (u32, u32))) -> usize {
+        let Some(Placed { stretch, first_line, offset }) = self.placed().nth(index) else { return 0 };
+        let bytes = self.text.bytes();
+        let lines = (first_line..first_line + stretch.lines as usize).map(|line| {
+            let range = self.text.line_range(line);
+            (range.start, &bytes[range])
+        });
+        Stretch::run_with(lines, offset, stretch.before, self.reading, each);
+        offset
     }
 
     /// The stretches in the order in which they run.
@@ -424,6 +448,12 @@ impl Document {
     /// Holds the reading against what the whole program shows, and runs it again where it shows another one: first the unit and the
     /// finest step, then, measured with these, where I and J lead.
     fn settle(&mut self) {
+        self.find_reading();
+        let crossings = std::mem::take(&mut self.crossings);
+        self.crossings = crossings.look(self);
+    }
+
+    fn find_reading(&mut self) {
         if self.order.is_none() && self.stretches.iter().any(|stretch| stretch.calls) {
             self.order = Some(order(&self.text));
             self.run_stretches();

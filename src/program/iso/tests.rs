@@ -203,6 +203,34 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
 }
 
 #[test]
+fn a_cut_that_goes_through_itself_is_told_at_both_places() {
+    // A bow tie, absolute and incremental, cut by the wire's own path and by the part's contour.
+    let bow = |side: &str| format!("G92 X0. Y0.\nG90\n{side}\nG01 X10. Y0.\nX20. Y10.\nX20. Y0.\nX10. Y10.\nX10. Y0.\nG40\nX0. Y0.\nM02\n");
+    check(&bow("G40"), &[(7, "path-crosses-itself")]);
+    check(&bow("G41 D1"), &[(7, "path-crosses-itself")]);
+    check("G92 X0 Y0\nG91\nG01 X10000\nX10000 Y10000\nY-10000\nX-10000 Y10000\nY-10000\nX-10000\nM02\n", &[(6, "path-crosses-itself")]);
+    let document = read(&bow("G40"));
+    let finding = &document.findings()[0];
+    assert_eq!(
+        en::sentence(finding, 1.0),
+        "the wire crosses its own path of line 5 here, at (15.000, 5.000) mm from the contour's start: it cuts the part in two"
+    );
+    // An arc through a line; a line that only touches; the same contour twice, as in a second pass.
+    check("G92 X0. Y0.\nG91\nG01 X5.\nX10.\nG03 X-4. Y4. I-4. J0.\nG01 X-4. Y-8.\nX-7. Y4.\nM02\n", &[(6, "path-crosses-itself")]);
+    check("G92 X0. Y0.\nG90\nG01 X10. Y0.\nX20. Y10.\nX10. Y20.\nX15. Y10.\nX10. Y0.\nX0. Y0.\nM02\n", &[]);
+    check("G92 X0. Y0.\nG90\nG01 X5. Y0.\nY5.\nX0.\nY0.\nX5. Y0.\nY5.\nX0.\nY0.\nM02\n", &[]);
+    // Other cuts lie elsewhere, whatever lies between them in the text; a cut with a wrong arc is not told anything of.
+    check("G92 X0. Y0.\nG90\nG01 X9. Y9.\nX0.\nY0.\nM00\nG00 X0. Y5.\nG01 X9.\nY0.\nX0. Y5.\nM02\n", &[]);
+    check(&bow("G40").replace("X20. Y0.\n", "X20. Y0.\nG02 X20. Y0. R0\nG01 "), &[(7, "arc-without-radius")]);
+    // Far apart in the text, and across the borders of what is run together.
+    let mut long = String::from("G92 X0 Y0\nG91\nG01 X1000\n");
+    (0..700).for_each(|step| long += if step % 2 == 0 { "X10\n" } else { "Y10\n" });
+    long += "Y3000\nX-2000\nY-5000\nX700 Y-3000\nX1000 Y6000\nX-700\nM02\n";
+    let found = faults(&long, &Effective::default());
+    assert!(found.iter().any(|(line, rule)| *rule == "path-crosses-itself" && *line == 708), "{found:?}");
+}
+
+#[test]
 fn programs_and_subprograms_number_their_blocks_for_themselves() {
     let body = "N10 G01 X1000\nN20 Y1000\nN30 X0 Y0\n";
     check(&format!("G92 X0 Y0\n{body}M98 P2\nM02\nO2\n{body}M99\n"), &[]);
