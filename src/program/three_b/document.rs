@@ -17,7 +17,7 @@ use super::rules::{
 use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Part, Run, Sum, What, travel_of};
 use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault, Rule, Severity};
 use crate::geometry::{Point, Vector};
-use crate::program::trace::{Kind, Step, Trace};
+use crate::program::trace::{Chain, Kind, Step, Trace};
 use crate::settings::{Effective, Layout, SideSetting};
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
@@ -807,6 +807,140 @@ impl Document {
         blocks
     }
 
+    /// The blocks between two words of which one touches a byte, by their ends, and the number of that one among them.
+    pub fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
+        let at = self.block_touching(offset)?;
+        let section = self.section_of(at)?;
+        let nth = self.count_before(section, at);
+        Some((self.chain(section, None)?, nth))
+    }
+
+    /// The blocks from the last word on that stand before a byte, by their ends; `None` where there is none.
+    pub fn chain_before(&self, offset: usize) -> Option<Chain<'static>> {
+        let run = self.run_at(offset);
+        let local = offset.saturating_sub(self.base(run));
+        let entries = &self.runs.get(run)?.entries;
+        let behind = At { run, entry: entries.partition_point(|entry| entry.range().end <= local) };
+        if self.view.end.is_some_and(|end| end < behind) {
+            return None;
+        }
+        let parts = &self.runs.get(run)?.parts;
+        let part = parts.partition_point(|part| part.entries.end < behind.entry).min(parts.len().saturating_sub(1));
+        let section = self.view.sections.partition_point(|section| section.parts[1] < (run, part));
+        self.chain(self.view.sections.get(section)?, Some(behind))
+    }
+
+    /// The first word behind a byte, up to the end of the program.
+    pub fn word_behind(&self, offset: usize) -> Option<Range<usize>> {
+        let found = self.words_in().map(|(at, ..)| self.range_of(at, &self.view.starts)).find(|range| range.start > offset)?;
+        let is_over = self.view.end.is_some_and(|end| self.range_of(end, &self.view.starts).start < found.start);
+        (!is_over).then_some(found)
+    }
+
+    pub fn first_block(&self) -> Option<Range<usize>> {
+        let run = self.runs.iter().position(|run| run.blocks > 0)?;
+        let entry = self.runs[run].entries.iter().position(|entry| entry.block().is_some())?;
+        Some(self.range_of(At { run, entry }, &self.view.starts))
+    }
+
+    /// Where the program begins, µm: the origin where it does not say.
+    pub fn start(&self) -> Point {
+        self.walk().at
+    }
+
+    fn block_touching(&self, offset: usize) -> Option<At> {
+        // Of two that touch the byte the one that begins there.
+        let touches = |at: &At| {
+            let range = self.range_of(*at, &self.view.starts);
+            range.start <= offset && offset <= range.end
+        };
+        let run = self.run_at(offset);
+        let entries = self.runs.get(run)?.entries.iter().enumerate().filter(|(_, entry)| entry.block().is_some());
+        let is_in_program = |at: &At| self.view.end.is_none_or(|end| *at < end);
+        entries.map(|(entry, _)| At { run, entry }).filter(|at| touches(at) && is_in_program(at)).last()
+    }
+
+    /// Blocks of a section before one of its entries.
+    fn count_before(&self, section: &Section, at: At) -> usize {
+        let mut count = 0;
+        for run in section.parts[0].0..=at.run {
+            let Some(of) = self.runs.get(run) else { break };
+            let parts = if run == section.parts[0].0 { section.parts[0].1.. } else { 0.. };
+            for part in of.parts.get(parts).unwrap_or_default() {
+                if (At { run, entry: part.entries.end }) <= at {
+                    count += part.sum.blocks;
+                } else if (At { run, entry: part.entries.start }) <= at {
+                    let before = of.entries.get(part.entries.start..at.entry.min(part.entries.end));
+                    count += before.unwrap_or_default().iter().filter(|entry| entry.block().is_some()).count();
+                }
+            }
+        }
+        count
+    }
+
+    /// The blocks of a section, up to an entry where one is named, by their ends.
+    fn chain(&self, section: &Section, until: Option<At>) -> Option<Chain<'static>> {
+        let end = until.unwrap_or(At { run: usize::MAX, entry: 0 });
+        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        // Entries of the section in a run, as far as they count.
+        let entries = |run: usize| -> Range<usize> {
+            let Some(of) = self.runs.get(run) else { return 0..0 };
+            let from = if run == first_run { of.parts.get(first_part).map_or(0, |part| part.entries.start) } else { 0 };
+            let to = if run == last_run { of.parts.get(last_part).map_or(0, |part| part.entries.end) } else { of.entries.len() };
+            let to = if run == end.run { to.min(end.entry) } else { to };
+            from..to.max(from)
+        };
+        let last_run = last_run.min(end.run);
+        let blocks_in = |run: usize| {
+            let of = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
+            of.get(entries(run)).unwrap_or_default().iter().filter_map(Entry::block)
+        };
+        let is_whole = |run: usize| run != first_run && run != last_run;
+        let (mut count, mut arcs, mut travel) = (0, 0, Move::default());
+        for run in first_run..=last_run {
+            match self.runs.get(run).filter(|of| is_whole(run) && of.parts.len() == 1) {
+                Some(of) => {
+                    let sum = &of.parts[0].sum;
+                    (count, arcs, travel) = (count + sum.blocks, arcs + sum.arcs, travel.plus(sum.travel));
+                }
+                None => blocks_in(run).for_each(|block| {
+                    (count, arcs, travel) = (count + 1, arcs + usize::from(!block.is_line()), travel.plus(block.travel));
+                }),
+            }
+        }
+        // Runs that hold the first and the last blocks.
+        let (mut head_end, mut held) = (first_run, 0);
+        while head_end <= last_run && held < Chain::ENDS {
+            held += blocks_in(head_end).count();
+            head_end += 1;
+        }
+        let (mut tail_start, mut held) = (last_run + 1, 0);
+        while tail_start > head_end && held < Chain::ENDS {
+            tail_start -= 1;
+            held += blocks_in(tail_start).count();
+        }
+        let mut walk = self.walk();
+        (0..first_run).for_each(|run| walk.skip(run));
+        let steps_of = |runs: Range<usize>, walk: &mut Walk<'_>| {
+            let mut steps = Vec::new();
+            for run in runs {
+                let own = entries(run);
+                walk.run(run, |_| true, &mut |step| steps.push((run, step)));
+                let range = |entry: usize| self.range_of(At { run, entry }, &self.view.starts);
+                let (from, to) = (range(own.start).start, own.end.checked_sub(1).map_or(0, |last| range(last).end));
+                steps.retain(|(of, step)| {
+                    *of != run || (step.moves() && step.range.start >= from && step.range.end <= to && !own.is_empty())
+                });
+            }
+            steps.into_iter().map(|(_, step)| step).collect::<Vec<Step>>()
+        };
+        let head = steps_of(first_run..head_end.max(first_run), &mut walk);
+        (head_end..tail_start).for_each(|run| walk.skip(run));
+        let tail = steps_of(tail_start..(last_run + 1).max(tail_start), &mut walk);
+        let [x, y] = travel.meant_um();
+        (count > 0).then(|| Chain::by_ends(head, tail, (count, arcs), Vector::new(x, y)))
+    }
+
     fn walk(&self) -> Walk<'_> {
         let mut starts = self.runs.iter().take_while(|run| run.blocks == 0).chain(self.runs.iter().find(|run| run.blocks > 0));
         let start = starts.find_map(|run| {
@@ -910,6 +1044,7 @@ fn syntax(range: Range<usize>, sentence: String) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::program::language::{Passage, passage_at, passages};
     use proptest::prelude::*;
 
     /// Findings in one order, whatever runs the lines lie in.
@@ -957,6 +1092,33 @@ mod tests {
             let touches = |step: &Step| step.range.start <= range.end && range.start <= step.range.end;
             let whole: Vec<Step> = document.trace().steps.into_iter().filter(touches).collect();
             prop_assert_eq!(document.steps_in(range.clone()), whole);
+        }
+
+        #[test]
+        fn what_a_chain_tells_by_its_ends_is_what_all_its_steps_tell(
+            text in PROGRAM,
+            (leads, rounds) in (0_usize..4, 0_usize..90),
+        ) {
+            // A contour of more blocks than a chain holds, with ways in and out.
+            let long = format!(
+                "{}{}{}",
+                "B100B0B100GXL1\n".repeat(leads),
+                "B50B0B50GXL1\nB0B50B50GYL2\nB50B0B50GXL3\nB0B50B50GYL4\n".repeat(rounds),
+                "B100B0B100GXL3\n".repeat(leads),
+            );
+            let document = crate::program::Document::ThreeB(Document::read(format!("{text}{long}D\n{text}").into_bytes()));
+            let trace = document.trace();
+            for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 5 == 0) {
+                let whole = passages(&trace).into_iter().find(|passage| passage.steps.contains(&index));
+                let Some(whole) = whole else { return Err(TestCaseError::fail("no passage")) };
+                let Some((chain, passage, nth)) = passage_at(&document, step.range.start) else {
+                    return Err(TestCaseError::fail("no chain"));
+                };
+                prop_assert_eq!(nth + whole.steps.start, index);
+                prop_assert_eq!(chain.step(nth).is_none_or(|held| held == step), true);
+                let offset = whole.steps.start;
+                prop_assert_eq!(Passage { steps: passage.steps.start + offset..passage.steps.end + offset, ..passage }, whole);
+            }
         }
 
         #[test]

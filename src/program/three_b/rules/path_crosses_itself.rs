@@ -96,10 +96,16 @@ impl Way<'_> {
             if found.len() == MOST {
                 break;
             }
-            // At a joint of two blocks one crossing is met by each of them.
+            // At a joint of two blocks one crossing is met by each of them, and at both ends of a stretch that the two share.
             let is_known = |at: Point| {
                 let same = |known: &&Crossing| known.first.abs_diff(first) <= 1 && known.second.abs_diff(second) <= 1;
-                found.iter().rev().take(8).filter(same).any(|known| (known.at - at).norm() <= 4.0 * self.margin)
+                let lies_on = |index: usize, at: Point| (self.piece)(index).is_some_and(|piece| piece.distance_to(at) <= self.margin);
+                let is_one = |known: &Crossing| {
+                    let middle = nalgebra::center(&known.at, &at);
+                    (known.at - at).norm() <= 4.0 * self.margin
+                        || (lies_on(first, middle) && (lies_on(second, middle) || lies_on(known.second, middle)))
+                };
+                found.iter().rev().take(8).filter(same).any(is_one)
             };
             let at = self.common(first, second).into_iter().find(|&at| !is_known(at) && self.crosses(first, second, at));
             found.extend(at.map(|at| Crossing { first, second, at }));
