@@ -1,10 +1,10 @@
 //! Text, blocks and paths held against each other.
 
-use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
+use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::encode::{END_TOLERANCE, Encoded, encode, point_of, snap};
 use super::parse::{Item, StatedPoint, Word, Words, read};
 use super::write::{write, write_with};
-use super::{DecodeFault, decode};
+use super::{DecodeFault, Document, decode};
 use crate::drawing::EntityId;
 use crate::geometry::{Arc, Point, Segment, Vector, direction};
 use crate::program::{ProofError, ProvedProgram};
@@ -95,11 +95,31 @@ fn long_pieces_are_split_below_the_digit_limit() {
         arc([0.0, 0.0], [0.0, 700.0], [0.001, 700.0], true),
         arc([0.0, -5000.0], [0.0, 0.0], [100.0, (5000.0_f64.powi(2) - 1e4).sqrt() - 5000.0], false),
     ] {
-        let program = written(vec![segment]);
-        let blocks = blocks(&program.text);
-        assert!(blocks.len() > 1 && blocks.iter().all(|b| b.x.max(b.y).max(b.j) <= LARGEST), "{segment:?}: {blocks:?}");
-        assert!((program.length - segment.length()).abs() < 1e-6);
+        for digits in [5, 6, 7, 9] {
+            let settings = Effective { digits, ..Effective::default() };
+            let program = write(&[path_of(vec![segment])], 1.0, &settings).expect("a program");
+            let blocks = blocks(&program.text);
+            let largest = settings.largest_number();
+            assert!(blocks.iter().all(|b| b.x.max(b.y).max(b.j) <= largest), "{segment:?}: {blocks:?}");
+            let counted: i64 = blocks.iter().map(|b| b.j).sum();
+            assert!(blocks.len() > 1 || counted <= largest, "{segment:?} with {digits} digits: {blocks:?}");
+            assert!((program.length - segment.length()).abs() < 1e-6);
+        }
     }
+}
+
+#[test]
+fn how_many_digits_a_controller_has_is_a_setting() {
+    let text = "B1500000B0B1500000GXL1\nB0B1500000B1500000GYL2\nB1500000B0B1500000GXL3\nB0B1500000B1500000GYL4\nDD\n";
+    let faults = |digits: u32| {
+        let settings = Effective { digits, ..Effective::default() };
+        let document = Document::read_with(text.as_bytes().to_vec(), &settings);
+        let findings = document.findings();
+        assert!(findings.iter().all(|finding| finding.rule.name() == "too-many-digits"), "{findings:?}");
+        let pieces = findings.iter().map(|finding| document.fixes(finding)[0].edit[0].text.lines().count());
+        (findings.len(), pieces.max())
+    };
+    assert_eq!([5, 6, 7].map(faults), [(4, Some(16)), (4, Some(2)), (0, None)]);
 }
 
 #[test]
@@ -340,12 +360,12 @@ proptest! {
         let arc = Arc::from_center(Point::from(center) * 1000.0, radius * 1000.0, start, sweep);
         let (from, to) = (snap(arc.start).expect("near"), snap(arc.end).expect("near"));
         let mut encoded: Vec<Encoded> = Vec::new();
-        prop_assert!(encode(&Segment::Arc(arc), from, to, &mut encoded).is_some());
+        prop_assert!(encode(&Segment::Arc(arc), from, to, Effective::default().largest_number(), &mut encoded).is_some());
         let mut node = from;
         for block in &encoded {
             prop_assert_eq!(block.from, node);
             node = block.to;
-            prop_assert!(block.block.x.max(block.block.y).max(block.block.j) <= LARGEST);
+            prop_assert!(block.block.x.max(block.block.y).max(block.block.j) <= Effective::default().largest_number());
             let decoded = decode(&block.block, point_of(block.from)).expect("a decodable block");
             prop_assert!((decoded.end() - point_of(block.to)).norm() <= END_TOLERANCE);
             for share in [0.1, 0.3, 0.5, 0.7, 0.9] {
