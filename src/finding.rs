@@ -377,6 +377,10 @@ pub enum Detail {
         count: usize,
     },
     Units(String),
+    /// The larger side of the largest contour, which speaks for another unit.
+    Size {
+        size: f64,
+    },
     /// What was found and what was expected, lower-case, no final dot.
     Syntax(String),
     Settings(String),

@@ -54,6 +54,13 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
             let within = if deviation * unit_mm < 1e-6 { String::new() } else { format!(", within {} mm", mm(deviation * unit_mm)) };
             format!("{chords} chords lie on one arc of R {} mm{within}: the wire leaves facets", mm(radius * unit_mm))
         }
+        Detail::Size { size } => {
+            let what = if size * unit_mm > 1.0 { "more than any machine travels" } else { "less than a wire is thick" };
+            format!(
+                "the largest contour is {} mm long or wide, {what}: the unit is another one, or the drawing is no part",
+                mm(size * unit_mm)
+            )
+        }
         Detail::Iso(fault) => iso(fault),
         Detail::Program(fault) => program(fault),
         Detail::More { count } => format!("{count} more findings are not shown"),
