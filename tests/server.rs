@@ -13,6 +13,8 @@ mod end;
 mod flood;
 #[path = "server/handshake.rs"]
 mod handshake;
+#[path = "server/iso_text.rs"]
+mod iso_text;
 #[path = "server/language.rs"]
 mod language;
 #[path = "server/locate.rs"]

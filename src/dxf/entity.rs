@@ -642,10 +642,12 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
         read.vertices.push(Vertex::new(x, y, bulge));
         read.lines.push((next.line - start.line) as u32);
     }
-    if common.bad || lexer.out_of_step {
+    // The text ends within the name of the next record, which tells of it: that may have been a VERTEX.
+    let is_cut = !ended && lexer.lines.last_is_open() && lexer.peek_record().is_some_and(|next| next.line + 2 >= lexer.lines.count());
+    if common.bad || lexer.out_of_step || is_cut {
         return Outcome::Damaged;
     }
-    if !ended && !lexer.at_end() {
+    if !ended && !lexer.at_end() && read.vertices.len() > 1 {
         oddity(findings, lexer.lines.trimmed_range(start.value_line()), "POLYLINE does not end with SEQEND".into());
     }
     let in_space = flags & IN_SPACE != 0;

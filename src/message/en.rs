@@ -1,7 +1,7 @@
 //! English.
 
 use crate::drawing::Visibility;
-use crate::finding::{Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
+use crate::finding::{CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
 pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
@@ -53,6 +53,13 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
             // Less than a nanometre is rounding.
             let within = if deviation * unit_mm < 1e-6 { String::new() } else { format!(", within {} mm", mm(deviation * unit_mm)) };
             format!("{chords} chords lie on one arc of R {} mm{within}: the wire leaves facets", mm(radius * unit_mm))
+        }
+        Detail::Size { size } => {
+            let what = if size * unit_mm > 1.0 { "more than any machine travels" } else { "less than a wire is thick" };
+            format!(
+                "the largest contour is {} mm long or wide, {what}: the unit is another one, or the drawing is no part",
+                mm(size * unit_mm)
+            )
         }
         Detail::Iso(fault) => iso(fault),
         Detail::Program(fault) => program(fault),
@@ -122,6 +129,14 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::AddEnd { word } => format!("End the program with {word}"),
         FixKind::DeleteBehindEnd => "Delete what stands behind the end".into(),
         FixKind::CutRapid => "Cut there (G01) instead of the rapid".into(),
+        FixKind::SetCenter { radius, how } => match how {
+            CenterFix::OtherConvention => {
+                format!("Take I and J as other controls do, and write them as this program does (R {} mm)", mm(*radius))
+            }
+            CenterFix::Sign => format!("Put the sign of I and J right (R {} mm)", mm(*radius)),
+            CenterFix::Swap => format!("Swap I and J (R {} mm)", mm(*radius)),
+            CenterFix::Nearest { moved } => format!("Move the centre by {} mm to where both ends fit (R {} mm)", mm(*moved), mm(*radius)),
+        },
         FixKind::SwapSide => "Let the wire run on the other side (swap G41 and G42)".into(),
         FixKind::OneArc { chords, radius } => format!("Replace the {chords} chords by one arc of R {} mm", mm(radius * unit_mm)),
     }
@@ -255,6 +270,7 @@ fn iso(fault: &IsoFault) -> String {
         IsoFault::NoEnd { word } => format!("the program has no end, expected {word}: the machine waits for more"),
         IsoFault::BehindEnd => "text behind the end of the program: the machine does not run it".into(),
         IsoFault::NumberTwice { number } => format!("block number N{number} stands twice"),
+        IsoFault::Unnumbered { expected } => format!("the block has no number, expected N{expected}"),
         IsoFault::Foreign { word, count: 1 } => format!("{word} is a matter of the machine: it is kept, not followed"),
         IsoFault::Foreign { word, count } => format!("{word} ({count} times) is a matter of the machine: it is kept, not followed"),
         IsoFault::NoSubprogram { number } => format!("subprogram {number} does not stand in this text: it is not followed"),

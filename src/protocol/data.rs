@@ -133,6 +133,7 @@ impl FindingData {
             Detail::Crowded { count } => data.count = Some(*count),
             Detail::DuplicateEntity => {}
             Detail::Overlap { length } | Detail::ShortSegment { length } => data.length = Some(*length),
+            Detail::Size { size } => data.length = Some(*size),
             Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
             Detail::SelfIntersection { at, .. } => data.at = Some((*at).into()),
             Detail::ArcAsChords { chords, center, radius, deviation } => {

@@ -1,8 +1,8 @@
 //! From one end of something to the other: pause to pause, way in to way out, first block of a contour to its last.
 
 use super::passages::passage_at;
-use crate::program::Document;
 use crate::program::trace::Kind;
+use crate::program::{Document, iso};
 use std::ops::Range;
 
 /// The place that belongs to the one at a byte.
@@ -25,6 +25,11 @@ pub fn pauses(document: &Document) -> Vec<Range<usize>> {
 }
 
 fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
+    if let Document::Iso(program) = document
+        && let Some(pair) = iso::language::partner(program, offset)
+    {
+        return Some(pair);
+    }
     let touching = document.steps_in(offset..offset);
     let own = touching.iter().find(|step| offset < step.range.end).or(touching.first())?;
     let other = match own.kind {

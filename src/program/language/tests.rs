@@ -138,7 +138,10 @@ fn numbers_are_renamed_counted_and_left_out() {
     assert_eq!(apply(&document, without_numbers(&document, all)), "B5B0B5GXL1\nB5B0B5GXL1\nB5B0B5GXL1\nDD\n");
     assert_eq!(number_at(&document, 1), Some((1..3, 10)));
     assert_eq!(number_at(&document, 6), None);
-    assert_eq!(renamed(&document, 1, "N20").map(|edit| edit.text), Ok("20".into()));
+    assert_eq!(
+        renamed(&document, 1, "N20").map(|edits| apply(&document, edits)),
+        Ok("N20 B5B0B5GXL1\nB5B0B5GXL1\nN    7: B5B0B5GXL1\nDD\n".into())
+    );
     assert_eq!(renamed(&document, 1, "7"), Err("N7 is the block in line 3".into()));
     assert_eq!(renamed(&document, 1, "x"), Err("\"x\" is no block number, expected up to 8 digits".into()));
 }

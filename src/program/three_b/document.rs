@@ -137,6 +137,11 @@ impl Document {
         self.words.words()
     }
 
+    /// The largest number that the controller takes, µm.
+    pub(in crate::program) fn largest(&self) -> i64 {
+        self.limits.largest()
+    }
+
     pub fn text(&self) -> &SourceText {
         &self.text
     }
@@ -712,6 +717,7 @@ impl Document {
             line: self.text.line_start(line)..self.text.line_start(line + 1),
             fields,
             block: entry.block,
+            largest: self.limits.largest(),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         };
         rules::fixes(&site, fault)

@@ -22,7 +22,7 @@ mod tests;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
-pub use block::{Block, CountingAxis, LARGEST, Motion, Node, PartArc, Quadrant};
+pub use block::{Block, CountingAxis, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
 pub use document::{Document, PlacedBlock};
 pub use encode::{Encoded, encode, snap};

@@ -54,6 +54,7 @@ export class Host {
     files: Record<string, string | Buffer>,
     path = process.env["PATH"] ?? "",
     view: BrowserContextOptions = {},
+    withServer = false,
   ): Promise<Host> {
     const root = await mkdtemp(join(tmpdir(), "vscode-test-"));
     const folder = join(root, "work");
@@ -69,8 +70,11 @@ export class Host {
       await writeFile(join(folder, name), content);
     }
     const places = ["--user-data-dir", data, "--extensions-dir", extensions];
-    const environment = { ...process.env, PATH: path, HOME: root, XDG_DATA_HOME: root, XDG_CONFIG_HOME: root };
-    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, "--install-extension", await vsix()], { env: environment });
+    const own = join(root, "run");
+    await mkdir(own, { mode: 0o700 });
+    const folders = { HOME: root, TMPDIR: own, XDG_RUNTIME_DIR: own, XDG_DATA_HOME: root, XDG_CONFIG_HOME: root };
+    const environment = { ...process.env, ...folders, PATH: path };
+    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, "--install-extension", await vsix(withServer)], { env: environment });
     const port = await freePort();
     const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust"];
     const server = spawn(process.execPath, [CODE_SERVER, ...places, ...options, folder], { env: environment, stdio: ["ignore", "pipe", "pipe"], detached: true });
@@ -95,10 +99,10 @@ export class Host {
   }
 }
 
-async function vsix(): Promise<string> {
-  const names = (await readdir(EXTENSION)).filter((name) => name.endsWith(".vsix"));
+async function vsix(withServer: boolean): Promise<string> {
+  const names = (await readdir(EXTENSION)).filter((name) => name.endsWith(".vsix") && name.endsWith("-with-server.vsix") === withServer);
   if (names[0] === undefined || names.length > 1) {
-    throw new Error(`there are ${names.length} VSIX files in ${EXTENSION}, expected one: run ./build-vsix`);
+    throw new Error(`there are ${names.length} VSIX files in ${EXTENSION}, expected one: run ./build-vsix${withServer ? " --with-server PROGRAM" : ""}`);
   }
   return join(EXTENSION, names[0]);
 }

@@ -72,7 +72,7 @@ impl Typed {
         let start = stand(document, line_start);
         let range = self.begun.map_or(offset, |begun| line_start + begun)..offset;
         let candidates = match (self.numbers[2], self.axis) {
-            (None, None) => shapes(x, y),
+            (None, None) => shapes(x, y, document.largest()),
             (Some(j), None) => [CountingAxis::X, CountingAxis::Y].into_iter().flat_map(|axis| motions(x, y, j, axis)).collect(),
             (Some(j), Some(axis)) => motions(x, y, j, axis),
             (None, Some(_)) => Vec::new(),
@@ -96,7 +96,7 @@ impl Typed {
 }
 
 /// Blocks with these X and Y: straight lines into each quadrant; circles, half and quarter turns from each of them.
-fn shapes(x: i64, y: i64) -> Vec<Block> {
+fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
     let origin = Node { x: 0, y: 0 };
     let corners = corners(x, y);
     let mut blocks: Vec<Block> = corners.iter().filter(|&&corner| corner != origin).map(|&corner| line_block(origin, corner)).collect();
@@ -108,7 +108,7 @@ fn shapes(x: i64, y: i64) -> Vec<Block> {
                 let Some(end) = snap(arc.end) else { continue };
                 let mut encoded = Vec::new();
                 let piece = Segment::Arc(Arc { start, end: point_of(end), ..arc });
-                if encode(&piece, corner, end, &mut encoded).is_some()
+                if encode(&piece, corner, end, largest, &mut encoded).is_some()
                     && let [one] = encoded[..]
                     && !matches!(one.block.motion, Motion::Line(_))
                 {
