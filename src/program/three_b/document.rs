@@ -31,9 +31,9 @@ pub struct Document {
     words: OwnWords,
     limits: Limits,
     runs: Vec<Run>,
-    view: View,
+    view: Box<View>,
     /// What the search for crossings has seen.
-    known: Known,
+    known: Box<Known>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -127,7 +127,7 @@ impl Document {
         let read = |first: usize| run_of(&text, first..(first + LINES).min(count), &words.words(), &limits);
         let firsts: Vec<usize> = (0..count).step_by(LINES).collect();
         let runs = if count > 20 * LINES { firsts.into_par_iter().map(read).collect() } else { firsts.into_iter().map(read).collect() };
-        let mut document = Document { text, words, limits, runs, view: View::default(), known: Known::default() };
+        let mut document = Document { text, words, limits, runs, view: Box::default(), known: Box::default() };
         document.look_again();
         document
     }
@@ -201,7 +201,7 @@ impl Document {
 
     fn look_again(&mut self) {
         let mut known = std::mem::take(&mut self.known);
-        self.view = self.look(&mut known);
+        *self.view = self.look(&mut known);
         self.known = known;
     }
 
@@ -921,7 +921,7 @@ impl Document {
         let run = self.run_at(offset);
         let entries = self.runs.get(run)?.entries.iter().enumerate().filter(|(_, entry)| entry.block().is_some());
         let is_in_program = |at: &At| self.view.end.is_none_or(|end| *at < end);
-        entries.map(|(entry, _)| At { run, entry }).filter(|at| touches(at) && is_in_program(at)).last()
+        entries.map(|(entry, _)| At { run, entry }).rfind(|at| touches(at) && is_in_program(at))
     }
 
     /// Blocks of a section before one of its entries.
