@@ -161,9 +161,6 @@ CASES = [
     Case("wedm/simulate", PROGRAM, {"blocks": anything}),
 ]
 
-#: Announced by servers to come; until then it is no method.
-NOT_YET = {"textDocument/semanticTokens/full/delta"}
-
 #: What is asked of the client, told to it, or told by it, with the test of this file that holds it to be so.
 ELSEWHERE = {
     "wedm/didOpenDrawing": "test_drawings_are_opened_changed_and_closed",
@@ -202,20 +199,8 @@ async def open_everything(client: Client) -> None:
     await client.open_drawing("cad:clean", plate("2A", 2.0))
 
 
-def is_there(client: Client, method: str) -> bool:
-    if method.startswith("wedm/"):
-        return method in SCHEMA["methods"]
-    return method in methods_of(client.initialized["capabilities"])
-
-
 @pytest.mark.parametrize("case", CASES, ids=str)
 async def test_answers(client: Client, case: Case) -> None:
-    if not is_there(client, case.method):
-        # Named by the page as one of a later version.
-        with pytest.raises(JsonRpcException) as failed:
-            await client.ask(case.method, asked(case))
-        assert error_of(failed)[0] in (-32601, -32602)
-        return
     await open_everything(client)
     result = await client.ask(case.method, asked(case))
     assert differs(case.expected, result) is None, differs(case.expected, result)
@@ -233,7 +218,7 @@ async def test_every_method_has_a_case(client: Client) -> None:
     assert announced - tested == set()
     assert {test for test in ELSEWHERE.values() if test not in globals()} == set()
     assert client.initialized["capabilities"]["executeCommandProvider"]["commands"] == list(SCHEMA["commands"])
-    assert {case.method for case in CASES} - announced - NOT_YET == set(), "cases of methods that are not there"
+    assert {case.method for case in CASES} - announced == set(), "cases of methods that are not there"
     # Each request of the name space is refused in some way of its own, but for one that takes any document.
     asked_of_it = {method for method, what in SCHEMA["methods"].items() if "result" in what and what.get("sentBy") != "server"}
     assert asked_of_it - {refusal[0] for refusal in REFUSALS} == set()
@@ -263,8 +248,6 @@ async def test_after_the_shutdown(client: Client) -> None:
 async def test_params_that_do_not_fit(client: Client, params: Any) -> None:
     await open_everything(client)
     for method in METHODS:
-        if method != "workspace/executeCommand" and not is_there(client, method):
-            continue
         with pytest.raises(JsonRpcException) as failed:
             await client.ask(method, params)
         assert error_of(failed)[0] in (-32602, -32600), f"{method} {params}: {error_of(failed)}"
@@ -274,8 +257,6 @@ async def test_params_that_do_not_fit(client: Client, params: Any) -> None:
 
 @pytest.mark.parametrize("case", [case for case in CASES if case.uri in (DXF, CAD, PROGRAM) and case.method != "wedm/settings"], ids=str)
 async def test_a_document_that_is_not_open(client: Client, case: Case) -> None:
-    if not is_there(client, case.method):
-        return
     params = asked(Case(case.method, case.uri.replace("session", "nowhere").replace("plate", "none"), None, case.params))
     if case.method.startswith("wedm/") or case.method == "textDocument/codeAction":
         with pytest.raises(JsonRpcException, match="is not open") as failed:

@@ -23,6 +23,9 @@ SESSIONS = sorted((Path(__file__).parent / "sessions").glob("*.jsonl"))
 #: Clients of which there must be a session.
 CLIENTS = {"vscode", "librecad-live", "librecad-generate", "autocad", "python", "neovim-0.7", "neovim-0.11", "emacs", "helix", "kate"}
 
+#: How a request ends that the client has cancelled.
+CANCELLED = {"error": {"code": -32800}}
+
 #: Keys whose values are sentences, addresses of pages, versions of programs, or drawn.
 FREE = {"message", "title", "href", "version", "svg", "label", "detail", "documentation", "value", "tooltip", "filterText", "sortText", "contents"}
 
@@ -78,6 +81,7 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
 
     for method in unanswered:
         stranger.answers[method] = lambda params, method=method: later(method)
+    cancelled = {one["message"]["params"]["id"] for one in said if one["message"].get("method") == "$/cancelRequest"}
     compared = 0
     for message, by in ((one["message"], one["from"]) for one in said):
         if by == "client" and "method" in message:
@@ -104,6 +108,9 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
                 found: Any = {"result": await waiting.pop(message["id"])}
             except JsonRpcException as error:
                 found = {"error": {"code": error.code}}
+            if message["id"] in cancelled and found == CANCELLED:
+                # The answer once was faster.
+                continue
             if "error" in message:
                 assert found == {"error": {"code": message["error"]["code"]}}
             else:

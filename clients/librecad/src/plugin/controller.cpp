@@ -350,6 +350,7 @@ void Controller::look(Document_Interface &drawing)
     clock.start();
     m_slices.drop();
     const Snapshot snapshot = takeSnapshot(drawing);
+    setProperty("lookMilliseconds", clock.elapsed());
     deliver(snapshot, clock.elapsed());
 }
 
@@ -362,28 +363,30 @@ void Controller::lookInSlices()
         setProperty("slices", 0);
         setProperty("sliceMilliseconds", 0);
     }
-    const int looks = property("looks").toInt();
     {
         HeldPainting held(m_sliced);
         m_held = &held;
         trigger(command::LOOK);
         m_held = nullptr;
     }
-    if (property("looks").toInt() > looks)
-        return;
     if (!m_slices.isBegun()) {
         m_live.broken();
         return;
     }
-    QTimer::singleShot(BETWEEN_SLICES, this, [this] {
+    QElapsedTimer clock;
+    clock.start();
+    QTimer::singleShot(BETWEEN_SLICES, this, [this, clock] {
         // A command has looked at all of it meanwhile.
         if (!m_slices.isBegun())
             return;
-        if (m_live.mayGoOn() && host::currentWindow() == m_sliced) {
-            lookInSlices();
-        } else {
+        if (host::currentWindow() != m_sliced || (!m_slices.isComplete() && !m_live.mayGoOn())) {
             m_slices.drop();
             m_live.broken();
+        } else if (m_slices.isComplete()) {
+            // LibreCAD has painted now: comparing the drawing with the last one would have taken a processor from it.
+            deliver(m_slices.take(), m_spent + clock.elapsed());
+        } else {
+            lookInSlices();
         }
     });
 }
@@ -392,19 +395,17 @@ void Controller::lookSlice(Document_Interface &drawing)
 {
     QElapsedTimer clock;
     clock.start();
-    const bool complete = m_slices.read(drawing, SLICE);
-    if (complete) {
-        deliver(m_slices.take(), m_spent + clock.elapsed());
-        // The one painting that the look costs.
-        if (m_held)
-            m_held->release();
-    }
+    m_slices.read(drawing, SLICE);
+    // The one painting that the look costs.
+    if (m_slices.isComplete() && m_held)
+        m_held->release();
     m_spent += clock.elapsed();
+    setProperty("lookMilliseconds", m_spent);
     setProperty("slices", property("slices").toInt() + 1);
     setProperty("sliceMilliseconds", qMax(property("sliceMilliseconds").toLongLong(), clock.elapsed()));
 }
 
-/// What was seen goes to the session; it has taken `spent` ms.
+/// What was seen goes to the session. LibreCAD was busy with it for `spent` ms so far.
 void Controller::deliver(const Snapshot &snapshot, qint64 spent)
 {
     QElapsedTimer clock;
@@ -422,7 +423,6 @@ void Controller::deliver(const Snapshot &snapshot, qint64 spent)
         session.watchRadii(uri, true);
     });
     m_panel->setUnchecked(open.unchecked);
-    setProperty("lookMilliseconds", spent + clock.elapsed());
     setProperty("looks", property("looks").toInt() + 1);
     // LibreCAD paints the drawing again after a call of a plugin; that belongs to the cost of a look.
     QTimer::singleShot(0, this, [this, clock, spent] { m_live.looked(spent + clock.elapsed()); });

@@ -256,15 +256,16 @@ Snapshot takeSnapshot(Document_Interface &drawing)
     return whole.take();
 }
 
-bool SlicedSnapshot::read(Document_Interface &drawing, qint64 milliseconds)
+void SlicedSnapshot::read(Document_Interface &drawing, qint64 milliseconds)
 {
     // The wrappers live as long as the call.
     const Entities entities(drawing);
     QElapsedTimer clock;
     clock.start();
     const int size = entities.list().size();
-    if (m_next == 0 || size != m_size) {
+    if (!m_isBegun || size != m_size) {
         drop();
+        m_isBegun = true;
         m_size = size;
         readUnits(drawing, &m_snapshot);
         m_snapshot.entities.reserve(size);
@@ -276,11 +277,11 @@ bool SlicedSnapshot::read(Document_Interface &drawing, qint64 milliseconds)
         if (clock.elapsed() >= milliseconds)
             break;
     }
-    return m_next == size;
 }
 
 Snapshot SlicedSnapshot::take()
 {
+    m_isBegun = false;
     m_next = 0;
     m_size = 0;
     Snapshot taken;

@@ -30,15 +30,17 @@ Snapshot takeSnapshot(Document_Interface &drawing);
 /// as it is meanwhile; only a drawing that has grown or shrunk is noticed here, and read from its beginning.
 class SlicedSnapshot {
 public:
-    /// Reads on for `milliseconds`, beside the time that LibreCAD needs to list what there is. True when everything is read.
-    bool read(Document_Interface &drawing, qint64 milliseconds);
-    bool isBegun() const { return m_next > 0; }
+    /// Reads on for `milliseconds`, beside the time that LibreCAD needs to list what there is.
+    void read(Document_Interface &drawing, qint64 milliseconds);
+    bool isBegun() const { return m_isBegun; }
+    bool isComplete() const { return m_isBegun && m_next == m_size; }
     /// What was read; the next one begins anew.
     Snapshot take();
     void drop() { take(); }
 
 private:
     Snapshot m_snapshot;
+    bool m_isBegun = false;
     int m_size = 0;
     int m_next = 0;
 };

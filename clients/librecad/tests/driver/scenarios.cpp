@@ -363,8 +363,11 @@ void Driver::large()
         // A costly look waits for a quiet moment; it belongs to the measurement.
         wait([&] { return controller()->property("looks").toInt() > looks; }, LONG);
         const qint64 longest = pause();
-        report(QStringLiteral("       longest block, a line is drawn under live check: %1 ms; the look took %2 ms in %3 slices of at most %4 ms")
+        report(QStringLiteral("       longest block, a line is drawn under live check: %1 ms; LibreCAD's painting %2 ms, anything else at most %3 ms; "
+                              "the look took %4 ms in %5 slices of at most %6 ms")
                    .arg(longest)
+                   .arg(blocks.painting())
+                   .arg(blocks.other())
                    .arg(controller()->property("lookMilliseconds").toInt())
                    .arg(controller()->property("slices").toInt())
                    .arg(controller()->property("sliceMilliseconds").toInt()));
