@@ -27,15 +27,21 @@ impl Crossings {
     pub fn look(mut self, document: &Document) -> Crossings {
         self.found.clear();
         let stretches = document.stretches();
-        let mut pairs = 0;
+        let (mut pairs, mut count) = (0, 0);
         for cut in cuts(stretches) {
+            count += 1;
+            let mark = mark_of(stretches, &cut);
+            if self.known.is_calm(mark) {
+                continue;
+            }
             let found = search_cut(document, &cut, &mut self.known);
+            self.known.note(mark, &found);
             pairs += found.pairs;
             if !found.crossings.is_empty() || found.is_crowded {
                 self.found.push((cut, found));
             }
         }
-        self.known.tidy(pairs);
+        self.known.tidy(pairs, count);
         self
     }
 
@@ -108,6 +114,12 @@ fn cuts(stretches: &[Stretch]) -> Vec<Cut> {
     }
     close(&mut open, &mut moves, &mut sound);
     cuts
+}
+
+/// Equal ways that are parted alike have equal marks.
+fn mark_of(stretches: &[Stretch], cut: &Cut) -> u64 {
+    let marks = cut.iter().filter_map(|(stretch, run)| Some(stretches.get(*stretch)?.paths.get(*run)?.mark));
+    marks.fold(cut.len() as u64, |mark, next| (mark ^ next).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23))
 }
 
 fn search_cut(document: &Document, cut: &Cut, known: &mut Known) -> Found {

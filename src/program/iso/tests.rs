@@ -298,6 +298,29 @@ fn subprograms_are_followed_where_they_are_called() {
     check("M98 P1\nM02\nN1 G91 G01 X1\nM98 P1\nM99\n", &[(3, "not-closed"), (4, "machine-dependent"), (4, "missing-end")]);
 }
 
+/// Programs in the forms that the machines of the field have, found in programs and manuals of theirs: nothing is said of them but which
+/// words are the machine's own.
+#[test]
+fn the_dialects_of_the_field_are_no_faults() {
+    let square = "G01 X10.000 Y0.000\nG01 X10.000 Y10.000\nG01 X0.000 Y10.000\nG01 X0.000 Y0.000\n";
+    for text in [
+        // Rough and skim pass in one go, conditions by E, the wire threaded and fed by M words.
+        format!("%\nO0001 (ROBOCUT)\nG90 G21\nG92 X0 Y0\nE0001 (ROUGH)\nM06\nM50\nM80 M81\nG42 H01 (RIGHT)\n{square}G40\nE0002\nG42 H02\n{square}G40\nM82 M83\nM51\nM02\n%\n"),
+        // The taper, and conditions by C.
+        format!("%\nO0010\nG90 G21\nG92 X0. Y0.\nC100 (IP8 ON12)\nM50\nG51 U3.500\nG42 D01\n{square}G40\nG50\nM51\nM02\n%\n"),
+        // Fast wire: pump and wire switched by T words, blocks that end with a semicolon, a subprogram for each pass.
+        "N10 T84 T86 G90 G92X0.000Y0.000;\nN12 G01 X5.000Y0.000;\nN14 G03 X-5.000 Y0.000 I-5.000 J0.000;\nN16 G03 X5.000 Y0.000 I5.000 J0.000;\nN18 G01 X0.000 Y0.000;\nN20 T85 T87 M02;\n".into(),
+        "H000=+00000000 H001=+00000110;\nH005=+00000000;T84 T86 G54 G90 G92X+0Y+0;\nC007;\nG01X+3000Y+0;G04X0.0+H005;\nG41H000;\nC001;\nG41H000;\nG01X+4000Y+0;G04X0.0+H005;\nG41H001;\nX+4000Y+4000;\nX-4000Y+4000;\nX-4000Y-4000;\nX+4000Y-4000;\nX+4000Y+0;\nG40H000G01X+3000Y+0;\nM00;\nT85 T87 M02;\n".into(),
+        // Robofil: the centre's own coordinates, the prologue before G90.
+        "G92 X0 Y0\r\nG60\r\nG38\r\nG42 D0\r\nG90\r\nG01 X10.000 Y0.000\r\nG02 X0.000 Y-10.000 I0.000 J0.000\r\nG02 X10.000 Y0.000 I0.000 J0.000\r\nG40\r\nG01 X0.000 Y0.000\r\nM02\r\n".into(),
+        // Numbers without zeros, R in the place of I and J, M30.
+        "%\nN1G21G90\nN2G92X-5.Y0\nN3G42D1\nN4G1X0.Y0\nN5Y-9.\nN6G3X1.Y-10.R1.\nN7G1X9.\nN8G3X10.Y-9.R1.\nN9G1Y0\nN10X0.\nN11G40\nN12X-5.\nN13M30\n%\n".into(),
+    ] {
+        let found = faults(&text, &Effective::default());
+        assert!(found.iter().all(|(_, rule)| *rule == "machine-dependent"), "{found:?}\n{text}");
+    }
+}
+
 /// Lines that programs are made of, with some that are damaged.
 fn line() -> impl Strategy<Value = String> {
     prop_oneof![
