@@ -5,7 +5,7 @@ use super::crossings::Crossings;
 use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
-use super::stretch::{Run, Stretch};
+use super::stretch::{Hears, Run, Stretch};
 use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
@@ -38,9 +38,9 @@ pub struct Document {
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
     /// Where the cuts cross themselves.
-    crossings: Crossings,
+    crossings: Box<Crossings>,
     /// What settings a fault is held against.
-    pub(super) limits: Limits,
+    pub(super) limits: Box<Limits>,
 }
 
 /// The settings that decide what is a fault.
@@ -143,8 +143,8 @@ impl Document {
             reading: Evidence::default().reading(limits.center),
             evidence: Evidence::default(),
             order: None,
-            crossings: Crossings::default(),
-            limits,
+            crossings: Box::default(),
+            limits: Box::new(limits),
         };
         document.guess_reading();
         document.run_all();
@@ -171,11 +171,11 @@ impl Document {
     /// Looks again under other settings.
     pub fn set_settings(&mut self, settings: &Effective) {
         let limits = Limits::of(settings);
-        if limits == self.limits {
+        if limits == *self.limits {
             return;
         }
         let center = limits.center != self.limits.center;
-        self.limits = limits;
+        *self.limits = limits;
         if center {
             self.settle();
         }
@@ -200,7 +200,7 @@ impl Document {
     }
 
     /// Runs a stretch once more and tells `each` of its moves; gives the byte from which their places count.
-    pub(super) fn run_again(&self, index: usize, each: &mut dyn FnMut(usize, &Move, (u32, u32))) -> usize {
+    pub(super) fn run_again(&self, index: usize, each: &mut Hears<'_>) -> usize {
         let Some(Placed { stretch, first_line, offset }) = self.placed().nth(index) else { return 0 };
         let bytes = self.text.bytes();
         let lines = (first_line..first_line + stretch.lines as usize).map(|line| {
@@ -450,7 +450,7 @@ impl Document {
     fn settle(&mut self) {
         self.find_reading();
         let crossings = std::mem::take(&mut self.crossings);
-        self.crossings = crossings.look(self);
+        *self.crossings = crossings.look(self);
     }
 
     fn find_reading(&mut self) {

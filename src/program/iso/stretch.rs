@@ -168,6 +168,9 @@ pub struct Path {
     pub near: Box<[(u32, u32)]>,
 }
 
+/// Hears of every move of a run: the run's index, the move, the place of its words.
+pub type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
+
 /// The moves of a run as they are made.
 #[derive(Default)]
 struct Ways {
@@ -259,13 +262,13 @@ impl Stretch {
         stretch
     }
 
-    /// The same without paths; `each` hears of every move of a run: the run's index, the move, the place of its words.
+    /// The same without paths; `each` hears of every move of a run.
     pub fn run_with<'a>(
         lines: impl Iterator<Item = (usize, &'a [u8])>,
         start: usize,
         before: Machine,
         reading: Reading,
-        each: &mut dyn FnMut(usize, &Move, (u32, u32)),
+        each: &mut Hears<'_>,
     ) -> Stretch {
         let mut stretch = Stretch {
             lines: 0,
@@ -296,7 +299,7 @@ impl Stretch {
         stretch
     }
 
-    fn line(&mut self, line: &[u8], offset: usize, each: &mut dyn FnMut(usize, &Move, (u32, u32))) {
+    fn line(&mut self, line: &[u8], offset: usize, each: &mut Hears<'_>) {
         self.lines += 1;
         let Stretch { faults, foreign, definitions, after, .. } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
@@ -354,7 +357,7 @@ impl Stretch {
         }
     }
 
-    fn made(&mut self, made: Move, range: (u32, u32), torn: bool, each: &mut dyn FnMut(usize, &Move, (u32, u32))) {
+    fn made(&mut self, made: Move, range: (u32, u32), torn: bool, each: &mut Hears<'_>) {
         self.moves += 1;
         self.fixed |= !made.incremental;
         if let Some(on) = made.switches
