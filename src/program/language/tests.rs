@@ -120,7 +120,7 @@ fn what_belongs_together_is_found_from_both_ends() {
 #[test]
 fn selections_grow() {
     let (document, offset) = at_cursor("B5B0B5GXL1\nB0B5B|5GYL2 ; x\nB5B0B5GXL3\nB0B5B5GYL4\nDD\n");
-    let found: Vec<_> = selections(&document, &document.trace(), offset).into_iter().map(|range| (range.start, range.end)).collect();
+    let found: Vec<_> = selections(&document, offset).into_iter().map(|range| (range.start, range.end)).collect();
     assert_eq!(found, [(15, 16), (11, 21), (11, 25), (0, 47), (0, 51)]);
 }
 

@@ -9,7 +9,7 @@ use super::rules::path_crosses_itself::{Crossing, Way, come_near, margin, meet_a
 use super::run::Move;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::OnceLock;
 
 /// The blocks of a contour in one run.
@@ -43,13 +43,29 @@ type Near = (Box<[(u32, u32)]>, usize);
 #[derive(Clone, Debug, Default)]
 pub(super) struct Known {
     pairs: FxHashMap<Pair, Near>,
+    /// Contours, by their marks, in which nothing was found.
+    calm: FxHashSet<u64>,
 }
 
 impl Known {
+    pub fn is_calm(&self, mark: u64) -> bool {
+        self.calm.contains(&mark)
+    }
+
+    /// Keeps in mind that nothing was found in a contour.
+    pub fn note(&mut self, mark: u64, found: &Found) {
+        if found.crossings.is_empty() && !found.is_crowded {
+            self.calm.insert(mark);
+        }
+    }
+
     /// Forgets all where much more is known than is in use.
-    pub fn tidy(&mut self, in_use: usize) {
-        if self.pairs.len() > 4 * in_use + 4096 {
+    pub fn tidy(&mut self, pairs: usize, contours: usize) {
+        if self.pairs.len() > 4 * pairs + 16_384 {
             self.pairs.clear();
+        }
+        if self.calm.len() > 4 * contours + 4096 {
+            self.calm.clear();
         }
     }
 }

@@ -6,6 +6,7 @@ use super::block::{Block, Motion, Node, PartArc};
 use super::decode::meant;
 use super::machine::travel;
 use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
+use super::rules::not_closed::is_closed;
 use super::rules::path_crosses_itself::near_each_other;
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
@@ -300,6 +301,15 @@ pub(super) struct Run {
     pub stated: usize,
     pub numbering: Numbering,
     pub positions: Positions,
+    pub travel: Move,
+    pub words: usize,
+    /// Entries: the controller's own first end word, the last end word of any, the last word.
+    pub own_end: Option<usize>,
+    pub last_end: Option<usize>,
+    pub last_word: Option<usize>,
+    /// Parts between two words of the run that do not come back to where they began, and those that come near themselves.
+    pub open: Vec<usize>,
+    pub tangled: Vec<usize>,
 }
 
 /// How the blocks of a run are numbered.
@@ -371,6 +381,14 @@ impl Positions {
     }
 }
 
+/// A way of at most this many lines between two pauses leads from one contour to the next.
+const JUMP_BLOCKS: usize = 3;
+
+/// True for what is, between two pauses, the way from one contour to the next.
+pub(super) fn is_jump(sum: &Sum) -> bool {
+    (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0
+}
+
 /// Lines that one run holds at most.
 pub(super) const LINES: usize = 96;
 
@@ -389,6 +407,13 @@ impl Run {
             stated: 0,
             numbering: Numbering::Empty,
             positions: Positions::default(),
+            travel: Move::default(),
+            words: 0,
+            own_end: None,
+            last_end: None,
+            last_word: None,
+            open: Vec::new(),
+            tangled: Vec::new(),
         };
         let mut open = Open::at(0);
         for range in lines {
@@ -399,7 +424,27 @@ impl Run {
         }
         open.part.entries.end = run.entries.len();
         run.parts.push(open.closed());
+        run.sum_up();
         run
+    }
+
+    fn sum_up(&mut self) {
+        let last = self.parts.len().saturating_sub(1);
+        for (index, part) in self.parts.iter().enumerate() {
+            self.travel = self.travel.plus(part.sum.travel);
+            if let Some((word, is_own)) = part.word {
+                self.words += 1;
+                self.last_word = Some(part.entries.end);
+                if word == Word::End {
+                    self.own_end = self.own_end.or(is_own.then_some(part.entries.end));
+                    self.last_end = Some(part.entries.end);
+                }
+            }
+            if index > 0 && index < last {
+                self.open.extend((!is_jump(&part.sum) && !is_closed(&part.sum)).then_some(index));
+                self.tangled.extend((!part.near.is_empty()).then_some(index));
+            }
+        }
     }
 
     fn take(&mut self, item: Item, line: u32, base: usize, open: &mut Open, limits: &Limits) {

@@ -19,7 +19,7 @@ export async function badDays(checks: Checks): Promise<void> {
 
 /** No server anywhere, then one of another version, then the right one: each by a change of the setting. */
 async function missing(checks: Checks): Promise<void> {
-  const host = await Host.start({}, { "plate.dxf": FILLET }, "/usr/bin:/bin");
+  const host = await Host.start({}, { "plate.dxf": FILLET }, { path: "/usr/bin:/bin" });
   const window = new Window(host.page);
   checks.page = host.page;
   const choose = async (path: string): Promise<void> => {

@@ -6,7 +6,7 @@ import { Host } from "./host";
 import { Window } from "./window";
 
 export async function withServer(checks: Checks): Promise<void> {
-  const host = await Host.start({}, { "plate.dxf": FILLET }, "/usr/bin:/bin", {}, true);
+  const host = await Host.start({}, { "plate.dxf": FILLET }, { path: "/usr/bin:/bin", withServer: true });
   const window = new Window(host.page);
   checks.page = host.page;
   try {

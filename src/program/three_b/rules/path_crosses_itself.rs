@@ -21,6 +21,9 @@ const MOST: usize = 50;
 /// Pairs of pieces of one contour that are looked at: where much lies on one place all of them are near each other.
 const MOST_PAIRS: usize = 4_000;
 
+/// Pieces in a row that lie along another one, for which its crossing is still that of the first.
+const MOST_ALONG: usize = 8;
+
 /// How near a place of one piece lies to another that goes through it, µm: nodes are on whole µm or ends of arcs.
 const ON: f64 = 0.01;
 
@@ -96,10 +99,21 @@ impl Way<'_> {
             if found.len() == MOST {
                 break;
             }
-            // At a joint of two blocks one crossing is met by each of them.
+            // At a joint of two blocks one crossing is met by each of them, and at both ends of a stretch that the two share.
             let is_known = |at: Point| {
-                let same = |known: &&Crossing| known.first.abs_diff(first) <= 1 && known.second.abs_diff(second) <= 1;
-                found.iter().rev().take(8).filter(same).any(|known| (known.at - at).norm() <= 4.0 * self.margin)
+                let same = |known: &&Crossing| known.first.abs_diff(first) <= 1 && second - known.second <= MOST_ALONG;
+                let lies_on = |index: usize, at: Point| (self.piece)(index).is_some_and(|piece| piece.distance_to(at) <= self.margin);
+                let runs_along =
+                    |index: usize| (self.piece)(index).is_some_and(|piece| lies_on(first, piece.start()) && lies_on(first, piece.end()));
+                let is_one = |known: &Crossing| {
+                    if second - known.second > 1 {
+                        return (known.second + 1..second).all(runs_along);
+                    }
+                    let middle = nalgebra::center(&known.at, &at);
+                    (known.at - at).norm() <= 4.0 * self.margin
+                        || (lies_on(first, middle) && (lies_on(second, middle) || lies_on(known.second, middle)))
+                };
+                found.iter().rev().take(8).filter(same).any(is_one)
             };
             let at = self.common(first, second).into_iter().find(|&at| !is_known(at) && self.crosses(first, second, at));
             found.extend(at.map(|at| Crossing { first, second, at }));

@@ -12,6 +12,7 @@ use ls_types::{
     Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta, SemanticTokensFullOptions, SemanticTokensLegend,
     SemanticTokensOptions, SemanticTokensRangeResult, SemanticTokensServerCapabilities, Uri,
 };
+use rayon::prelude::*;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::Result;
 
@@ -77,6 +78,27 @@ fn tokens_of(program: &program::Document, lines: std::ops::Range<usize>, limit: 
     found
 }
 
+/// The tokens of a program, at most [`LIMIT`]; what a line says hangs on no other line.
+fn all_tokens_of(program: &program::Document) -> Vec<Token> {
+    const CHUNK: usize = 4_096;
+    let count = program.text().line_count();
+    if count <= CHUNK {
+        return tokens_of(program, 0..count, LIMIT);
+    }
+    let firsts: Vec<usize> = (0..count).step_by(CHUNK).collect();
+    let mut found = Vec::new();
+    // As many at once as there may be need for.
+    for some in firsts.chunks(16) {
+        let chunks: Vec<Vec<Token>> = some.par_iter().map(|&first| tokens_of(program, first..first + CHUNK, LIMIT)).collect();
+        found.extend(chunks.into_iter().flatten());
+        if found.len() >= LIMIT {
+            found.truncate(LIMIT);
+            break;
+        }
+    }
+    found
+}
+
 /// Answers with all tokens; with what has changed since the answer `previous`, where that is known.
 pub(in crate::server) fn full(state: &mut State, uri: &Uri, previous: Option<String>, errand: Errand) {
     let (encoding, deltas) = (state.encoding, state.client.abilities.token_deltas);
@@ -93,7 +115,7 @@ pub(in crate::server) fn full(state: &mut State, uri: &Uri, previous: Option<Str
     }
     if state.documents.get(uri.as_str()).and_then(program_in).is_some() {
         whole_program(state, "Colouring", uri.as_str(), errand, move |program, _| {
-            let tokens = tokens_of(program, 0..program.text().line_count(), LIMIT);
+            let tokens = all_tokens_of(program);
             memory.answer(encoded(program.text(), &tokens, encoding))
         });
         return;
