@@ -205,6 +205,15 @@ fn contours_that_are_open() {
     check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.3), (10.0, 10.0, 0.0), (0.0, 0.5, 0.0)]), None, Rule::OpenContour, 1, true);
     check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::OpenContour, 1, false);
     check(&closed(&SQUARE), None, Rule::OpenContour, 0, true);
+    // Once it is closed the wire has a side on it, and four corners to leave round: that is no reason to leave it open.
+    for drawing in drawings(&open(&SQUARE), Some(Role::Opening)) {
+        let (analysis, findings) = analysed(&drawing);
+        let finding = findings.iter().find(|finding| finding.rule == Rule::OpenContour).unwrap();
+        let mut closed = drawing.clone();
+        closed.apply(&analysis.fixes(&drawing, finding).first().expect("a fix").edit).unwrap();
+        let findings = analysed(&closed).1;
+        assert_eq!((count(&findings, Rule::OpenContour), count(&findings, Rule::SharpCorner)), (0, 4));
+    }
 }
 
 #[test]

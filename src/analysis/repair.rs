@@ -36,7 +36,11 @@ impl Analysis {
             || (rule == Rule::ArcAsChords && after.of(rule) <= before.of(rule))
             // Where there is more than is sought, others come into sight.
             || after.unseen < before.unseen;
-        (is_less && after.is_no_worse_than(before)).then_some(after)
+        let is_no_worse = match rule {
+            Rule::OpenContour => after.is_no_worse_once_closed(before),
+            _ => after.is_no_worse_than(before),
+        };
+        (is_less && is_no_worse).then_some(after)
     }
 
     /// One edit that makes the safe repairs of one rule, as many as do not collide.

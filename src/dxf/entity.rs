@@ -420,13 +420,20 @@ fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec
 
 fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
     let mut content = Vec::new();
-    let mut numbers = Numbers::new([10, 20]);
-    let common = numbers.gather(lexer, findings, |lexer, tag| {
-        if matches!(tag.code, 1 | 3) {
-            content.extend_from_slice(lexer.lines.content(tag.value_line()));
-        }
+    let mut numbers = Numbers::new([10, 20, 11, 21]);
+    let mut is_aligned = false;
+    let common = numbers.gather(lexer, findings, |lexer, tag| match tag.code {
+        1 | 3 => content.extend_from_slice(lexer.lines.content(tag.value_line())),
+        // To the right, to the middle, above a line: then the point that somebody has set is the second one.
+        72 if kind == "TEXT" => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4"),
+        73 if kind == "TEXT" => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"3"),
+        _ => {}
     });
     let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let (x, y) = match numbers.values {
+        [_, _, Some(x), Some(y)] if is_aligned => (x, y),
+        _ => (x, y),
+    };
     let x = match common.plane() {
         _ if common.paper_space => return Outcome::Unsupported(kind.into(), PAPER_SPACE),
         Plane::Tilted => return Outcome::Unsupported(kind.into(), TILTED),
