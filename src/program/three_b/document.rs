@@ -324,7 +324,12 @@ impl Document {
         let is_open = |section: &Section| !section.is_jump && !not_closed::is_closed(&section.sum);
         let mut candidates: Vec<Section> = self.inner_sections(view.end, |run| &run.open).filter(is_open).collect();
         candidates.extend(view.outer.iter().filter(|section| is_open(section)).cloned());
+        // What would be a way to the next contour between two pauses is none before the end.
+        let last =
+            view.end.and_then(|end| Some((end.run, self.runs.get(end.run)?.parts.iter().position(|part| part.entries.end == end.entry)?)));
+        candidates.extend(last.and_then(|last| self.section_of_part(view, last)).filter(is_open));
         candidates.sort_by_key(|section| section.parts[0]);
+        candidates.dedup_by_key(|section| section.parts[0]);
         let mut behind = (0, 0);
         for section in candidates {
             if section.parts[0] < behind {
@@ -1162,19 +1167,21 @@ mod tests {
         #[test]
         fn what_a_chain_tells_by_its_ends_is_what_all_its_steps_tell(
             text in PROGRAM,
-            (leads, rounds) in (0_usize..4, 0_usize..90),
+            (leads, rounds) in (0_usize..4, 0_usize..100),
         ) {
             // A contour of more blocks than a chain holds, with ways in and out.
+            let way = 100 * rounds;
             let long = format!(
-                "{}{}{}",
+                "{}{}B0B50B50GYL4\nB{way}B0B{way}GXL3\nB0B50B50GYL2\n{}",
                 "B100B0B100GXL1\n".repeat(leads),
-                "B50B0B50GXL1\nB0B50B50GYL2\nB50B0B50GXL3\nB0B50B50GYL4\n".repeat(rounds),
+                "B50B0B50GXL1\nB0B50B50GYL2\nB50B0B50GXL1\nB0B50B50GYL4\n".repeat(rounds),
                 "B100B0B100GXL3\n".repeat(leads),
             );
             let document = crate::program::Document::ThreeB(Document::read(format!("{text}{long}D\n{text}").into_bytes()));
             let trace = document.trace();
-            for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 5 == 0) {
-                let whole = passages(&trace).into_iter().find(|passage| passage.steps.contains(&index));
+            let all = passages(&trace);
+            for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 13 == 0) {
+                let whole = all.iter().find(|passage| passage.steps.contains(&index)).cloned();
                 let Some(whole) = whole else { return Err(TestCaseError::fail("no passage")) };
                 let Some((chain, passage, nth)) = passage_at(&document, step.range.start) else {
                     return Err(TestCaseError::fail("no chain"));
