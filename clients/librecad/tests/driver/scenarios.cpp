@@ -380,7 +380,8 @@ void Driver::large()
         drawLine();
         wait([&] { return number("slices") == 1; }, LONG);
         touch();
-        QTest::qWait(300);
+        // Longer than the rest of the look takes; the next one waits for a moment of rest.
+        QTest::qWait(1500);
         expect("a look is broken off when somebody types", number("looks") == looks, QString::number(number("slices")));
         expectSoon("and taken when they rest", [&] { return number("looks") > looks; }, {}, LONG);
     }
