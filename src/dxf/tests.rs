@@ -4,5 +4,6 @@ mod blocks;
 mod editing;
 mod faults;
 mod layers;
+mod planes;
 pub(super) mod reading;
 mod writing;
