@@ -3,7 +3,7 @@
 //! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
 use crate::analysis::Analysis;
-use crate::drawing::{Delta, Drawing, EntityId, Outline};
+use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline};
 use crate::finding::{Detail, Edit, Finding, Fix, Place};
 use crate::program;
 use crate::settings::Effective;
@@ -161,10 +161,17 @@ impl Document {
         }
     }
 
-    /// One edit that makes every safe fix.
+    /// One edit that makes every safe fix that the document can take.
     pub fn fix_all(&self) -> Option<Edit> {
         let edit = || match &self.source {
-            Source::Dxf(_) | Source::Cad(_) => self.analysis.fix_all(self.drawing()?).map(Edit::Drawing),
+            Source::Dxf(text) => {
+                let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();
+                let all = self.analysis.fix_all(text.drawing())?;
+                // A fix that the text refuses does not stand in the way of the others.
+                let edit = if can(&all) { Some(all) } else { self.analysis.fix_all_that(text.drawing(), &can).filter(can) };
+                edit.map(Edit::Drawing)
+            }
+            Source::Cad(drawing) => self.analysis.fix_all(drawing).map(Edit::Drawing),
             Source::Program(program) => program.fix_all(self.settings()).map(Edit::Text),
         };
         self.asked.fix_all.get_or_init(edit).clone()

@@ -377,6 +377,10 @@ pub enum Detail {
         count: usize,
     },
     Units(String),
+    /// The larger side of the largest contour, which speaks for another unit.
+    Size {
+        size: f64,
+    },
     /// What was found and what was expected, lower-case, no final dot.
     Syntax(String),
     Settings(String),
@@ -422,6 +426,10 @@ pub enum IsoFault {
     NumberTwice {
         number: u32,
     },
+    /// The other blocks count past this one, which has no number.
+    Unnumbered {
+        expected: u32,
+    },
     /// `word` stands `count` times.
     Foreign {
         word: String,
@@ -434,6 +442,19 @@ pub enum IsoFault {
     EndlessCalls,
     /// Full circles only: I and J are taken as leading from start to centre.
     OpenCenters,
+}
+
+/// How the centre was found to which an arc's ends fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CenterFix {
+    /// I and J as other controls take them.
+    OtherConvention,
+    /// A sign was lost.
+    Sign,
+    /// I stands for J and J for I.
+    Swap,
+    /// The nearest one that fits, `moved` mm from the one that stands.
+    Nearest { moved: f64 },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -557,6 +578,11 @@ pub enum FixKind {
     },
     /// A rapid becomes a cut.
     CutRapid,
+    /// I and J of an ISO arc lead to a centre `radius` mm from both its ends.
+    SetCenter {
+        radius: f64,
+        how: CenterFix,
+    },
     /// G41 becomes G42 or the other way round.
     SwapSide,
 }

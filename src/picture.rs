@@ -34,6 +34,8 @@ const FIGURE_TOP: f64 = 96.0;
 /// How far the material reaches beyond an opening that no outline holds.
 const GROUND: f64 = 22.0;
 /// Up to this many segments each one is an element of its own, with a tooltip; beyond it each entity is.
+/// Radius of the dot at a fault.
+const DOT: f64 = 4.5;
 const TOOLTIP_SEGMENTS: usize = 4000;
 
 /// The drawing with its faults and the paths of the wire as one SVG.
@@ -318,24 +320,33 @@ impl Picture<'_> {
                 Detail::SharpCorner { .. } | Detail::NearTangent { .. } | Detail::Gap { .. } => {
                     Some(if reversed.contains(&id) { geometry.end() } else { geometry.start() })
                 }
+                // Too short to be seen.
+                _ if geometry.length() * frame.scale < DOT => Some(geometry.point_at(0.5)),
                 _ => None,
             };
             let label = format!("<title>{} · segment {segment} · {}</title>", escaped(&entity.handle), finding.rule.name());
             let name = named(&entity.handle, segment);
             let _ = match point.map(|point| frame.local(point)) {
                 Some((x, y)) => {
-                    writeln!(sheet, r#"<circle class="dot" {name} cx="{}" cy="{}" r="4.5">{label}</circle>"#, number(x), number(y))
+                    writeln!(sheet, r#"<circle class="dot" {name} cx="{}" cy="{}" r="{DOT}">{label}</circle>"#, number(x), number(y))
                 }
-                None => writeln!(sheet, r#"<path class="other" {name} d="{}">{label}</path>"#, path_data(frame, [geometry], false)),
+                None => {
+                    // Chords are shown in full where they are of one entity.
+                    let count = if let Detail::ArcAsChords { chords, .. } = finding.detail { chords } else { 1 };
+                    let from = if reversed.contains(&id) { (segment + 1).saturating_sub(count) } else { segment };
+                    let all = entity.geometry.segments().skip(from).take(count);
+                    writeln!(sheet, r#"<path class="other" {name} d="{}">{label}</path>"#, path_data(frame, all, false))
+                }
             };
         }
     }
 }
 
-/// An error or a warning on a segment, of any rule but `small-radius`.
+/// An error or a warning on a segment, of any rule but `small-radius`; and the hints that are of one place.
 fn is_other(finding: &Finding) -> bool {
     let is_of_segment = matches!(finding.place, Place::Segment { .. });
-    is_of_segment && finding.severity <= Severity::Warning && !matches!(finding.detail, Detail::SmallRadius(_))
+    let is_of_one_place = matches!(finding.detail, Detail::NearTangent { .. } | Detail::ArcAsChords { .. });
+    is_of_segment && (finding.severity <= Severity::Warning || is_of_one_place) && !matches!(finding.detail, Detail::SmallRadius(_))
 }
 
 #[cfg(test)]

@@ -334,6 +334,21 @@ fn repairs_of_every_rule_are_said() {
     check(&desk, "check fixed.dxf", 0, &["nothing found"]);
 }
 
+/// A repair that the text cannot take does not stand in the way of the others.
+#[test]
+fn what_cannot_be_repaired_is_said_and_the_rest_is_repaired() {
+    let desk = Desk::new();
+    let text = String::from_utf8(desk.read("tight.dxf")).unwrap();
+    // A line is missing just before the second of two circles: how the text goes on there is told from the circle's lines.
+    let circle = |handle: &str| format!("  0\nCIRCLE\n  5\n{handle}\n  8\nDIE\n 10\n50\n 20\n0\n 40\n3\n");
+    let damaged = "  0\nLINE\n  5\n2D\n  8\nDIE\n 10\n1\n 20\n2\n 11\n3\n 21\n";
+    let end = text.rfind("  0\nENDSEC").unwrap();
+    desk.write("both.dxf", format!("{}{}{damaged}{}{}", &text[..end], circle("2B"), circle("2C"), &text[end..]));
+    check(&desk, "fix both.dxf -o fixed.dxf", 1, &["!1 arc repaired", "!not repaired: both.dxf:", "!which is damaged: mend that first"]);
+    check(&desk, "inspect fixed.dxf --output json", 1, &["0.101"]);
+    check(&desk, "fix fixed.dxf -o again.dxf", 1, &["!nothing could be repaired safely", "!not repaired: fixed.dxf:"]);
+}
+
 #[test]
 fn a_fix_in_place_writes_what_a_fix_beside_writes() {
     let desk = Desk::new();

@@ -35,6 +35,39 @@ fn contour() -> impl Strategy<Value = Vec<Segment>> {
     )
 }
 
+/// The ways a program can be written in which its nodes come back, and the settings that do it: layouts of 3B; every convention of I and J
+/// in every mode of coordinates of ISO, in µm and in mm.
+const VIAS: [&str; 9] = [
+    "checking",
+    "compact",
+    "robofil",
+    "iso absolute start-to-center mm",
+    "iso absolute center-to-start um",
+    "iso absolute absolute mm",
+    "iso absolute absolute um",
+    "iso incremental start-to-center um",
+    "iso incremental center-to-start mm",
+];
+
+fn way_to_write(via: &str) -> (Language, Format, Effective) {
+    let words: Vec<&str> = via.split(' ').collect();
+    match words[..] {
+        [layout @ ("checking" | "compact" | "aligned")] => {
+            (Language::ThreeB, Format::ThreeB, settings(&format!("[program]\nlayout = \"{layout}\"\n")))
+        }
+        ["iso", coordinates, center, unit] => {
+            let word = if coordinates == "absolute" { "G90" } else { "G91" };
+            let profile = format!(
+                "[program]\nprofile = \"own\"\n[profiles.own]\ncoordinates = \"{coordinates}\"\ncenter = \"{center}\"\nunit = \"{unit}\"\n\
+                 begin = [\"G92 X{{x}} Y{{y}}\", \"{word}\"]\n"
+            );
+            (Language::Iso, Format::Iso, settings(&profile))
+        }
+        [profile] => (Language::Iso, Format::Iso, settings(&format!("[program]\nprofile = \"{profile}\"\n"))),
+        _ => panic!("{via}"),
+    }
+}
+
 fn path_of(segments: &[Segment]) -> WirePath {
     let source = Source::Segment { entity: EntityId(0), segment: 0 };
     let thread_hole = segments.first().map_or_else(Point::origin, Segment::start);
@@ -76,13 +109,10 @@ proptest! {
     #[test]
     fn a_drawing_that_went_through_a_program_has_its_nodes(
         segments in contour(),
-        via in prop::sample::select(vec!["checking", "compact", "fast-wire", "robofil", "generic"]),
+        via in prop::sample::select(VIAS.to_vec()),
     ) {
         let paths = [path_of(&segments)];
-        let (language, format, settings) = match via {
-            "checking" | "compact" => (Language::ThreeB, Format::ThreeB, settings(&format!("[program]\nlayout = \"{via}\"\n"))),
-            profile => (Language::Iso, Format::Iso, settings(&format!("[program]\nprofile = \"{profile}\"\n"))),
-        };
+        let (language, format, settings) = way_to_write(via);
         let text = written(format, &paths, 1.0, &settings);
         let cuts = convert::cuts(&read(language, &text, &settings));
         prop_assert_eq!(cuts.lost.len(), 0);
@@ -103,7 +133,7 @@ proptest! {
         let off = farthest(&segments, &moved);
         prop_assert!(off <= allowed, "{via}: {off} of {allowed} mm\n{text}");
         // One polyline, closed, and the ways in and out as lines.
-        let kinds: Vec<&str> = back.drawing().entities().map(|(_, entity)| entity.kind).collect();
+        let kinds: Vec<&str> = back.drawing().entities().map(|(_, entity)| entity.kind.name()).collect();
         prop_assert_eq!(kinds.iter().filter(|kind| **kind == "LWPOLYLINE").count(), 1);
         let closed = back.drawing().entities().any(|(_, entity)| matches!(entity.geometry, Geometry::Polyline { closed: true, .. }));
         prop_assert!(closed, "{kinds:?}\n{text}");
@@ -119,10 +149,7 @@ proptest! {
         let mut origin = Point::origin().coords;
         let begin = segments[0].start();
         for via in &route {
-            let (language, format, settings) = match *via {
-                "checking" | "aligned" | "compact" => (Language::ThreeB, Format::ThreeB, settings(&format!("[program]\nlayout = \"{via}\"\n"))),
-                profile => (Language::Iso, Format::Iso, settings(&format!("[program]\nprofile = \"{profile}\"\n"))),
-            };
+            let (language, format, settings) = way_to_write(via);
             let text = written(format, &paths, unit_mm, &settings);
             let cuts = convert::cuts(&read(language, &text, &settings));
             prop_assert_eq!(cuts.cuts.len(), 1, "{}\n{}", via, text);
@@ -164,13 +191,30 @@ fn several_contours_keep_their_ways() {
         let corners = [at(0.0, 0.0), at(1.0, 0.0), at(3.0, 0.0), at(3.0, 2.0), at(1.0, 2.0), at(1.0, 0.0), at(0.0, 0.0)];
         path_of(&corners.windows(2).map(|pair| Segment::line(pair[0], pair[1])).collect::<Vec<_>>())
     };
-    let paths = [square(0.0), square(10.0)];
-    let settings = Effective { layout: Layout::Checking, ..Effective::default() };
-    let cuts = convert::cuts(&read(Language::Iso, &written(Format::Iso, &paths, 1.0, &settings), &settings));
-    assert_eq!(cuts.cuts.len(), 2);
-    assert_eq!(cuts.ways, [[Point::new(0.0, 0.0), Point::new(10_000.0, 0.0)]]);
-    assert!(cuts.cuts.iter().all(|cut| cut.closed && cut.lead_in && cut.lead_out && cut.contour().len() == 4), "{cuts:?}");
-    assert_eq!(all(&cuts.drawing()).len(), 2 * 6 + 1);
+    let paths = [square(0.0), square(10.0), square(25.0)];
+    for (language, format) in [(Language::Iso, Format::Iso), (Language::ThreeB, Format::ThreeB)] {
+        for layout in [Layout::Compact, Layout::Aligned, Layout::Checking] {
+            let settings = Effective { layout, ..Effective::default() };
+            let text = written(format, &paths, 1.0, &settings);
+            let cuts = convert::cuts(&read(language, &text, &settings));
+            assert_eq!(cuts.cuts.len(), 3, "{text}");
+            let ways = [[0.0, 10_000.0], [10_000.0, 25_000.0]].map(|way| way.map(|x| Point::new(x, 0.0)));
+            assert_eq!(cuts.ways, ways, "{text}");
+            assert!(cuts.cuts.iter().all(|cut| cut.closed && cut.lead_in && cut.lead_out && cut.contour().len() == 4), "{cuts:?}");
+            // As text that a CAD program reads: contours closed on CUT, leads on LEAD, ways on WAY.
+            let back = dxf::Document::read(dxf::write(&cuts.drawing()).unwrap());
+            assert!(back.findings().is_empty(), "{:?}", back.findings());
+            let mut on: Vec<String> = back.drawing().entities().map(|(_, entity)| format!("{} {}", entity.layer, entity.kind)).collect();
+            on.sort();
+            on.dedup_by(|a, b| a == b);
+            assert_eq!(on, ["CUT LWPOLYLINE", "LEAD LINE", "WAY LINE"]);
+            assert_eq!(all(back.drawing()).len(), 3 * 6 + 2);
+            assert!(paths.iter().all(|path| {
+                let segments: Vec<Segment> = path.segments.iter().map(|piece| piece.geometry).collect();
+                farthest(&segments, &nodes(back.drawing())) <= 1e-9
+            }));
+        }
+    }
 }
 
 fn wedm(folder: &Path, arguments: &str) -> (i32, String, String) {
@@ -195,6 +239,18 @@ fn the_command_converts_and_refuses() {
     check("convert hole.3b -o hole.iso --profile fast-wire", 0, "written hole.iso: 4 blocks, 1 contour");
     check("convert hole.iso -o again.3b --layout checking", 0, "written again.3b: 4 blocks");
     check("convert hole.3b --format iso --profile robofil", 0, "G03 X-9.900 Y0.000 I0.000 J0.000");
+    // A part's contour under G42, its corners rounded, becomes 4B; a path of the wire does not say where the part is.
+    put(
+        "part.iso",
+        "G92 X0. Y-5.\nG90\nG42 D1\nG01 X0. Y0.\nX9. Y0.\nG03 X10. Y1. I0. J1.\nG01 Y10.\nX-10. Y10.\nY0.\nX0.\nG40\nG01 Y-5.\nM02\n",
+    );
+    check("convert part.iso -o part.4b --correction 0.15", 0, "written part.4b: 11 blocks, 1 contour");
+    let four_b = std::fs::read_to_string(folder.path().join("part.4b")).unwrap();
+    assert!(four_b.contains("B0B1000B1000B1000GYDNR4\n") && four_b.contains("B151GYDNR"), "{four_b}");
+    check("check part.4b", 0, "1 file checked");
+    check("convert part.4b -o again.dxf", 0, "written again.dxf: 1 contour");
+    check("convert hole.3b -o hole.4b", 1, "4B holds the part's contour");
+    check("convert hole.3b --format 4b", 1, "say opening or punch");
     check("convert off.iso -o off.dxf", 1, "the program has 1 error");
     check("convert off.iso -o off.dxf --force", 0, "left out, since they lead nowhere: lines 4");
     check("convert empty.3b -o empty.dxf", 1, "it cuts nothing");
@@ -250,7 +306,7 @@ fn what_is_drawn_passes_the_audit_of_ezdxf() {
 import ezdxf, math, sys
 document = ezdxf.readfile(sys.argv[1])
 auditor = document.audit()
-print(document.dxfversion, len(auditor.errors))
+print(document.dxfversion, len(auditor.errors), len(auditor.fixes))
 for entity in document.modelspace():
     if entity.dxftype() == 'LWPOLYLINE':
         points = entity.get_points('xyb')
@@ -262,7 +318,7 @@ for entity in document.modelspace():
     let text = String::from_utf8_lossy(&output.stdout);
     assert_eq!(
         text,
-        "AC1015 0\nLINE LEAD\nLWPOLYLINE True 9.900000,0.000000,1.000000000 -9.900000,0.000000,1.000000000\nLINE LEAD\n",
+        "AC1015 0 0\nLINE LEAD\nLWPOLYLINE True 9.900000,0.000000,1.000000000 -9.900000,0.000000,1.000000000\nLINE LEAD\n",
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );

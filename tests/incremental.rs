@@ -99,6 +99,46 @@ fn chords(most: usize) -> impl Strategy<Value = Vec<Vertex>> {
         .prop_map(|(from, offs)| offs.into_iter().enumerate().map(|(at, off)| on_circle(from + at, off)).collect())
 }
 
+/// An outline of a polyline and lines, with corners all round; the polyline is travelled as it is drawn, or backwards.
+fn mixed_outline(backwards: bool) -> (Drawing, EntityId) {
+    let corner = |at: usize| {
+        let angle = at as f64 * std::f64::consts::TAU / 24.0;
+        Point::new((10.0 + 2.0 * (at % 2) as f64) * angle.cos(), (10.0 + 2.0 * (at % 2) as f64) * angle.sin())
+    };
+    let mut drawing = Drawing::new(None);
+    let line = |at: usize| entity(Geometry::Line { start: corner(at), end: corner(at + 1) }, Some(Role::Opening));
+    // The first entity says which way the contour is travelled.
+    drawing.push(line(0));
+    let mut vertices: Vec<Vertex> = (1..=12).map(|at| Vertex { point: corner(at), bulge: 0.0 }).collect();
+    if backwards {
+        vertices.reverse();
+    }
+    let polyline = drawing.push(entity(Geometry::Polyline { closed: false, vertices }, Some(Role::Opening)));
+    for at in 12..24 {
+        drawing.push(line(at));
+    }
+    (drawing, polyline)
+}
+
+/// What local rules saw behind a splice has other indices now: in the pieces behind, and in a piece that is travelled backwards in
+/// what lies before it in the entity.
+#[test]
+fn a_splice_that_changes_the_count_moves_what_was_seen_behind_it() {
+    for (backwards, start, removed, inserted) in
+        [(false, 2, 0, 1), (true, 2, 0, 1), (false, 9, 2, 0), (true, 9, 2, 0), (true, 5, 1, 3), (false, 5, 1, 3)]
+    {
+        let settings = Arc::new(Effective::of(&Settings::default()));
+        let (mut drawing, polyline) = mixed_outline(backwards);
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        let inserted: Vec<Vertex> = (0..inserted).map(|at| Vertex::new(0.5 * at as f64, 3.0, 0.0)).collect();
+        let touched = drawing.splice(polyline, start, removed, &inserted).unwrap();
+        analysis.update(&drawing, &Delta { touched: vec![touched] });
+        let mut fresh = Analysis::new(&drawing, settings.clone());
+        let case = (backwards, start, removed, inserted.len());
+        assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX), "{case:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(400), failure_persistence: None, ..ProptestConfig::default() })]
 

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::document::{Document, Source};
-use wedm::drawing::{Drawing, Entity, Geometry, Role, Vertex};
-use wedm::finding::{Finding, Rule, Severity};
+use wedm::drawing::{Change, Drawing, DrawingEdit, Entity, Geometry, Role, Unit, Vertex};
+use wedm::finding::{Detail, Finding, Rule, Severity};
 use wedm::geometry::{Point, Segment, positive_angle};
 use wedm::settings::{Effective, Settings};
 
@@ -205,6 +205,15 @@ fn contours_that_are_open() {
     check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.3), (10.0, 10.0, 0.0), (0.0, 0.5, 0.0)]), None, Rule::OpenContour, 1, true);
     check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::OpenContour, 1, false);
     check(&closed(&SQUARE), None, Rule::OpenContour, 0, true);
+    // Once it is closed the wire has a side on it, and four corners to leave round: that is no reason to leave it open.
+    for drawing in drawings(&open(&SQUARE), Some(Role::Opening)) {
+        let (analysis, findings) = analysed(&drawing);
+        let finding = findings.iter().find(|finding| finding.rule == Rule::OpenContour).unwrap();
+        let mut closed = drawing.clone();
+        closed.apply(&analysis.fixes(&drawing, finding).first().expect("a fix").edit).unwrap();
+        let findings = analysed(&closed).1;
+        assert_eq!((count(&findings, Rule::OpenContour), count(&findings, Rule::SharpCorner)), (0, 4));
+    }
 }
 
 #[test]
@@ -234,6 +243,63 @@ fn ends_that_do_not_meet() {
         }
         let quiet = all_fixed(drawing);
         assert_eq!(count(&analysed(&quiet).1, Rule::Gap), 0);
+    }
+}
+
+#[test]
+fn what_lies_wholly_on_another_entity_goes_with_fix_all() {
+    let line = |x0: f64, x1: f64| Geometry::Line { start: Point::new(x0, 0.0), end: Point::new(x1, 0.0) };
+    let arc = |from: f64, to: f64| Geometry::Arc { center: Point::new(0.0, 20.0), radius: 5.0, start_angle: from, end_angle: to };
+    for (geometries, overlaps, left) in [
+        (vec![line(0.0, 10.0), line(2.0, 4.0), line(6.0, 8.0)], 2, 1),
+        (vec![line(2.0, 4.0), line(10.0, 0.0)], 1, 1),
+        (vec![arc(0.0, 3.0), arc(1.0, 2.0)], 1, 1),
+        // Each reaches past the other: which of them ends where is not for a program to say.
+        (vec![line(0.0, 6.0), line(4.0, 10.0)], 1, 2),
+    ] {
+        let mut drawing = Drawing::new(None);
+        geometries.into_iter().for_each(|geometry| {
+            drawing.push(entity(geometry, None));
+        });
+        assert_eq!(count(&analysed(&drawing).1, Rule::Overlap), overlaps);
+        let fixed = all_fixed(drawing);
+        assert_eq!(fixed.len(), left);
+        assert_eq!(count(&analysed(&fixed).1, Rule::Overlap), left - 1);
+    }
+}
+
+#[test]
+fn sizes_that_no_wire_cuts_speak_for_another_unit() {
+    let scaled = |factor: f64| SQUARE.map(|(x, y, _)| (x * factor, y * factor, 0.0));
+    for (sides, expected) in [
+        (&[10.0][..], None),
+        (&[0.04], Some(0.04)),
+        (&[0.04, 10.0], None),
+        (&[0.04, 0.03], Some(0.04)),
+        (&[4999.0], None),
+        (&[10.0, 5001.0, 7000.0], Some(7000.0)),
+    ] {
+        let mut drawing = Drawing::new(None);
+        for &side in sides {
+            drawing.push(entity(closed(&scaled(side / 10.0)).geometry(), None));
+        }
+        let (mut analysis, findings) = analysed(&drawing);
+        let said = |findings: &[Finding]| {
+            findings.iter().find_map(|finding| match finding.detail {
+                Detail::Size { size } => Some(size),
+                _ => None,
+            })
+        };
+        assert_eq!(said(&findings), expected, "{sides:?}");
+        // In inches all of it is larger.
+        let mut inches = drawing.clone();
+        inches.unit = Some(Unit::INCH);
+        assert_eq!(said(&analysed(&inches).1).is_some(), sides.iter().any(|side| side * 25.4 > 5000.0), "{sides:?}");
+        // And once the odd ones are gone, nothing is said.
+        let last = *drawing.order().last().unwrap();
+        let delta = drawing.apply(&DrawingEdit { changes: vec![Change::RemoveEntity { entity: last }] }).unwrap();
+        analysis.update(&drawing, &delta);
+        assert_eq!(analysis.findings(&drawing, 100).0, analysed(&drawing).1, "{sides:?}");
     }
 }
 

@@ -13,6 +13,8 @@ mod end;
 mod flood;
 #[path = "server/handshake.rs"]
 mod handshake;
+#[path = "server/iso_text.rs"]
+mod iso_text;
 #[path = "server/language.rs"]
 mod language;
 #[path = "server/locate.rs"]
@@ -27,5 +29,7 @@ mod programs;
 mod settings;
 #[path = "server/texts.rs"]
 mod texts;
+#[path = "server/token_deltas.rs"]
+mod token_deltas;
 #[path = "server/wire.rs"]
 mod wire;

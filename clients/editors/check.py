@@ -42,7 +42,11 @@ def expect(holds: bool, what: str) -> None:
 class Place:
     """A folder with a drawing, a home, and a PATH on which `wedm` stands."""
 
+    #: Those of the session that runs: gone with it, kept where it fails.
+    made: list[Place] = []
+
     def __init__(self, editor: str) -> None:
+        self.made.append(self)
         self.folder = Path(tempfile.mkdtemp(prefix=f"wedm-{editor}-"))
         self.drawing = self.folder / "die.dxf"
         shutil.copy(DRAWING, self.drawing)
@@ -81,6 +85,21 @@ class Place:
         expect(ended.returncode == 0 and "\nFAIL" not in f"\n{said}", f"{words[0]} ended with {ended.returncode}:\n{said}")
         return said
 
+    def path_without_server(self) -> str:
+        return ":".join(path for path in self.environment["PATH"].split(":") if not os.path.exists(f"{path}/wedm"))
+
+    def server(self) -> int:
+        """The process of the server that this place's editor has started."""
+        program = os.path.realpath(WEDM)
+        for process in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                environment = Path("/proc", process, "environ").read_bytes().split(b"\0")
+                if os.readlink(f"/proc/{process}/exe") == program and f"WEDM_DRAWING={self.drawing}".encode() in environment:
+                    return int(process)
+            except OSError:
+                continue
+        raise Failed("there is no process of the server")
+
     def check_drawing(self) -> None:
         """Only numbers of the arc's two vertices have changed, and the drawing is clean."""
         old, new = DRAWING.read_bytes().split(b"\n"), self.drawing.read_bytes().split(b"\n")
@@ -109,17 +128,32 @@ def neovim(program: str, native: bool, editor: str) -> None:
     place.check_drawing()
 
 
+def neovim_by_path(program: str) -> None:
+    """The command of the options is taken, where no `wedm` is on the PATH."""
+    place = Place("neovim-by-path")
+    server = place.folder / "programs/wedm"
+    server.rename(place.folder / "my-wedm")
+    script = place.folder / "start.lua"
+    script.write_text(
+        f"dofile('{HERE}/neovim/wedm.lua').setup {{ cmd = {{ '{place.folder}/my-wedm' }} }}\n"
+        "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\n"
+        "vim.wait(20000, function() return #vim.diagnostic.get(0) > 0 end, 20)\n"
+        "for _, found in ipairs(vim.diagnostic.get(0)) do io.stdout:write(found.message .. '\\n') end\nvim.cmd('qall!')\n"
+    )
+    said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=place.path_without_server())
+    saw(said, FAULT)
+
+
 def neovim_without_server(program: str, native: bool, editor: str) -> None:
     place = Place(editor + "-without")
     (place.folder / "programs/wedm").unlink()
-    paths = [path for path in place.environment["PATH"].split(":") if not os.path.exists(f"{path}/wedm")]
     if native:
         start = f"vim.opt.runtimepath:append('{HERE}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
     else:
         start = f"dofile('{HERE}/neovim/wedm.lua').setup {{}}"
     script = place.folder / "start.lua"
     script.write_text(start + "\nvim.cmd('edit ' .. vim.env.WEDM_DRAWING)\nvim.wait(300)\nvim.cmd('qall!')\n")
-    said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=":".join(paths))
+    said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=place.path_without_server())
     saw(said, "cargo install --path .")
 
 
@@ -136,6 +170,15 @@ def emacs(program: str, editor: str) -> None:
     place.log(f"{editor}.txt", said)
     saw(said, FAULT, "mode: dxf-mode", f"offered: {OFFERED}", "fixed and written", "the server was killed and started again: 1 fault")
     place.check_drawing()
+
+
+def emacs_without_server(program: str) -> None:
+    place = Place("emacs-without")
+    (place.folder / "programs/wedm").unlink()
+    # Batch: nothing has to come from a server.
+    show = '(progn (find-file (getenv "WEDM_DRAWING")) (princ (format "%s" major-mode)))'
+    said = place.run([program, "--batch", "-q", "-l", "package", "-f", "package-initialize", "-l", f"{HERE}/emacs/wedm.el", "--eval", show], PATH=place.path_without_server())
+    saw(said, "cargo install --path .", "dxf-mode")
 
 
 class Terminal:
@@ -305,9 +348,19 @@ def kate(program: str, editor: str) -> None:
         screen.type("ctrl+s")
         wait("saved drawing", lambda text: "textDocument/didSave" in text)
         screen.shot("kate-fixed.png")
+        place.check_drawing()
+        screen.type("ctrl+z")
+        wait("fault after undo", lambda text: text.rpartition("publishDiagnostics")[2].count(FAULT) > 0)
+        before = said.read_text().count('"method":"initialize"')
+        os.kill(place.server(), 9)
+        time.sleep(0.5)
+        # The next edit makes Kate start another one.
+        screen.type("End", "1")
+        wait("new server", lambda text: text.count('"method":"initialize"') > before)
+        wait("fault from the new server", lambda text: FAULT in text.rpartition('"method":"initialize"')[2])
+        screen.shot("kate-restarted.png")
     finally:
         screen.close()
-    place.check_drawing()
 
 
 def tool(name: str) -> str | None:
@@ -322,12 +375,14 @@ def checks() -> list[tuple[str, str, Callable[[str], None]]]:
     """What is checked: a name, the program that it needs, and the session."""
     return [
         ("Neovim 0.7, wedm.lua: repair, death of the server", "nvim", lambda program: neovim(program, False, "neovim-0.7")),
+        ("Neovim 0.7, wedm.lua: the server by its path", "nvim", neovim_by_path),
         ("Neovim 0.7, wedm.lua: no server", "nvim", lambda program: neovim_without_server(program, False, "neovim-0.7")),
         ("Neovim 0.11, vim.lsp.config: repair, death of the server", "nvim-0.11", lambda program: neovim(program, True, "neovim-0.11")),
         ("Neovim 0.11, vim.lsp.config: no server", "nvim-0.11", lambda program: neovim_without_server(program, True, "neovim-0.11")),
         ("Emacs, eglot: repair, death of the server", "emacs", lambda program: emacs(program, "emacs")),
+        ("Emacs, eglot: no server", "emacs", emacs_without_server),
         ("Helix: repair, death of the server", "hx", lambda program: helix(program, "helix")),
-        ("Kate: repair", "kate", lambda program: kate(program, "kate")),
+        ("Kate: repair, death of the server", "kate", lambda program: kate(program, "kate")),
     ]
 
 
@@ -346,13 +401,16 @@ def main() -> int:
                 skipped += 1
             continue
         started = time.monotonic()
+        Place.made.clear()
         try:
             session(found)
         except Failed as reason:
             failed += 1
-            print(f"FAILED {name}: {reason}", flush=True)
+            print(f"FAILED {name}: {reason}\nkept: {', '.join(str(place.folder) for place in Place.made)}", flush=True)
         else:
             passed += 1
+            for place in Place.made:
+                shutil.rmtree(place.folder, ignore_errors=True)
             print(f"ok {name} ({time.monotonic() - started:.1f} s)", flush=True)
     print(f"{passed} passed, {failed} failed, {skipped} skipped")
     return 1 if failed else 0

@@ -13,10 +13,11 @@ use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::{Bounds, Point};
 use crate::rules::lost_pocket::{self, Lost};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
-use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall};
+use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall, units};
 use crate::settings::{Effective, SideSetting};
 use known::Known;
 use pairs::{Pairs, RunId};
+use repair::Can;
 use report::{Report, Tally};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
@@ -36,6 +37,8 @@ pub struct Analysis {
     known: FxHashMap<ContourKey, Known>,
     /// Contours that have something to tell without a look at others: most have not.
     loud: FxHashSet<ContourKey>,
+    /// Contours larger than any machine.
+    vast: FxHashSet<ContourKey>,
     /// How many contours have a stated role.
     stated: usize,
     /// An entity that was removed and may come back nearly as it was, as one does in whose text a number is being typed: all
@@ -60,6 +63,7 @@ impl Analysis {
             chains,
             known: FxHashMap::default(),
             loud: FxHashSet::default(),
+            vast: FxHashSet::default(),
             stated: 0,
             asleep: None,
             pairs: Pairs::default(),
@@ -120,6 +124,7 @@ impl Analysis {
         for key in &rechained.gone {
             self.lost.remove(key);
             self.loud.remove(key);
+            self.vast.remove(key);
             if let Some(known) = self.take_known(*key) {
                 self.pairs.forget(*key, &known.index);
             }
@@ -155,6 +160,11 @@ impl Analysis {
             self.loud.insert(key);
         } else {
             self.loud.remove(&key);
+        }
+        if self.known.get(&key).is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm)) {
+            self.vast.insert(key);
+        } else {
+            self.vast.remove(&key);
         }
     }
 
@@ -239,6 +249,7 @@ impl Analysis {
             }
         }
         self.report_contours(drawing, loud.iter().map(|(key, _)| *key), &mut report);
+        self.report_size(drawing, &mut report);
         self.pairs.report(drawing, &|key| self.outlook(drawing, key), &|key| side_of(self, key), &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();
@@ -271,6 +282,24 @@ impl Analysis {
                     report.add(rule.rule, mildest, place, detail, related);
                 }
             }
+        }
+    }
+
+    /// Sizes that speak for another unit than the drawing's: of the largest contour.
+    fn report_size(&self, drawing: &Drawing, report: &mut Report) {
+        // What sleeps is not in the drawing.
+        let is_there = |key: ContourKey| self.chains.first_of(key).is_some_and(|first| drawing.get(first).is_some());
+        let bounds_of = |key: ContourKey| self.known.get(&key).filter(|_| is_there(key)).map(|known| known.index.bounds());
+        let mut keys = self.known.keys().copied();
+        let is_large = self.vast.iter().any(|&key| is_there(key));
+        let is_absurd = is_large
+            || (self.known.keys().any(|&key| is_there(key))
+                && !keys.any(|key| bounds_of(key).is_some_and(|bounds| units::is_sizable(&bounds, self.limits.unit_mm))));
+        if is_absurd && report.counts(Rule::Units, None) {
+            let all: Box<dyn Iterator<Item = &ContourKey>> =
+                if is_large { Box::new(self.vast.iter()) } else { Box::new(self.known.keys()) };
+            let size = all.filter_map(|&key| bounds_of(key)).map(|bounds| units::size(&bounds)).fold(0.0, f64::max);
+            report.add(Rule::Units, None, Place::Document, Detail::Size { size }, Vec::new());
         }
     }
 
@@ -397,10 +426,19 @@ impl Analysis {
     /// Arcs first; where there are none to be mended, what the other rules can mend safely, one rule at a time: call again
     /// until nothing is left.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
-        self.fix_all_arcs(drawing).or_else(|| self.fix_all_else(drawing))
+        self.fix_all_of(drawing, None)
     }
 
-    fn fix_all_arcs(&self, drawing: &Drawing) -> Option<DrawingEdit> {
+    /// As [`Analysis::fix_all`], of the fixes that `can` says can be made.
+    pub fn fix_all_that(&self, drawing: &Drawing, can: &dyn Fn(&DrawingEdit) -> bool) -> Option<DrawingEdit> {
+        self.fix_all_of(drawing, Some(can))
+    }
+
+    fn fix_all_of(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
+        self.fix_all_arcs(drawing, can).or_else(|| self.fix_all_else(drawing, can))
+    }
+
+    fn fix_all_arcs(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
         self.settings.severity(Rule::SmallRadius)?;
         let mut replacements = Vec::new();
         for (key, wire_side) in self.with_tight_arcs(drawing) {
@@ -413,7 +451,13 @@ impl Analysis {
                 let stretch = Stretch::of(&travel, &replacement);
                 let free = accepted.first().is_none_or(|(first, ..)| !first.overlaps(&stretch))
                     && accepted.last().is_none_or(|(last, ..)| !last.overlaps(&stretch));
-                if free && replacement.moved <= self.limits.correction {
+                if !free || replacement.moved > self.limits.correction {
+                    continue;
+                }
+                let alone = [(travel, replacement)];
+                let can_be_made = can.is_none_or(|can| small_radius::drawing_edit(drawing, &alone).is_some_and(|edit| can(&edit)));
+                let [(travel, replacement)] = alone;
+                if can_be_made {
                     accepted.push((stretch, travel, replacement));
                 }
             }

@@ -12,6 +12,9 @@ const SAFE: [Rule; 5] = [Rule::DuplicateEntity, Rule::Overlap, Rule::ShortSegmen
 /// Edits that are tried before a rule is given up: each costs a look at the drawing.
 const TRIES: usize = 24;
 
+/// Whether the edit of one fix can be made where the drawing comes from; of all fixes where there is none to ask.
+pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
+
 impl Analysis {
     /// Those of the fixes of a finding of `rule` that make nothing worse and let the finding go.
     pub(super) fn checked(&self, drawing: &Drawing, rule: Rule, fixes: Vec<Fix>) -> Vec<Fix> {
@@ -33,11 +36,15 @@ impl Analysis {
             || (rule == Rule::ArcAsChords && after.of(rule) <= before.of(rule))
             // Where there is more than is sought, others come into sight.
             || after.unseen < before.unseen;
-        (is_less && after.is_no_worse_than(before)).then_some(after)
+        let is_no_worse = match rule {
+            Rule::OpenContour => after.is_no_worse_once_closed(before),
+            _ => after.is_no_worse_than(before),
+        };
+        (is_less && is_no_worse).then_some(after)
     }
 
     /// One edit that makes the safe repairs of one rule, as many as do not collide.
-    pub(super) fn fix_all_else(&self, drawing: &Drawing) -> Option<DrawingEdit> {
+    pub(super) fn fix_all_else(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
         let mut analysis = self.clone();
         let before = analysis.tally(drawing);
         let rules: Vec<Rule> = SAFE.into_iter().filter(|rule| before.of(*rule) > 0).collect();
@@ -52,7 +59,8 @@ impl Analysis {
                 let fixes = self.other_fixes(drawing, finding, (entity, segment))?;
                 let fix = fixes.into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
                 // One that cannot be made must not stand in the way of the others.
-                fix.edit.changes.iter().all(|change| drawing.accepts(change).is_ok()).then_some(fix.edit)
+                let accepted = fix.edit.changes.iter().all(|change| drawing.accepts(change).is_ok());
+                (accepted && can.is_none_or(|can| can(&fix.edit))).then_some(fix.edit)
             });
             if let Some(edit) = self.most_of(drawing, rule, &before, &apart(fixes)) {
                 return Some(edit);

@@ -34,6 +34,13 @@ impl Tally {
     pub fn is_no_worse_than(&self, before: &Tally) -> bool {
         self.errors <= before.errors && self.errors + self.warnings <= before.errors + before.warnings
     }
+
+    /// True when closing a contour has brought nothing new to light but corners. The wire has a side on it now: what was one hint
+    /// for all its corners is a warning for each that the wire runs inside of, and what was a warning may be an error.
+    pub fn is_no_worse_once_closed(&self, before: &Tally) -> bool {
+        let corners = self.of(Rule::SharpCorner).saturating_sub(before.of(Rule::SharpCorner));
+        self.errors + self.warnings <= before.errors + before.warnings + corners
+    }
 }
 
 impl Report {

@@ -23,13 +23,13 @@ Examples:
   wedm convert plate.3b -o plate.iso --profile fast-wire
   wedm convert plate.iso -o plate.3b --layout checking")]
 pub struct Arguments {
-    /// The program: .3b, .iso or .nc
+    /// The program: .3b, .4b, .iso or .nc
     #[arg(value_name = "PROG")]
     path: PathBuf,
-    /// Write it there; its ending says what it becomes: .dxf, .3b, .iso or .nc
+    /// Write it there; its ending says what it becomes: .dxf, .3b, .4b, .iso or .nc
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// What it becomes, where no OUT says it: dxf, 3b, iso
+    /// What it becomes, where no OUT says it: dxf, 3b, 4b, iso
     #[arg(long, value_parser = Target::of)]
     format: Option<Target>,
     /// Convert it although it has errors; blocks that lead nowhere are left out
@@ -98,7 +98,7 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
         (None, Some(out), Some(ending)) => {
             Target::of(&ending.to_ascii_lowercase()).map_err(|reason| Failure(format!("{}: {reason}", out.display())))
         }
-        (None, Some(out), None) => Err(Failure(format!("{}: its name has no ending, expected .dxf, .3b or .iso", out.display()))),
+        (None, Some(out), None) => Err(Failure(format!("{}: its name has no ending, expected .dxf, .3b, .4b, .iso or .nc", out.display()))),
         (None, None, _) => Err(Failure("nothing says what the program becomes, expected -o OUT or --format".into())),
     }
 }

@@ -6,7 +6,7 @@ use super::output::{self, counted, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, files};
 use crate::document::{Document, Source};
-use crate::finding::{Edit, Rule, Severity};
+use crate::finding::{Edit, Finding, Rule, Severity};
 use crate::text::TextEdit;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 /// Repair what can be repaired safely
 ///
 /// Only the numbers that change are written, every other byte stays: code page, line ends, what wedm does not know. What came out
-/// is read again and checked before it is written. Ends with 1 when errors are left.
+/// is read again and checked before it is written. A repair that the text cannot take (lines are damaged beside it) is named, the others
+/// are made. Ends with 1 when errors are left or a repair was not made.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -58,6 +59,9 @@ const REPAIRED: [(Rule, &str); 6] = [
 /// A fix may make room for another one; past this many rounds nothing new comes of it.
 const ROUNDS: usize = 12;
 
+/// Findings that are asked why they were not repaired: each answer costs a look at the drawing.
+const LISTED: usize = 100;
+
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     if let Some(target) = &arguments.target.output {
@@ -69,7 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     deliver(arguments, &repair)?;
     summarise(path, &repair);
     let errors_left = repair.after.iter().any(|row| row.severity == Severity::Error);
-    Ok(if errors_left { Verdict::Errors } else { Verdict::Clean })
+    Ok(if errors_left || !repair.refused.is_empty() { Verdict::Errors } else { Verdict::Clean })
 }
 
 /// A drawing or program before and after.
@@ -78,6 +82,8 @@ struct Repair {
     before: Vec<Row>,
     document: Document,
     after: Vec<Row>,
+    /// What could be repaired and cannot be written, and why.
+    refused: Vec<(Row, String)>,
     rounds: usize,
 }
 
@@ -102,7 +108,7 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     let bytes_before = document.text().map_or_else(Vec::new, |text| text.bytes().to_vec());
     let mut rounds = 0;
     while rounds < ROUNDS
-        && let Some(edits) = next_edits(path, &document)?
+        && let Some(edits) = next_edits(&document)
     {
         let settings = document.settings().clone();
         let present = document.text().map_or(&[][..], |text| text.bytes());
@@ -111,7 +117,8 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
         rounds += 1;
     }
     let after = report::rows(path, &mut document);
-    let repair = Repair { bytes_before, before, document, after, rounds };
+    let refused = refused(path, &document);
+    let repair = Repair { bytes_before, before, document, after, refused, rounds };
     let errors = |rows: &[Row]| rows.iter().filter(|row| row.severity == Severity::Error).count();
     if errors(&repair.after) > errors(&repair.before) {
         let sentence = "what was repaired has more errors than before; nothing is written";
@@ -120,15 +127,26 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     Ok(repair)
 }
 
-fn next_edits(path: &Path, document: &Document) -> Result<Option<Vec<TextEdit>>, Failure> {
-    let edits = match (document.fix_all(), document.source()) {
-        (Some(Edit::Drawing(edit)), Source::Dxf(text)) => {
-            text.text_edits(&edit).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?
-        }
-        (Some(Edit::Text(edits)), _) => edits,
-        _ => return Ok(None),
+fn next_edits(document: &Document) -> Option<Vec<TextEdit>> {
+    let edits = match (document.fix_all()?, document.source()) {
+        (Edit::Drawing(edit), Source::Dxf(text)) => text.text_edits(&edit).ok()?,
+        (Edit::Text(edits), _) => edits,
+        (Edit::Drawing(_), _) => return None,
     };
-    Ok(Some(edits).filter(|edits| !edits.is_empty()))
+    Some(edits).filter(|edits| !edits.is_empty())
+}
+
+/// Findings with a safe fix that the text cannot take, each with the reason.
+fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
+    let Source::Dxf(text) = document.source() else { return Vec::new() };
+    let findings = document.all_findings();
+    let repaired = findings.iter().filter(|finding| REPAIRED.iter().any(|(rule, _)| *rule == finding.rule));
+    let reason = |finding: &Finding| {
+        let fix = document.fixes(finding).into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
+        let Edit::Drawing(edit) = fix.edit else { return None };
+        Some((report::row(path, document, finding), text.text_edits(&edit).err()?))
+    };
+    repaired.take(LISTED).filter_map(reason).collect()
 }
 
 fn deliver(arguments: &Arguments, repair: &Repair) -> Result<(), Failure> {
@@ -161,7 +179,13 @@ fn summarise(path: &Path, repair: &Repair) {
     } else {
         output::say(&format!("{name}: nothing could be repaired safely"));
     }
-    for row in repair.after.iter().filter(|row| row.severity <= Severity::Warning) {
+    for (row, reason) in &repair.refused {
+        let place = format!("{name}:{}:{}", row.line, row.column);
+        output::say(&format!("{} {place}: {}: {reason}", styled(output::WARNING, "not repaired:"), row.message));
+    }
+    let is_refused =
+        |row: &Row| repair.refused.iter().any(|(other, _)| (other.rule, other.line, other.column) == (row.rule, row.line, row.column));
+    for row in repair.after.iter().filter(|row| row.severity <= Severity::Warning && !is_refused(row)) {
         let reason = match &row.data.no_fix {
             None if row.rule == Rule::SmallRadius => " (its fix moves the contour by more than the correction: choose it in the editor)",
             _ => "",

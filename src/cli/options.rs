@@ -46,6 +46,9 @@ pub struct Program {
     /// Where the correction is applied
     #[arg(long, value_parser = words::<Compensation>(&["path", "controller", "none"]))]
     pub compensation: Option<Compensation>,
+    /// Digits of the controller's numbers in 3B: longer blocks are split [default: 6]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(4..=9))]
+    pub digits: Option<u8>,
     /// How an ISO program is written: fast-wire, robofil, generic, or one of the settings' [profiles]
     #[arg(long, value_name = "NAME")]
     pub profile: Option<String>,
@@ -74,6 +77,7 @@ impl Program {
             entry: self.entry.map(PointSetting::One),
             lead_in: self.lead_in,
             compensation: self.compensation,
+            digits: self.digits,
             profile: self.profile.clone(),
             end: self.end.clone(),
             pause: self.pause.clone(),

@@ -120,6 +120,23 @@ mod tests {
     }
 
     #[test]
+    fn a_file_that_is_cut_anywhere_has_one_finding() {
+        let number = 1.5f64.to_le_bytes();
+        let mut tags = b"\0\0SECTION\0\x02\0ENTITIES\0\0\0LINE\0".to_vec();
+        for code in [10u8, 20, 11, 21] {
+            tags.extend([code, 0]);
+            tags.extend(number);
+        }
+        tags.extend(b"\0\0ENDSEC\0\0\0EOF\0");
+        let whole = file(&tags);
+        for length in SENTINEL.len()..=whole.len() {
+            let document = crate::dxf::Document::read_file(whole[..length].to_vec());
+            let syntax = document.findings().iter().filter(|finding| finding.rule == crate::finding::Rule::Syntax);
+            assert_eq!(syntax.count(), usize::from(length < whole.len()), "{length}: {:?}", document.findings());
+        }
+    }
+
+    #[test]
     fn what_breaks_off_is_named() {
         for (tags, expected) in [
             (&b"\0\0LINE\0\x0a\0\0\0"[..], "byte 29: the file ends inside the value of group code 10"),

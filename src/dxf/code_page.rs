@@ -8,12 +8,25 @@ use memchr::memmem;
 /// The header stands at the beginning; its variables are looked for in this many bytes.
 const HEADER: usize = 1 << 16;
 
+/// Pages of DOS that the library of the web's encodings has not: the characters from 128 on.
+/// Source: Unicode, Mappings/VENDORS/MICSFT/PC.
+const DOS_437: &str =
+    "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐└┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
+const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐└┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{ad}±‗¾¶§÷¸°¨·¹³²■\u{a0}";
+const DOS_852: &str = "ÇüéâäůćçłëŐőîŹÄĆÉĹĺôöĽľŚśÖÜŤťŁ×čáíóúĄąŽžĘę¬źČş«»░▒▓│┤ÁÂĚŞ╣║╗╝Żż┐└┴┬├─┼Ăă╚╔╩╦╠═╬¤đĐĎËďŇÍÎě┘┌█▄ŢŮ▀ÓßÔŃńňŠšŔÚŕŰýÝţ´\u{ad}˝˛ˇ˘§÷¸°¨˙űŘř■\u{a0}";
+
 /// How texts of a file are to be read where they are no UTF-8, or, where `first` is set, before it is asked whether they are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CodePage {
-    encoding: &'static Encoding,
+    encoding: Page,
     /// Codes of several bytes may look like UTF-8 by chance.
     first: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Page {
+    OfTheWeb(&'static Encoding),
+    OfDos(&'static str),
 }
 
 impl CodePage {
@@ -25,24 +38,13 @@ impl CodePage {
             return None;
         }
         let name = String::from_utf8_lossy(variable(head, b"$DWGCODEPAGE")?).to_ascii_uppercase();
-        let number = name.trim_start_matches("ANSI_").trim_start_matches("DOS").trim_start_matches('_');
-        let (encoding, first) = match number {
-            "874" => (encoding_rs::WINDOWS_874, false),
-            "932" => (encoding_rs::SHIFT_JIS, true),
-            "936" | "GB2312" => (encoding_rs::GBK, true),
-            "949" | "KSC5601" => (encoding_rs::EUC_KR, true),
-            "950" | "BIG5" => (encoding_rs::BIG5, true),
-            "1250" => (encoding_rs::WINDOWS_1250, false),
-            "1251" => (encoding_rs::WINDOWS_1251, false),
-            "1252" => (encoding_rs::WINDOWS_1252, false),
-            "1253" => (encoding_rs::WINDOWS_1253, false),
-            "1254" => (encoding_rs::WINDOWS_1254, false),
-            "1255" => (encoding_rs::WINDOWS_1255, false),
-            "1256" => (encoding_rs::WINDOWS_1256, false),
-            "1257" => (encoding_rs::WINDOWS_1257, false),
-            "1258" => (encoding_rs::WINDOWS_1258, false),
-            "866" => (encoding_rs::IBM866, false),
-            _ => return None,
+        let number = ["ANSI", "DOS", "ISO", "_"].iter().fold(&*name, |name, prefix| name.trim_start_matches(prefix));
+        let first = matches!(number, "932" | "936" | "GB2312" | "949" | "KSC5601" | "950" | "BIG5");
+        let encoding = match number {
+            "437" => Page::OfDos(DOS_437),
+            "850" => Page::OfDos(DOS_850),
+            "852" => Page::OfDos(DOS_852),
+            _ => Page::OfTheWeb(of_the_web(number)?),
         };
         Some(CodePage { encoding, first })
     }
@@ -52,8 +54,42 @@ impl CodePage {
         if bytes.is_ascii() || (!self.first && std::str::from_utf8(bytes).is_ok()) {
             return bytes.to_vec();
         }
-        self.encoding.decode_without_bom_handling(bytes).0.into_owned().into_bytes()
+        match self.encoding {
+            Page::OfTheWeb(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned().into_bytes(),
+            Page::OfDos(upper) => {
+                let character = |&byte: &u8| match byte.checked_sub(128) {
+                    None => char::from(byte),
+                    Some(place) => upper.chars().nth(usize::from(place)).unwrap_or(char::REPLACEMENT_CHARACTER),
+                };
+                bytes.iter().map(character).collect::<String>().into_bytes()
+            }
+        }
     }
+}
+
+fn of_the_web(number: &str) -> Option<&'static Encoding> {
+    Some(match number {
+        "874" => encoding_rs::WINDOWS_874,
+        "932" => encoding_rs::SHIFT_JIS,
+        "936" | "GB2312" => encoding_rs::GBK,
+        "949" | "KSC5601" => encoding_rs::EUC_KR,
+        "950" | "BIG5" => encoding_rs::BIG5,
+        "1250" => encoding_rs::WINDOWS_1250,
+        "1251" => encoding_rs::WINDOWS_1251,
+        "1252" | "8859-1" | "8859_1" => encoding_rs::WINDOWS_1252,
+        "1253" => encoding_rs::WINDOWS_1253,
+        "1254" | "8859-9" | "8859_9" => encoding_rs::WINDOWS_1254,
+        "1255" => encoding_rs::WINDOWS_1255,
+        "1256" => encoding_rs::WINDOWS_1256,
+        "1257" => encoding_rs::WINDOWS_1257,
+        "1258" => encoding_rs::WINDOWS_1258,
+        "866" => encoding_rs::IBM866,
+        "8859-2" | "8859_2" => encoding_rs::ISO_8859_2,
+        "8859-5" | "8859_5" => encoding_rs::ISO_8859_5,
+        "8859-7" | "8859_7" => encoding_rs::ISO_8859_7,
+        "MAC-ROMAN" => encoding_rs::MACINTOSH,
+        _ => return None,
+    })
 }
 
 /// The value of a header variable: what stands two lines below its name.
@@ -76,6 +112,10 @@ mod tests {
             ("AC1009", "ansi_936", b"\xc4\xa3", Some("模")),
             ("AC1015", "ANSI_932", b"\x8b\xe0\x8c^", Some("金型")),
             ("AC1015", "dos866", b"\x84", Some("Д")),
+            ("AC1009", "dos850", b"Au\xe1en\xb5", Some("AußenÁ")),
+            ("AC1009", "DOS437", b"\x84\xe3", Some("äπ")),
+            ("AC1009", "dos852", b"\xfdez\xff", Some("řez\u{a0}")),
+            ("AC1012", "ISO8859-2", b"\xf8", Some("ř")),
             ("AC1021", "ANSI_1252", b"m\xe4rks", None),
             ("AC1015", "ANSI_9999", b"m\xe4rks", None),
         ] {

@@ -455,17 +455,25 @@ fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec
 
 fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
     let mut content = Vec::new();
-    let mut numbers = Numbers::new([10, 20, 30]);
-    let common = numbers.gather(lexer, findings, |lexer, tag| {
-        if matches!(tag.code, 1 | 3) {
-            content.extend_from_slice(lexer.lines.content(tag.value_line()));
-        }
+    let mut numbers = Numbers::new([10, 20, 11, 21, 30]);
+    let mut is_aligned = false;
+    let common = numbers.gather(lexer, findings, |lexer, tag| match tag.code {
+        1 | 3 => content.extend_from_slice(lexer.lines.content(tag.value_line())),
+        // To the right, to the middle, above a line: then the point that somebody has set is the second one.
+        72 if kind == Kind::Text => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4"),
+        73 if kind == Kind::Text => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"3"),
+        _ => {}
     });
     let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let [_, _, set_x, set_y, height] = numbers.values;
+    let (x, y) = match (set_x, set_y) {
+        (Some(x), Some(y)) if is_aligned => (x, y),
+        _ => (x, y),
+    };
     if common.paper_space {
         return Outcome::Unsupported(kind.name().into(), PAPER_SPACE);
     }
-    let height = numbers.values[2].unwrap_or(0.0);
+    let height = height.unwrap_or(0.0);
     let Some(lies) = common.lies(height) else { return Outcome::Unsupported(kind.name().into(), TILTED) };
     let (x, y, lies) = match (kind, lies) {
         // The place of an MTEXT is in world coordinates.
@@ -691,10 +699,12 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
         read.vertices.push(Vertex::new(x, y, bulge));
         read.lines.push((next.line - start.line) as u32);
     }
-    if common.bad || lexer.out_of_step {
+    // The text ends within the name of the next record, which tells of it: that may have been a VERTEX.
+    let is_cut = !ended && lexer.lines.last_is_open() && lexer.peek_record().is_some_and(|next| next.line + 2 >= lexer.lines.count());
+    if common.bad || lexer.out_of_step || is_cut {
         return Outcome::Damaged;
     }
-    if !ended && !lexer.at_end() {
+    if !ended && !lexer.at_end() && read.vertices.len() > 1 {
         oddity(findings, lexer.lines.trimmed_range(start.value_line()), "POLYLINE does not end with SEQEND".into());
     }
     let in_space = flags & IN_SPACE != 0;

@@ -86,6 +86,9 @@ impl Document {
         document.take(bytes);
         if let Some(sentence) = fault {
             let end = document.text.len();
+            // What the last record lacks is beyond the end: one fault, one finding.
+            let last = document.table.lines.last().map_or(0, |&line| document.text.line_start(line as usize));
+            document.findings.retain(|finding| finding.rule != Rule::Syntax || reader::range_key(finding).0 < last);
             fault::damage(&mut document.findings, end..end, sentence);
         }
         document

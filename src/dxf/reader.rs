@@ -182,26 +182,41 @@ fn close(read: Option<(Tag, &ReadItem)>, already: usize, lexer: &Lexer, after: C
         return false;
     }
     let open = lexer.lines.last_is_open() && !lexer.lines.trimmed(lexer.lines.count().saturating_sub(1)).is_empty();
-    if let Some((start, ReadItem { said: Said::Entity(_), context: Context::Entities, .. })) = read
-        && (lexer.dangling.is_some() || open)
-    {
-        // What the entity lacks is beyond the end: one fault, one finding.
+    let cut = lexer.dangling.is_some() || open;
+    if let Some((start, ReadItem { said: Said::Entity(outcome), context: Context::Entities, .. })) = read {
         let name = lexer.lines.trimmed_range(start.value_line());
-        let mut index = 0;
-        findings.retain(|finding| {
-            index += 1;
-            index <= already || range_key(finding) != (name.start, name.end)
-        });
+        let is_of_name = |finding: &Finding| range_key(finding) == (name.start, name.end);
+        // Without a half of a tag, an entity that lacks something and has no other fault was cut between two of them.
+        let lacks = matches!(outcome, Outcome::Damaged) && findings.iter().skip(already).all(is_of_name);
+        if !cut && !lacks {
+            return end_of_section(already, lexer, after, findings);
+        }
+        // What the entity lacks is beyond the end: one fault, one finding.
+        findings.truncate(already);
         let kind = quoted(lexer.lines.trimmed(start.value_line()));
         damage(findings, name, format!("the text ends inside this {}", kind.trim_matches('"')));
         return true;
     }
-    let last = lexer.dangling.unwrap_or(lexer.lines.count().saturating_sub(1));
-    if lexer.dangling.is_some() {
+    if let Some(last) = lexer.dangling {
+        findings.truncate(already);
         let code = quoted(lexer.lines.trimmed(last));
         damage(findings, lexer.lines.range(last), format!("the text ends after group code {code}, expected its value"));
-    } else if matches!(after, Context::Entities | Context::Blocks | Context::Other) {
-        oddity(findings, lexer.lines.range(last), "the text ends inside a section, expected ENDSEC".into());
+        return false;
+    }
+    match read {
+        Some((start, _)) if lexer.lines.trimmed(start.value_line()) == b"EOF" => false,
+        _ => end_of_section(already, lexer, after, findings),
+    }
+}
+
+/// Says that the text ends too early, unless that has been said of its last item. False: nothing in that is cut.
+fn end_of_section(already: usize, lexer: &Lexer, after: Context, findings: &mut Vec<Finding>) -> bool {
+    if findings.len() == already {
+        let sentence = match after {
+            Context::Entities | Context::Blocks | Context::Other => "the text ends inside a section, expected ENDSEC",
+            Context::Outside => "the text ends without EOF: something may be missing",
+        };
+        oddity(findings, lexer.lines.range(lexer.lines.count().saturating_sub(1)), sentence.into());
     }
     false
 }

@@ -1,24 +1,45 @@
 //! Text values: their escapes, and the words of an MTEXT without its formatting.
 
-/// A value as text: `\U+XXXX` is the character of that number, what is no UTF-8 becomes U+FFFD.
+use encoding_rs::Encoding;
+
+/// The code pages of `\M+1` to `\M+5` (DXF reference, "MIF"). Johab, the fourth, is not known here.
+const MULTIBYTE: [Option<&Encoding>; 5] =
+    [Some(encoding_rs::SHIFT_JIS), Some(encoding_rs::BIG5), Some(encoding_rs::EUC_KR), None, Some(encoding_rs::GBK)];
+
+/// A value as text: `\U+XXXX` is the character of that number, `\M+nXXXX` the one of that code in an East Asian code page; what is no
+/// UTF-8 becomes U+FFFD.
 pub(super) fn decoded(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
-    let mut parts = text.split("\\U+");
-    let mut decoded = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let character = part.get(..4).and_then(|digits| u32::from_str_radix(digits, 16).ok()).and_then(char::from_u32);
-        match character {
-            Some(character) => {
-                decoded.push(character);
-                decoded.push_str(&part[4..]);
-            }
-            None => {
-                decoded.push_str("\\U+");
-                decoded.push_str(part);
-            }
-        }
+    let mut decoded = String::with_capacity(text.len());
+    let mut rest = &*text;
+    while let Some(at) = rest.find('\\') {
+        let (before, escape) = rest.split_at(at);
+        decoded.push_str(before);
+        let (character, length) = unicode(escape).or_else(|| multibyte(escape)).unwrap_or(('\\', 1));
+        decoded.push(character);
+        rest = escape.get(length..).unwrap_or_default();
     }
+    decoded.push_str(rest);
     decoded
+}
+
+/// The character of an escape at the beginning of `text`, and the length of the escape.
+fn unicode(text: &str) -> Option<(char, usize)> {
+    let number = u32::from_str_radix(text.strip_prefix("\\U+")?.get(..4)?, 16).ok()?;
+    Some((char::from_u32(number)?, 7))
+}
+
+fn multibyte(text: &str) -> Option<(char, usize)> {
+    let digits = text.strip_prefix("\\M+")?.get(..5)?;
+    let page = digits.get(..1)?.parse::<usize>().ok()?.checked_sub(1)?;
+    let code = u16::from_str_radix(digits.get(1..)?, 16).ok()?.to_be_bytes();
+    let encoding = (*MULTIBYTE.get(page)?)?;
+    // A code of one byte is written with a first byte of 0.
+    let code = if code[0] == 0 { &code[1..] } else { &code };
+    let (character, bad) = encoding.decode_without_bom_handling(code);
+    let mut characters = character.chars();
+    let only = characters.next().filter(|_| !bad && characters.next().is_none())?;
+    Some((only, 8))
 }
 
 /// The words of an MTEXT: groups, fonts, heights and colours dropped, `\P` a new line (DXF reference, MTEXT format codes).
@@ -54,6 +75,8 @@ mod tests {
             (&b"m\\U+00E4rks"[..], "märks"),
             (b"\\U+5200\\U+5177", "刀具"),
             (b"\\U+12", "\\U+12"),
+            (b"\\M+18BE0\\M+5C4A3x", "金模x"),
+            (b"\\M+9B0BC\\M+1ZZZZ\\", "\\M+9B0BC\\M+1ZZZZ\\"),
             (b"\\U+\xc3\xa4\xc3\xa4", "\\U+ää"),
             (b"a\xff", "a\u{fffd}"),
         ] {

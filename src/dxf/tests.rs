@@ -1,6 +1,7 @@
 //! Tests of the module as a whole.
 
 mod blocks;
+mod curves;
 mod editing;
 mod faults;
 mod layers;

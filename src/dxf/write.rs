@@ -57,7 +57,35 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     }
     let mut bytes = Vec::new();
     file.save(&mut bytes).map_err(|error| format!("the DXF file cannot be written: {error}"))?;
-    Ok(bytes)
+    Ok(with_table_handles(bytes))
+}
+
+/// The same file with a handle for each symbol table, which the crate leaves out: readers that hold to the reference repair that.
+///
+/// Lines come in pairs of group code and value. The handles go on where `$HANDSEED` says that free ones begin.
+fn with_table_handles(bytes: Vec<u8>) -> Vec<u8> {
+    let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
+    let pairs: Vec<(&[u8], &[u8])> = lines.chunks_exact(2).map(|pair| (pair[0].trim_ascii(), pair[1].trim_ascii())).collect();
+    let seed_at = pairs.iter().position(|pair| *pair == (b"9", b"$HANDSEED")).map(|at| at + 1);
+    let seed = seed_at.and_then(|at| u64::from_str_radix(std::str::from_utf8(pairs.get(at)?.1).ok()?, 16).ok());
+    let (Some(seed_at), Some(seed)) = (seed_at, seed) else { return bytes };
+    let is_table = |at: usize| pairs[at].0 == b"2" && at.checked_sub(1).is_some_and(|before| pairs[before] == (b"0", b"TABLE"));
+    let tables = (0..pairs.len()).filter(|at| is_table(*at)).count() as u64;
+    let mut next = seed;
+    let mut whole = Vec::with_capacity(bytes.len() + 64 * tables as usize);
+    for (at, pair) in lines.chunks(2).enumerate() {
+        if at == seed_at {
+            whole.extend_from_slice(format!("  5\r\n{:X}\r\n", seed + tables).as_bytes());
+            continue;
+        }
+        pair.iter().for_each(|line| whole.extend_from_slice(line));
+        if pair.len() == 2 && is_table(at) {
+            // Owner 0: a table belongs to nothing.
+            whole.extend_from_slice(format!("  5\r\n{next:X}\r\n330\r\n0\r\n").as_bytes());
+            next += 1;
+        }
+    }
+    whole
 }
 
 fn in_space(point: Point) -> Point3 {

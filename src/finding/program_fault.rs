@@ -49,6 +49,8 @@ pub enum ProgramFault {
     JKeepsOpen {
         j: i64,
         meant: i64,
+        /// Something beside the closing speaks for it.
+        is_sure: bool,
     },
     /// J is more than one turn counts.
     JOverTurn {
@@ -70,9 +72,17 @@ pub enum ProgramFault {
     /// With the other axis the contour closes.
     AxisKeepsOpen {
         axis: Axis,
+        /// Something beside the closing speaks for it.
+        is_sure: bool,
     },
     /// `found` is not the quadrant of a line along an axis.
     AxisQuadrant {
+        found: &'static str,
+        expected: [&'static str; 2],
+        axis: Axis,
+    },
+    /// The same where the contour closes with it: a zero has no sign.
+    UnusualQuadrant {
         found: &'static str,
         expected: [&'static str; 2],
         axis: Axis,
@@ -81,6 +91,8 @@ pub enum ProgramFault {
     QuadrantKeepsOpen {
         found: &'static str,
         meant: &'static str,
+        /// Something beside the closing speaks for it.
+        is_sure: bool,
     },
     ZeroBlock,
     ArcWithoutRadius,
@@ -123,9 +135,21 @@ pub enum ProgramFault {
         at: [f64; 2],
         other: usize,
     },
+    /// So much of a contour of so many blocks lies on one place that crossings were not looked for in all of it.
+    PathOnItself {
+        blocks: usize,
+    },
 }
 
 impl ProgramFault {
+    /// The same where what it says is only unusual.
+    pub fn as_unusual(&self) -> ProgramFault {
+        match *self {
+            ProgramFault::AxisQuadrant { found, expected, axis } => ProgramFault::UnusualQuadrant { found, expected, axis },
+            ref other => other.clone(),
+        }
+    }
+
     pub fn rule(&self) -> Rule {
         match self {
             ProgramFault::MissingB => Rule::MissingB,
@@ -136,7 +160,9 @@ impl ProgramFault {
             ProgramFault::SmallerProjection { .. } | ProgramFault::ArcEndAxis { .. } | ProgramFault::AxisKeepsOpen { .. } => {
                 Rule::WrongCountingAxis
             }
-            ProgramFault::AxisQuadrant { .. } | ProgramFault::QuadrantKeepsOpen { .. } => Rule::WrongQuadrant,
+            ProgramFault::AxisQuadrant { .. } | ProgramFault::UnusualQuadrant { .. } | ProgramFault::QuadrantKeepsOpen { .. } => {
+                Rule::WrongQuadrant
+            }
             ProgramFault::ZeroBlock => Rule::ZeroBlock,
             ProgramFault::ArcWithoutRadius => Rule::ArcWithoutRadius,
             ProgramFault::TooManyDigits { .. } => Rule::TooManyDigits,
@@ -147,7 +173,7 @@ impl ProgramFault {
                 Rule::BlockNumber
             }
             ProgramFault::PositionMismatch { .. } => Rule::PositionMismatch,
-            ProgramFault::PathCrossesItself { .. } => Rule::PathCrossesItself,
+            ProgramFault::PathCrossesItself { .. } | ProgramFault::PathOnItself { .. } => Rule::PathCrossesItself,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! English.
 
 use crate::drawing::Visibility;
-use crate::finding::{Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
+use crate::finding::{CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
 pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
@@ -53,6 +53,13 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
             // Less than a nanometre is rounding.
             let within = if deviation * unit_mm < 1e-6 { String::new() } else { format!(", within {} mm", mm(deviation * unit_mm)) };
             format!("{chords} chords lie on one arc of R {} mm{within}: the wire leaves facets", mm(radius * unit_mm))
+        }
+        Detail::Size { size } => {
+            let what = if size * unit_mm > 1.0 { "more than any machine travels" } else { "less than a wire is thick" };
+            format!(
+                "the largest contour is {} mm long or wide, {what}: the unit is another one, or the drawing is no part",
+                mm(size * unit_mm)
+            )
         }
         Detail::Iso(fault) => iso(fault),
         Detail::Program(fault) => program(fault),
@@ -122,6 +129,14 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::AddEnd { word } => format!("End the program with {word}"),
         FixKind::DeleteBehindEnd => "Delete what stands behind the end".into(),
         FixKind::CutRapid => "Cut there (G01) instead of the rapid".into(),
+        FixKind::SetCenter { radius, how } => match how {
+            CenterFix::OtherConvention => {
+                format!("Take I and J as other controls do, and write them as this program does (R {} mm)", mm(*radius))
+            }
+            CenterFix::Sign => format!("Put the sign of I and J right (R {} mm)", mm(*radius)),
+            CenterFix::Swap => format!("Swap I and J (R {} mm)", mm(*radius)),
+            CenterFix::Nearest { moved } => format!("Move the centre by {} mm to where both ends fit (R {} mm)", mm(*moved), mm(*radius)),
+        },
         FixKind::SwapSide => "Let the wire run on the other side (swap G41 and G42)".into(),
         FixKind::OneArc { chords, radius } => format!("Replace the {chords} chords by one arc of R {} mm", mm(radius * unit_mm)),
     }
@@ -132,7 +147,14 @@ pub fn fix_all_title() -> &'static str {
     "Fix all that can be fixed safely"
 }
 
-/// What is wrong in an ISO program. Its lengths are µm.
+/// A field that keeps a contour open, as far as can be known from the contour alone.
+fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
+    if is_sure {
+        return format!("{found} keeps the contour open: with {meant} it closes");
+    }
+    format!("{found} may be wrong: the contour does not close, and with {meant} here, and nothing else changed, it would")
+}
+
 /// What is wrong in a 3B program, in µm as its blocks count, and what comes of it at the machine.
 fn program(fault: &ProgramFault) -> String {
     match fault {
@@ -153,7 +175,7 @@ fn program(fault: &ProgramFault) -> String {
             (j - projection).abs(),
             if j > projection { "too far" } else { "too early" }
         ),
-        ProgramFault::JKeepsOpen { j, meant } => format!("J {j} keeps the contour open: with J {meant} it closes"),
+        ProgramFault::JKeepsOpen { j, meant, is_sure } => keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure),
         ProgramFault::JOverTurn { j, turn } => {
             format!("J {j} is more than one turn counts, {turn} µm: the wire goes on past its start")
         }
@@ -168,13 +190,18 @@ fn program(fault: &ProgramFault) -> String {
             axis.letter(),
             axis.other().letter()
         ),
-        ProgramFault::AxisKeepsOpen { axis } => {
-            format!("G{} keeps the contour open: with G{} it closes", axis.letter(), axis.other().letter())
+        ProgramFault::AxisKeepsOpen { axis, is_sure } => {
+            keeps_open(&format!("G{}", axis.letter()), &format!("G{}", axis.other().letter()), *is_sure)
         }
+        ProgramFault::UnusualQuadrant { found, expected: [one, other], axis } => format!(
+            "{found} is unusual for a line along {}, where {one} or {other} is written: a controller takes it as it closes the contour, \
+             or is 1 µm beside",
+            axis.letter()
+        ),
         ProgramFault::AxisQuadrant { found, expected: [one, other], axis } => {
             format!("{found} contradicts a line along {}: expected {one} or {other}", axis.letter())
         }
-        ProgramFault::QuadrantKeepsOpen { found, meant } => format!("{found} keeps the contour open: with {meant} it closes"),
+        ProgramFault::QuadrantKeepsOpen { found, meant, is_sure } => keeps_open(found, meant, *is_sure),
         ProgramFault::ZeroBlock => "the block moves nothing: its J is 0".into(),
         ProgramFault::ArcWithoutRadius => "the arc has no radius: X and Y are 0, its start is its centre".into(),
         ProgramFault::TooManyDigits { field, value, digits } => {
@@ -199,6 +226,9 @@ fn program(fault: &ProgramFault) -> String {
             x / 1000.0,
             y / 1000.0
         ),
+        ProgramFault::PathOnItself { blocks } => {
+            format!("so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it")
+        }
         ProgramFault::PathCrossesItself { at: [x, y], other } => format!(
             "the wire crosses its own path of line {} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two",
             other + 1
@@ -206,6 +236,7 @@ fn program(fault: &ProgramFault) -> String {
     }
 }
 
+/// What is wrong in an ISO program. Its lengths are µm.
 fn iso(fault: &IsoFault) -> String {
     let side_word = |side: &Side| match side {
         Side::Left => "G41 lets the wire run on the left",
@@ -239,6 +270,7 @@ fn iso(fault: &IsoFault) -> String {
         IsoFault::NoEnd { word } => format!("the program has no end, expected {word}: the machine waits for more"),
         IsoFault::BehindEnd => "text behind the end of the program: the machine does not run it".into(),
         IsoFault::NumberTwice { number } => format!("block number N{number} stands twice"),
+        IsoFault::Unnumbered { expected } => format!("the block has no number, expected N{expected}"),
         IsoFault::Foreign { word, count: 1 } => format!("{word} is a matter of the machine: it is kept, not followed"),
         IsoFault::Foreign { word, count } => format!("{word} ({count} times) is a matter of the machine: it is kept, not followed"),
         IsoFault::NoSubprogram { number } => format!("subprogram {number} does not stand in this text: it is not followed"),

@@ -1,8 +1,9 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
-use super::trace::{Step, Trace};
+use super::trace::{Chain, Kind, Step, Trace};
 use super::{iso, three_b};
 use crate::finding::{Finding, Fix, Severity, Side};
+use crate::geometry::Point;
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
 use std::collections::BTreeMap;
@@ -152,6 +153,67 @@ impl Document {
         match self {
             Document::ThreeB(_) => Vec::new(),
             Document::Iso(document) => document.sides(),
+        }
+    }
+
+    /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them. Of two that
+    /// touch it, the one that begins there.
+    pub fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
+        match self {
+            Document::ThreeB(document) => document.chain_at(offset),
+            Document::Iso(_) => self.whole_chain_at(offset),
+        }
+    }
+
+    /// The same with every step of the chain.
+    pub fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
+        let mut steps = self.trace().steps;
+        let touches = |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
+        let index = steps.iter().rposition(touches)?;
+        let own = steps.get(index).map(|step| (step.contour, step.kind == Kind::Rapid))?;
+        let is_same = |step: &Step| step.moves() && (step.contour, step.kind == Kind::Rapid) == own;
+        let first = steps[..index].iter().rposition(|step| !is_same(step)).map_or(0, |before| before + 1);
+        let end = steps[index..].iter().position(|step| !is_same(step)).map_or(steps.len(), |behind| index + behind);
+        steps.truncate(end);
+        steps.drain(..first);
+        Some((Chain::of(steps), index - first))
+    }
+
+    /// The moves from the last stop on that stand before a byte, by their ends.
+    pub fn chain_before(&self, offset: usize) -> Option<Chain<'static>> {
+        match self {
+            Document::ThreeB(document) => document.chain_before(offset),
+            Document::Iso(_) => {
+                let last = self.trace().steps.into_iter().rfind(|step| step.range.end <= offset).filter(Step::moves)?;
+                let (chain, nth) = self.whole_chain_at(last.range.start)?;
+                Some(Chain::of(chain.steps_to(nth + 1)))
+            }
+        }
+    }
+
+    /// The first stop behind a byte.
+    pub fn stop_behind(&self, offset: usize) -> Option<Range<usize>> {
+        match self {
+            Document::ThreeB(document) => document.word_behind(offset),
+            Document::Iso(_) => {
+                self.trace().steps.into_iter().find(|step| !step.moves() && step.range.start > offset).map(|step| step.range)
+            }
+        }
+    }
+
+    /// The first block that moves.
+    pub fn first_move(&self) -> Option<Range<usize>> {
+        match self {
+            Document::ThreeB(document) => document.first_block(),
+            Document::Iso(_) => self.trace().steps.into_iter().find(Step::moves).map(|step| step.range),
+        }
+    }
+
+    /// Where the program begins, µm: the origin where it does not say.
+    pub fn start(&self) -> Point {
+        match self {
+            Document::ThreeB(document) => document.start(),
+            Document::Iso(_) => self.trace().start,
         }
     }
 

@@ -4,6 +4,7 @@
 //! them. Nothing here knows how a language is written.
 
 use crate::geometry::{Bounds, Point, Segment, Vector};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// What one step does.
@@ -49,6 +50,11 @@ impl Step {
     /// Distance of the machine's end from the ideal end, µm.
     pub fn deviation(&self) -> f64 {
         self.miss().norm()
+    }
+
+    /// From its start to its end as the block means it, µm.
+    pub fn meant(&self) -> Vector {
+        self.ideal.as_ref().map_or(self.end - self.start, |ideal| ideal.end() - ideal.start())
     }
 
     pub fn moves(&self) -> bool {
@@ -114,4 +120,80 @@ impl Trace {
         }
         bounds.min.x.is_finite().then_some(bounds)
     }
+}
+
+/// Consecutive steps that move, between two stops, of which only the first and the last are held where they are many.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain<'a> {
+    /// The first steps; all of them where `tail` is empty.
+    head: Cow<'a, [Step]>,
+    tail: Vec<Step>,
+    count: usize,
+    arcs: usize,
+    /// From the chain's beginning to that of each step of the head, and behind the last, as the blocks mean it, µm.
+    to_head: Vec<Vector>,
+    /// The same to the steps of the tail.
+    to_tail: Vec<Vector>,
+}
+
+impl<'a> Chain<'a> {
+    /// Steps of either end that are held of a long chain.
+    pub const ENDS: usize = 24;
+
+    /// A chain that holds all its steps.
+    pub fn of(steps: impl Into<Cow<'a, [Step]>>) -> Chain<'a> {
+        let head: Cow<'a, [Step]> = steps.into();
+        let arcs = head.iter().filter(|step| step.kind == Kind::Arc).count();
+        Chain { count: head.len(), arcs, to_head: sums(Vector::zeros(), &head), to_tail: Vec::new(), tail: Vec::new(), head }
+    }
+
+    /// A chain of `count` steps, `arcs` of them arcs, by its first and last ones; together the blocks mean to lead by `meant`, µm.
+    pub fn by_ends(head: Vec<Step>, tail: Vec<Step>, (count, arcs): (usize, usize), meant: Vector) -> Chain<'static> {
+        let of_tail: Vector = tail.iter().map(Step::meant).sum();
+        let (to_head, to_tail) = (sums(Vector::zeros(), &head), sums(meant - of_tail, &tail));
+        Chain { head: head.into(), tail, count, arcs, to_head, to_tail }
+    }
+
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The first steps, as far as they are held.
+    pub fn steps_to(&self, count: usize) -> Vec<Step> {
+        self.head.get(..count.min(self.head.len())).unwrap_or_default().to_vec()
+    }
+
+    pub fn arcs(&self) -> usize {
+        self.arcs
+    }
+
+    /// A step by its index, where it is held.
+    pub fn step(&self, index: usize) -> Option<&Step> {
+        let in_tail = || self.tail.get((index + self.tail.len()).checked_sub(self.count)?);
+        self.head.get(index).or_else(in_tail)
+    }
+
+    /// Where the machine stands before a step, or behind the last.
+    pub fn node(&self, index: usize) -> Option<Point> {
+        if index == self.count {
+            return self.step(index.checked_sub(1)?).map(|step| step.end);
+        }
+        self.step(index).map(|step| step.start)
+    }
+
+    /// Where it would stand, did it not drift while it counts.
+    pub fn meant_node(&self, index: usize) -> Option<Point> {
+        let in_tail = || self.to_tail.get((index + self.tail.len()).checked_sub(self.count)?);
+        Some(self.node(0)? + self.to_head.get(index).or_else(in_tail)?)
+    }
+}
+
+/// From somewhere to the beginning of each step, and behind the last.
+fn sums(from: Vector, steps: &[Step]) -> Vec<Vector> {
+    let mut sums = vec![from];
+    sums.extend(steps.iter().scan(from, |at, step| {
+        *at += step.meant();
+        Some(*at)
+    }));
+    sums
 }

@@ -133,6 +133,7 @@ impl FindingData {
             Detail::Crowded { count } => data.count = Some(*count),
             Detail::DuplicateEntity => {}
             Detail::Overlap { length } | Detail::ShortSegment { length } => data.length = Some(*length),
+            Detail::Size { size } => data.length = Some(*size),
             Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
             Detail::SelfIntersection { at, .. } => data.at = Some((*at).into()),
             Detail::ArcAsChords { chords, center, radius, deviation } => {
@@ -156,7 +157,7 @@ impl FindingData {
                 self.length = Some(mm(j));
                 self.required = Some(mm(projection));
             }
-            ProgramFault::JKeepsOpen { j, meant: required } | ProgramFault::JOverTurn { j, turn: required } => {
+            ProgramFault::JKeepsOpen { j, meant: required, .. } | ProgramFault::JOverTurn { j, turn: required } => {
                 self.length = Some(mm(j));
                 self.required = Some(mm(required));
             }
@@ -169,6 +170,7 @@ impl FindingData {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
             ProgramFault::PathCrossesItself { at, .. } => self.at = Some(crate::geometry::Point::from(at).into()),
+            ProgramFault::PathOnItself { blocks } => self.count = Some(blocks),
             _ => {}
         }
     }

@@ -16,6 +16,7 @@ mod self_intersection;
 mod sharp_corner;
 mod short_segment;
 pub mod small_radius;
+pub mod units;
 mod wall;
 
 pub use wall::Wall;
@@ -38,6 +39,8 @@ pub struct Limits {
     /// 1-based number of the pass with the largest correction, where several are set.
     pub pass: Option<usize>,
     pub tolerances: Tolerances,
+    /// Millimetres in one unit of the drawing.
+    pub unit_mm: f64,
 }
 
 impl Limits {
@@ -49,6 +52,7 @@ impl Limits {
             fix_radius: (settings.correction + settings.margin) / unit_mm,
             pass: settings.pass,
             tolerances: settings.tolerances.in_units(unit_mm),
+            unit_mm,
         }
     }
 }

@@ -413,9 +413,18 @@ impl LanguageServer for Backend {
     async fn semantic_tokens_full(&self, params: SemanticTokensParams) -> Result<Option<SemanticTokensResult>> {
         let uri = params.text_document.uri;
         let about = shared(&uri);
-        let act = move |state: &mut State, errand: Errand| language::tokens::full(state, &uri, errand);
+        let act = move |state: &mut State, errand: Errand| language::tokens::full(state, &uri, None, errand);
         let token = self.written("textDocument/semanticTokens/full", &about, None, act).await?;
-        Ok(Some(language::tokens::standing_for(token)))
+        Ok(Some(SemanticTokensResult::Tokens(language::tokens::standing_for(token))))
+    }
+
+    async fn semantic_tokens_full_delta(&self, params: SemanticTokensDeltaParams) -> Result<Option<SemanticTokensFullDeltaResult>> {
+        let uri = params.text_document.uri;
+        let about = shared(&uri);
+        let previous = Some(params.previous_result_id);
+        let act = move |state: &mut State, errand: Errand| language::tokens::full(state, &uri, previous, errand);
+        let token = self.written("textDocument/semanticTokens/full/delta", &about, None, act).await?;
+        Ok(Some(SemanticTokensFullDeltaResult::Tokens(language::tokens::standing_for(token))))
     }
 
     async fn goto_definition(&self, params: GotoDefinitionParams) -> Result<Option<GotoDefinitionResponse>> {
@@ -531,6 +540,10 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
             workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration),
         ),
         related_information: related == Some(true),
+        token_deltas: matches!(
+            text.and_then(|text| text.semantic_tokens.as_ref()?.requests.full.as_ref()),
+            Some(SemanticTokensFullOptions::Delta { delta: Some(true) })
+        ),
     }
 }
 

@@ -37,6 +37,8 @@ pub(super) struct Abilities {
     pub snippets: bool,
     /// Symbols may be a tree.
     pub hierarchical_symbols: bool,
+    /// Asks for what has changed of the semantic tokens.
+    pub token_deltas: bool,
     /// Folds that the client takes at most.
     pub folding_limit: Option<usize>,
 }

@@ -1,6 +1,7 @@
 //! An open document: what the client sent, what was made of it, and what the client has been told.
 
 use super::convert;
+use super::requests::language::token_memory::TokenMemory;
 use super::transport::panic_text;
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
@@ -74,6 +75,8 @@ pub(super) struct Open {
     pub dirty: bool,
     /// The copy of the text that requests look at, while any of them does.
     shot: Weak<Shot>,
+    /// The semantic tokens that the client holds.
+    pub tokens: Arc<TokenMemory>,
 }
 
 /// A text as it was at one stamp. Requests that come between two edits share one.
@@ -96,7 +99,7 @@ impl Open {
             Kind::Foreign => Content::Foreign,
             Kind::Dxf | Kind::Program(_) => read_text(kind, text.into_bytes(), settings),
         };
-        Open { uri, version, content, stamp, findings: 0, published: false, dirty: true, shot: Weak::new() }
+        Open { uri, version, content, stamp, findings: 0, published: false, dirty: true, shot: Weak::new(), tokens: Arc::default() }
     }
 
     pub fn drawing(uri: Arc<str>, version: i64, drawing: Drawing, settings: &Arc<Effective>, stamp: u64) -> Open {
@@ -109,6 +112,7 @@ impl Open {
             published: false,
             dirty: true,
             shot: Weak::new(),
+            tokens: Arc::default(),
         }
     }
 

@@ -34,6 +34,8 @@ pub struct Effective {
     pub lead_in: f64,
     pub jumps: Jumps,
     pub compensation: Compensation,
+    /// Digits of the controller's numbers in 3B.
+    pub digits: u32,
     /// How ISO programs are written; the sentence that says which profiles there are, where the one that is named is not among them.
     pub profile: Result<Profile, String>,
     pub end: String,
@@ -46,6 +48,8 @@ impl Effective {
     pub const CORRECTION: f64 = 0.10;
     /// Default wire diameter in mm, where only a gap is set.
     pub const WIRE_DIAMETER: f64 = 0.18;
+    /// Default number of digits of a controller.
+    pub const DIGITS: u32 = 6;
     /// Default spark gap in mm, where only a wire diameter is set.
     pub const GAP: f64 = 0.01;
 
@@ -89,11 +93,17 @@ impl Effective {
             lead_in: program.lead_in.unwrap_or(3.0),
             jumps: program.jumps.unwrap_or_default(),
             compensation: program.compensation.unwrap_or_default(),
+            digits: program.digits.map_or(Self::DIGITS, u32::from),
             profile: Profile::of(program.profile.as_deref().unwrap_or(DEFAULT_PROFILE), settings.profiles.as_ref()),
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),
             tolerances: Tolerances { arc_fit: settings.arc_fit.unwrap_or(Tolerances::default().arc_fit), ..Tolerances::default() },
         }
+    }
+
+    /// The largest number that the controller takes in 3B, µm.
+    pub fn largest_number(&self) -> i64 {
+        10_i64.pow(self.digits.min(18)) - 1
     }
 
     /// Severity of a rule, `None` when it is switched off.

@@ -160,6 +160,9 @@ pub struct ProgramSettings {
     pub jumps: Option<Jumps>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compensation: Option<Compensation>,
+    /// Digits of the controller's numbers in 3B: a block with a longer one is split. 4 to 9.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub digits: Option<u8>,
     /// How ISO programs are written: a profile that ships, or one of `profiles`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<String>,
@@ -266,6 +269,7 @@ impl ProgramSettings {
             lead_in: later.lead_in.or(self.lead_in),
             jumps: later.jumps.or(self.jumps),
             compensation: later.compensation.or(self.compensation),
+            digits: later.digits.or(self.digits),
             profile: later.profile.clone().or(self.profile.clone()),
             end: later.end.clone().or(self.end.clone()),
             pause: later.pause.clone().or(self.pause.clone()),

@@ -16,6 +16,9 @@ pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
     (settings, reader.errors)
 }
 
+/// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
+const DIGITS: (f64, f64) = (4.0, 9.0);
+
 struct Reader {
     errors: Vec<SettingsError>,
 }
@@ -148,11 +151,12 @@ impl Reader {
                 "leadIn" => program.lead_in = reader.number_above_zero(key, node),
                 "jumps" => program.jumps = reader.name(key, node),
                 "compensation" => program.compensation = reader.name(key, node),
+                "digits" => program.digits = reader.whole(key, node, DIGITS).map(|number| number as u8),
                 "profile" => program.profile = reader.text(key, node, "the name of a profile"),
                 "end" => program.end = reader.word(key, node),
                 "pause" => program.pause = reader.word(key, node),
                 _ => {
-                    let expected = "layout, direction, corner, thread, entry, lead-in, jumps, compensation, profile, end or pause";
+                    let expected = "layout, direction, corner, thread, entry, lead-in, jumps, compensation, digits, profile, end or pause";
                     reader.unknown(key, entry, expected);
                 }
             }
@@ -461,6 +465,7 @@ end = "DD"
         check("program = { lead-in = 0 }", "0", "program.lead-in is 0, expected a number above 0");
         check("program = { thread = [1] }", "[1]", "program.thread is a list, expected a point [x, y]");
         check("program = { end = \"\" }", "\"\"", "program.end is \"\", expected a word");
+        check("program = { digits = 3 }", "3", "program.digits is 3, expected a whole number from 4 to 9");
         check("program = 3", "3", "program is 3, expected a table");
     }
 

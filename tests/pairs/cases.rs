@@ -284,6 +284,28 @@ fn offsets_lose_pockets_or_all() {
         [0., 6.],
     ]);
     assert_eq!(found(&[bay], Punch, Rule::LostPocket).2.len(), 1);
+    // A chamber behind a neck, and a dead end beside it that is too narrow all along: each is said once, by its own rule.
+    let beside_a_slot = ring(&[
+        [0., 0.],
+        [6., 0.],
+        [6., 1.9],
+        [9., 1.9],
+        [9., 2.05],
+        [6., 2.05],
+        [6., 4.],
+        [3.075, 4.],
+        [3.075, 5.],
+        [4.5, 5.],
+        [4.5, 8.],
+        [1.5, 8.],
+        [1.5, 5.],
+        [2.925, 5.],
+        [2.925, 4.],
+        [0., 4.],
+    ]);
+    let (_, _, findings) = found(std::slice::from_ref(&beside_a_slot), Opening, Rule::LostPocket);
+    assert!(matches!(findings[..], [Finding { detail: Detail::LostPocket { near }, .. }] if near.y > 5.), "{findings:?}");
+    assert_eq!(found(&[beside_a_slot], Opening, Rule::NarrowSlot).2.len(), 2);
     let collapse = Rule::OffsetCollapse;
     check_lost("a hole for a needle", &[ring(&[[0., 0.], [0.3, 0.], [0.15, 0.26]])], Opening, collapse, &[[0.1, 0.1]]);
     check_lost("a slit", &[ring(&[[0., 0.], [5., 0.], [5., 0.15], [0., 0.15]])], Opening, collapse, &[[0.1, 0.1]]);

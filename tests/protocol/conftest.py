@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import inspect
 import itertools
 import json
 import os
@@ -31,6 +32,7 @@ CAPABILITIES: dict[str, Any] = {
     "window": {"workDoneProgress": True},
     "workspace": {
         "configuration": True,
+        "applyEdit": True,
         "workspaceEdit": {"documentChanges": True},
         "didChangeConfiguration": {"dynamicRegistration": True},
         "didChangeWatchedFiles": {"dynamicRegistration": True},
@@ -81,8 +83,8 @@ class Client(LanguageClient):
         for method in ("textDocument/publishDiagnostics", "window/logMessage", "window/showMessage", "$/progress"):
             self.feature(method)(lambda params, method=method: self._hear(method, params))
         for method in ("workspace/configuration", "client/registerCapability", "window/workDoneProgress/create",
-                       "wedm/applyDrawingEdit", "wedm/resendDrawing"):  # fmt: skip
-            self.feature(method)(lambda params, method=method: self._answer(method, params))
+                       "workspace/applyEdit", "wedm/applyDrawingEdit", "wedm/resendDrawing"):  # fmt: skip
+            self.feature(method)(self._answering(method))
 
     def report_server_error(self, error: Exception, source: Any) -> None:
         """Answers with an error and without an id are heard like all else."""
@@ -94,9 +96,13 @@ class Client(LanguageClient):
             self.published[params["uri"], params.get("version")] = params["diagnostics"]
         self.news.set()
 
-    def _answer(self, method: str, params: Any) -> Any:
-        self._hear(method, params)
-        return self.answers[method](params)
+    def _answering(self, method: str) -> Any:
+        async def answer(params: Any) -> Any:
+            self._hear(method, params)
+            result = self.answers[method](params)
+            return await result if inspect.isawaitable(result) else result
+
+        return answer
 
     def send(self, message: dict[str, Any]) -> None:
         body = json.dumps(message).encode()
@@ -196,8 +202,15 @@ def error_of(failed: pytest.ExceptionInfo[JsonRpcException]) -> tuple[int, str, 
     return failed.value.code, failed.value.message, failed.value.data
 
 
+#: What a provider may say of itself that is no method.
+PROPERTIES = {
+    "workDoneProgress", "triggerCharacters", "retriggerCharacters", "allCommitCharacters", "firstTriggerCharacter", "moreTriggerCharacter",
+    "codeActionKinds", "commands", "legend", "documentSelector", "id", "label", "completionItem",
+}  # fmt: skip
+
+
 def methods_of(capabilities: dict[str, Any]) -> set[str]:
-    """The requests that a server announces with its capabilities."""
+    """The requests that a server announces with its capabilities. A part that is not known here fails."""
     found = set()
     names = {"codeActionProvider": "codeAction", "semanticTokensProvider": None, "documentFormattingProvider": "formatting",
              "documentRangeFormattingProvider": "rangeFormatting", "documentOnTypeFormattingProvider": "onTypeFormatting"}  # fmt: skip
@@ -210,13 +223,35 @@ def methods_of(capabilities: dict[str, Any]) -> set[str]:
             found.add("workspace/symbol")
         elif key == "semanticTokensProvider":
             found |= {f"textDocument/semanticTokens/{part}" for part in ("full", "range") if value.get(part)}
+            full = value.get("full")
+            if isinstance(full, dict) and full.get("delta"):
+                found.add("textDocument/semanticTokens/full/delta")
         else:
             found.add("textDocument/" + (names.get(key) or key.removesuffix("Provider")))
+        if isinstance(value, dict):
+            unknown = set(value) - PROPERTIES - {"resolveProvider", "prepareProvider", "full", "range"}
+            assert not unknown, f"{key} says {unknown}: which methods are these?"
         if isinstance(value, dict) and value.get("resolveProvider"):
             found.add({"codeLensProvider": "codeLens/resolve", "completionProvider": "completionItem/resolve"}.get(key, key))
         if key == "renameProvider" and isinstance(value, dict) and value.get("prepareProvider"):
             found.add("textDocument/prepareRename")
     return found
+
+
+def notifications_of(capabilities: dict[str, Any]) -> set[str]:
+    """The notifications that a server announces with its capabilities."""
+    sync = capabilities["textDocumentSync"]
+    told = {"openClose": ("textDocument/didOpen", "textDocument/didClose"), "change": ("textDocument/didChange",), "save": ("textDocument/didSave",)}
+    assert set(sync) <= set(told), sync
+    found = {method for key, methods in told.items() if sync.get(key) for method in methods}
+    if capabilities["workspace"]["workspaceFolders"].get("changeNotifications"):
+        found.add("workspace/didChangeWorkspaceFolders")
+    return found
+
+
+def methods_of_the_source() -> set[str]:
+    """Every method that the server's source names, in its own name space."""
+    return set(re.findall(r'"(wedm/[A-Za-z]+)"', (ROOT / "src/protocol/mod.rs").read_text()))
 
 
 def methods_of_the_page() -> set[str]:

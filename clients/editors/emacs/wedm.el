@@ -44,7 +44,7 @@ A wedm.toml above a file wins over them."
 (put 'wire-iso-mode 'eglot-language-id "wire-iso")
 
 (add-to-list 'auto-mode-alist '("\\.[dD][xX][fF]\\'" . dxf-mode))
-(add-to-list 'auto-mode-alist '("\\.3[bB]\\'" . three-b-mode))
+(add-to-list 'auto-mode-alist '("\\.[34][bB]\\'" . three-b-mode))
 (add-to-list 'auto-mode-alist '("\\.\\(?:iso\\|ISO\\|nc\\|NC\\)\\'" . wire-iso-mode))
 
 (defun wedm--contact (&rest _)

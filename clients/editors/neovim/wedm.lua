@@ -7,7 +7,7 @@
 
 local M = {}
 
-local languages = { dxf = 'dxf', ['3b'] = '3b', iso = 'wire-iso', nc = 'wire-iso' }
+local languages = { dxf = 'dxf', ['3b'] = '3b', ['4b'] = '3b', iso = 'wire-iso', nc = 'wire-iso' }
 local clients = {} -- root folder -> client id
 
 -- Deaths within this many seconds count together; after as many as there are delays (ms) the server stays down.
@@ -105,7 +105,7 @@ function M.setup(options)
     local group = vim.api.nvim_create_augroup('wedm', { clear = true })
     vim.api.nvim_create_autocmd({ 'BufRead', 'BufNewFile' }, {
         group = group,
-        pattern = { '*.dxf', '*.DXF', '*.3b', '*.3B', '*.iso', '*.ISO', '*.nc', '*.NC' },
+        pattern = { '*.dxf', '*.DXF', '*.3b', '*.3B', '*.4b', '*.4B', '*.iso', '*.ISO', '*.nc', '*.NC' },
         callback = function(event)
             local extension = vim.fn.fnamemodify(event.match, ':e'):lower()
             vim.bo[event.buf].filetype = languages[extension]

@@ -36,7 +36,7 @@ export function activate(context: vscode.ExtensionContext): void {
     "wedm.simulate": (uri) => pictures.open(uri, true),
     "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),
     "wedm.scaleProgram": (uri) => scaleProgram(front, uri),
-    "wedm.fixAll": () => fixAll(front),
+    "wedm.fixAll": () => fixAll(server, front),
     "wedm.checkPath": (uri) => check.ask(uri),
     "wedm.showRadii": () => radii.show(),
     "wedm.radii.onlyFaults": () => radii.filter(true),

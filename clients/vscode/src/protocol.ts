@@ -1,6 +1,6 @@
 // The messages of the server's own name space, as docs/protocol.md has them.
 
-import type { Diagnostic, Position, Range } from "vscode-languageserver-protocol";
+import type { CodeAction, CodeActionParams, Diagnostic, Position, Range } from "vscode-languageserver-protocol";
 
 /** Version of the name space that this extension speaks. */
 export const PROTOCOL = 1;
@@ -9,6 +9,9 @@ export const PROTOCOL = 1;
 export const REFUSED = -32803;
 export const CONTENT_MODIFIED = -32801;
 export const INVALID_PARAMS = -32602;
+
+/** Kind of the action that makes every safe repair. */
+export const FIX_ALL = "source.fixAll.wedm";
 
 export type Point = [x: number, y: number];
 
@@ -92,5 +95,6 @@ export interface Methods {
   "wedm/locate": [{ uri: string; position: Position } | { uri: string; handle: string; segment?: number }, Located | null];
   "wedm/settings": [{ uri: string }, SettingsInForce];
   "wedm/generate": [{ uri: string; format: Format; options?: object; force?: boolean }, Generated];
+  "textDocument/codeAction": [CodeActionParams, CodeAction[] | null];
   "wedm/simulate": [{ uri: string }, Simulation];
 }

@@ -42,6 +42,36 @@ fn a_text_that_becomes_dxf_is_read() {
     assert_eq!((document.drawing().len(), document.findings().len()), (0, 1));
 }
 
+/// Sentences of the findings about the text.
+fn syntax(document: &Document) -> Vec<String> {
+    let sentence = |detail: &Detail| match detail {
+        Detail::Syntax(sentence) => Some(sentence.clone()),
+        _ => None,
+    };
+    document.findings().iter().filter_map(|finding| sentence(&finding.detail)).collect()
+}
+
+#[test]
+fn a_text_that_is_cut_anywhere_has_one_finding() {
+    let whole = dxf("0 LINE 5 A1 8 DIE 10 1.5 20 2.5 11 3.5 21 4.5 0 ARC 5 A2 8 0 10 1.0 20 2.0 40 3.5 50 0.0 51 90.0 \
+         0 LWPOLYLINE 5 A3 8 0 90 3 70 1 10 0.5 20 0.5 42 0.5 10 9.5 20 0.5 10 9.5 20 9.5 \
+         0 POLYLINE 5 A4 8 0 66 1 70 0 0 VERTEX 8 0 10 1.0 20 2.0 0 VERTEX 8 0 10 3.0 20 4.0 0 SEQEND \
+         0 SPLINE 8 0 70 8 71 1 40 0 40 0 40 1 40 1 10 0.5 20 0.5 10 1.5 20 1.5 \
+         0 ELLIPSE 8 0 10 0.5 20 0.5 11 3.5 21 0.0 40 0.5 41 0.0 42 3.0 0 TEXT 8 0 10 1.0 20 1.0 40 2.5 1 O");
+    let mut report = String::new();
+    for (bytes, what) in [(whole.clone(), "LF"), (whole.replace('\n', "\r\n"), "CRLF")] {
+        let end = bytes.trim_end().len();
+        for length in 1..end {
+            let found = syntax(&Document::read_file(bytes.as_bytes()[..length].to_vec()));
+            if found.len() != 1 {
+                report += &format!("{what} {length} behind {:?}: {found:?}\n", &bytes[length.saturating_sub(24)..length]);
+            }
+        }
+        assert_eq!(syntax(&Document::read_file(bytes.into_bytes())), [""; 0]);
+    }
+    assert!(report.is_empty(), "{report}");
+}
+
 proptest! {
     #[test]
     fn damaged_bytes_do_no_harm(flips in prop::collection::vec((0.0..1.0f64, any::<u8>()), 0..6), length in 0.0..1.0f64) {

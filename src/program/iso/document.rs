@@ -1,21 +1,27 @@
 //! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
 
-use super::block::{Code, Motion, Note, Stop, read_line};
+use super::block::{Code, Motion, Note, Offset, Stop, read_line};
 use super::evidence::Evidence;
-use super::machine::{CenterRule, Course, Machine, Reading, micrometres};
+use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
-use super::stretch::Stretch;
+use super::stretch::{Run, Stretch};
 use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::{SourceText, TextEdit};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 /// Lines that are run together: an edit costs as many, and a program has as many fewer stretches.
 const STRETCH: usize = 128;
+
+/// Lines that are looked through for the places of the control's table that a program uses.
+const LOOKED_AT: usize = 2_000;
+
+/// Lines that are looked back for block numbers.
+const LOOKED_BACK: usize = 50;
 
 /// An ISO program as text, and what its lines do.
 ///
@@ -47,6 +53,7 @@ pub(super) struct Limits {
     pub known: BTreeSet<Code>,
     /// Where full circles alone leave open how I and J are meant.
     pub center: CenterRule,
+    pub profile: Option<Arc<Profile>>,
 }
 
 impl Limits {
@@ -58,8 +65,18 @@ impl Limits {
             end: end_word(settings),
             known: known_words(settings),
             center: settings.profile.as_ref().map_or(CenterRule::StartToCenter, |profile| profile.center),
+            profile: settings.profile.as_ref().ok().map(|profile| Arc::new(profile.clone())),
         }
     }
+
+    /// The lines that the settings' profile writes besides those that move the wire.
+    pub fn lines(&self) -> impl Iterator<Item = &str> {
+        self.profile.iter().flat_map(|profile| lines_of(profile)).map(String::as_str)
+    }
+}
+
+fn lines_of(profile: &Profile) -> impl Iterator<Item = &String> {
+    [&profile.begin, &profile.contour_begin, &profile.contour_end, &profile.pause, &profile.end].into_iter().flatten()
 }
 
 static SHIPPED_WORDS: LazyLock<BTreeSet<Code>> = LazyLock::new(|| {
@@ -74,7 +91,7 @@ fn known_words(settings: &Effective) -> BTreeSet<Code> {
 /// The words of a profile's lines that are a matter of the machine.
 fn words_of_profile(profile: &Profile) -> Vec<Code> {
     let mut codes = Vec::new();
-    for line in [&profile.begin, &profile.contour_begin, &profile.contour_end, &profile.pause, &profile.end].into_iter().flatten() {
+    for line in lines_of(profile) {
         read_line(line.replace(['{', '}'], " ").as_bytes(), 1, |note| {
             if let Note::Foreign { code, .. } = note {
                 codes.push(code);
@@ -89,6 +106,16 @@ fn end_word(settings: &Effective) -> String {
     let lines = settings.profile.iter().flat_map(|profile| &profile.end);
     let mut ends = lines.filter(|line| read_line(line.as_bytes(), 1, |_| {}).stop == Some(Stop::End));
     ends.next_back().map_or_else(|| "M02".into(), |line| line.trim().into())
+}
+
+/// A cut that has begun before some line and may go on in it, nm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Begun {
+    /// Its first move, which is the way in where it has one.
+    pub from: Place,
+    pub to: Place,
+    pub last: Move,
+    pub moves: u32,
 }
 
 /// A stretch and the line of the text at which it begins.
@@ -171,6 +198,144 @@ impl Document {
             line = first_line + stretch.lines as usize;
             Placed { stretch, first_line, offset: self.text.line_start(first_line) }
         })
+    }
+
+    // What is in force at a line.
+
+    /// The lines before `line`, and itself where `behind` says so, in the stretch in which it first runs, run; `None` for a line that
+    /// does not run.
+    fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Stretch)> {
+        let mut placed = self.placed().enumerate();
+        let holds = |placed: &Placed<'_>| placed.first_line <= line && line < placed.first_line + placed.stretch.lines as usize;
+        let (index, placed) = placed.find(|(_, placed)| holds(placed))?;
+        Some((index, run_stretch(&self.text, placed.first_line..line + usize::from(behind), placed.stretch.before, self.reading)))
+    }
+
+    /// What is in force, and where the wire stands, before a line; `None` for a line that does not run.
+    pub(super) fn machine_before(&self, line: usize) -> Option<Machine> {
+        self.run_up_to(line, false).map(|(_, stretch)| stretch.after)
+    }
+
+    /// What is in force behind a line.
+    pub(super) fn machine_behind(&self, line: usize) -> Option<Machine> {
+        self.run_up_to(line, true).map(|(_, stretch)| stretch.after)
+    }
+
+    /// The cut that is under way before a line.
+    pub(super) fn begun_cut(&self, line: usize) -> Option<Begun> {
+        self.begun(self.run_up_to(line, false)?)
+    }
+
+    /// The cut that is under way behind a line.
+    pub(super) fn begun_cut_with(&self, line: usize) -> Option<Begun> {
+        self.begun(self.run_up_to(line, true)?)
+    }
+
+    fn begun(&self, (index, own): (usize, Stretch)) -> Option<Begun> {
+        let mut begun: Option<Begun> = None;
+        for stretch in self.stretches.iter().take(index).chain([&own]) {
+            if stretch.ends_run_before.is_some() {
+                begun = None;
+            }
+            for run in &stretch.runs {
+                begun = begun_by(begun.filter(|_| run.continues), run);
+            }
+        }
+        begun
+    }
+
+    /// The correction in nm that the program itself puts into a place of the control's table.
+    pub(super) fn table_value(&self, offset: Offset) -> Option<i64> {
+        let mut all = self.stretches.iter().flat_map(|stretch| &stretch.definitions);
+        all.rfind(|(its, ..)| *its == offset).map(|&(_, value, inch)| self.reading.length(value, inch))
+    }
+
+    /// The places of the control's table that the program fills, with their values in nm, and those that its first lines use.
+    pub(super) fn table_places(&self, letter: u8) -> Vec<(u32, Option<i64>)> {
+        let mut places: BTreeMap<u32, Option<i64>> =
+            self.used_places().filter(|its| its.letter == letter).map(|its| (its.index, None)).collect();
+        for &(offset, value, inch) in self.stretches.iter().flat_map(|stretch| &stretch.definitions) {
+            if offset.letter == letter {
+                places.insert(offset.index, Some(self.reading.length(value, inch)));
+            }
+        }
+        places.into_iter().collect()
+    }
+
+    /// `D` or `H`, as the program names places of the control's table.
+    pub(super) fn table_letter(&self) -> u8 {
+        let defined = self.stretches.iter().flat_map(|stretch| &stretch.definitions).map(|(offset, ..)| *offset).next();
+        defined.or_else(|| self.used_places().next()).map_or(b'D', |offset| offset.letter)
+    }
+
+    fn used_places(&self) -> impl Iterator<Item = Offset> + '_ {
+        let lines = 0..self.text.line_count().min(LOOKED_AT);
+        lines.filter_map(|line| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).offset)
+    }
+
+    /// True where a line calls the subprogram of a number.
+    pub(super) fn calls(&self, number: u32) -> bool {
+        self.placed().filter(|placed| placed.stretch.calls).any(|placed| {
+            (placed.first_line..placed.first_line + placed.stretch.lines as usize)
+                .any(|line| read_line(&self.text.bytes()[self.text.line_range(line)], 1, |_| {}).call == Some(number))
+        })
+    }
+
+    /// True where the program has ended before a line.
+    pub(super) fn ends_before(&self, line: usize) -> bool {
+        self.order.is_none() && self.machine_before(line).is_some_and(|machine| machine.ended)
+    }
+
+    /// The last block number before a line, and the step in which they count there.
+    pub(super) fn numbers_before(&self, line: usize) -> Option<(u32, u32)> {
+        let number = |line: usize| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).number;
+        let mut numbers = (line.saturating_sub(LOOKED_BACK)..line).rev().filter_map(number).filter(|number| *number < u32::MAX);
+        let last = numbers.next()?;
+        let step = numbers.next().and_then(|before| last.checked_sub(before)).filter(|step| *step > 0);
+        Some((last, step.unwrap_or(if last.is_multiple_of(10) { 10 } else { 1 })))
+    }
+
+    /// The number of the next block behind a line that has one.
+    pub(super) fn number_behind(&self, line: usize) -> Option<u32> {
+        let number = |line: usize| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).number;
+        (line + 1..self.text.line_count().min(line + 1 + LOOKED_BACK)).find_map(number)
+    }
+
+    /// The numbers that the blocks of a stretch lack where the others skip one: each with its line.
+    pub(super) fn lacking_numbers(&self, placed: &Placed<'_>) -> Vec<(usize, u32)> {
+        let block = |line: usize| read_line(self.text.bytes().get(self.text.line_range(line)).unwrap_or_default(), 1, |_| {});
+        let mut found = Vec::new();
+        for line in placed.first_line..placed.first_line + placed.stretch.lines as usize {
+            let own = block(line);
+            if own.empty || own.number.is_some() || own.program.is_some() {
+                continue;
+            }
+            let Some((last, step)) = self.numbers_before(line) else { continue };
+            let next = (line + 1..self.text.line_count().min(line + 1 + LOOKED_BACK)).map(block).find(|block| !block.empty);
+            if let (Some(expected), Some(next)) = (last.checked_add(step), next.and_then(|next| next.number))
+                && expected.checked_add(step) == Some(next)
+            {
+                found.push((line, expected));
+            }
+        }
+        found
+    }
+
+    /// Lines of a range whose coordinates count from where the wire stood: they do not say where it ends.
+    pub fn lines_without_ends(&self, range: Range<usize>) -> BTreeSet<usize> {
+        let wanted = self.text.line_of(range.start)..self.text.line_of(range.end) + 1;
+        let mut found = BTreeSet::new();
+        for placed in self.placed() {
+            let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
+            if lines.start < wanted.end && wanted.start < lines.end {
+                self.steps_of(lines, placed.stretch.before, &mut 0, &mut |step, machine, _| {
+                    if machine.incremental {
+                        found.insert(step.line);
+                    }
+                });
+            }
+        }
+        found
     }
 
     /// Replaces a range of bytes and runs again what it touched.
@@ -294,6 +459,25 @@ impl Document {
         trace
     }
 
+    /// Hands out the moves in the order in which they run, each with its line and what is in force behind it.
+    pub(super) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
+        for placed in self.placed() {
+            let mut machine = placed.stretch.before;
+            for line in placed.first_line..placed.first_line + placed.stretch.lines as usize {
+                if machine.ended {
+                    return;
+                }
+                let range = self.text.line_range(line);
+                let block = read_line(&self.text.bytes()[range.clone()], range.start, |_| {});
+                if !block.empty
+                    && let Some(made) = machine.run(&block, &self.reading)
+                {
+                    each(line, made, &machine);
+                }
+            }
+        }
+    }
+
     /// The side on which the wire runs beside each step of the trace.
     pub fn sides(&self) -> Vec<Option<Side>> {
         let mut sides = Vec::new();
@@ -365,6 +549,13 @@ impl Document {
             }
         }
     }
+}
+
+/// The cut that is under way behind a run, which goes on with what was under way before.
+fn begun_by(before: Option<Begun>, run: &Run) -> Option<Begun> {
+    let last = run.last[1];
+    let first = before.unwrap_or(Begun { from: run.first[0].from, to: run.first[0].to, last, moves: 0 });
+    run.open.then_some(Begun { last, moves: first.moves + run.moves, ..first })
 }
 
 fn summed(stretches: &[Stretch]) -> Evidence {

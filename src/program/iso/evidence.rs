@@ -2,8 +2,8 @@
 //!
 //! Nothing of it is assumed: the readings are held against the arcs, and the one that fits the most of them is taken.
 
-use super::block::Block;
-use super::machine::{CenterRule, MICROMETRE, Move, Reading};
+use super::block::{Block, Motion};
+use super::machine::{CenterRule, MICROMETRE, Move, Place, Reading};
 
 /// Ends of an arc lie no more unlike far from its centre than this many steps of the finest number: each of the three points may be
 /// off by half a step on both axes.
@@ -15,7 +15,8 @@ const COARSEST: i64 = 20 * MICROMETRE;
 /// Counts over some lines of a program. They add up in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
-    /// Coordinates with a decimal point.
+    /// Coordinates, and those of them with a decimal point.
+    pub numbers: u32,
     pub with_point: u32,
     /// The most decimals of a coordinate.
     pub decimals: u8,
@@ -31,6 +32,8 @@ pub struct Arcs {
     pub off: [u32; 3],
     /// In the order of [`PAIRS`].
     pub unclear: [u32; 3],
+    /// How many turn by more than a half under each rule: between rules that the ends fit alike, the arcs that are meant turn less.
+    pub wide: [u32; 3],
 }
 
 const RULES: [CenterRule; 3] = [CenterRule::StartToCenter, CenterRule::CenterToStart, CenterRule::Absolute];
@@ -40,7 +43,8 @@ const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 impl Arcs {
     fn add(&mut self, other: &Arcs) {
         self.all += other.all;
-        for (count, more) in self.off.iter_mut().chain(&mut self.unclear).zip(other.off.into_iter().chain(other.unclear)) {
+        let counts = self.off.iter_mut().chain(&mut self.unclear).chain(&mut self.wide);
+        for (count, more) in counts.zip(other.off.into_iter().chain(other.unclear).chain(other.wide)) {
             *count += more;
         }
     }
@@ -57,19 +61,21 @@ impl Arcs {
         self.all > 0 && !self.is_open(rules)
     }
 
-    /// The rule that the fewest arcs are off under; `preferred` where others are no better, then the first.
+    /// The rule that the fewest arcs are off under, and then the fewest turn widely; `preferred` where others are no better, then the
+    /// first.
     fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
-        let off = |rule: CenterRule| self.off[rule as usize];
-        let least = rules.iter().copied().map(off).min().unwrap_or(0);
-        if rules.contains(&preferred) && off(preferred) == least {
+        let against = |rule: CenterRule| (self.off[rule as usize], self.wide[rule as usize]);
+        let least = rules.iter().copied().map(against).min().unwrap_or_default();
+        if rules.contains(&preferred) && against(preferred) == least {
             return preferred;
         }
-        rules.iter().copied().find(|&rule| off(rule) == least).unwrap_or(CenterRule::StartToCenter)
+        rules.iter().copied().find(|&rule| against(rule) == least).unwrap_or(CenterRule::StartToCenter)
     }
 }
 
 impl Evidence {
     pub fn add(&mut self, other: &Evidence) {
+        self.numbers += other.numbers;
         self.with_point += other.with_point;
         self.decimals = self.decimals.max(other.decimals);
         self.inch |= other.inch;
@@ -80,6 +86,7 @@ impl Evidence {
     /// Takes note of a line's numbers.
     pub fn numbers(&mut self, block: &Block) {
         for number in [block.x, block.y, block.i, block.j, block.r].into_iter().flatten() {
+            self.numbers += 1;
             self.with_point += u32::from(number.point);
             self.decimals = self.decimals.max(number.decimals);
         }
@@ -97,6 +104,10 @@ impl Evidence {
         let off = RULES.map(|rule| arc.difference(rule).abs() > tolerance as f64);
         // Under G91 nothing is absolute.
         let compared = if arc.incremental { 2 } else { 3 };
+        let wide = centers.map(|center| center.is_some_and(|center| turns_widely(arc, center)));
+        for (count, &is_wide) in arcs.wide.iter_mut().zip(&wide[..compared]) {
+            *count += u32::from(is_wide);
+        }
         for (count, &is_off) in arcs.off.iter_mut().zip(&off[..compared]) {
             *count += u32::from(is_off);
         }
@@ -127,4 +138,12 @@ impl Evidence {
         let told = self.absolute.tells(3) || self.incremental.tells(2);
         !told && (self.absolute.is_open(3) || self.incremental.is_open(2))
     }
+}
+
+/// True where an arc about a centre turns by more than a half, and by less than a whole.
+fn turns_widely(arc: &Move, center: Place) -> bool {
+    let from_center = |place: Place| [0, 1].map(|axis| i128::from(place[axis].wrapping_sub(center[axis])));
+    let ([ax, ay], [bx, by]) = (from_center(arc.from), from_center(arc.to));
+    let cross = ax * by - ay * bx;
+    if arc.motion == Motion::CounterClockwise { cross < 0 } else { cross > 0 }
 }

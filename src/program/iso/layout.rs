@@ -35,7 +35,8 @@ pub fn format(text: &SourceText, layout: Option<Layout>, lines: Range<usize>) ->
     edits
 }
 
-fn is_parted(text: &SourceText) -> bool {
+/// True where words are parted by spaces in most lines.
+pub(super) fn is_parted(text: &SourceText) -> bool {
     let (mut parted, mut closed) = (0, 0);
     for line in 0..text.line_count().min(LOOKED_AT) {
         let range = text.line_range(line);

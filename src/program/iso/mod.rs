@@ -7,11 +7,14 @@ mod document;
 mod encode;
 mod evidence;
 mod fixes;
+pub mod language;
 mod layout;
 mod machine;
 mod order;
+pub mod refactor;
 mod report;
 mod stretch;
+mod style;
 #[cfg(test)]
 mod tests;
 mod word;

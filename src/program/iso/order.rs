@@ -33,7 +33,7 @@ pub fn order(text: &SourceText) -> Order {
 }
 
 /// The line of each N and O number; the last one where it stands several times, since subprograms stand behind the end.
-fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
+pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
     let mut labels = FxHashMap::default();
     for line in 0..text.line_count() {
         let range = text.line_range(line);

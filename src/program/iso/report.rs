@@ -236,7 +236,8 @@ impl<'a> Report<'a> {
         if pairs.clone().any(|(begin, end)| counts(begin, end) && missed(begin, end) <= tolerance) {
             return Ok(());
         }
-        if run.moves > 2 {
+        // Of three moves the one before the last is the first of the contour itself.
+        if run.moves > 3 {
             let first = run.first[1].segment(self.reading);
             if ends.iter().any(|&end| first.distance_to(micrometres(end)) <= tolerance) {
                 return Ok(());
@@ -335,22 +336,49 @@ impl<'a> Report<'a> {
         String::from_utf8_lossy(&bytes[..bytes.len().min(48)]).chars().take(12).collect()
     }
 
-    /// Numbers that stand twice. Those of a text in rising order do not.
+    /// Numbers that stand twice, and blocks that lack the one that the others skip.
     fn block_numbers(&mut self) {
+        let (mut blocks, mut numbers) = (0_usize, 0_usize);
         let mut last = None;
         let mut rising = true;
         for placed in self.document.placed() {
+            blocks += placed.stretch.blocks as usize;
+            numbers += placed.stretch.numbers.len();
             for &(number, _) in &placed.stretch.numbers {
                 rising &= last.is_none_or(|last| number > last);
                 last = Some(number);
             }
         }
-        if rising {
-            return;
+        if numbers < blocks && numbers * 4 >= blocks * 3 {
+            self.lacking_numbers();
         }
+        // Those of a text in rising order stand once.
+        if !rising {
+            self.doubled_numbers();
+        }
+    }
+
+    fn lacking_numbers(&mut self) {
+        for placed in self.document.placed() {
+            if (placed.stretch.numbers.len() as u32) < placed.stretch.blocks {
+                for (line, expected) in self.document.lacking_numbers(&placed) {
+                    let range = self.text.line_range(line);
+                    let words = super::stretch::words_of(&self.text.bytes()[range.clone()], range.start);
+                    self.add(Rule::BlockNumber, words.0 as usize..words.1 as usize, IsoFault::Unnumbered { expected });
+                }
+            }
+        }
+    }
+
+    fn doubled_numbers(&mut self) {
         let mut seen: FxHashMap<u32, usize> = FxHashMap::default();
         for placed in self.document.placed() {
-            for &(number, place) in &placed.stretch.numbers {
+            let mut programs = placed.stretch.programs.iter().peekable();
+            for (index, &(number, place)) in placed.stretch.numbers.iter().enumerate() {
+                // Another program counts for itself.
+                while programs.next_if(|before| **before as usize <= index).is_some() {
+                    seen.clear();
+                }
                 let start = placed.offset + place as usize;
                 if *seen.entry(number).or_insert(start) != start {
                     let line = self.text.line_of(start);
@@ -358,6 +386,9 @@ impl<'a> Report<'a> {
                     let word = word_range(&self.text.bytes()[range.clone()], range.start, |letter, _| letter == b'N').unwrap_or(range);
                     self.add(Rule::BlockNumber, word, IsoFault::NumberTwice { number });
                 }
+            }
+            if programs.next().is_some() {
+                seen.clear();
             }
         }
     }

@@ -179,6 +179,10 @@ pub struct Stretch {
     pub definitions: Vec<(Offset, Number, bool)>,
     /// N words with the byte at which they stand.
     pub numbers: Vec<(u32, u32)>,
+    /// Lines that may have an N word.
+    pub blocks: u32,
+    /// Where a program or subprogram begins (`O`), whose numbers count for themselves: how many N words stand before it.
+    pub programs: Vec<u32>,
     /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
     pub ends_run_before: Option<bool>,
     /// The first words behind the end.
@@ -209,6 +213,8 @@ impl Stretch {
             foreign: Vec::new(),
             definitions: Vec::new(),
             numbers: Vec::new(),
+            blocks: 0,
+            programs: Vec::new(),
             ends_run_before: None,
             behind_end: None,
             last_words: None,
@@ -245,6 +251,10 @@ impl Stretch {
         }
         let range = words_of(line, offset);
         self.last_words = Some(range);
+        if block.program.is_some() {
+            self.programs.push(self.numbers.len() as u32);
+        }
+        self.blocks += u32::from(block.program.is_none());
         if let Some(number) = block.number {
             self.numbers.push((number, range.0));
         }

@@ -138,6 +138,80 @@ fn each_fault_is_named_at_its_line() {
     check(&with("G01 X1000\nG03 X0 Y0 I-1000 J0\nG01 X-1000"), &[(4, "ambiguous-center")]);
 }
 
+/// The text after the fix with a title that begins so, of the finding of a rule.
+#[track_caller]
+fn fixed(text: &str, rule: &str, title: &str) -> String {
+    let document = read(text);
+    let finding =
+        document.findings().into_iter().find(|finding| finding.rule.name() == rule).unwrap_or_else(|| panic!("no {rule} in {text}"));
+    let fixes = document.fixes(&finding);
+    let titles: Vec<String> = fixes.iter().map(|fix| en::title(&fix.kind, 1.0)).collect();
+    let index = titles.iter().position(|its| its.starts_with(title)).unwrap_or_else(|| panic!("no {title:?} in {titles:?}"));
+    let mut after = document.clone();
+    for edit in fixes[index].edit.iter().rev() {
+        after.edit(edit.range.clone(), &edit.text);
+    }
+    assert!(after.findings().iter().all(|left| left.rule.name() != rule), "{:?}", after.findings());
+    String::from_utf8(after.text().bytes().to_vec()).unwrap()
+}
+
+#[test]
+fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
+    let check = |rule: &str, title: &str, text: &str, expected: &str| assert_eq!(fixed(text, rule, title), expected, "{title}");
+    let body = "G92 X0. Y0.\nG90\nG01 X5. Y0.\nG03 X0. Y5. I-5. J0.\n";
+    let off = |line: &str| format!("{body}{line}\nG01 X0. Y0.\nM02\n");
+    let right = off("G03 X-5. Y0. I0. J-5.");
+    check("arc-off-radius", "Take I and J as other controls", &off("G03 X-5. Y0. I0. J5."), &right);
+    check("arc-off-radius", "Swap I and J", &off("G03 X-6. Y3. I-4. J-2."), &off("G03 X-6. Y3. I-2. J-4."));
+    check("arc-off-radius", "Put the sign", &off("G03 X-6. Y3. I2. J-4."), &off("G03 X-6. Y3. I-2. J-4."));
+    check("arc-off-radius", "Move the centre by", &off("G03 X-5. Y0. I0.1 J-5."), &off("G03 X-5. Y0. I0.05 J-5.05"));
+    // A cut of which the last line is missing, absolute and incremental, with and without spaces.
+    check(
+        "not-closed",
+        "Close the contour with a line of 5.000 mm",
+        "G92 X0. Y0.\r\nG90\r\nG01 X5. Y0.\r\nX5. Y5.\r\nX0. Y5.\r\nM02\r\n",
+        "G92 X0. Y0.\r\nG90\r\nG01 X5. Y0.\r\nX5. Y5.\r\nX0. Y5.\r\nG01 X0. Y0.\r\nM02\r\n",
+    );
+    check(
+        "not-closed",
+        "Close",
+        "G92X0Y0\nG91\nG01X5000\nY5000\nX-5000\nM02\n",
+        "G92X0Y0\nG91\nG01X5000\nY5000\nX-5000\nG01X0Y-5000\nM02\n",
+    );
+    // Back to the end of the way in, which is nearer.
+    check(
+        "not-closed",
+        "Close the contour with a line of 2.000 mm",
+        "G92 X0. Y0.\nG90\nG01 X5. Y0.\nX9. Y5.\nX5. Y9.\nX5. Y2.\nM02\n",
+        "G92 X0. Y0.\nG90\nG01 X5. Y0.\nX9. Y5.\nX5. Y9.\nX5. Y2.\nG01 X5. Y0.\nM02\n",
+    );
+    let numbered = |numbers: [&str; 4]| {
+        let [a, b, c, d] = numbers;
+        format!("{a}G92 X0 Y0\n{b}G01 X1000\n{c}G01 Y1000\n{d}G01 X0 Y0\nN50 M02\n")
+    };
+    check("block-number", "Number the block N30", &numbered(["N10 ", "N20 ", "N20 ", "N40 "]), &numbered(["N10 ", "N20 ", "N30 ", "N40 "]));
+    check("block-number", "Number the block N30", &numbered(["N10 ", "N20 ", "", "N40 "]), &numbered(["N10 ", "N20 ", "N30 ", "N40 "]));
+    check("block-number", "Number all blocks", &numbered(["N1 ", "N1 ", "N2 ", "N3 "]), &numbered(["N10 ", "N20 ", "N30 ", "N40 "]));
+    check(
+        "compensation-switch",
+        "Cut there",
+        "G92 X0 Y0\nG42 D1\nG00 X1000\nG01 Y1000\nX2000\nX1000 Y0\nM02\n",
+        "G92 X0 Y0\nG42 D1\nG01 X1000\nG01 Y1000\nX2000\nX1000 Y0\nM02\n",
+    );
+    check("missing-end", "End the program", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\n", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n");
+    check("text-after-end", "Delete", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\nG01 X5\nX0\n", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n");
+}
+
+#[test]
+fn programs_and_subprograms_number_their_blocks_for_themselves() {
+    let body = "N10 G01 X1000\nN20 Y1000\nN30 X0 Y0\n";
+    check(&format!("G92 X0 Y0\n{body}M98 P2\nM02\nO2\n{body}M99\n"), &[]);
+    check(&format!("G92 X0 Y0\n{body}N20 X1000\nN40 X0\nM02\n"), &[(5, "block-number")]);
+    // Heads and ends without numbers are usual, and so are programs that number some lines only.
+    check(&format!("%\nG92 X0 Y0\n{body}M02\n%\n"), &[]);
+    check("G92 X0 Y0\nN1 G01 X1000\nY1000\nN2 X0 Y0\nM02\n", &[]);
+}
+
 #[test]
 fn the_wire_runs_where_the_role_and_its_way_in_say() {
     let opening = Effective { side: SideSetting::Opening, ..Effective::default() };

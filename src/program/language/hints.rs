@@ -19,13 +19,17 @@ pub struct Hint {
 
 /// Hints for the blocks that begin in a range of bytes, in the order of the text.
 ///
-/// An end point that the text itself states is not said again, and neither is that of an ISO block, whose words are coordinates.
+/// An end point that the text itself states is not said again, and neither is that of an ISO block under G90, whose words it is.
 pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
     let text = document.text();
     let end = text.line_start(text.line_of(range.start) + HINT_LINES).min(range.end);
-    let says_ends = matches!(document, Document::ThreeB(_));
+    let looked_at = range.start..end.max(range.start);
+    let unsaid = match document {
+        Document::ThreeB(_) => None,
+        Document::Iso(program) => Some(program.lines_without_ends(looked_at.clone())),
+    };
     let mut found = Vec::new();
-    for step in document.steps_in(range.start..end.max(range.start)) {
+    for step in document.steps_in(looked_at) {
         if !step.moves() || step.range.start < range.start || step.range.start > end {
             continue;
         }
@@ -35,7 +39,7 @@ pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
             parts.push(format!("R {}, {}", mm(arc.radius), degrees(arc.sweep)));
         }
         let is_stated = || words_of(document, step.line).iter().any(|part| part.kind == WordKind::Stated);
-        if says_ends && !is_stated() && step.kind != Kind::Pause {
+        if unsaid.as_ref().is_none_or(|lines| lines.contains(&step.line)) && !is_stated() && step.kind != Kind::Pause {
             parts.push(format!("→ {}, {}", mm(step.end.x), mm(step.end.y)));
         }
         if !parts.is_empty() {

@@ -4,7 +4,7 @@ use super::sentences::{degrees, mm, point};
 use super::words::words_of;
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step};
-use crate::program::{Document, three_b};
+use crate::program::{Document, iso, three_b};
 use std::ops::Range;
 
 /// Sentences in Markdown, and the bytes that they are about.
@@ -31,7 +31,7 @@ pub fn hover(document: &Document, offset: usize) -> Option<Hover> {
     let step = step.or_else(|| steps.iter().rfind(|step| step.range.end <= part.range.start)).or(steps.first());
     let word = match document {
         Document::ThreeB(program) => three_b::language::meaning(program, part.range.clone()),
-        Document::Iso(_) => None,
+        Document::Iso(program) => iso::language::meaning(program, part.range.clone()),
     };
     let block = step.map(|step| about_step(step, steps.len() > 1));
     let text = [word, block].into_iter().flatten().collect::<Vec<_>>().join("\n\n");

@@ -25,7 +25,7 @@ pub use hints::{HINT_LINES, Hint, hints};
 pub use hover::{Hover, hover};
 pub use navigation::{highlights, match_of, pauses};
 pub use numbers::{number_at, numbered, renamed, without_numbers};
-pub use passages::{Passage, passages};
+pub use passages::{Passage, passage_at, passage_of, passages};
 pub use refactorings::{Proposal, refactorings, scaled};
 pub use selection::selections;
 pub use symbols::{Symbol, SymbolKind, symbols};

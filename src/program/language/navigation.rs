@@ -1,8 +1,8 @@
 //! From one end of something to the other: pause to pause, way in to way out, first block of a contour to its last.
 
-use super::passages::passages;
-use crate::program::Document;
-use crate::program::trace::{Kind, Step};
+use super::passages::passage_at;
+use crate::program::trace::Kind;
+use crate::program::{Document, iso};
 use std::ops::Range;
 
 /// The place that belongs to the one at a byte.
@@ -25,31 +25,32 @@ pub fn pauses(document: &Document) -> Vec<Range<usize>> {
 }
 
 fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
-    let trace = document.trace();
-    let steps = &trace.steps;
-    let holds = |step: &Step| step.range.start <= offset && offset <= step.range.end;
-    let index = steps.iter().position(|step| holds(step) && offset < step.range.end).or_else(|| steps.iter().position(holds))?;
-    let own = &steps[index];
+    if let Document::Iso(program) = document
+        && let Some(pair) = iso::language::partner(program, offset)
+    {
+        return Some(pair);
+    }
+    let touching = document.steps_in(offset..offset);
+    let own = touching.iter().find(|step| offset < step.range.end).or(touching.first())?;
     let other = match own.kind {
-        Kind::Pause => steps[index + 1..].iter().find(|step| !step.moves())?,
-        Kind::End => steps.iter().find(|step| step.moves())?,
+        Kind::Pause => document.stop_behind(own.range.start)?,
+        Kind::End => document.first_move()?,
         Kind::Line | Kind::Arc | Kind::Rapid => {
-            let passage = passages(&trace).into_iter().find(|passage| passage.steps.contains(&index))?;
+            let (chain, passage, index) = passage_at(document, own.range.start)?;
             let contour = passage.contour_steps();
             let lead_out = contour.end..passage.steps.end;
             let target = if index < contour.start {
                 // The n-th block of the way in has the n-th from the end of the way out.
-                let back = index - passage.steps.start;
-                if lead_out.is_empty() { contour.start } else { passage.steps.end.checked_sub(1 + back)?.max(lead_out.start) }
+                if lead_out.is_empty() { contour.start } else { passage.steps.end.checked_sub(1 + index)?.max(lead_out.start) }
             } else if lead_out.contains(&index) {
-                (passage.steps.start + (passage.steps.end - 1 - index)).min(contour.start.saturating_sub(1).max(passage.steps.start))
+                (passage.steps.end - 1 - index).min(contour.start.saturating_sub(1))
             } else if index + 1 == contour.end {
                 contour.start
             } else {
                 contour.end.checked_sub(1)?
             };
-            steps.get(target)?
+            chain.step(target)?.range.clone()
         }
     };
-    Some((own.range.clone(), other.range.clone()))
+    Some((own.range.clone(), other))
 }

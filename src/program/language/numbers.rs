@@ -1,8 +1,8 @@
 //! Block numbers: renamed, counted anew, left out.
 
 use super::words::{WordKind, words_of};
-use crate::program::Document;
 use crate::program::trace::Step;
+use crate::program::{Document, iso};
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -25,11 +25,14 @@ fn digits_in(document: &Document, word: &Range<usize>) -> Option<Range<usize>> {
     Some(word.start + start..word.start + start + length)
 }
 
-/// The edit that gives the block at a byte another number, `20` or `N20`.
+/// The edits that give the block at a byte another number, `20` or `N20`, and the calls of it.
 ///
 /// Errors: no number there, a name that is no number, or one that another block has.
-pub fn renamed(document: &Document, offset: usize, name: &str) -> Result<TextEdit, String> {
-    let (digits, _) = number_at(document, offset).ok_or("there is no block number here")?;
+pub fn renamed(document: &Document, offset: usize, name: &str) -> Result<Vec<TextEdit>, String> {
+    let (digits, number) = number_at(document, offset).ok_or("there is no block number here")?;
+    if let Document::Iso(program) = document {
+        return iso::refactor::renamed(program, digits, number, name);
+    }
     let name = name.trim();
     let name = name.strip_prefix(['N', 'n']).unwrap_or(name).trim();
     let is_number = !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());
@@ -40,7 +43,7 @@ pub fn renamed(document: &Document, offset: usize, name: &str) -> Result<TextEdi
     if let Some(step) = trace.steps.iter().find(|step| step.number == Some(number) && step.line != line) {
         return Err(format!("N{number} is the block in line {}", step.line + 1));
     }
-    Ok(TextEdit { range: digits, text: name.to_owned() })
+    Ok(vec![TextEdit { range: digits, text: name.to_owned() }])
 }
 
 /// The edits that number blocks from `first` on in steps of `step`, words left out: those of some lines, in the order of the text.

@@ -1,13 +1,12 @@
 //! What an editor selects step by step: the word, the block, its line, the contour, everything between two pauses, everything.
 
-use super::passages::passages;
+use super::passages::passage_at;
 use super::words::words_of;
 use crate::program::Document;
-use crate::program::trace::Trace;
 use std::ops::Range;
 
-/// Ranges of bytes around a byte, each within the next. `trace` is the document's own.
-pub fn selections(document: &Document, trace: &Trace, offset: usize) -> Vec<Range<usize>> {
+/// Ranges of bytes around a byte, each within the next.
+pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     let text = document.text();
     let line = text.line_of(offset);
     let mut found: Vec<Range<usize>> = Vec::new();
@@ -23,18 +22,16 @@ pub fn selections(document: &Document, trace: &Trace, offset: usize) -> Vec<Rang
     if let Some(part) = words_of(document, line).into_iter().find(|part| part.range.start <= offset && offset <= part.range.end) {
         wider(part.range);
     }
-    let index = trace.steps.iter().position(|step| step.range.start <= offset && offset <= step.range.end);
-    if let Some(step) = index.and_then(|index| trace.steps.get(index)) {
+    let own = document.steps_in(text.line_range(line));
+    let touching = own.iter().find(|step| step.range.start <= offset && offset <= step.range.end);
+    if let Some(step) = touching {
         wider(step.range.clone());
     }
     wider(text.line_range(line));
-    let of_line = || trace.steps.iter().position(|step| step.line == line);
-    if let Some(index) = index.or_else(of_line)
-        && let Some(passage) = passages(trace).into_iter().find(|passage| passage.steps.contains(&index))
-    {
+    let step = touching.or_else(|| own.iter().find(|step| step.line == line));
+    if let Some((chain, passage, index)) = step.filter(|step| step.moves()).and_then(|step| passage_at(document, step.range.start)) {
         let lines = |steps: Range<usize>| {
-            let steps = trace.steps.get(steps)?;
-            let (first, last) = (steps.first()?, steps.last()?);
+            let (first, last) = (chain.step(steps.start)?, chain.step(steps.end.checked_sub(1)?)?);
             Some(text.line_start(first.line)..text.line_range(last.line).end)
         };
         if passage.contour_steps().contains(&index) {

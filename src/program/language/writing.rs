@@ -1,6 +1,6 @@
 //! What helps while a block is being written.
 
-use crate::program::{Document, three_b};
+use crate::program::{Document, iso, three_b};
 use std::ops::Range;
 
 /// Something that can be written at a place.
@@ -29,7 +29,7 @@ pub struct Signature {
 pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     match document {
         Document::ThreeB(program) => three_b::language::completions(program, offset),
-        Document::Iso(_) => Vec::new(),
+        Document::Iso(program) => iso::language::completions(program, offset),
     }
 }
 
@@ -37,6 +37,6 @@ pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
 pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
     match document {
         Document::ThreeB(program) => three_b::language::signature(program, offset),
-        Document::Iso(_) => None,
+        Document::Iso(program) => iso::language::signature(program, offset),
     }
 }

@@ -2,9 +2,6 @@
 
 pub use crate::program::grid::Node;
 
-/// The largest number that a six-digit controller takes, in µm: longer blocks are split.
-pub const LARGEST: i64 = 999_999;
-
 /// G: the axis whose projections the controller counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountingAxis {

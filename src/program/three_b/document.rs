@@ -4,23 +4,24 @@
 //! what hangs on the whole program (contours, numbers, the end) is made from a few sums of each run.
 
 use super::block::{Block, Node, PartArc};
+use super::crossings::{Found, Known, Stretch, pieces_of, search};
 use super::decode::meant;
 use super::encode::line_block;
 use super::fields::fields_of;
 use super::layout::push_fields;
-use super::parse::{Word, Words, unexpected};
+use super::parse::{Words, unexpected};
 use super::rules::block_number::Numbered;
 use super::rules::{
-    self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, path_crosses_itself, position_mismatch,
-    text_after_end,
+    self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, position_mismatch, text_after_end,
 };
-use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Run, Sum, What, travel_of};
+use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Part, Run, Sum, What, is_jump, travel_of};
 use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault, Rule, Severity};
-use crate::geometry::{Point, Segment, Vector};
-use crate::program::trace::{Kind, Step, Trace};
+use crate::geometry::{Point, Vector};
+use crate::program::trace::{Chain, Kind, Step, Trace};
 use crate::settings::{Effective, Layout, SideSetting};
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A 3B or 4B program as text, and what was read from it.
@@ -30,7 +31,9 @@ pub struct Document {
     words: OwnWords,
     limits: Limits,
     runs: Vec<Run>,
-    view: View,
+    view: Box<View>,
+    /// What the search for crossings has seen.
+    known: Box<Known>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -56,15 +59,17 @@ struct At {
     entry: usize,
 }
 
+/// A part by its run and its index in there.
+type PartAt = (usize, usize);
+
 /// Blocks between two words.
 #[derive(Clone, Debug, PartialEq)]
 struct Section {
-    /// First and last part, by run and index in there.
-    parts: [(usize, usize); 2],
+    /// First and last part.
+    parts: [PartAt; 2],
     sum: Sum,
     /// The way between two contours, without the wire.
     is_jump: bool,
-    closed: bool,
 }
 
 /// What hangs on the program as a whole.
@@ -72,25 +77,20 @@ struct Section {
 struct View {
     /// Bytes and lines before each run.
     starts: Vec<(usize, usize)>,
-    sections: Vec<Section>,
+    /// The sections that reach over the end of a run, or begin or end the text, in their order. The others are parts of one run.
+    outer: Vec<Section>,
+    /// Where the contours begin that do not close.
+    open: Vec<PartAt>,
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,
     /// In no order; the places are bytes of the text.
     findings: Vec<Finding>,
-    /// Crossings of the contours, by the marks of their sections; those of the last view are kept for an edit that is taken back.
-    crossings: Vec<Crossings>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-struct Crossings {
-    mark: u64,
-    found: std::sync::Arc<Vec<path_crosses_itself::Crossing>>,
 }
 
 /// Where a finding is kept.
 #[derive(Clone, Copy, Debug)]
-enum Found {
+enum Kept {
     InBlock { run: usize, index: usize },
     OnWhole { index: usize },
 }
@@ -110,11 +110,8 @@ pub struct PlacedBlock {
     pub stated_end: Option<[f64; 2]>,
 }
 
-/// Contours of more blocks are not asked for crossings while they do not close: torn open they cross for that reason.
-const CROSSINGS_WHILE_OPEN: usize = 2_000;
-
-/// A way of at most this many lines between two pauses leads from one contour to the next.
-const JUMP_BLOCKS: usize = 3;
+/// Pauses in one contour, to hold the part before its last piece is cut.
+const PAUSES_WITHIN: usize = 16;
 
 impl Document {
     /// Reads program text with the words and limits of the default settings.
@@ -130,14 +127,19 @@ impl Document {
         let read = |first: usize| run_of(&text, first..(first + LINES).min(count), &words.words(), &limits);
         let firsts: Vec<usize> = (0..count).step_by(LINES).collect();
         let runs = if count > 20 * LINES { firsts.into_par_iter().map(read).collect() } else { firsts.into_iter().map(read).collect() };
-        let mut document = Document { text, words, limits, runs, view: View::default() };
-        document.view = document.look();
+        let mut document = Document { text, words, limits, runs, view: Box::default(), known: Box::default() };
+        document.look_again();
         document
     }
 
     /// The words between blocks.
     pub(in crate::program) fn words(&self) -> Words<'_> {
         self.words.words()
+    }
+
+    /// The largest number that the controller takes, µm.
+    pub(in crate::program) fn largest(&self) -> i64 {
+        self.limits.largest()
     }
 
     pub fn text(&self) -> &SourceText {
@@ -173,7 +175,7 @@ impl Document {
             .map(|line| run_of(&self.text, line..(line + LINES).min(last_line), &words, &self.limits))
             .collect();
         self.runs.splice(first..(last + 1).min(self.runs.len()), fresh);
-        self.view = self.look();
+        self.look_again();
     }
 
     /// The run that holds a byte; the last one for bytes past the end.
@@ -197,7 +199,13 @@ impl Document {
 
     // What hangs on the whole.
 
-    fn look(&self) -> View {
+    fn look_again(&mut self) {
+        let mut known = std::mem::take(&mut self.known);
+        *self.view = self.look(&mut known);
+        self.known = known;
+    }
+
+    fn look(&self, known: &mut Known) -> View {
         let mut view = View { starts: Vec::with_capacity(self.runs.len()), ..View::default() };
         let (mut bytes, mut lines) = (0, 0);
         for run in &self.runs {
@@ -206,10 +214,10 @@ impl Document {
             lines += run.lines;
         }
         view.end = self.end_word();
-        view.sections = self.sections(view.end);
+        view.outer = self.outer_sections(view.end);
         view.last_block = self.last_block(view.end);
         self.judge_contours(&mut view);
-        self.judge_crossings(&mut view);
+        self.judge_crossings(&mut view, known);
         self.judge_end(&mut view);
         self.judge_texts(&mut view);
         self.judge_numbers(&mut view);
@@ -217,24 +225,19 @@ impl Document {
         view
     }
 
-    /// The words of the program in their order.
-    fn words_in(&self) -> impl Iterator<Item = (At, Word, bool)> + '_ {
-        self.runs.iter().enumerate().flat_map(|(run, of)| {
-            of.parts.iter().filter_map(move |part| part.word.map(|(word, own)| (At { run, entry: part.entries.end }, word, own)))
-        })
-    }
-
     /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere, else a pause
     /// with no block behind it.
     fn end_word(&self) -> Option<At> {
-        let own = self.words_in().find(|(_, word, own)| *word == Word::End && *own);
-        let foreign = || self.words_in().filter(|(_, word, _)| *word == Word::End).last();
+        let place = |run: usize, entry: Option<usize>| entry.map(|entry| At { run, entry });
+        let mut runs = self.runs.iter().enumerate();
+        let own = runs.find_map(|(run, of)| place(run, of.own_end));
+        let back = || self.runs.iter().enumerate().rev();
+        let foreign = || back().find_map(|(run, of)| place(run, of.last_end));
         let pause = || {
-            let last = self.words_in().last()?;
-            let is_last = self.last_block(None).is_none_or(|block| block < last.0);
-            (is_last && self.last_block(None).is_some()).then_some(last)
+            let last = back().find_map(|(run, of)| place(run, of.last_word))?;
+            self.last_block(None).filter(|block| *block < last).map(|_| last)
         };
-        own.or_else(foreign).or_else(pause).map(|(at, ..)| at)
+        own.or_else(foreign).or_else(pause)
     }
 
     fn last_block(&self, end: Option<At>) -> Option<At> {
@@ -245,68 +248,123 @@ impl Document {
         blocks.find(|at| end.is_none_or(|end| *at < end))
     }
 
-    fn sections(&self, end: Option<At>) -> Vec<Section> {
-        let mut sections = Vec::new();
-        let mut open: Option<Section> = None;
-        let mut is_behind_pause = false;
-        'runs: for (run, of) in self.runs.iter().enumerate() {
-            for (index, part) in of.parts.iter().enumerate() {
+    /// The blocks from a part on, up to the next word; `None` behind the end of the program.
+    fn section_from(&self, start: PartAt, end: Option<At>) -> Option<Section> {
+        let mut section: Option<Section> = None;
+        let (mut run, mut index) = start;
+        while let Some(of) = self.runs.get(run) {
+            for (nth, part) in of.parts.iter().enumerate().skip(index) {
                 if end.is_some_and(|end| end < At { run, entry: part.entries.start }) {
-                    break 'runs;
+                    return section;
                 }
-                let section = open.get_or_insert(Section { parts: [(run, index); 2], sum: Sum::default(), is_jump: false, closed: true });
-                section.parts[1] = (run, index);
-                section.sum = section.sum.then(&part.sum);
+                let own = section.get_or_insert(Section { parts: [(run, nth); 2], sum: Sum::default(), is_jump: false });
+                own.parts[1] = (run, nth);
+                own.sum = own.sum.then(&part.sum);
                 if part.word.is_some() {
                     let is_end = end == Some(At { run, entry: part.entries.end });
-                    let sum = &section.sum;
-                    section.is_jump = is_behind_pause && !is_end && (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0;
-                    section.closed = section.is_jump || not_closed::is_closed(sum);
-                    sections.extend(open.take());
-                    is_behind_pause = true;
+                    own.is_jump = start != (0, 0) && self.is_behind_word(start) && !is_end && is_jump(&own.sum);
+                    return section;
                 }
             }
+            (run, index) = (run + 1, 0);
         }
-        if let Some(mut section) = open {
-            section.closed = not_closed::is_closed(&section.sum);
+        section
+    }
+
+    /// Whether a word stands somewhere before a part at which a section begins.
+    fn is_behind_word(&self, (run, part): PartAt) -> bool {
+        part > 0 || self.runs[..run.min(self.runs.len())].iter().rev().any(|run| run.words > 0)
+    }
+
+    /// The part behind another one.
+    fn part_behind(&self, (run, part): PartAt) -> PartAt {
+        if self.runs.get(run).is_some_and(|of| part + 1 < of.parts.len()) { (run, part + 1) } else { (run + 1, 0) }
+    }
+
+    /// The sections that are not parts of one run.
+    fn outer_sections(&self, end: Option<At>) -> Vec<Section> {
+        let mut sections = Vec::new();
+        let mut next = Some((0, 0));
+        while let Some(section) = next.and_then(|start| self.section_from(start, end)) {
+            let (run, _) = section.parts[1];
+            let ends_text = self.runs.get(run).is_none_or(|of| section.parts[1].1 + 1 >= of.parts.len());
+            next = self.runs.get(run).filter(|_| !ends_text).map(|of| (run, of.parts.len() - 1));
             sections.push(section);
         }
         sections
     }
 
+    /// The section that a part belongs to.
+    fn section_of_part(&self, view: &View, (run, part): PartAt) -> Option<Section> {
+        let of = self.runs.get(run)?;
+        if part > 0 && part + 1 < of.parts.len() {
+            return self.section_from((run, part), view.end);
+        }
+        let index = view.outer.partition_point(|section| section.parts[1] < (run, part));
+        view.outer.get(index).cloned()
+    }
+
+    fn is_jump(&self, part: PartAt) -> bool {
+        self.section_of_part(&self.view, part).is_some_and(|section| section.is_jump)
+    }
+
+    fn closes(&self, view: &View, section: &Section) -> bool {
+        view.open.binary_search(&section.parts[0]).is_err()
+    }
+
+    /// Sections within one run, of those that it names, up to the end of the program.
+    fn inner_sections<'a>(&'a self, end: Option<At>, named: fn(&Run) -> &[usize]) -> impl Iterator<Item = Section> + 'a {
+        let up_to = end.map_or(usize::MAX, |end| end.run);
+        let runs = self.runs.iter().enumerate().take_while(move |(run, _)| *run <= up_to);
+        runs.flat_map(move |(run, of)| named(of).iter().filter_map(move |part| self.section_from((run, *part), end)))
+    }
+
     /// `not-closed`, and the block that is to blame where it is plain. A contour that pauses before its last piece goes on behind the pause.
     fn judge_contours(&self, view: &mut View) {
-        let mut index = 0;
-        while index < view.sections.len() {
-            if view.sections[index].closed {
-                index += 1;
+        let is_open = |section: &Section| !section.is_jump && !not_closed::is_closed(&section.sum);
+        let mut candidates: Vec<Section> = self.inner_sections(view.end, |run| &run.open).filter(is_open).collect();
+        candidates.extend(view.outer.iter().filter(|section| is_open(section)).cloned());
+        // What would be a way to the next contour between two pauses is none before the end.
+        let last =
+            view.end.and_then(|end| Some((end.run, self.runs.get(end.run)?.parts.iter().position(|part| part.entries.end == end.entry)?)));
+        candidates.extend(last.and_then(|last| self.section_of_part(view, last)).filter(is_open));
+        candidates.sort_by_key(|section| section.parts[0]);
+        candidates.dedup_by_key(|section| section.parts[0]);
+        let mut behind = (0, 0);
+        for section in candidates {
+            if section.parts[0] < behind {
                 continue;
             }
-            let mut whole = view.sections[index].sum;
-            let closes_at = view.sections[index + 1..].iter().position(|next| {
-                whole = whole.then(&next.sum);
-                not_closed::is_closed(&whole)
-            });
-            if let Some(more) = closes_at {
-                view.sections[index..=index + 1 + more].iter_mut().for_each(|section| section.closed = true);
-                index += more + 2;
-                continue;
+            let (mut whole, mut next) = (section.sum, self.part_behind(section.parts[1]));
+            let mut closes = false;
+            for _ in 0..PAUSES_WITHIN {
+                let Some(more) = self.section_from(next, view.end) else { break };
+                whole = whole.then(&more.sum);
+                next = self.part_behind(more.parts[1]);
+                closes = not_closed::is_closed(&whole);
+                if closes {
+                    break;
+                }
             }
-            self.judge_open(view, index);
-            index += 1;
+            if closes {
+                behind = next;
+            } else {
+                view.open.push(section.parts[0]);
+                self.judge_open(view, &section);
+            }
         }
     }
 
-    fn judge_open(&self, view: &mut View, index: usize) {
-        let section = &view.sections[index];
+    fn judge_open(&self, view: &mut View, section: &Section) {
         let Some(last) = self.last_block_of(section).filter(|_| section.sum.unread == 0) else { return };
         let is_fragment = view.end.is_none() || section.sum.blocks <= not_closed::FRAGMENT;
         let fault = not_closed::fault(&section.sum);
         let severity = if is_fragment { Severity::Information } else { fault.rule().default_severity() };
         let mut findings = vec![Finding { severity, ..finding(self.range_of(last, &view.starts), fault) }];
-        if !is_fragment && section.sum.errors == 0 && culprit::BLOCKS.contains(&section.sum.blocks) {
-            let blocks = self.blocks_of(section).filter_map(|at| self.entry(at)?.block());
-            if let Some((nth, fault)) = culprit::culprit(&section.sum, blocks)
+        let may_be_one_field = section.sum.errors == 0 && culprit::BLOCKS.contains(&section.sum.blocks) && !self.lacks_a_number(section);
+        if !is_fragment && may_be_one_field {
+            let blocks: Vec<&BlockEntry> = self.blocks_of(section).filter_map(|at| self.entry(at)?.block()).collect();
+            if let Some((nth, fault)) = culprit::culprit(&section.sum, &blocks)
                 && let Some(at) = self.blocks_of(section).nth(nth)
             {
                 let spot = match fault.rule() {
@@ -320,6 +378,13 @@ impl Document {
             }
         }
         view.findings.extend(findings);
+    }
+
+    /// Whether a number is left out among the numbers of a section: a block is lost then.
+    fn lacks_a_number(&self, section: &Section) -> bool {
+        let numbers: Vec<u32> = self.blocks_of(section).filter_map(|at| self.entry(at)?.number()).collect();
+        let steps = || numbers.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).filter(|step| *step > 0);
+        steps().min().is_some_and(|usual| steps().any(|step| step > usual))
     }
 
     /// The blocks of a section in their order.
@@ -346,21 +411,22 @@ impl Document {
         })
     }
 
-    fn judge_crossings(&self, view: &mut View) {
-        let mut all = Vec::new();
+    fn judge_crossings(&self, view: &mut View, known: &mut Known) {
         let mut findings = Vec::new();
-        for section in &view.sections {
-            let is_asked = !section.is_jump && section.sum.blocks >= 4 && (section.closed || section.sum.blocks <= CROSSINGS_WHILE_OPEN);
-            if !is_asked {
+        let (mut pairs, mut contours) = (0, 0);
+        let tangled = self.inner_sections(view.end, |run| &run.tangled).map(Cow::Owned);
+        for section in tangled.chain(view.outer.iter().map(Cow::Borrowed)) {
+            contours += 1;
+            // Where a block is wrong the path behind it is not the one that is meant.
+            let is_asked = !section.is_jump && section.sum.blocks >= 4 && section.sum.errors == 0;
+            if !is_asked || known.is_calm(section.sum.mark) {
                 continue;
             }
-            let mark = section.sum.mark;
-            let known = self.view.crossings.iter().find(|known| known.mark == mark).map(|known| known.found.clone());
-            let found = known.unwrap_or_else(|| {
-                let pieces = self.pieces(section);
-                std::sync::Arc::new(path_crosses_itself::crossings(&pieces, section.sum.arcs))
-            });
-            for crossing in found.iter() {
+            let section = &*section;
+            let found = self.crossings_in(section, known);
+            known.note(section.sum.mark, &found);
+            pairs += found.pairs;
+            for crossing in &found.crossings {
                 let mut blocks = self.blocks_of(section);
                 let first = blocks.nth(crossing.first);
                 let second = blocks.nth(crossing.second - crossing.first - 1);
@@ -374,27 +440,41 @@ impl Document {
                     findings.push(Finding { related, ..finding(self.range_of(second, &view.starts), fault) });
                 }
             }
-            all.push(Crossings { mark, found });
+            if let Some(last) = self.last_block_of(section).filter(|_| found.is_crowded) {
+                let fault = ProgramFault::PathOnItself { blocks: section.sum.blocks };
+                findings.push(Finding { severity: Severity::Information, ..finding(self.range_of(last, &view.starts), fault) });
+            }
         }
-        // What was known before is kept once more: an edit that is taken back costs nothing.
-        let is_new = |old: &&Crossings| !all.iter().any(|new: &Crossings| new.mark == old.mark);
-        let kept: Vec<Crossings> = self.view.crossings.iter().filter(is_new).take(4).cloned().collect();
-        all.extend(kept);
-        view.crossings = all;
+        let whole_pairs: usize = view.outer.iter().map(|section| section.parts[1].0 - section.parts[0].0).sum();
+        known.tidy(pairs.max(whole_pairs), contours);
         view.findings.extend(findings);
     }
 
-    /// The way of a section from the origin, µm.
-    fn pieces(&self, section: &Section) -> Vec<Segment> {
-        let mut at = Move::default();
-        let mut pieces = Vec::with_capacity(section.sum.blocks);
-        for entry in self.blocks_of(section).filter_map(|at| self.entry(at)?.block()) {
-            let [x, y] = at.meant_um();
-            let start = Point::new(x, y);
-            pieces.push(meant(&entry.block, start).unwrap_or(Segment::line(start, start)));
-            at = at.plus(entry.travel);
+    fn crossings_in(&self, section: &Section, known: &mut Known) -> Found {
+        let mut stretches: Vec<Stretch<'_>> = Vec::new();
+        let mut places: Vec<(usize, Range<usize>)> = Vec::new();
+        let mut start = Move::default();
+        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        for (run, of) in self.runs.iter().enumerate().take(last_run + 1).skip(first_run) {
+            let from = if run == first_run { first_part } else { 0 };
+            let to = if run == last_run { last_part + 1 } else { of.parts.len() };
+            for part in of.parts.get(from..to).unwrap_or_default().iter().filter(|part| part.sum.blocks > 0) {
+                let Part { bounds, near, sum, entries, .. } = part;
+                stretches.push(Stretch { mark: sum.mark, blocks: sum.blocks, start, bounds: *bounds, near });
+                places.push((run, entries.clone()));
+                start = start.plus(sum.travel);
+            }
         }
-        pieces
+        if let [one] = &stretches[..]
+            && one.near.is_empty()
+        {
+            return Found::default();
+        }
+        let pieces = |stretch: usize| {
+            let entries = places.get(stretch).and_then(|(run, entries)| self.runs.get(*run)?.entries.get(entries.clone()));
+            pieces_of(entries.unwrap_or_default().iter().filter_map(Entry::block))
+        };
+        search(&stretches, section.sum.arcs, known, &pieces)
     }
 
     /// `missing-end` and `text-after-end`.
@@ -471,9 +551,10 @@ impl Document {
                 }
                 let number = what.number();
                 let is_word = matches!(what.what, What::Word { .. });
-                if what.block().is_some() || (is_word && number.is_some()) {
+                let is_unread = what.what == What::Unread;
+                if what.block().is_some() || is_unread || (is_word && number.is_some()) {
                     places.push(at);
-                    blocks.push(Numbered { number, is_after_pause });
+                    blocks.push(Numbered { number, is_after_pause, is_unread });
                 }
                 is_after_pause = is_word;
             }
@@ -521,17 +602,17 @@ impl Document {
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there are.
     pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
-        let mut order: Vec<(Severity, usize, Found)> = Vec::new();
+        let mut order: Vec<(Severity, usize, Kept)> = Vec::new();
         for (run, of) in self.runs.iter().enumerate().filter(|(_, of)| !of.faults.is_empty()) {
             for (index, local) in of.faults.iter().enumerate().filter(|(_, local)| self.counts(run, local)) {
-                if let Some(severity) = severity(local.rule, local.rule.default_severity()) {
-                    order.push((severity, local.range.start + self.base(run), Found::InBlock { run, index }));
+                if let Some(severity) = severity(local.rule, self.own_severity(run, local)) {
+                    order.push((severity, local.range.start + self.base(run), Kept::InBlock { run, index }));
                 }
             }
         }
         for (index, finding) in self.view.findings.iter().enumerate() {
             if let (Some(severity), Place::Text { range }) = (severity(finding.rule, finding.severity), &finding.place) {
-                order.push((severity, range.start, Found::OnWhole { index }));
+                order.push((severity, range.start, Kept::OnWhole { index }));
             }
         }
         order.sort_by_key(|(severity, start, _)| (*severity, *start));
@@ -539,8 +620,8 @@ impl Document {
         order.truncate(limit);
         let made = order.into_iter().filter_map(|(severity, _, which)| {
             let finding = match which {
-                Found::InBlock { run, index } => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
-                Found::OnWhole { index } => self.view.findings.get(index)?.clone(),
+                Kept::InBlock { run, index } => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
+                Kept::OnWhole { index } => self.view.findings.get(index)?.clone(),
             };
             Some(Finding { severity, ..finding })
         });
@@ -552,14 +633,23 @@ impl Document {
         all.filter(|(run, local)| self.counts(*run, local))
     }
 
+    fn section_of_local(&self, run: usize, local: &Local) -> Option<Section> {
+        self.section_of_part(&self.view, (run, local.part))
+    }
+
+    fn is_unusual_only(&self, run: usize, local: &Local) -> bool {
+        local.counts == Counts::MildIfClosed && self.section_of_local(run, local).is_none_or(|section| self.closes(&self.view, &section))
+    }
+
+    fn own_severity(&self, run: usize, local: &Local) -> Severity {
+        if self.is_unusual_only(run, local) { Severity::Information } else { local.rule.default_severity() }
+    }
+
     fn counts(&self, run: usize, local: &Local) -> bool {
-        let section = || {
-            let index = self.view.sections.partition_point(|section| section.parts[1] < (run, local.part));
-            self.view.sections.get(index)
-        };
+        let section = || self.section_of_local(run, local);
         match local.counts {
-            Counts::Always => true,
-            Counts::IfOpen => section().is_some_and(|section| !section.closed),
+            Counts::Always | Counts::MildIfClosed => true,
+            Counts::IfOpen => section().is_some_and(|section| !self.closes(&self.view, &section)),
             Counts::IfInside { turns_left } => section().is_some_and(|section| {
                 let runs_left = section.sum.twice_area > 0.0;
                 let wire_is_inside = self.limits.side == SideSetting::Opening;
@@ -575,13 +665,12 @@ impl Document {
             rules::Spot::Block => block,
             spot => fields_of(self.text.bytes(), block.clone()).map_or(block.clone(), |fields| spot.range(&fields, block)),
         };
-        Finding {
-            rule: local.rule,
-            severity: local.rule.default_severity(),
-            place: Place::Text { range },
-            detail: local.detail.clone(),
-            related: Vec::new(),
-        }
+        let detail = match &local.detail {
+            Detail::Program(fault) if self.is_unusual_only(run, local) => Detail::Program(Box::new(fault.as_unusual())),
+            detail => detail.clone(),
+        };
+        let severity = self.own_severity(run, local);
+        Finding { rule: local.rule, severity, place: Place::Text { range }, detail, related: Vec::new() }
     }
 
     /// The fixes of one finding, the preferred one first.
@@ -615,10 +704,9 @@ impl Document {
         Some((At { run, entry }, of.entries.get(entry)?.block()?))
     }
 
-    fn section_of(&self, at: At) -> Option<&Section> {
+    fn section_of(&self, at: At) -> Option<Section> {
         let part = self.runs.get(at.run)?.parts.partition_point(|part| part.entries.end <= at.entry);
-        let index = self.view.sections.partition_point(|section| section.parts[1] < (at.run, part));
-        self.view.sections.get(index)
+        self.section_of_part(&self.view, (at.run, part))
     }
 
     fn block_fixes(&self, range: &Range<usize>, fault: &ProgramFault) -> Vec<TextFix> {
@@ -634,6 +722,7 @@ impl Document {
             line: self.text.line_start(line)..self.text.line_start(line + 1),
             fields,
             block: entry.block,
+            largest: self.limits.largest(),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         };
         rules::fixes(&site, fault)
@@ -644,10 +733,10 @@ impl Document {
         let Some(section) = self.section_of(at) else { return false };
         let new = blocks.iter().map(travel_of).fold(Move::default(), Move::plus);
         let mut sum = Sum { travel: section.sum.travel.minus(entry.travel).plus(new), ..section.sum };
-        if self.blocks_of(section).next() == Some(at) {
+        if self.blocks_of(&section).next() == Some(at) {
             sum.first = blocks.first().map(travel_of).or(sum.first);
         }
-        if self.last_block_of(section) == Some(at) {
+        if self.last_block_of(&section) == Some(at) {
             sum.last = blocks.last().map(travel_of).or(sum.last);
         }
         section.sum.blocks >= 3 && not_closed::is_closed(&sum)
@@ -783,6 +872,144 @@ impl Document {
         blocks
     }
 
+    /// The blocks between two words of which one touches a byte, by their ends, and the number of that one among them.
+    pub fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
+        let at = self.block_touching(offset)?;
+        let section = self.section_of(at)?;
+        let nth = self.count_before(&section, at);
+        Some((self.chain(&section, None)?, nth))
+    }
+
+    /// The blocks from the last word on that stand before a byte, by their ends; `None` where there is none.
+    pub fn chain_before(&self, offset: usize) -> Option<Chain<'static>> {
+        let run = self.run_at(offset);
+        let local = offset.saturating_sub(self.base(run));
+        let entries = &self.runs.get(run)?.entries;
+        let behind = At { run, entry: entries.partition_point(|entry| entry.range().end <= local) };
+        if self.view.end.is_some_and(|end| end < behind) {
+            return None;
+        }
+        let parts = &self.runs.get(run)?.parts;
+        let part = parts.partition_point(|part| part.entries.end < behind.entry).min(parts.len().saturating_sub(1));
+        self.chain(&self.section_of_part(&self.view, (run, part))?, Some(behind))
+    }
+
+    /// The first word behind a byte, up to the end of the program.
+    pub fn word_behind(&self, offset: usize) -> Option<Range<usize>> {
+        let first = self.run_at(offset);
+        let words =
+            self.runs.iter().enumerate().skip(first).flat_map(|(run, of)| {
+                of.parts.iter().filter(|part| part.word.is_some()).map(move |part| At { run, entry: part.entries.end })
+            });
+        let found = words.map(|at| self.range_of(at, &self.view.starts)).find(|range| range.start > offset)?;
+        let is_over = self.view.end.is_some_and(|end| self.range_of(end, &self.view.starts).start < found.start);
+        (!is_over).then_some(found)
+    }
+
+    pub fn first_block(&self) -> Option<Range<usize>> {
+        let run = self.runs.iter().position(|run| run.blocks > 0)?;
+        let entry = self.runs[run].entries.iter().position(|entry| entry.block().is_some())?;
+        Some(self.range_of(At { run, entry }, &self.view.starts))
+    }
+
+    /// Where the program begins, µm: the origin where it does not say.
+    pub fn start(&self) -> Point {
+        self.walk().at
+    }
+
+    fn block_touching(&self, offset: usize) -> Option<At> {
+        // Of two that touch the byte the one that begins there.
+        let touches = |at: &At| {
+            let range = self.range_of(*at, &self.view.starts);
+            range.start <= offset && offset <= range.end
+        };
+        let run = self.run_at(offset);
+        let entries = self.runs.get(run)?.entries.iter().enumerate().filter(|(_, entry)| entry.block().is_some());
+        let is_in_program = |at: &At| self.view.end.is_none_or(|end| *at < end);
+        entries.map(|(entry, _)| At { run, entry }).rfind(|at| touches(at) && is_in_program(at))
+    }
+
+    /// Blocks of a section before one of its entries.
+    fn count_before(&self, section: &Section, at: At) -> usize {
+        let mut count = 0;
+        for run in section.parts[0].0..=at.run {
+            let Some(of) = self.runs.get(run) else { break };
+            let parts = if run == section.parts[0].0 { section.parts[0].1.. } else { 0.. };
+            for part in of.parts.get(parts).unwrap_or_default() {
+                if (At { run, entry: part.entries.end }) <= at {
+                    count += part.sum.blocks;
+                } else if (At { run, entry: part.entries.start }) <= at {
+                    let before = of.entries.get(part.entries.start..at.entry.min(part.entries.end));
+                    count += before.unwrap_or_default().iter().filter(|entry| entry.block().is_some()).count();
+                }
+            }
+        }
+        count
+    }
+
+    /// The blocks of a section, up to an entry where one is named, by their ends.
+    fn chain(&self, section: &Section, until: Option<At>) -> Option<Chain<'static>> {
+        let end = until.unwrap_or(At { run: usize::MAX, entry: 0 });
+        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        // Entries of the section in a run, as far as they count.
+        let entries = |run: usize| -> Range<usize> {
+            let Some(of) = self.runs.get(run) else { return 0..0 };
+            let from = if run == first_run { of.parts.get(first_part).map_or(0, |part| part.entries.start) } else { 0 };
+            let to = if run == last_run { of.parts.get(last_part).map_or(0, |part| part.entries.end) } else { of.entries.len() };
+            let to = if run == end.run { to.min(end.entry) } else { to };
+            from..to.max(from)
+        };
+        let last_run = last_run.min(end.run);
+        let blocks_in = |run: usize| {
+            let of = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
+            of.get(entries(run)).unwrap_or_default().iter().filter_map(Entry::block)
+        };
+        let is_whole = |run: usize| run != first_run && run != last_run;
+        let (mut count, mut arcs, mut travel) = (0, 0, Move::default());
+        for run in first_run..=last_run {
+            match self.runs.get(run).filter(|of| is_whole(run) && of.parts.len() == 1) {
+                Some(of) => {
+                    let sum = &of.parts[0].sum;
+                    (count, arcs, travel) = (count + sum.blocks, arcs + sum.arcs, travel.plus(sum.travel));
+                }
+                None => blocks_in(run).for_each(|block| {
+                    (count, arcs, travel) = (count + 1, arcs + usize::from(!block.is_line()), travel.plus(block.travel));
+                }),
+            }
+        }
+        // Runs that hold the first and the last blocks.
+        let (mut head_end, mut held) = (first_run, 0);
+        while head_end <= last_run && held < Chain::ENDS {
+            held += blocks_in(head_end).count();
+            head_end += 1;
+        }
+        let (mut tail_start, mut held) = (last_run + 1, 0);
+        while tail_start > head_end && held < Chain::ENDS {
+            tail_start -= 1;
+            held += blocks_in(tail_start).count();
+        }
+        let mut walk = self.walk();
+        (0..first_run).for_each(|run| walk.skip(run));
+        let steps_of = |runs: Range<usize>, walk: &mut Walk<'_>| {
+            let mut steps = Vec::new();
+            for run in runs {
+                let own = entries(run);
+                walk.run(run, |_| true, &mut |step| steps.push((run, step)));
+                let range = |entry: usize| self.range_of(At { run, entry }, &self.view.starts);
+                let (from, to) = (range(own.start).start, own.end.checked_sub(1).map_or(0, |last| range(last).end));
+                steps.retain(|(of, step)| {
+                    *of != run || (step.moves() && step.range.start >= from && step.range.end <= to && !own.is_empty())
+                });
+            }
+            steps.into_iter().map(|(_, step)| step).collect::<Vec<Step>>()
+        };
+        let head = steps_of(first_run..head_end.max(first_run), &mut walk);
+        (head_end..tail_start).for_each(|run| walk.skip(run));
+        let tail = steps_of(tail_start..(last_run + 1).max(tail_start), &mut walk);
+        let [x, y] = travel.meant_um();
+        (count > 0).then(|| Chain::by_ends(head, tail, (count, arcs), Vector::new(x, y)))
+    }
+
     fn walk(&self) -> Walk<'_> {
         let mut starts = self.runs.iter().take_while(|run| run.blocks == 0).chain(self.runs.iter().find(|run| run.blocks > 0));
         let start = starts.find_map(|run| {
@@ -810,6 +1037,8 @@ impl Walk<'_> {
         let document = self.document;
         let Some(run) = document.runs.get(index) else { return };
         let (base, first_line) = document.view.starts.get(index).copied().unwrap_or_default();
+        let mut part = 0;
+        let mut is_jump = document.is_jump((index, 0));
         for (entry_index, entry) in run.entries.iter().enumerate() {
             let at = At { run: index, entry: entry_index };
             if document.view.end.is_some_and(|end| at > end) {
@@ -823,7 +1052,6 @@ impl Walk<'_> {
                     let end = start + Vector::new(x as f64, y as f64);
                     self.at = end;
                     if wanted(&range) {
-                        let is_jump = document.view.sections.get(contour).is_some_and(|section| section.is_jump);
                         let kind = match block.is_line() {
                             _ if is_jump => Kind::Rapid,
                             true => Kind::Line,
@@ -838,8 +1066,10 @@ impl Walk<'_> {
                         each(Step { range, line, number, kind, start, end: start, ideal: None, contour });
                     }
                     self.section += 1;
+                    part += 1;
+                    is_jump = document.is_jump((index, part));
                 }
-                What::StartPoint(_) | What::Text { .. } => {}
+                What::StartPoint(_) | What::Text { .. } | What::Unread => {}
             }
         }
     }
@@ -850,11 +1080,9 @@ impl Walk<'_> {
         if self.document.view.end.is_some_and(|end| end.run <= index) {
             return self.run(index, |_| false, &mut |_| {});
         }
-        for part in &run.parts {
-            let [x, y] = part.sum.travel.machine;
-            self.at += Vector::new(x as f64, y as f64);
-            self.section += usize::from(part.word.is_some());
-        }
+        let [x, y] = run.travel.machine;
+        self.at += Vector::new(x as f64, y as f64);
+        self.section += run.words;
     }
 }
 
@@ -886,6 +1114,7 @@ fn syntax(range: Range<usize>, sentence: String) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::program::language::{Passage, passage_at, passages};
     use proptest::prelude::*;
 
     /// Findings in one order, whatever runs the lines lie in.
@@ -933,6 +1162,35 @@ mod tests {
             let touches = |step: &Step| step.range.start <= range.end && range.start <= step.range.end;
             let whole: Vec<Step> = document.trace().steps.into_iter().filter(touches).collect();
             prop_assert_eq!(document.steps_in(range.clone()), whole);
+        }
+
+        #[test]
+        fn what_a_chain_tells_by_its_ends_is_what_all_its_steps_tell(
+            text in PROGRAM,
+            (leads, rounds) in (0_usize..4, 0_usize..100),
+        ) {
+            // A contour of more blocks than a chain holds, with ways in and out.
+            let way = 100 * rounds;
+            let long = format!(
+                "{}{}B0B50B50GYL4\nB{way}B0B{way}GXL3\nB0B50B50GYL2\n{}",
+                "B100B0B100GXL1\n".repeat(leads),
+                "B50B0B50GXL1\nB0B50B50GYL2\nB50B0B50GXL1\nB0B50B50GYL4\n".repeat(rounds),
+                "B100B0B100GXL3\n".repeat(leads),
+            );
+            let document = crate::program::Document::ThreeB(Document::read(format!("{text}{long}D\n{text}").into_bytes()));
+            let trace = document.trace();
+            let all = passages(&trace);
+            for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 13 == 0) {
+                let whole = all.iter().find(|passage| passage.steps.contains(&index)).cloned();
+                let Some(whole) = whole else { return Err(TestCaseError::fail("no passage")) };
+                let Some((chain, passage, nth)) = passage_at(&document, step.range.start) else {
+                    return Err(TestCaseError::fail("no chain"));
+                };
+                prop_assert_eq!(nth + whole.steps.start, index);
+                prop_assert_eq!(chain.step(nth).is_none_or(|held| held == step), true);
+                let offset = whole.steps.start;
+                prop_assert_eq!(Passage { steps: passage.steps.start + offset..passage.steps.end + offset, ..passage }, whole);
+            }
         }
 
         #[test]

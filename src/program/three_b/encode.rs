@@ -1,6 +1,6 @@
 //! From a line or arc of the path to blocks on the µm grid.
 
-use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
+use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::decode::{decode, phase};
 use crate::geometry::{Arc, Line, Segment};
 use crate::program::grid::{best_center, chord_count, grid_centers, in_pieces, sagitta};
@@ -16,9 +16,6 @@ pub(super) const MIDDLE_TOLERANCE: f64 = 2.5;
 /// The largest sagitta of a chord that stands for a piece of an arc too large for the format, µm.
 const CHORD_SAGITTA: f64 = 0.5;
 
-/// A radius in µm above which an arc goes out as chords: its centre needs more digits than a block has.
-const LARGEST_RADIUS: f64 = 2.0 * LARGEST as f64;
-
 /// A block, the nodes between which it runs, and the piece of the path that it stands for, in µm.
 #[derive(Clone, Copy, Debug)]
 pub struct Encoded {
@@ -28,24 +25,24 @@ pub struct Encoded {
     pub piece: Segment,
 }
 
-/// Appends the blocks of `piece` (µm) from `from` to `to`, the snapped ends of it.
+/// Appends the blocks of `piece` (µm) from `from` to `to`, the snapped ends of it. None of their numbers is above `largest`.
 ///
 /// A piece that has no length on the grid, an arc of radius zero among them, appends nothing. `None` when an arc cannot be
 /// written within tolerance, or a number does not fit.
-pub fn encode(piece: &Segment, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> Option<()> {
+pub fn encode(piece: &Segment, from: Node, to: Node, largest: i64, blocks: &mut Vec<Encoded>) -> Option<()> {
     match piece {
-        Segment::Line(line) => encode_line(line, from, to, blocks),
-        Segment::Arc(arc) => encode_arc(arc, from, to, 0, blocks),
+        Segment::Line(line) => encode_line(line, from, to, largest, blocks),
+        Segment::Arc(arc) => encode_arc(arc, from, to, largest, 0, blocks),
     }
 }
 
-fn encode_line(line: &Line, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> Option<()> {
+fn encode_line(line: &Line, from: Node, to: Node, largest: i64, blocks: &mut Vec<Encoded>) -> Option<()> {
     let longest = (to.x - from.x).abs().max((to.y - from.y).abs());
     if longest == 0 {
         return Some(());
     }
     // Pieces one µm short of the limit, because a snapped node may lie one further.
-    let count = if longest <= LARGEST { 1 } else { longest / (LARGEST - 1) + 1 };
+    let count = if longest <= largest { 1 } else { longest / (largest - 1).max(1) + 1 };
     in_pieces(&Segment::Line(*line), from, to, count, |piece, from, to| {
         blocks.push(Encoded { block: line_block(from, to), from, to, piece });
         Some(())
@@ -68,32 +65,36 @@ pub(super) fn line_block(from: Node, to: Node) -> Block {
     Block { x, y, j: x.max(y), axis, motion: Motion::Line(quadrant) }
 }
 
-fn encode_arc(arc: &Arc, from: Node, to: Node, depth: u32, blocks: &mut Vec<Encoded>) -> Option<()> {
+fn encode_arc(arc: &Arc, from: Node, to: Node, largest: i64, depth: u32, blocks: &mut Vec<Encoded>) -> Option<()> {
     let full_turn = from == to && arc.sweep.abs() > PI;
     if from == to && (!full_turn || arc.radius < 0.5) {
         return Some(());
     }
-    if arc.radius > LARGEST_RADIUS {
-        return chords(arc, from, to, blocks);
+    // Its centre needs more digits than a block has.
+    if arc.radius > 2.0 * largest as f64 {
+        return chords(arc, from, to, largest, blocks);
     }
     let whole = Segment::Arc(*arc);
     match arc_block(arc, from, to, full_turn) {
-        Attempt::Block(block) if block.x > LARGEST || block.y > LARGEST => chords(arc, from, to, blocks),
-        Attempt::Block(block) if block.j > LARGEST => {
-            let count = block.j / (LARGEST - 1000) + 1;
-            in_pieces(&whole, from, to, count, |piece, from, to| encode(&piece, from, to, blocks))
+        Attempt::Block(block) if block.x > largest || block.y > largest => chords(arc, from, to, largest, blocks),
+        Attempt::Block(block) if block.j > largest => {
+            // Pieces of one length differ in their J, which is split once more where that is too long.
+            let count = block.j / (largest - largest / 1000).max(1) + 1;
+            in_pieces(&whole, from, to, count.max(2), |piece, from, to| encode(&piece, from, to, largest, blocks))
         }
         Attempt::Block(block) => {
             blocks.push(Encoded { block, from, to, piece: whole });
             Some(())
         }
         // A chord of an arc this flat is as near to it as the grid is.
-        Attempt::Misses if sagitta(arc) <= 2.0 * CHORD_SAGITTA => encode_line(&Line { start: arc.start, end: arc.end }, from, to, blocks),
+        Attempt::Misses if sagitta(arc) <= 2.0 * CHORD_SAGITTA => {
+            encode_line(&Line { start: arc.start, end: arc.end }, from, to, largest, blocks)
+        }
         Attempt::Misses if depth < 8 => {
             let middle = snap(arc.point_at(0.5))?;
             for (share, from, to) in [(0.0, from, middle), (0.5, middle, to)] {
                 if let Segment::Arc(half) = whole.part(share, share + 0.5) {
-                    encode_arc(&half, from, to, depth + 1, blocks)?;
+                    encode_arc(&half, from, to, largest, depth + 1, blocks)?;
                 }
             }
             Some(())
@@ -103,11 +104,11 @@ fn encode_arc(arc: &Arc, from: Node, to: Node, depth: u32, blocks: &mut Vec<Enco
 }
 
 /// Lines whose sagitta stays below [`CHORD_SAGITTA`].
-fn chords(arc: &Arc, from: Node, to: Node, blocks: &mut Vec<Encoded>) -> Option<()> {
+fn chords(arc: &Arc, from: Node, to: Node, largest: i64, blocks: &mut Vec<Encoded>) -> Option<()> {
     let count = chord_count(arc, CHORD_SAGITTA)?;
     in_pieces(&Segment::Arc(*arc), from, to, count, |piece, from, to| {
         let mut straight = Vec::new();
-        encode_line(&Line { start: piece.start(), end: piece.end() }, from, to, &mut straight)?;
+        encode_line(&Line { start: piece.start(), end: piece.end() }, from, to, largest, &mut straight)?;
         blocks.extend(straight);
         Some(())
     })

@@ -168,11 +168,6 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
     let mut numbers = numbers(&mut reader, &mut faults)?;
     let with_b = numbers.iter().filter(|number| number.b.is_some()).count();
     let mut row = None;
-    let first_has_b = numbers.first().is_some_and(|number| number.b.is_some());
-    // A bare number before three others is that of a row.
-    if !first_has_b && with_b >= 3 && with_b + 1 == numbers.len() {
-        row = numbers.remove(0).value.and_then(|value| u32::try_from(value).ok());
-    }
     let axis_at = {
         reader.skip();
         reader.at
@@ -190,12 +185,18 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
         reader.at
     };
     let motion = motion_of(&mut reader)?;
+    // A bare number before all numbers of a block is that of a row, also where one of them has lost its B.
+    let own = if side.is_some() { 4 } else { 3 };
+    let first_has_b = numbers.first().is_some_and(|number| number.b.is_some());
+    if !first_has_b && numbers.len() == own + 1 && with_b + 1 >= own {
+        row = numbers.remove(0).value.and_then(|value| u32::try_from(value).ok());
+    }
     let mut radius = None;
     if numbers.len() == 4 && side.is_none() {
         let meant = &numbers[0];
         let number = meant.value.and_then(|value| u32::try_from(value).ok());
         let Some((b, number)) = meant.b.zip(number) else { return Err((meant.digits.start, "B before the number".into())) };
-        faults.push(SyntaxFault { range: b..meant.digits.end, flaw: Flaw::BlockNumberAsB { number } });
+        faults.push(SyntaxFault { range: b..meant.digits.end, flaw: Flaw::BlockNumberAsB { number }, number: None });
         row = Some(number);
         numbers.remove(0);
     } else if numbers.len() == 4 {
@@ -211,7 +212,7 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
     for number in [x, y, j].into_iter().filter(|number| number.b.is_none()) {
         // What was split has been said already.
         if !faults.iter().any(|fault| matches!(fault.flaw, Flaw::MissingB { .. })) {
-            faults.push(SyntaxFault { range: number.digits.clone(), flaw: Flaw::MissingB { at: number.digits.start } });
+            faults.push(SyntaxFault { range: number.digits.clone(), flaw: Flaw::MissingB { at: number.digits.start }, number: None });
         }
     }
     let Some(length) = j.value else { return Err((j.digits.start, "the counting length J in \u{b5}m".into())) };
@@ -247,7 +248,7 @@ fn numbers(reader: &mut Reader<'_>, faults: &mut Vec<SyntaxFault>) -> Result<Vec
             let digit = match reader.text.get(reader.at) {
                 Some(digit @ b'0'..=b'9') => *digit,
                 Some(b'O' | b'o') => {
-                    faults.push(SyntaxFault { range: reader.at..reader.at + 1, flaw: Flaw::LetterO });
+                    faults.push(SyntaxFault { range: reader.at..reader.at + 1, flaw: Flaw::LetterO, number: None });
                     b'0'
                 }
                 _ => break,
@@ -329,7 +330,7 @@ fn split_numbers(
         for cut in number.digits.start + 1..number.digits.end {
             let (left, right) = (number.digits.start..cut, cut..number.digits.end);
             // Nobody writes a number with a zero in front of it but J.
-            if text.get(right.start) == Some(&b'0') && right.len() > 1 {
+            if index == 0 && text.get(right.start) == Some(&b'0') && right.len() > 1 {
                 continue;
             }
             let halves = [
@@ -352,7 +353,7 @@ fn split_numbers(
         Some(way) if ways.is_empty() => {
             let at = way.iter().find(|number| number.b.is_none()).map_or(axis_at, |number| number.digits.start);
             let start = first.b.unwrap_or(first.digits.start);
-            faults.push(SyntaxFault { range: start..axis_at, flaw: Flaw::MissingB { at } });
+            faults.push(SyntaxFault { range: start..axis_at, flaw: Flaw::MissingB { at }, number: None });
             Ok(way)
         }
         _ => Err(expected()),

@@ -3,6 +3,7 @@
 //! Everything in here counts in micrometres on the program's grid; only [`write()`] knows of a drawing's unit.
 
 mod block;
+mod crossings;
 mod decode;
 mod document;
 mod encode;
@@ -21,7 +22,7 @@ mod tests;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
-pub use block::{Block, CountingAxis, LARGEST, Motion, Node, PartArc, Quadrant};
+pub use block::{Block, CountingAxis, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
 pub use document::{Document, PlacedBlock};
 pub use encode::{Encoded, encode, snap};

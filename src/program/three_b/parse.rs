@@ -112,6 +112,8 @@ pub enum Flaw {
 pub struct SyntaxFault {
     pub range: Range<usize>,
     pub flaw: Flaw,
+    /// Number that stands before a block that cannot be read.
+    pub number: Option<u32>,
 }
 
 impl SyntaxFault {
@@ -149,7 +151,7 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
 pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> SyntaxFault {
     let found = shown(text.get(range.clone()).unwrap_or_default());
     let sentence = format!("column {column}: found `{found}`, expected {BLOCK_OR_WORD}");
-    SyntaxFault { range, flaw: Flaw::Unreadable(sentence) }
+    SyntaxFault { range, flaw: Flaw::Unreadable(sentence), number: None }
 }
 
 const BLOCK_OR_WORD: &str = "a block (B X B Y B J G Z), a pause or end word, or a comment after `;`";
@@ -207,8 +209,7 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
             Ok(None) => break,
             Err(fault) => {
                 waiting.take().into_iter().for_each(&mut each);
-                each(Item::Fault(fault));
-                number = None;
+                each(Item::Fault(SyntaxFault { number: number.take(), ..fault }));
                 if !cursor.skip_broken_block() {
                     break;
                 }
@@ -337,6 +338,9 @@ impl Cursor<'_> {
         }
         if !wants_to_be_a_block(rest) {
             self.at = self.line.len();
+            if self.behind_block && is_remark(self.line, start, words) {
+                return Ok(None);
+            }
             if !rest.iter().any(u8::is_ascii_alphanumeric) {
                 return Ok(None);
             }
@@ -364,7 +368,7 @@ impl Cursor<'_> {
             Flaw::MissingB { at } => Flaw::MissingB { at: at + shift },
             flaw => flaw,
         };
-        SyntaxFault { range: fault.range.start + shift..fault.range.end + shift, flaw }
+        SyntaxFault { range: fault.range.start + shift..fault.range.end + shift, flaw, number: fault.number }
     }
 
     fn range(&self, start: usize) -> Range<usize> {
@@ -378,11 +382,13 @@ impl Cursor<'_> {
         if rest.is_empty() {
             // There is nothing to underline behind the end, so the last byte stands for it.
             let range = self.offset + self.at.saturating_sub(1)..self.offset + self.at;
-            return SyntaxFault { range, flaw: Flaw::Unreadable(format!("column {column}: the line ends, expected {expected}")) };
+            let flaw = Flaw::Unreadable(format!("column {column}: the line ends, expected {expected}"));
+            return SyntaxFault { range, flaw, number: None };
         }
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len()).max(1);
         let range = self.offset + self.at..self.offset + self.at + length;
-        SyntaxFault { range, flaw: Flaw::Unreadable(format!("column {column}: found `{}`, expected {expected}", shown(&rest[..length]))) }
+        let flaw = Flaw::Unreadable(format!("column {column}: found `{}`, expected {expected}", shown(&rest[..length])));
+        SyntaxFault { range, flaw, number: None }
     }
 
     /// Goes behind the quadrant that the broken block ends in, where more blocks may stand; false where there is none.
@@ -479,6 +485,16 @@ fn has_block_parts(text: &[u8]) -> bool {
         )
     };
     text.windows(2).any(is_part)
+}
+
+/// Words behind a block, without the mark of a comment: what the block is for, in the hand of who wrote it. At least two letters that
+/// nothing of a block begins with, and space before them.
+pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
+    let rest = line.get(at..).unwrap_or_default();
+    let letters = rest.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+    let stands_apart = at.checked_sub(1).and_then(|before| line.get(before)).is_some_and(|byte| matches!(byte, b' ' | b'\t' | b'|'));
+    let is_bare = stands_apart && letters >= 2 && !rest.get(letters).is_some_and(u8::is_ascii_digit);
+    is_bare && words.meaning(&rest[..letters]).is_none() && !wants_to_be_a_block(rest) && fields::strict(rest).is_none()
 }
 
 /// Whether text has enough of a block to be taken for a broken one.
@@ -631,6 +647,7 @@ mod tests {
             check(line, "");
         }
         check("B9900B0B9900GXL1 ,", "9900,0,9900 X L1");
+        check("B9900B0B9900GXL1 line AB, R3", "9900,0,9900 X L1");
         for line in
             ["OA: B9900B0B9900GXL1", "1-2 B9900B0B9900GXL1 ; in", "\u{76f4}\u{7ebf}OA B 9900 B 0 B 9900 GX L1", "\u{2460} B9900B0B9900GXL1"]
         {
@@ -644,6 +661,10 @@ mod tests {
         check("N3 9900B0B9900GXL1", "! 3..7 a B of the block is missing / N3 9900,0,9900 X L1");
         check("B9900 0B9900GXL1", "! 6..7 a B of the block is missing / 9900,0,9900 X L1");
         check("B9900B0 9900GXL1", "! 8..12 a B of the block is missing / 9900,0,9900 X L1");
+        check("12 9900B0B9900GXL1", "! 3..7 a B of the block is missing / N12 9900,0,9900 X L1");
+        check("12 B9900 0B9900GXL1", "! 9..10 a B of the block is missing / N12 9900,0,9900 X L1");
+        check("12 B9900B0 9900GXL1", "! 11..15 a B of the block is missing / N12 9900,0,9900 X L1");
+        check("0B5000B10000B5000GXDDNR1", "! 0..1 a B of the block is missing / 0,5000,10000 X NR1 R5000 DD");
         check("B99000B9900GXL1", "! 0..11 a B of the block is missing / 9900,0,9900 X L1");
         check("B25B9900B0B9900GXL1", "! 0..3 B25 stands where N25 was meant / N25 9900,0,9900 X L1");
         check("B 25 B 9900 B 0 B 39600 GY NR1", "! 0..4 B25 stands where N25 was meant / N25 9900,0,39600 Y NR1");
@@ -663,7 +684,8 @@ mod tests {
             "! 13..23 column 14: found `B5B0B5GXL1`, expected G and the counting axis, GX or GY / 7,0,7 X L1",
         );
         check("B1x2B0B12GXL1 DD", "! 2..13 column 3: found `x2B0B12GXL1`, expected digits of X, or B before Y / End");
-        check("B1B0B1GXL1 hello", "1,0,1 X L1 / text 11..16");
+        check("B1B0B1GXL1 5", "1,0,1 X L1 / text 11..12");
+        check("B1B0B1GXL1hello", "1,0,1 X L1 / text 10..15");
         check(
             "\u{ff22}9900B0B9900GXL1",
             "! 0..18 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits, these are full-width ones",

@@ -5,8 +5,8 @@
 //! it. The ways in and out are lines: they lead to where the wire's path begins, beside the contour.
 
 use crate::finding::Side;
-use crate::geometry::{Arc, Point, Segment, left_normal, turn};
-use crate::program::grid::{point_of, snap};
+use crate::geometry::{Arc, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line, turn};
+use crate::program::grid::{best_center, point_of, snap};
 use crate::program::write::{ProofError, scaled};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use std::f64::consts::PI;
@@ -48,7 +48,7 @@ pub(super) fn rounded(path: &WirePath, scale: f64, correction: f64, radius: f64)
             entry.y / 1e3
         ));
     }
-    let contour = with_transitions(&contour, radius)?;
+    let contour = with_transitions(&contour, radius, correction)?;
     // The lines and arcs are those of the part, begun where the wire is.
     let beside = left_normal(first.geometry.start_tangent()) * (side.sign() * correction);
     let (Some(from), Some(to)) = (snap(entry), snap(entry + beside)) else {
@@ -70,11 +70,17 @@ pub(super) fn is_concave(arc: &Arc, side: Side) -> bool {
     (arc.sweep > 0.0) == (side == Side::Left)
 }
 
-/// Transition arcs of `radius` at the corners between lines; corners beside arcs are refused.
-fn with_transitions(contour: &[PathSegment], radius: f64) -> Result<Vec<PathSegment>, ProofError> {
+/// How much of a piece has to be left between its transitions, µm.
+const LEAST_LEFT: f64 = 1.0;
+
+/// By how much a transition may become larger so that it is larger than the correction on the grid, too, µm.
+const LARGER: i32 = 3;
+
+/// Transition arcs of `radius` at the corners, between lines and arcs alike.
+fn with_transitions(contour: &[PathSegment], radius: f64, correction: f64) -> Result<Vec<PathSegment>, ProofError> {
     let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
     for piece in contour {
-        let Some(before) = rounded.last().copied() else {
+        let Some(before) = rounded.last_mut() else {
             rounded.push(*piece);
             continue;
         };
@@ -84,34 +90,90 @@ fn with_transitions(contour: &[PathSegment], radius: f64) -> Result<Vec<PathSegm
             continue;
         }
         let corner = piece.geometry.start();
-        let at = format!("({:.3}, {:.3})", corner.x / 1e3, corner.y / 1e3);
-        let (Segment::Line(a), Segment::Line(b)) = (before.geometry, piece.geometry) else {
+        let sizes = (0..=LARGER).map(|more| radius + f64::from(more));
+        let mut fitting = sizes.filter_map(|radius| transition(&before.geometry, &piece.geometry, angle, radius));
+        let Some(Transition { before: cut, arc, behind }) = fitting.find(|made| on_grid(&made.arc) > correction) else {
             return Err(ProofError::Refused(format!(
-                "4B needs a tangent transition at the corner {at}, which lies beside an arc: round it in the drawing with more than the correction"
+                "4B needs a transition arc of R {:.3} mm at the corner ({:.3}, {:.3}) of {:.1}°: none that is tangent to both sides fits in there",
+                radius / 1e3,
+                corner.x / 1e3,
+                corner.y / 1e3,
+                angle.to_degrees().abs()
             )));
         };
-        let reach = radius * (angle.abs() / 2.0).tan();
-        let room = a.length().min(b.length());
-        if angle.abs() > PI - TANGENT || reach > room - 1.0 {
-            return Err(ProofError::Refused(format!(
-                "4B needs a transition arc of R {:.3} mm at the corner {at}, expected {:.3} mm of both lines, found {:.3} mm",
-                radius / 1e3,
-                reach / 1e3,
-                room / 1e3
-            )));
-        }
-        let (leaves, meets) = (a.end - a.direction() * reach, b.start + b.direction() * reach);
-        let center: Point = leaves + left_normal(a.direction()) * (radius * angle.signum());
-        let index = rounded.len() - 1;
-        rounded[index].geometry = Segment::line(a.start, leaves);
-        let transition = Segment::Arc(Arc { radius, ..Arc::about(center, leaves, meets, angle > 0.0) });
-        rounded.push(PathSegment { geometry: transition, ..*piece });
-        rounded.push(PathSegment { geometry: Segment::line(meets, b.end), ..*piece });
+        before.geometry = cut;
+        rounded.push(PathSegment { geometry: Segment::Arc(arc), ..*piece });
+        rounded.push(PathSegment { geometry: behind, ..*piece });
     }
     Ok(rounded)
 }
 
-fn moved(segment: &Segment, by: crate::geometry::Vector) -> Segment {
+/// The radius of the block that an arc becomes, µm: between nodes of the grid it may be a micrometre smaller.
+fn on_grid(arc: &Arc) -> f64 {
+    let radius = |from, to| (point_of(from) - point_of(best_center(arc, from, to))).norm().round();
+    match (snap(arc.start), snap(arc.end)) {
+        (Some(from), Some(to)) => radius(from, to),
+        _ => 0.0,
+    }
+}
+
+/// What becomes of a corner.
+struct Transition {
+    before: Segment,
+    arc: Arc,
+    behind: Segment,
+}
+
+/// The arc of `radius` tangent to both sides of a corner that turns by `angle`, and what is left of the sides.
+///
+/// Its centre lies `radius` beside both of them, on the side to which the corner turns. `None` where it meets one of them outside of
+/// it, or turns by more than a half.
+fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Option<Transition> {
+    let side = angle.signum();
+    let corner = behind.start();
+    let centers = match (Locus::of(before, side, radius)?, Locus::of(behind, side, radius)?) {
+        (Locus::Line(p, u), Locus::Line(q, v)) => line_line(p, u, q, v).into_iter().collect(),
+        (Locus::Line(p, u), Locus::Circle(center, far)) | (Locus::Circle(center, far), Locus::Line(p, u)) => line_circle(p, u, center, far),
+        (Locus::Circle(a, far_a), Locus::Circle(b, far_b)) => circle_circle(a, far_a, b, far_b),
+    };
+    let fitting = centers.into_iter().filter_map(|center| {
+        let (leaves, meets) = (before.share_of(center), behind.share_of(center));
+        let left = [before.length() * leaves, behind.length() * (1.0 - meets)];
+        let is_on = leaves < 1.0 && meets > 0.0 && left.iter().all(|left| *left >= LEAST_LEFT);
+        let (start, end) = (before.point_at(leaves), behind.point_at(meets));
+        let arc = Arc { radius, ..Arc::about(center, start, end, side > 0.0) };
+        let is_tangent = is_on && (before.tangent_at(leaves) - arc.tangent_at(0.0)).norm() <= TANGENT;
+        (is_tangent && arc.sweep.abs() < PI - TANGENT).then(|| Transition {
+            before: before.part(0.0, leaves),
+            arc,
+            behind: behind.part(meets, 1.0),
+        })
+    });
+    fitting.min_by(|a, b| (a.arc.center - corner).norm().total_cmp(&(b.arc.center - corner).norm()))
+}
+
+/// Where the centre of an arc lies that touches a piece from one side.
+enum Locus {
+    /// Through a point along a direction.
+    Line(Point, Vector),
+    Circle(Point, f64),
+}
+
+impl Locus {
+    /// On the left where `side` is 1, on the right where it is −1. `None` inside of an arc that is as small.
+    fn of(piece: &Segment, side: f64, radius: f64) -> Option<Locus> {
+        match piece {
+            Segment::Line(line) => Some(Locus::Line(line.start + left_normal(line.direction()) * (side * radius), line.direction())),
+            Segment::Arc(arc) => {
+                let is_inside = (arc.sweep > 0.0) == (side > 0.0);
+                let far = if is_inside { arc.radius - radius } else { arc.radius + radius };
+                (far > 0.0).then_some(Locus::Circle(arc.center, far))
+            }
+        }
+    }
+}
+
+fn moved(segment: &Segment, by: Vector) -> Segment {
     match segment {
         Segment::Line(line) => Segment::line(line.start + by, line.end + by),
         Segment::Arc(arc) => Segment::Arc(Arc { center: arc.center + by, start: arc.start + by, end: arc.end + by, ..*arc }),

@@ -6,10 +6,12 @@ use super::block::{Block, Motion, Node, PartArc};
 use super::decode::meant;
 use super::machine::travel;
 use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
+use super::rules::not_closed::is_closed;
+use super::rules::path_crosses_itself::near_each_other;
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
 use crate::finding::{Detail, ProgramFault, Rule};
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::ops::Range;
 
 /// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
@@ -99,6 +101,8 @@ pub(super) enum What {
     Text {
         column: usize,
     },
+    /// A block that cannot be read.
+    Unread,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -243,6 +247,43 @@ pub(super) struct Part {
     pub sum: Sum,
     /// The word behind it, at `entries.end`.
     pub word: Option<(Word, bool)>,
+    /// Of its way, µm from where it begins.
+    pub bounds: Bounds,
+    /// Blocks of it whose ways come near each other, by their number in the part, neighbours left out.
+    pub near: Box<[(u32, u32)]>,
+}
+
+/// A part under way.
+struct Open {
+    part: Part,
+    ways: Vec<Segment>,
+    boxes: Vec<Bounds>,
+}
+
+impl Open {
+    fn at(entry: usize) -> Open {
+        let part = Part { entries: entry..entry, sum: Sum::default(), word: None, bounds: Bounds::EMPTY, near: Box::default() };
+        Open { part, ways: Vec::new(), boxes: Vec::new() }
+    }
+
+    fn push(&mut self, entry: &BlockEntry) {
+        let segment = meant(&entry.block, Point::origin());
+        let [x, y] = self.part.sum.travel.meant_um();
+        let (start, by) = (Point::new(x, y), Vector::new(x, y));
+        let way = segment.as_ref().map_or(Segment::line(start, start), |segment| segment.moved(by));
+        let bounds = way.bounds();
+        self.part.bounds.merge(&bounds);
+        self.ways.push(way);
+        self.boxes.push(bounds);
+        self.part.sum.push(entry, segment.as_ref());
+    }
+
+    fn closed(mut self) -> Part {
+        let mut near = Vec::new();
+        near_each_other(&self.ways, &self.boxes, &mut |first, second| near.push((first as u32, second as u32)));
+        self.part.near = near.into();
+        self.part
+    }
 }
 
 /// Consecutive lines of a program.
@@ -260,6 +301,15 @@ pub(super) struct Run {
     pub stated: usize,
     pub numbering: Numbering,
     pub positions: Positions,
+    pub travel: Move,
+    pub words: usize,
+    /// Entries: the controller's own first end word, the last end word of any, the last word.
+    pub own_end: Option<usize>,
+    pub last_end: Option<usize>,
+    pub last_word: Option<usize>,
+    /// Parts between two words of the run that do not come back to where they began, and those that come near themselves.
+    pub open: Vec<usize>,
+    pub tangled: Vec<usize>,
 }
 
 /// How the blocks of a run are numbered.
@@ -331,6 +381,14 @@ impl Positions {
     }
 }
 
+/// A way of at most this many lines between two pauses leads from one contour to the next.
+const JUMP_BLOCKS: usize = 3;
+
+/// True for what is, between two pauses, the way from one contour to the next.
+pub(super) fn is_jump(sum: &Sum) -> bool {
+    (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0
+}
+
 /// Lines that one run holds at most.
 pub(super) const LINES: usize = 96;
 
@@ -349,45 +407,71 @@ impl Run {
             stated: 0,
             numbering: Numbering::Empty,
             positions: Positions::default(),
+            travel: Move::default(),
+            words: 0,
+            own_end: None,
+            last_end: None,
+            last_word: None,
+            open: Vec::new(),
+            tangled: Vec::new(),
         };
-        let mut open = Part { entries: 0..0, sum: Sum::default(), word: None };
+        let mut open = Open::at(0);
         for range in lines {
             let line = run.lines as u32;
             run.lines += 1;
             let start = range.start;
             read_line(&text[range], start, words, |item| run.take(item, line, whole.start, &mut open, limits));
         }
-        open.entries.end = run.entries.len();
-        run.parts.push(open);
+        open.part.entries.end = run.entries.len();
+        run.parts.push(open.closed());
+        run.sum_up();
         run
     }
 
-    fn take(&mut self, item: Item, line: u32, base: usize, open: &mut Part, limits: &Limits) {
+    fn sum_up(&mut self) {
+        let last = self.parts.len().saturating_sub(1);
+        for (index, part) in self.parts.iter().enumerate() {
+            self.travel = self.travel.plus(part.sum.travel);
+            if let Some((word, is_own)) = part.word {
+                self.words += 1;
+                self.last_word = Some(part.entries.end);
+                if word == Word::End {
+                    self.own_end = self.own_end.or(is_own.then_some(part.entries.end));
+                    self.last_end = Some(part.entries.end);
+                }
+            }
+            if index > 0 && index < last {
+                self.open.extend((!is_jump(&part.sum) && !is_closed(&part.sum)).then_some(index));
+                self.tangled.extend((!part.near.is_empty()).then_some(index));
+            }
+        }
+    }
+
+    fn take(&mut self, item: Item, line: u32, base: usize, open: &mut Open, limits: &Limits) {
         let local = |range: Range<usize>| range.start - base..range.end - base;
         match item {
             Item::Block { block, range, number, stated_end, part } => {
                 let entry = BlockEntry::new(block, part, stated_end);
                 let range = local(range);
                 let part_index = self.parts.len();
-                let segment = meant(&block, Point::origin());
                 for sight in rules::look(&block, part, limits) {
                     // What is only unusual, or too tight, leads where it says.
-                    open.sum.errors += usize::from(sight.counts == Counts::Always && sight.rule != Rule::SmallRadius);
+                    open.part.sum.errors += usize::from(sight.counts == Counts::Always && sight.rule != Rule::SmallRadius);
                     let (rule, spot, counts, detail) = (sight.rule, sight.spot, sight.counts, sight.detail);
                     self.faults.push(Local { range: range.clone(), rule, detail, spot, counts, part: part_index });
                 }
                 self.stated += usize::from(entry.stated_end().is_some());
-                open.sum.push(&entry, segment.as_ref());
+                open.push(&entry);
                 self.positions.block(self.blocks, self.entries.len(), &entry);
                 self.blocks += 1;
                 self.push(range, line, number, What::Block(entry));
             }
             Item::Word { word, is_own, range, number } => {
-                open.entries.end = self.entries.len();
-                open.word = Some((word, is_own));
+                open.part.entries.end = self.entries.len();
+                open.part.word = Some((word, is_own));
                 self.push(local(range), line, number, What::Word { word, is_own });
                 let next = self.entries.len();
-                self.parts.push(std::mem::replace(open, Part { entries: next..next, sum: Sum::default(), word: None }));
+                self.parts.push(std::mem::replace(open, Open::at(next)).closed());
             }
             Item::StartPoint { at, range } => {
                 self.positions.anchor = Some(Some(StatedPoint { at, decimals: 3 }));
@@ -398,8 +482,14 @@ impl Run {
                 self.push(local(range), line, None, What::Text { column });
             }
             Item::Fault(fault) => {
-                open.sum.errors += 1;
-                open.sum.unread += usize::from(matches!(fault.flaw, Flaw::Unreadable(_)));
+                let is_unread = matches!(fault.flaw, Flaw::Unreadable(_));
+                open.part.sum.errors += 1;
+                open.part.sum.unread += usize::from(is_unread);
+                if is_unread {
+                    // Its number has its turn, and where it ends nobody knows.
+                    self.positions.anchor = Some(None);
+                    self.push(local(fault.range.clone()), line, fault.number, What::Unread);
+                }
                 let sentence = || Detail::Syntax(fault.sentence());
                 let program = |fault| Detail::Program(Box::new(fault));
                 let (rule, detail) = match fault.flaw {
@@ -422,7 +512,7 @@ impl Run {
 
     fn push(&mut self, range: Range<usize>, line: u32, number: Option<u32>, what: What) {
         self.numbered += usize::from(number.is_some());
-        self.numbering = self.numbering.with(number, matches!(what, What::Block(_)));
+        self.numbering = self.numbering.with(number, matches!(what, What::Block(_) | What::Unread));
         self.entries.push(Entry { start: range.start as u32, length: range.len() as u32, line, number: number.unwrap_or(NO_NUMBER), what });
     }
 }

@@ -1,14 +1,14 @@
 //! Text, blocks and paths held against each other.
 
-use super::block::{Block, CountingAxis, LARGEST, Motion, Node, Quadrant};
+use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::encode::{END_TOLERANCE, Encoded, encode, point_of, snap};
 use super::parse::{Item, StatedPoint, Word, Words, read};
 use super::write::{write, write_with};
-use super::{DecodeFault, decode};
+use super::{DecodeFault, Document, decode};
 use crate::drawing::EntityId;
-use crate::geometry::{Arc, Point, Segment, Vector, direction};
+use crate::geometry::{Arc, Point, Segment, Vector, direction, turn};
 use crate::program::{ProofError, ProvedProgram};
-use crate::settings::{Effective, Jumps, Layout};
+use crate::settings::{Compensation, Effective, Jumps, Layout};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -95,11 +95,31 @@ fn long_pieces_are_split_below_the_digit_limit() {
         arc([0.0, 0.0], [0.0, 700.0], [0.001, 700.0], true),
         arc([0.0, -5000.0], [0.0, 0.0], [100.0, (5000.0_f64.powi(2) - 1e4).sqrt() - 5000.0], false),
     ] {
-        let program = written(vec![segment]);
-        let blocks = blocks(&program.text);
-        assert!(blocks.len() > 1 && blocks.iter().all(|b| b.x.max(b.y).max(b.j) <= LARGEST), "{segment:?}: {blocks:?}");
-        assert!((program.length - segment.length()).abs() < 1e-6);
+        for digits in [5, 6, 7, 9] {
+            let settings = Effective { digits, ..Effective::default() };
+            let program = write(&[path_of(vec![segment])], 1.0, &settings).expect("a program");
+            let blocks = blocks(&program.text);
+            let largest = settings.largest_number();
+            assert!(blocks.iter().all(|b| b.x.max(b.y).max(b.j) <= largest), "{segment:?}: {blocks:?}");
+            let counted: i64 = blocks.iter().map(|b| b.j).sum();
+            assert!(blocks.len() > 1 || counted <= largest, "{segment:?} with {digits} digits: {blocks:?}");
+            assert!((program.length - segment.length()).abs() < 1e-6);
+        }
     }
+}
+
+#[test]
+fn how_many_digits_a_controller_has_is_a_setting() {
+    let text = "B1500000B0B1500000GXL1\nB0B1500000B1500000GYL2\nB1500000B0B1500000GXL3\nB0B1500000B1500000GYL4\nDD\n";
+    let faults = |digits: u32| {
+        let settings = Effective { digits, ..Effective::default() };
+        let document = Document::read_with(text.as_bytes().to_vec(), &settings);
+        let findings = document.findings();
+        assert!(findings.iter().all(|finding| finding.rule.name() == "too-many-digits"), "{findings:?}");
+        let pieces = findings.iter().map(|finding| document.fixes(finding)[0].edit[0].text.lines().count());
+        (findings.len(), pieces.max())
+    };
+    assert_eq!([5, 6, 7].map(faults), [(4, Some(16)), (4, Some(2)), (0, None)]);
 }
 
 #[test]
@@ -167,13 +187,89 @@ fn the_parts_contour_in_four_b_turns_in_arcs_only() {
         Err(ProofError::Refused(sentence)) => assert!(sentence.contains(expected), "{sentence}"),
         other => panic!("{other:?}"),
     };
-    refused(four_b(Side::Left, [19.95, 10.0]), "needs a transition arc of R 0.101 mm at the corner (20.000, 10.000)");
+    refused(four_b(Side::Left, [19.95, 10.0]), "needs a transition arc of R 0.101 mm at the corner (20.000, 10.000) of 90.0°: none");
     let unknown = super::write_four_b(&[path_of(vec![line([0.0, 0.0], [1.0, 0.0])])], 1.0, &Effective::default(), &mut |_, _| true);
     refused(unknown.map(|program| program.text), "say opening or punch");
     let mut tight = path_of(vec![arc([0.0, 0.0], [0.1, 0.0], [0.1, 0.0], true)]);
     tight.side = Some(Side::Left);
     let tight = super::write_four_b(&[tight], 1.0, &Effective::default(), &mut |_, _| true);
     refused(tight.map(|program| program.text), "expected more than the correction 0.100 mm");
+}
+
+/// Contours from vertices with bulges, the first of them in the middle of a straight side, as 4B; the arcs of the program with their side.
+fn part_of(vertices: &[[f64; 3]], side: crate::finding::Side, settings: &Effective) -> Result<Vec<(Segment, Option<bool>)>, ProofError> {
+    let next = |index: usize| Point::new(vertices[(index + 1) % vertices.len()][0], vertices[(index + 1) % vertices.len()][1]);
+    let piece = |(index, &[x, y, bulge]): (usize, &[f64; 3])| Segment::from_bulge(Point::new(x, y), next(index), bulge);
+    let mut path = path_of(vertices.iter().enumerate().map(piece).collect());
+    path.side = Some(side);
+    let program = super::write_four_b(&[path], 1.0, settings, &mut |_, _| true)?;
+    let (items, faults) = read(program.text.as_bytes(), &Words::default());
+    assert_eq!(faults, [], "{}", program.text);
+    let mut at = Point::origin();
+    let mut pieces = Vec::new();
+    for item in items {
+        if let Item::Block { block, part, .. } = item {
+            let piece = decode(&block, at).unwrap();
+            at = piece.end();
+            pieces.push((piece, part.map(|part| part.concave)));
+        }
+    }
+    Ok(pieces)
+}
+
+#[test]
+fn corners_beside_arcs_get_their_transition_in_four_b() {
+    use crate::finding::Side;
+    // A side that ends in a half turn, with a corner at both ends of it: line to arc, arc to line; two arcs that meet in a corner.
+    let tongue =
+        [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 4.0, 0.0], [8.0, 4.0, 1.0], [2.0, 4.0, 0.0], [-10.0, 4.0, 0.0], [-10.0, 0.0, 0.0]];
+    let lens = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.5], [0.0, 8.0, 0.5], [-10.0, 0.0, 0.0]];
+    let bites = [[0.0, 0.0, 0.0], [10.0, 0.0, -0.3], [0.0, 8.0, -0.3], [-10.0, 0.0, 0.0]];
+    for (vertices, corners) in [(&tongue[..], 6), (&lens, 3), (&bites, 3)] {
+        for side in [Side::Left, Side::Right] {
+            let settings = Effective { correction: 0.2, ..Effective::default() };
+            let pieces = part_of(vertices, side, &settings).unwrap();
+            let transitions = pieces.iter().filter(|(piece, _)| piece.as_arc().is_some_and(|arc| (200.5..206.0).contains(&arc.radius)));
+            assert_eq!(transitions.count(), corners, "{vertices:?} {side:?}: {pieces:?}");
+            // Between the ways in and out the wire's path joins: every joint is tangent, as far as the grid goes.
+            for pair in pieces[1..pieces.len() - 1].windows(2) {
+                let kink = turn(pair[0].0.end_tangent(), pair[1].0.start_tangent()).abs();
+                assert!(kink * 200.0 <= 3.0, "{kink} {pair:?}");
+            }
+            // A transition is concave where the wire runs inside of it.
+            for (piece, concave) in &pieces {
+                let inside = piece.as_arc().map(|arc| (arc.sweep > 0.0) == (side == Side::Left));
+                assert_eq!(*concave, inside, "{piece:?}");
+            }
+        }
+    }
+    // No arc of 0.6 mm is tangent to both sides within 0.5 mm of them.
+    let narrow = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 0.5, 0.4], [0.0, 8.0, 0.0], [-10.0, 0.0, 0.0]];
+    let wide = Effective { correction: 0.6, ..Effective::default() };
+    assert!(
+        matches!(part_of(&narrow, Side::Left, &wide), Err(ProofError::Refused(sentence)) if sentence.contains("tangent to both sides"))
+    );
+}
+
+/// A part's contour as 4B holds the controller's correction; `none` says that it is the wire's own path, and its arcs are held against the
+/// correction all the same.
+#[test]
+fn tight_arcs_of_four_b_are_found_whatever_the_compensation() {
+    let arc = |radius: i64, side: &str| format!("B0B1000B1000GYL2\nB{radius}B0B{radius}B{radius}GY{side}NR1\nB1000B0B1000GXL3\nDD\n");
+    for compensation in [Compensation::None, Compensation::Controller, Compensation::Path] {
+        let settings = Effective { compensation, ..Effective::default() };
+        let tight = |text: &str| {
+            let document = Document::read_with(text.as_bytes().to_vec(), &settings);
+            document.findings().iter().filter(|finding| finding.rule.name() == "small-radius").count()
+        };
+        assert_eq!((tight(&arc(90, "DD")), tight(&arc(100, "DD")), tight(&arc(101, "DD")), tight(&arc(90, "D"))), (1, 1, 0, 0));
+    }
+    let three_b = |compensation| {
+        let settings = Effective { compensation, ..Effective::default() };
+        let document = Document::read_with(b"B90B0B90GYNR1\nDD\n".to_vec(), &settings);
+        document.findings().iter().filter(|finding| finding.rule.name() == "small-radius").count()
+    };
+    assert_eq!([Compensation::None, Compensation::Controller, Compensation::Path].map(three_b), [1, 1, 0]);
 }
 
 #[test]
@@ -340,12 +436,12 @@ proptest! {
         let arc = Arc::from_center(Point::from(center) * 1000.0, radius * 1000.0, start, sweep);
         let (from, to) = (snap(arc.start).expect("near"), snap(arc.end).expect("near"));
         let mut encoded: Vec<Encoded> = Vec::new();
-        prop_assert!(encode(&Segment::Arc(arc), from, to, &mut encoded).is_some());
+        prop_assert!(encode(&Segment::Arc(arc), from, to, Effective::default().largest_number(), &mut encoded).is_some());
         let mut node = from;
         for block in &encoded {
             prop_assert_eq!(block.from, node);
             node = block.to;
-            prop_assert!(block.block.x.max(block.block.y).max(block.block.j) <= LARGEST);
+            prop_assert!(block.block.x.max(block.block.y).max(block.block.j) <= Effective::default().largest_number());
             let decoded = decode(&block.block, point_of(block.from)).expect("a decodable block");
             prop_assert!((decoded.end() - point_of(block.to)).norm() <= END_TOLERANCE);
             for share in [0.1, 0.3, 0.5, 0.7, 0.9] {

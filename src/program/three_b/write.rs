@@ -100,7 +100,7 @@ impl Writer for Blocks<'_> {
     fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Result<(), ProofError> {
         let mut encoded = std::mem::take(&mut self.encoded);
         encoded.clear();
-        encode(piece, from, to, &mut encoded)
+        encode(piece, from, to, self.settings.largest_number(), &mut encoded)
             .ok_or_else(|| ProofError::Mismatch(format!("no blocks within tolerance lead from {from:?} to {to:?}")))?;
         for block in &encoded {
             self.blocks += 1;

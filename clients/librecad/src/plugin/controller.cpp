@@ -2,7 +2,6 @@
 #include "controller.h"
 
 #include "host.h"
-#include "view.h"
 
 #include <QAction>
 #include <QApplication>
@@ -40,6 +39,10 @@ const char SETTING_LIVE[] = "live";
 
 /// A repair that keeps LibreCAD busy for longer than this, in ms, is asked about first.
 constexpr qint64 LONG_REBUILD = 1000;
+/// A look of the live check at a large drawing is taken in slices of this, in ms, beside what LibreCAD needs for each to list it.
+constexpr qint64 SLICE = 40;
+/// LibreCAD's time between two of them.
+constexpr int BETWEEN_SLICES = 15;
 /// How soon a repair is tried again that came while the user was in the middle of something.
 constexpr int AGAIN = 100;
 /// How often it is looked whether LibreCAD has started, in ms.
@@ -77,7 +80,7 @@ Controller::Controller(QObject *actions)
     setObjectName(QStringLiteral("wedm_controller"));
     m_thread.setObjectName(QStringLiteral("wedm"));
     connectSession();
-    connect(&m_live, &LiveCheck::due, this, [this] { trigger(command::LOOK); });
+    connect(&m_live, &LiveCheck::due, this, &Controller::lookInSlices);
     connect(&m_live, &LiveCheck::held, this, [this](const QString &reason) {
         if (m_panel)
             m_panel->setLive(reason.isEmpty() ? tr("live check on") : tr("live check %1").arg(reason));
@@ -181,8 +184,8 @@ void Controller::run(const QString &command, Document_Interface &drawing)
     } else if (command == QLatin1String(command::LIVE)) {
         setLive(!m_live.isOn());
         settings().setValue(QString::fromLatin1(SETTING_LIVE), m_live.isOn());
-        if (m_live.isOn())
-            look(drawing);
+    } else if (command == QLatin1String(command::LOOK)) {
+        lookSlice(drawing);
     } else {
         if (!own)
             startServer();
@@ -345,8 +348,69 @@ void Controller::look(Document_Interface &drawing)
 {
     QElapsedTimer clock;
     clock.start();
-    Open &open = openFor(host::currentWindow());
+    m_slices.drop();
     const Snapshot snapshot = takeSnapshot(drawing);
+    setProperty("lookMilliseconds", clock.elapsed());
+    deliver(snapshot, clock.elapsed());
+}
+
+/// Each call of the plugin reads a slice of the drawing, and LibreCAD goes on in between.
+void Controller::lookInSlices()
+{
+    if (!m_slices.isBegun()) {
+        m_sliced = host::currentWindow();
+        m_spent = 0;
+        setProperty("slices", 0);
+        setProperty("sliceMilliseconds", 0);
+    }
+    {
+        HeldPainting held(m_sliced);
+        m_held = &held;
+        trigger(command::LOOK);
+        m_held = nullptr;
+    }
+    if (!m_slices.isBegun()) {
+        m_live.broken();
+        return;
+    }
+    QElapsedTimer clock;
+    clock.start();
+    QTimer::singleShot(BETWEEN_SLICES, this, [this, clock] {
+        // A command has looked at all of it meanwhile.
+        if (!m_slices.isBegun())
+            return;
+        if (host::currentWindow() != m_sliced || (!m_slices.isComplete() && !m_live.mayGoOn())) {
+            m_slices.drop();
+            m_live.broken();
+        } else if (m_slices.isComplete()) {
+            // LibreCAD has painted now: comparing the drawing with the last one would have taken a processor from it.
+            deliver(m_slices.take(), m_spent + clock.elapsed());
+        } else {
+            lookInSlices();
+        }
+    });
+}
+
+void Controller::lookSlice(Document_Interface &drawing)
+{
+    QElapsedTimer clock;
+    clock.start();
+    m_slices.read(drawing, SLICE);
+    // The one painting that the look costs.
+    if (m_slices.isComplete() && m_held)
+        m_held->release();
+    m_spent += clock.elapsed();
+    setProperty("lookMilliseconds", m_spent);
+    setProperty("slices", property("slices").toInt() + 1);
+    setProperty("sliceMilliseconds", qMax(property("sliceMilliseconds").toLongLong(), clock.elapsed()));
+}
+
+/// What was seen goes to the session. LibreCAD was busy with it for `spent` ms so far.
+void Controller::deliver(const Snapshot &snapshot, qint64 spent)
+{
+    QElapsedTimer clock;
+    clock.start();
+    Open &open = openFor(host::currentWindow());
     QStringList unchecked;
     for (auto each = snapshot.unchecked.constBegin(); each != snapshot.unchecked.constEnd(); ++each)
         unchecked += QStringLiteral("%1 × %2").arg(each.value()).arg(each.key());
@@ -359,10 +423,9 @@ void Controller::look(Document_Interface &drawing)
         session.watchRadii(uri, true);
     });
     m_panel->setUnchecked(open.unchecked);
-    setProperty("lookMilliseconds", clock.elapsed());
     setProperty("looks", property("looks").toInt() + 1);
-    // LibreCAD paints the drawing again after each call of a plugin; that belongs to the cost of a look.
-    QTimer::singleShot(0, this, [this, clock] { m_live.looked(clock.elapsed()); });
+    // LibreCAD paints the drawing again after a call of a plugin; that belongs to the cost of a look.
+    QTimer::singleShot(0, this, [this, clock, spent] { m_live.looked(spent + clock.elapsed()); });
 }
 
 void Controller::startServer()

@@ -6,6 +6,7 @@
 #include "live_check.h"
 #include "panel.h"
 #include "snapshot.h"
+#include "view.h"
 
 #include <QPointer>
 #include <QThread>
@@ -65,6 +66,9 @@ private:
     Open *openOf(const QString &uri, QMdiSubWindow **window = nullptr);
     Open *current();
     void look(Document_Interface &drawing);
+    void lookInSlices();
+    void lookSlice(Document_Interface &drawing);
+    void deliver(const Snapshot &snapshot, qint64 spent);
     void startServer();
     void sendSettings();
     void showCurrent();
@@ -85,6 +89,10 @@ private:
     Session *m_session;
     LiveCheck m_live;
     QHash<QMdiSubWindow *, Open> m_open;
+    SlicedSnapshot m_slices;
+    QPointer<QMdiSubWindow> m_sliced;
+    HeldPainting *m_held = nullptr;
+    qint64 m_spent = 0;
     Repair m_repair;
     bool m_running = false;
     int m_names = 0;

@@ -40,6 +40,7 @@ void LiveCheck::setOn(bool on)
 {
     if (on == isOn())
         return;
+    m_looking = false;
     if (on) {
         m_touched = true;
         m_timer.start();
@@ -54,6 +55,13 @@ void LiveCheck::looked(qint64 milliseconds)
 {
     m_cost = milliseconds;
     m_sinceLook.restart();
+    m_looking = false;
+}
+
+void LiveCheck::broken()
+{
+    m_looking = false;
+    m_touched = true;
 }
 
 bool LiveCheck::eventFilter(QObject *, QEvent *event)
@@ -77,8 +85,15 @@ bool LiveCheck::eventFilter(QObject *, QEvent *event)
     return false;
 }
 
+bool LiveCheck::mayGoOn() const
+{
+    return isOn() && !m_touched && host::currentWindow() && !host::userIsBusy() && !host::redoIsPossible();
+}
+
 void LiveCheck::tick()
 {
+    if (m_looking)
+        return;
     const qint64 rested = m_sinceLook.elapsed();
     const bool slept = rested > qMax(LONGEST_SLEEP, m_cost * SLEEP_PER_COST);
     if ((!m_touched && !slept) || rested < m_cost * REST)
@@ -92,6 +107,7 @@ void LiveCheck::tick()
         return;
     }
     m_touched = false;
+    m_looking = true;
     emit held(QString());
     emit due();
 }

@@ -18,10 +18,15 @@ public:
     bool isOn() const { return m_timer.isActive(); }
     /// How long the last look has kept LibreCAD busy, its repainting included. The next one comes the later.
     void looked(qint64 milliseconds);
+    /// The look that was due did not come to its end. Another one is due when the user has come to rest.
+    void broken();
     /// Looks soon even if the user does nothing.
     void wake() { m_touched = true; }
+    /// Whether a look that was begun may go on: nobody has touched anything since, and nothing is in its way.
+    bool mayGoOn() const;
 
 signals:
+    /// A look is to be taken; `looked` or `broken` answers.
     void due();
     /// Why no look is taken now; empty when one is.
     void held(const QString &reason);
@@ -37,6 +42,7 @@ private:
     QElapsedTimer m_sinceInput;
     qint64 m_cost = 0;
     bool m_touched = true;
+    bool m_looking = false;
 };
 
 } // namespace wedm

@@ -3,11 +3,13 @@
 
 #include "document_interface.h"
 
+#include <QElapsedTimer>
 #include <QHash>
 #include <QSet>
 #include <QtMath>
 
 #include <cmath>
+#include <limits>
 
 namespace wedm {
 
@@ -26,6 +28,8 @@ constexpr int LONGEST_START_MARK = 64;
 constexpr double NS_PER_PAIR = 80;
 /// What is read back may differ by so much from what was written, in drawing units and degrees.
 constexpr double ARRIVED = 1e-8;
+/// So many entities are read between two looks at the clock.
+constexpr int AT_ONCE = 256;
 /// Values of $INSUNITS.
 constexpr int INSUNITS_INCH = 1;
 constexpr int INSUNITS_MM = 4;
@@ -132,6 +136,31 @@ bool read(Plug_Entity &source, const Data &data, Entity *entity)
     }
 }
 
+void readUnits(Document_Interface &drawing, Snapshot *snapshot)
+{
+    int unit = 0;
+    drawing.getVariableInt(QStringLiteral("$INSUNITS"), &unit);
+    if (unit == INSUNITS_INCH)
+        snapshot->units = Units::Inch;
+    else if (unit == INSUNITS_MM)
+        snapshot->units = Units::Millimetre;
+    else
+        snapshot->otherUnit = unit;
+}
+
+void readEntity(Plug_Entity &source, Snapshot *snapshot)
+{
+    Data data;
+    source.getData(&data);
+    if (data.value(DPI::LAYER).toString() == QLatin1String(MARK_LAYER))
+        return;
+    Entity entity;
+    if (read(source, data, &entity))
+        snapshot->entities += entity;
+    else if (const char *kind = uncheckedKind(data.value(DPI::ETYPE).toInt()))
+        ++snapshot->unchecked[QString::fromLatin1(kind)];
+}
+
 Data geometry(const Entity &entity, bool clockwise)
 {
     Data data;
@@ -222,30 +251,42 @@ bool arrived(const Entity &meant, const Entity &found)
 
 Snapshot takeSnapshot(Document_Interface &drawing)
 {
-    Snapshot snapshot;
-    int unit = 0;
-    drawing.getVariableInt(QStringLiteral("$INSUNITS"), &unit);
-    if (unit == INSUNITS_INCH)
-        snapshot.units = Units::Inch;
-    else if (unit == INSUNITS_MM)
-        snapshot.units = Units::Millimetre;
-    else
-        snapshot.otherUnit = unit;
+    SlicedSnapshot whole;
+    whole.read(drawing, std::numeric_limits<qint64>::max());
+    return whole.take();
+}
 
+void SlicedSnapshot::read(Document_Interface &drawing, qint64 milliseconds)
+{
+    // The wrappers live as long as the call.
     const Entities entities(drawing);
-    snapshot.entities.reserve(entities.list().size());
-    for (Plug_Entity *each : entities.list()) {
-        Data data;
-        each->getData(&data);
-        if (data.value(DPI::LAYER).toString() == QLatin1String(MARK_LAYER))
-            continue;
-        Entity entity;
-        if (read(*each, data, &entity))
-            snapshot.entities += entity;
-        else if (const char *kind = uncheckedKind(data.value(DPI::ETYPE).toInt()))
-            ++snapshot.unchecked[QString::fromLatin1(kind)];
+    QElapsedTimer clock;
+    clock.start();
+    const int size = entities.list().size();
+    if (!m_isBegun || size != m_size) {
+        drop();
+        m_isBegun = true;
+        m_size = size;
+        readUnits(drawing, &m_snapshot);
+        m_snapshot.entities.reserve(size);
     }
-    return snapshot;
+    while (m_next < size) {
+        const int end = qMin(m_next + AT_ONCE, size);
+        for (; m_next < end; ++m_next)
+            readEntity(*entities.list().at(m_next), &m_snapshot);
+        if (clock.elapsed() >= milliseconds)
+            break;
+    }
+}
+
+Snapshot SlicedSnapshot::take()
+{
+    m_isBegun = false;
+    m_next = 0;
+    m_size = 0;
+    Snapshot taken;
+    std::swap(taken, m_snapshot);
+    return taken;
 }
 
 bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *failure)

@@ -26,6 +26,25 @@ struct Snapshot {
 /// Everything visible that can be cut. Entities on layers that are off cannot be told from deleted ones and are left out.
 Snapshot takeSnapshot(Document_Interface &drawing);
 
+/// The same, taken in several calls of the plugin, between which the host goes on. It is for the caller to see that the drawing stays
+/// as it is meanwhile; only a drawing that has grown or shrunk is noticed here, and read from its beginning.
+class SlicedSnapshot {
+public:
+    /// Reads on for `milliseconds`, beside the time that LibreCAD needs to list what there is.
+    void read(Document_Interface &drawing, qint64 milliseconds);
+    bool isBegun() const { return m_isBegun; }
+    bool isComplete() const { return m_isBegun && m_next == m_size; }
+    /// What was read; the next one begins anew.
+    Snapshot take();
+    void drop() { take(); }
+
+private:
+    Snapshot m_snapshot;
+    bool m_isBegun = false;
+    int m_size = 0;
+    int m_next = 0;
+};
+
 /// Makes the repair in `drawing`. All of it is one undo step, because LibreCAD counts a plugin's call as one.
 /// When the drawing is no longer what the repair was made for, `failure` says so and nothing is changed.
 bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *failure);

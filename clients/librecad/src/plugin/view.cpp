@@ -80,4 +80,24 @@ void selectInMiddle(QMdiSubWindow *window)
     QCoreApplication::sendEvent(widget, &release);
 }
 
+HeldPainting::HeldPainting(QMdiSubWindow *window)
+    : m_view(graphicView(window))
+{
+    // `setUpdatesEnabled` would paint when it switches on again.
+    if (m_view)
+        m_view->setAttribute(Qt::WA_UpdatesDisabled, true);
+}
+
+HeldPainting::~HeldPainting()
+{
+    release();
+}
+
+void HeldPainting::release()
+{
+    if (m_view)
+        m_view->setAttribute(Qt::WA_UpdatesDisabled, false);
+    m_view = nullptr;
+}
+
 } // namespace wedm

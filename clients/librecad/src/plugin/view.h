@@ -6,6 +6,7 @@
 #include <QPointF>
 
 class QMdiSubWindow;
+class QWidget;
 
 namespace wedm {
 
@@ -15,5 +16,20 @@ bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half);
 /// Selects the entity that `zoomTo` has put in the middle of the view, as a click of the user would.
 /// Does nothing while a command of LibreCAD is running, which would take the click for its own.
 void selectInMiddle(QMdiSubWindow *window);
+
+/// Keeps LibreCAD from painting the drawing of `window` again, which it wants after each call of a plugin; at the end all is as it was.
+/// What it wants is remembered by LibreCAD and done with the next painting.
+class HeldPainting {
+public:
+    explicit HeldPainting(QMdiSubWindow *window);
+    ~HeldPainting();
+    HeldPainting(const HeldPainting &) = delete;
+    HeldPainting &operator=(const HeldPainting &) = delete;
+
+    void release();
+
+private:
+    QWidget *m_view;
+};
 
 } // namespace wedm

@@ -32,13 +32,24 @@ Blocks::Blocks(QObject *parent)
         m_longest = qMax(m_longest, m_clock.restart());
     });
     m_timer.start(1);
+    QCoreApplication::instance()->installEventFilter(this);
     restart();
+}
+
+/// The time since the event before is what that one took: with the timer there is always another one.
+bool Blocks::eventFilter(QObject *object, QEvent *event)
+{
+    qint64 &longest = m_isPainting ? m_painting : m_other;
+    longest = qMax(longest, m_sinceEvent.restart());
+    m_isPainting = event->type() == QEvent::Paint && object->inherits("QG_GraphicView");
+    return false;
 }
 
 void Blocks::restart()
 {
     m_clock.start();
-    m_longest = 0;
+    m_sinceEvent.start();
+    m_longest = m_painting = m_other = 0;
 }
 
 Driver::Driver()

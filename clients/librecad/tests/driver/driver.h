@@ -77,15 +77,25 @@ private:
     int m_failed = 0;
 };
 
-/// The longest time in which the event loop did not come round.
+/// The longest time in which the event loop did not come round, and what of it one painting of the drawing took.
 class Blocks : public QObject {
 public:
     explicit Blocks(QObject *parent);
     qint64 longest() const { return m_longest; }
+    qint64 painting() const { return m_painting; }
+    /// The longest single thing that was no painting of the drawing.
+    qint64 other() const { return m_other; }
     void restart();
+
+protected:
+    bool eventFilter(QObject *object, QEvent *event) override;
 
 private:
     QTimer m_timer;
     QElapsedTimer m_clock;
+    QElapsedTimer m_sinceEvent;
+    bool m_isPainting = false;
     qint64 m_longest = 0;
+    qint64 m_painting = 0;
+    qint64 m_other = 0;
 };

@@ -363,9 +363,14 @@ void Driver::large()
         // A costly look waits for a quiet moment; it belongs to the measurement.
         wait([&] { return controller()->property("looks").toInt() > looks; }, LONG);
         const qint64 longest = pause();
-        report(QStringLiteral("       longest block, a line is drawn under live check: %1 ms, of them the look %2 ms")
+        report(QStringLiteral("       longest block, a line is drawn under live check: %1 ms; LibreCAD's painting %2 ms, anything else at most %3 ms; "
+                              "the look took %4 ms in %5 slices of at most %6 ms")
                    .arg(longest)
-                   .arg(controller()->property("lookMilliseconds").toInt()));
+                   .arg(blocks.painting())
+                   .arg(blocks.other())
+                   .arg(controller()->property("lookMilliseconds").toInt())
+                   .arg(controller()->property("slices").toInt())
+                   .arg(controller()->property("sliceMilliseconds").toInt()));
     }
     // A server that does not answer at all holds nothing up: were anything waited for, this would never end.
     const pid_t server = pid_t(controller()->property("serverProcessId").toLongLong());

@@ -76,7 +76,8 @@ class _Protocol(LanguageServerProtocol):
             return _Response(data["id"], data["result"], data["jsonrpc"])
         if data.get("method") == types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS:
             return _Notification(data["method"], data.get("params"), data["jsonrpc"])
-        if str(data.get("method", "")).startswith("wedm/") and "id" in data:
+        asked = str(data.get("method", ""))
+        if (asked.startswith("wedm/") or asked == types.WORKSPACE_APPLY_EDIT) and "id" in data:
             return _Request(data["id"], data["method"], data.get("params"), data["jsonrpc"])
         return super().structure_message(data)
 
@@ -144,6 +145,7 @@ class Connection:
         command: Sequence[str],
         on_publish: Callable[[Connection, Mapping[str, Any]], None],
         on_resend: Callable[[str], dict[str, Any]],
+        on_edit: Callable[[Mapping[str, Any]], str | None],
         on_end: Callable[[Connection], None],
     ) -> None:
         self._loop = loop
@@ -155,6 +157,7 @@ class Connection:
         self._client = _Client(self._end)
         self._client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: on_publish(self, params))
         self._client.feature("wedm/resendDrawing")(lambda params: on_resend(str(params["uri"])))
+        self._client.feature(types.WORKSPACE_APPLY_EDIT)(lambda params: _applied(on_edit(params["edit"])))
         for unheard in (types.WINDOW_LOG_MESSAGE, types.WINDOW_SHOW_MESSAGE):
             self._client.feature(unheard)(lambda params: self._hear(params))
 
@@ -187,7 +190,7 @@ class Connection:
             raise WedmError(f"{self._command[0]} could not be started: {reason}") from None
         capabilities = types.ClientCapabilities(
             general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind.Utf8]),
-            workspace=types.WorkspaceClientCapabilities(workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True)),
+            workspace=types.WorkspaceClientCapabilities(apply_edit=True, workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True)),
             experimental={"wedm": {"resendDrawing": True}},
         )
         folders = [types.WorkspaceFolder(uri=folder, name=folder.rsplit("/", 1)[-1])] if folder is not None else None
@@ -285,6 +288,10 @@ class Connection:
                 return self._loop.run(stop, 5)
             except FutureTimeout:
                 self.kill()
+
+
+def _applied(failure: str | None) -> dict[str, Any]:
+    return {"applied": True} if failure is None else {"applied": False, "failureReason": failure}
 
 
 async def _drain() -> None:

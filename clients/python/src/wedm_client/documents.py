@@ -159,6 +159,14 @@ class TextDocument(Document):
     def _lines(self) -> list[bytes]:
         return _LINE_END.split(self._bytes)
 
+    def _position(self, line: int, column: int) -> dict[str, int]:
+        """The protocol's form of a line and column that count from 1."""
+        lines = self._lines()
+        if not 1 <= line <= len(lines) or column < 1:
+            raise ValueError(f"line {line}, column {column} is not in a text of {len(lines)} lines")
+        before = lines[line - 1].decode("utf-8", "replace")[: column - 1]
+        return {"line": line - 1, "character": len(before.encode("utf-8"))}
+
     def _edited(self, edits: Sequence[Mapping[str, Any]]) -> bytes:
         """The bytes after the edits, whose characters count UTF-8 bytes."""
         starts = [0, *(match.end() for match in _LINE_END.finditer(self._bytes))]

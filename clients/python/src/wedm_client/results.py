@@ -257,6 +257,33 @@ class Simulation:
 
 
 @dataclass(frozen=True)
+class Located:
+    """Where a segment, or an entity, is written in a text. Lines and columns count from 1."""
+
+    handle: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    #: None: the place is of the entity, and of none of its segments.
+    segment: int | None = None
+
+
+@dataclass(frozen=True)
+class SettingsInForce:
+    """The correction that radii of a document are held against, mm, and which level of settings it comes from."""
+
+    correction: float
+    #: That of each pass.
+    corrections: list[float]
+    #: ``default``, ``client`` or ``file``.
+    correction_from: str
+    side: str
+    #: URI of the ``wedm.toml`` that holds, if there is one.
+    file: str | None = None
+
+
+@dataclass(frozen=True)
 class Picture:
     """Contours, faults and, where it can be made, the wire's path, as SVG. A notebook shows it as it is."""
 
@@ -355,6 +382,14 @@ def diagnostic_from_json(value: Mapping[str, Any], lines: TextLines) -> Diagnost
         page=description.get("href"),
         data=value.get("data") or {},
         **place,
+    )
+
+
+def located_from_json(value: Mapping[str, Any], lines: list[bytes]) -> Located:
+    """A place of the protocol in a text of these lines."""
+    start, end = value["range"]["start"], value["range"]["end"]
+    return Located(
+        value["handle"], start["line"] + 1, _column(lines, start), end["line"] + 1, _column(lines, end), segment=value.get("segment")
     )
 
 

@@ -22,11 +22,26 @@ from lsprotocol import types
 
 from . import cad
 from .connection import CONTENT_MODIFIED, Connection, Died, Loop
+from .convert import converted
 from .documents import LANGUAGES, Document, Drawing, TextDocument, read_text
 from .entities import Change, Delete, Put, Splice, change_from_json
 from .errors import NoAnswer, NotOpen, Outdated, ServerDied, WedmError
 from .find import find
-from .results import Contours, Diagnostic, Fixed, Inspection, Picture, Program, Simulation, Toolpath, diagnostic_from_json, from_json
+from .results import (
+    Contours,
+    Diagnostic,
+    Fixed,
+    Inspection,
+    Located,
+    Picture,
+    Program,
+    SettingsInForce,
+    Simulation,
+    Toolpath,
+    diagnostic_from_json,
+    from_json,
+    located_from_json,
+)
 from .settings import Settings, Units, to_json
 
 #: What a drawing can be opened from.
@@ -273,6 +288,56 @@ class Server:
         # The protocol counts lines from 0.
         return replace(simulation, blocks=[replace(block, line=block.line + 1) for block in simulation.blocks])
 
+    def locate(
+        self,
+        document: TextDocument,
+        line: int | None = None,
+        column: int = 1,
+        *,
+        handle: str | None = None,
+        segment: int | None = None,
+    ) -> Located | None:
+        """What segment is written at a line and column of a DXF text, or where a ``handle`` and its ``segment`` are written.
+
+        Lines and columns count from 1. None where nothing with geometry is written.
+
+        :raises Refused: the document has no places: a program.
+        :raises RequestFailed: there is no such handle or segment.
+        """
+        if (line is None) == (handle is None):
+            raise TypeError("expected a line, or a handle")
+        params: dict[str, Any] = {"uri": document.uri}
+        if line is not None:
+            params["position"] = document._position(line, column)
+        else:
+            params["handle"] = handle
+        if segment is not None:
+            params["segment"] = segment
+        answer = self._ask(document, "wedm/locate", params)
+        return None if answer is None else located_from_json(answer, document._lines())
+
+    def settings(self, document: Document) -> SettingsInForce:
+        """The correction that holds for the document, and which level of settings it comes from."""
+        return from_json(self._ask(document, "wedm/settings", {"uri": document.uri}), SettingsInForce)
+
+    def convert(
+        self,
+        program: TextDocument,
+        to: Literal["dxf", "3b", "iso"],
+        *,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> str:
+        """The program as a drawing, or in another language; by ``wedm convert``, of the text as it is now.
+
+        The settings file of the document holds, and ``options``: of these the correction, the side, and ``program`` with places for
+        one contour.
+
+        :param force: although it has errors; blocks that lead nowhere are left out.
+        :raises Refused: it has errors, or cannot be converted; the message says why.
+        """
+        return converted(self.command, program, self.settings(program).file, to, options or {}, force, self.timeout)
+
     @staticmethod
     def _with(document: Document, options: Settings | None) -> dict[str, Any]:
         params: dict[str, Any] = {"uri": document.uri}
@@ -333,6 +398,30 @@ class Server:
             for one in ordered
         ]
         self._send_text_changes(document, changes)
+
+    def format(self, program: TextDocument) -> bool:
+        """Brings a program into the layout that is set, else into that of most of its blocks. False where it stands so already."""
+        version = program.version
+        options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+        params = types.DocumentFormattingParams(types.TextDocumentIdentifier(program.uri), options)
+        edits = self._ask(program, types.TEXT_DOCUMENT_FORMATTING, params)
+        if not edits:
+            return False
+        identifier = {"uri": program.uri, "version": version}
+        with self._state:
+            self._apply_text_edit(program, {"documentChanges": [{"textDocument": identifier, "edits": edits}]})
+        return True
+
+    def scale(self, program: TextDocument, factor: float) -> None:
+        """Multiplies every length of a 3B program by the factor; contours close again.
+
+        :raises Refused: the program cannot be scaled, or the factor is out of range; the message says why.
+        :raises Outdated: the program has changed meanwhile; nothing was changed.
+        """
+        params = types.ExecuteCommandParams("wedm.scale", [{"uri": program.uri, "factor": factor}])
+        answer = self._ask(program, types.WORKSPACE_EXECUTE_COMMAND, params) or {}
+        if not answer.get("applied"):
+            raise Outdated(str(answer.get("failureReason")), CONTENT_MODIFIED)
 
     def fix(self, document: Document, diagnostic: Diagnostic | None = None) -> Fixed:
         """Repairs what can be repaired safely: everything, or the one finding by its preferred repair.
@@ -442,7 +531,7 @@ class Server:
                 self._count_death(connection)
             while True:
                 # A timed-out start leaves a process behind; it is ended before the error is passed on.
-                started = Connection(self._loop, self.command, self._publish, self._resend, self._ended)
+                started = Connection(self._loop, self.command, self._publish, self._resend, self._apply_edit, self._ended)
                 try:
                     started.start(self._settings, self._folder, self.timeout)
                 except Died:
@@ -492,6 +581,19 @@ class Server:
             if not isinstance(document, Drawing):
                 raise LookupError(f"{uri} is not open")
             return {"drawing": document.to_json()}
+
+    def _apply_edit(self, edit: Mapping[str, Any]) -> str | None:
+        """Makes an edit that the server asks for; None, or why nothing was changed."""
+        with self._state:
+            (change,) = edit["documentChanges"]
+            document = self._documents.get(change["textDocument"]["uri"])
+            if not isinstance(document, TextDocument):
+                return "the document is not open"
+            try:
+                self._apply_text_edit(document, edit)
+            except Outdated as reason:
+                return str(reason)
+        return None
 
     def _ended(self, connection: Connection) -> None:
         with self._state:

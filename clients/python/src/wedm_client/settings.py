@@ -26,6 +26,7 @@ class ProgramSettings(TypedDict, total=False):
     lead_in: float
     jumps: Literal["blocks", "none"]
     compensation: Literal["path", "controller", "none"]
+    digits: int
     profile: str
     end: str
     pause: str

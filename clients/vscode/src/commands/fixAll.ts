@@ -1,29 +1,53 @@
 // Makes every safe repair in one undo step.
 
 import * as vscode from "vscode";
+import { type CodeAction, ResponseError, TextDocumentEdit } from "vscode-languageclient/node";
 import type { Front } from "../front";
+import { CONTENT_MODIFIED, FIX_ALL } from "../protocol";
+import type { Server } from "../server/server";
 
-const KIND = vscode.CodeActionKind.SourceFixAll.append("wedm");
-
-export async function fixAll(front: Front): Promise<void> {
+export async function fixAll(server: Server, front: Front): Promise<void> {
   const document = front.document;
   if (document === undefined) {
     void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
     return;
   }
-  const { uri, version } = document;
-  const actions = await vscode.commands.executeCommand<vscode.CodeAction[]>(
-    "vscode.executeCodeActionProvider",
-    uri,
-    new vscode.Range(0, 0, document.lineCount, 0),
-    KIND.value,
+  const offered = await vscode.window.withProgress({ location: vscode.ProgressLocation.Window, title: "Wire EDM: looking for repairs" }, () =>
+    repairs(server, document),
   );
-  const edit = actions.find((action) => action.kind !== undefined && KIND.contains(action.kind))?.edit;
-  if (edit === undefined) {
+  if (offered === "none") {
     void vscode.window.showInformationMessage("Wire EDM: there is nothing that can be repaired safely.");
-    return;
-  }
-  if (document.version !== version || !(await vscode.workspace.applyEdit(edit))) {
+  } else if (offered === "outdated" || offered.textDocument.version !== document.version || !(await apply(document, offered))) {
     void vscode.window.showWarningMessage("Wire EDM: the text has changed meanwhile, nothing was done.");
   }
+}
+
+/** Asked of the server itself: VS Code's own way answers with nothing when the text changes, and does not say why. */
+async function repairs(server: Server, document: vscode.TextDocument): Promise<TextDocumentEdit | "none" | "outdated"> {
+  const range = { start: { line: 0, character: 0 }, end: { line: document.lineCount, character: 0 } };
+  const context = { diagnostics: [], only: [FIX_ALL] };
+  let actions: CodeAction[] | null;
+  try {
+    actions = await server.request("textDocument/codeAction", { textDocument: { uri: document.uri.toString() }, range, context });
+  } catch (error) {
+    if (error instanceof ResponseError && error.code === CONTENT_MODIFIED) {
+      return "outdated";
+    }
+    throw error;
+  }
+  const changes = actions?.find(({ kind }) => kind === FIX_ALL)?.edit?.documentChanges ?? [];
+  return changes.find((change) => TextDocumentEdit.is(change)) ?? "none";
+}
+
+async function apply(document: vscode.TextDocument, repairs: TextDocumentEdit): Promise<boolean> {
+  const edit = new vscode.WorkspaceEdit();
+  const edits = repairs.edits.flatMap((each) => {
+    if (!("newText" in each)) {
+      return [];
+    }
+    const { start, end } = each.range;
+    return [new vscode.TextEdit(new vscode.Range(start.line, start.character, end.line, end.character), each.newText)];
+  });
+  edit.set(document.uri, edits);
+  return vscode.workspace.applyEdit(edit);
 }

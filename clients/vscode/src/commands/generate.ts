@@ -7,6 +7,7 @@ import { isDrawing } from "../languages";
 import { CONTENT_MODIFIED, type Format, type Generated, REFUSED } from "../protocol";
 import type { Server } from "../server/server";
 import { write } from "./output";
+import { choices } from "./profiles";
 import { subject } from "./subject";
 
 const TITLES: Record<Format, string> = { "3b": "3B", "4b": "4B", iso: "ISO" };
@@ -16,7 +17,7 @@ const INSIDE = "Opening: Wire Inside";
 const OUTSIDE = "Punch: Wire Outside";
 
 interface How {
-  options?: { side: "opening" | "punch" };
+  options?: { side?: "opening" | "punch"; program?: { profile: string } };
   force?: boolean;
 }
 
@@ -25,7 +26,11 @@ export async function generate(server: Server, front: Front, format: Format, arg
   if (document === undefined) {
     return;
   }
-  const generated = await attempt(server, document, format, {});
+  const how = format === "iso" ? await chooseProfile(document) : {};
+  if (how === undefined) {
+    return;
+  }
+  const generated = await attempt(server, document, format, how);
   if (generated === undefined) {
     return;
   }
@@ -43,6 +48,18 @@ export async function generate(server: Server, front: Front, format: Format, arg
   const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
   await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
   void vscode.window.showInformationMessage(`${TITLES[format]}: ${told(generated)}`);
+}
+
+async function chooseProfile(document: vscode.TextDocument): Promise<How | undefined> {
+  const settings = vscode.workspace.getConfiguration("wedm", document);
+  const own = Object.keys(settings.get<object | null>("profiles", null) ?? {});
+  const offered = choices(settings.get<string | null>("program.profile", null), own);
+  const placeHolder = "How the ISO program is written";
+  const chosen = await vscode.window.showQuickPick(offered, { title: "Profile", placeHolder, matchOnDetail: true });
+  if (chosen === undefined) {
+    return undefined;
+  }
+  return chosen.profile === undefined ? {} : { options: { program: { profile: chosen.profile } } };
 }
 
 /** Asks, and asks again as the user answers, until there is a program or they give up. */
@@ -71,9 +88,9 @@ async function answer(error: unknown, how: How): Promise<How | undefined> {
     void vscode.window.showErrorMessage(sentence);
     return undefined;
   }
-  if (how.options === undefined && /side of contour .* is not known/.test(error.message)) {
+  if (how.options?.side === undefined && /side of contour .* is not known/.test(error.message)) {
     const side = await vscode.window.showWarningMessage(sentence, { modal: false }, INSIDE, OUTSIDE);
-    return side === undefined ? undefined : { ...how, options: { side: side === INSIDE ? "opening" : "punch" } };
+    return side === undefined ? undefined : { ...how, options: { ...how.options, side: side === INSIDE ? "opening" : "punch" } };
   }
   const listed = (error.data as { diagnostics?: unknown[] } | undefined)?.diagnostics ?? [];
   const canBeForced = listed.length > 0 && how.force !== true;

@@ -1,4 +1,4 @@
-// Where the server's program is: by the setting, beside the extension, on the PATH. Knows nothing of VS Code.
+// Where the server's program is: by the setting, beside the extension, on the PATH, where cargo installs. Knows nothing of VS Code.
 
 import { delimiter, isAbsolute, join } from "node:path";
 
@@ -13,7 +13,7 @@ export interface Places {
   home: string;
 }
 
-export type Found = { program: string; from: "setting" | "extension" | "path" } | { program: null; reason: string };
+export type Found = { program: string; from: "setting" | "extension" | "path" | "cargo" } | { program: null; reason: string };
 
 const NAME = "wedm";
 
@@ -28,9 +28,14 @@ export async function findServer(places: Places, isProgram: (path: string) => Pr
     return { program: beside, from: "extension" };
   }
   const onPath = await first(candidates(NAME, places), isProgram);
-  return onPath === null
-    ? { program: null, reason: `wedm is neither beside the extension (${beside}) nor on the PATH` }
-    : { program: onPath, from: "path" };
+  if (onPath !== null) {
+    return { program: onPath, from: "path" };
+  }
+  // VS Code's PATH is that of a login shell, which need not know of cargo.
+  const cargo = join(places.home, ".cargo", "bin", NAME + places.suffix);
+  return (await isProgram(cargo))
+    ? { program: cargo, from: "cargo" }
+    : { program: null, reason: `wedm is neither beside the extension (${beside}) nor on the PATH, nor is it ${cargo}` };
 }
 
 async function bySetting(setting: string, places: Places, isProgram: (path: string) => Promise<boolean>): Promise<Found> {

@@ -5,7 +5,7 @@ import type { Server } from "./server";
 
 const HOW = vscode.Uri.parse("https://github.com/wedm/wedm#install");
 
-const SETTING = "Choose the Program…";
+const SETTING = "Choose…";
 const GET = "How to Get It";
 const AGAIN = "Try Again";
 const LOG = "Show Log";
@@ -24,7 +24,10 @@ export function sayWhatFails(server: Server, log: vscode.LogOutputChannel): vsco
     const advice = "Build it with: cargo install --path . (in the folder of wedm), or set wedm.server.path.";
     const missing = state.reason.includes("PATH") || state.reason.includes("wedm.server.path");
     const message = `Wire EDM: ${state.reason}.${missing ? ` ${advice}` : ""}`;
-    switch (await vscode.window.showErrorMessage(message, SETTING, GET, AGAIN, LOG)) {
+    // More than three do not fit into the notice.
+    const ways = state.cure === "program" ? [GET, SETTING, AGAIN] : [AGAIN, LOG, SETTING];
+    const way = await vscode.window.showErrorMessage(message, ...ways);
+    switch (way) {
       case SETTING:
         await chooseProgram();
         break;
@@ -39,6 +42,7 @@ export function sayWhatFails(server: Server, log: vscode.LogOutputChannel): vsco
         log.show();
         break;
       case undefined:
+      default:
     }
   });
 }

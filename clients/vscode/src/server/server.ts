@@ -23,7 +23,10 @@ export type State =
   /** Dead, and about to be started again. */
   | { kind: "waiting"; reason: string }
   /** Nothing more is tried until the user does something. */
-  | { kind: "failed"; reason: string };
+  | { kind: "failed"; reason: string; cure: Cure };
+
+/** What helps: another program, or another try. */
+export type Cure = "program" | "restart";
 
 export class Server implements vscode.Disposable {
   #client: LanguageClient | undefined;
@@ -78,7 +81,7 @@ export class Server implements vscode.Disposable {
       return;
     }
     if (found.program === null) {
-      this.#fail(found.reason);
+      this.#fail(found.reason, "program");
       return;
     }
     try {
@@ -116,7 +119,7 @@ export class Server implements vscode.Disposable {
     const unfit = misfit(client.initializeResult, program);
     if (unfit !== null) {
       await this.#end();
-      this.#fail(unfit);
+      this.#fail(unfit, "program");
       return;
     }
     client.onDidChangeState(({ newState }) => {
@@ -136,16 +139,16 @@ export class Server implements vscode.Disposable {
     this.log.error(reason);
     const wait = this.#backoff.died(Date.now());
     if (wait === null) {
-      this.#fail(`${reason}; it was started again five times`);
+      this.#fail(`${reason}; it was started again five times`, "restart");
       return;
     }
     this.#become({ kind: "waiting", reason: `${reason}; it is started again in ${wait / 1_000} s` });
     this.#timer = setTimeout(() => void this.#launch(), wait);
   }
 
-  #fail(reason: string): void {
+  #fail(reason: string, cure: Cure): void {
     this.log.error(reason);
-    this.#become({ kind: "failed", reason });
+    this.#become({ kind: "failed", reason, cure });
   }
 
   #become(state: State): void {

@@ -1,7 +1,7 @@
 // What bad days look like: no server, a server of another version, one that dies in the middle of an edit, a file too large for VS Code.
 
 import { execFile } from "node:child_process";
-import { mkdir, writeFile } from "node:fs/promises";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { type Checks, expectEqual, expectSoon } from "./checks";
@@ -19,7 +19,7 @@ export async function badDays(checks: Checks): Promise<void> {
 
 /** No server anywhere, then one of another version, then the right one: each by a change of the setting. */
 async function missing(checks: Checks): Promise<void> {
-  const host = await Host.start({}, { "plate.dxf": FILLET }, "/usr/bin:/bin");
+  const host = await Host.start({}, { "plate.dxf": FILLET }, { path: "/usr/bin:/bin" });
   const window = new Window(host.page);
   checks.page = host.page;
   const choose = async (path: string): Promise<void> => {
@@ -69,6 +69,28 @@ async function killed(checks: Checks): Promise<void> {
   try {
     await window.open("plate.dxf");
     await window.squiggles.first().waitFor();
+    await checks.check("a text that is changed by undo while a repair is on its way stays as it is", async () => {
+      const [server] = await servers(host.folder);
+      await window.goToLine(line - 4, 1);
+      await host.page.keyboard.press("End");
+      await host.page.keyboard.type("1");
+      await host.page.locator(".view-lines", { hasText: "19.951" }).waitFor();
+      process.kill(server ?? 0, "SIGSTOP");
+      try {
+        await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
+        // Asked, and not answered.
+        await host.page.locator(".statusbar", { hasText: "looking for repairs" }).waitFor();
+        await host.page.keyboard.press("Control+1");
+        await host.page.keyboard.press("Control+z");
+        await host.page.locator(".view-lines", { hasText: "19.951" }).waitFor({ state: "detached" });
+      } finally {
+        process.kill(server ?? 0, "SIGCONT");
+      }
+      await window.notification("the text has changed meanwhile, nothing was done").waitFor();
+      await host.page.keyboard.press("Control+s");
+      await expectSoon("the text before", async () => (await readFile(join(host.folder, "plate.dxf"), "utf8")) === FILLET);
+      await window.command("Notifications: Clear All Notifications");
+    });
     await checks.check("a server that is killed in the middle of an edit comes back, and knows the text as it is", async () => {
       await window.goToLine(line - 4, 1);
       const before = await servers(host.folder);

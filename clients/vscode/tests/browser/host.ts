@@ -1,13 +1,13 @@
 // A real VS Code with the packed extension in it, served to a real browser.
 
 import { type ChildProcess, execFile, spawn } from "node:child_process";
-import { mkdir, mkdtemp, readdir, rm, writeFile } from "node:fs/promises";
+import { mkdir, mkdtemp, readdir, rm, symlink, writeFile } from "node:fs/promises";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
-import { ARTIFACTS, CHROMIUM, CODE_SERVER, EXTENSION } from "./paths";
+import { ARTIFACTS, CHROMIUM, CODE_SERVER, EXTENSION, WEDM } from "./paths";
 
 /** Longer than anything here takes on a busy machine. */
 export const PATIENCE = Number(process.env["PATIENCE"] ?? 30_000);
@@ -39,6 +39,16 @@ const QUIET = {
   "editor.fontFamily": "'DejaVu Sans Mono', monospace",
 };
 
+/** What the machine is like. */
+export interface Machine {
+  path?: string;
+  view?: BrowserContextOptions;
+  /** The VSIX with the server in it. */
+  withServer?: boolean;
+  /** The server is where `cargo install` puts it, and nobody has said so. */
+  isInstalled?: boolean;
+}
+
 export class Host {
   private constructor(
     readonly folder: string,
@@ -49,12 +59,8 @@ export class Host {
   ) {}
 
   /** `files` are put into the folder that is opened; `settings` are the user's. */
-  static async start(
-    settings: Record<string, unknown>,
-    files: Record<string, string | Buffer>,
-    path = process.env["PATH"] ?? "",
-    view: BrowserContextOptions = {},
-  ): Promise<Host> {
+  static async start(settings: Record<string, unknown>, files: Record<string, string | Buffer>, machine: Machine = {}): Promise<Host> {
+    const { path = process.env["PATH"] ?? "", view = {}, withServer = false, isInstalled = false } = machine;
     const root = await mkdtemp(join(tmpdir(), "vscode-test-"));
     const folder = join(root, "work");
     const [data, extensions] = [join(root, "data"), join(root, "extensions")];
@@ -69,8 +75,15 @@ export class Host {
       await writeFile(join(folder, name), content);
     }
     const places = ["--user-data-dir", data, "--extensions-dir", extensions];
-    const environment = { ...process.env, PATH: path, HOME: root, XDG_DATA_HOME: root, XDG_CONFIG_HOME: root };
-    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, "--install-extension", await vsix()], { env: environment });
+    if (isInstalled) {
+      await mkdir(join(root, ".cargo/bin"), { recursive: true });
+      await symlink(WEDM, join(root, ".cargo/bin/wedm"));
+    }
+    const own = join(root, "run");
+    await mkdir(own, { mode: 0o700 });
+    const folders = { HOME: root, TMPDIR: own, XDG_RUNTIME_DIR: own, XDG_DATA_HOME: root, XDG_CONFIG_HOME: root };
+    const environment = { ...process.env, ...folders, PATH: path };
+    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, "--install-extension", await vsix(withServer)], { env: environment });
     const port = await freePort();
     const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust"];
     const server = spawn(process.execPath, [CODE_SERVER, ...places, ...options, folder], { env: environment, stdio: ["ignore", "pipe", "pipe"], detached: true });
@@ -95,10 +108,10 @@ export class Host {
   }
 }
 
-async function vsix(): Promise<string> {
-  const names = (await readdir(EXTENSION)).filter((name) => name.endsWith(".vsix"));
+async function vsix(withServer: boolean): Promise<string> {
+  const names = (await readdir(EXTENSION)).filter((name) => name.endsWith(".vsix") && name.endsWith("-with-server.vsix") === withServer);
   if (names[0] === undefined || names.length > 1) {
-    throw new Error(`there are ${names.length} VSIX files in ${EXTENSION}, expected one: run ./build-vsix`);
+    throw new Error(`there are ${names.length} VSIX files in ${EXTENSION}, expected one: run ./build-vsix${withServer ? " --with-server PROGRAM" : ""}`);
   }
   return join(EXTENSION, names[0]);
 }

@@ -1,6 +1,6 @@
 // The live picture and the radius list: seen, clicked, and at one with the cursor in both directions; programs generated.
 
-import { readFile } from "node:fs/promises";
+import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { type Checks, expectEqual, expectSoon } from "./checks";
 import { FILLET, lineOf } from "./drawings";
@@ -11,7 +11,7 @@ import { Window } from "./window";
 const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
 
 export async function picture(checks: Checks): Promise<void> {
-  const host = await Host.start({ "wedm.server.path": WEDM }, { "plate.dxf": FILLET, "small-radius.dxf": SMALL });
+  const host = await Host.start({ "wedm.server.path": WEDM, "wedm.correction": 0.1 }, { "plate.dxf": FILLET, "small-radius.dxf": SMALL });
   const window = new Window(host.page);
   checks.page = host.page;
   const bulges = [...SMALL.matchAll(/^ *42\r?\n/gm)].map((match) => SMALL.slice(0, match.index).split("\n").length + 1);
@@ -104,6 +104,47 @@ export async function picture(checks: Checks): Promise<void> {
       await host.page.locator(".tabs-container .tab", { hasText: "made.3b" }).waitFor();
       await window.notification("wire path").waitFor();
       await checks.shot("generated");
+      await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("wedm.toml wins over the settings, and the status bar says so", async () => {
+      await window.turnTo("small-radius.dxf");
+      await writeFile(join(host.folder, "wedm.toml"), "correction = 0.11\n");
+      await expectSoon("0.110 mm", async () => (await window.status.innerText()).includes("0.110 mm"), () => window.status.innerText());
+      await window.squiggles.first().waitFor();
+      await writeFile(join(host.folder, "wedm.toml"), 'side = "opening"\n');
+      await window.squiggles.first().waitFor({ state: "hidden" });
+    });
+    await checks.check("a 4B program is generated, with the side that wedm.toml says", async () => {
+      await window.command("Wire EDM: Generate 4B Program…");
+      const target = join(host.folder, "made.4b");
+      await window.path(target);
+      await expectSoon("a program", async () => /^B\d+B\d+B\d+B\d+G[XY]D?D?/m.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
+      await host.page.locator(".tabs-container .tab", { hasText: "made.4b" }).waitFor();
+    });
+    await checks.check("an ISO program is generated in the profile that is chosen", async () => {
+      await window.turnTo("small-radius.dxf");
+      await window.command("Wire EDM: Generate ISO Program…");
+      const box = host.page.locator(".quick-input-widget");
+      await box.getByText("As the Settings Say").waitFor();
+      await checks.shot("profiles");
+      await box.locator("input").fill("fast-wire");
+      await host.page.keyboard.press("Enter");
+      const target = join(host.folder, "made.iso");
+      await window.path(target);
+      await expectSoon("whole µm from one point to the next", async () => /^G91\nG01 X-?\d+ Y-?\d+$/m.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
+      await host.page.locator(".tabs-container .tab", { hasText: "made.iso" }).waitFor();
+      await checks.shot("generated-iso");
+    });
+    await checks.check("the picture is there again when the window is loaded again, and still follows the cursor", async () => {
+      await window.turnTo("small-radius.dxf");
+      await host.page.keyboard.press("Control+s");
+      await host.page.reload();
+      await window.status.waitFor();
+      const again = await window.picture();
+      await expectSoon("the contour", async () => (await again.locator("svg .contour").count()) > 0);
+      await window.goToLine(bulges[1] ?? 0);
+      await expectSoon("segment 2 selected", async () => (await again.locator("svg .contour.selected").getAttribute("data-segment")) === "2");
+      await checks.shot("reloaded");
     });
   } finally {
     await host.stop();

@@ -1,7 +1,9 @@
 // A 3B program: colours, diagnostics, the picture with the wire that is played along it.
 
+import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
+import { promisify } from "node:util";
 import { type Checks, expectEqual, expectSoon } from "./checks";
 import { HOLE } from "./drawings";
 import { Host } from "./host";
@@ -13,16 +15,27 @@ const FIXABLE = HOLE.replace("GYNR1", "GXNR1");
 
 /** The same program as somebody types it. */
 const LOOSE = HOLE.toLowerCase().replaceAll("b", " b ");
+/** The centre of its arc is nowhere near. */
+const BROKEN_ISO = "%\nG21\nG90\nG92 X0 Y0\nG01 X5.000 Y0.000\nG02 X9.000 Y3.000 I5.000 J0.000\nM02\n%\n";
 const SETTINGS = '[program]\nlayout = "compact"\n';
 
 export async function program(checks: Checks): Promise<void> {
-  const host = await Host.start({ "wedm.server.path": WEDM }, { "hole.3b": HOLE, "broken.3b": "B1000B0B1000GXL1\nQQQ\nDD\n", "fixable.3b": FIXABLE, "loose.3b": LOOSE, "wedm.toml": SETTINGS });
+  const host = await Host.start({ "wedm.server.path": WEDM }, { "hole.3b": HOLE, "broken.3b": "B1000B0B1000GXL1\nQQQ\nDD\n", "broken.iso": BROKEN_ISO, "fixable.3b": FIXABLE, "loose.3b": LOOSE, "wedm.toml": SETTINGS });
   const window = new Window(host.page);
   checks.page = host.page;
   try {
     await checks.check("a fault in a program is underlined", async () => {
       await window.openOurs("broken.3b");
       await window.squiggles.first().waitFor();
+    });
+    await checks.check("a fault in an ISO program is underlined, and said", async () => {
+      await window.openOurs("broken.iso");
+      await host.page.locator('.statusbar-item[id="status.editor.mode"]', { hasText: "ISO (wire EDM)" }).waitFor();
+      await window.squiggles.first().waitFor();
+      const said = async (): Promise<boolean> => (await window.problems()).some((row) => row.includes("arc-off-radius"));
+      await expectSoon("arc-off-radius", said, async () => (await window.problems()).join("\n"));
+      await checks.shot("iso-fault");
+      await window.hidePanel();
     });
     await checks.check("a program is repaired by its quick fix", async () => {
       await window.openOurs("fixable.3b");
@@ -80,6 +93,20 @@ export async function program(checks: Checks): Promise<void> {
       await expectSoon("the wire at its beginning", async () => (await page.locator("#where").innerText()).includes("line 3"), () => page.locator("#where").innerText());
       await window.clickPath(page, 'svg path[data-line="1"]');
       await window.expectLine(2);
+    });
+    await checks.check("a program becomes a drawing again", async () => {
+      await window.turnTo("hole.3b");
+      await window.command("Wire EDM: Convert Program to DXF…");
+      const target = join(host.folder, "hole.dxf");
+      await window.path(target);
+      await host.page.locator(".tabs-container .tab", { hasText: "hole.dxf" }).waitFor();
+      // The leads lie upon each other, which is a finding.
+      const inspecting = promisify(execFile)(WEDM, ["inspect", "--output", "json", target]);
+      const { stdout } = await inspecting.catch((error: unknown) => error as { stdout: string });
+      const { entities } = JSON.parse(stdout) as { entities: { layer: string; segments: { radius?: number }[] }[] };
+      const cut = entities.filter(({ layer }) => layer === "CUT").flatMap(({ segments }) => segments.map(({ radius }) => radius?.toFixed(2)));
+      expectEqual("radii on the layer of the cut", [...new Set(cut)], ["9.90"]);
+      await checks.shot("converted");
     });
   } finally {
     await host.stop();

@@ -24,7 +24,7 @@ export async function readme(checks: Checks): Promise<void> {
     "editor.occurrencesHighlight": "off",
   };
   const view = { viewport: { width: 1280, height: 740 }, deviceScaleFactor: 1.5 };
-  const host = await Host.start(settings, { "plate.dxf": plate }, process.env["PATH"], view);
+  const host = await Host.start(settings, { "plate.dxf": plate }, { view });
   const window = new Window(host.page);
   checks.page = host.page;
   const line = lineOf(plate, BULGE, 3);

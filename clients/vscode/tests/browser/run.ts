@@ -6,10 +6,12 @@ import { picture } from "./picture";
 import { program } from "./program";
 import { readme } from "./readme";
 import { text } from "./text";
+import { withServer } from "./withServer";
 
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
-const scenarios: Record<string, (checks: Checks) => Promise<void>> = { text, picture, program, badDays, [ONLY_BY_NAME]: readme };
+type Scenario = (checks: Checks) => Promise<void>;
+const scenarios: Record<string, Scenario> = { text, picture, program, badDays, withServer, [ONLY_BY_NAME]: readme };
 const checks = new Checks();
 const named = process.argv.slice(2);
 

@@ -19,6 +19,15 @@ export class Window {
     await this.status.waitFor();
   }
 
+  /** Brings a file to the front of the first group, by its name. */
+  async turnTo(name: string): Promise<void> {
+    await this.page.keyboard.press("Control+1");
+    await this.#ask("Control+p", name, name);
+    await this.page.keyboard.press("Enter");
+    await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor();
+    await this.status.waitFor();
+  }
+
   async command(title: string): Promise<void> {
     await this.#ask("F1", `>${title}`, title);
     await this.page.keyboard.press("Enter");
@@ -40,7 +49,7 @@ export class Window {
         await this.page.keyboard.press(key);
         await box.locator("input").fill(text, { timeout });
         if (offered !== undefined) {
-          await box.locator(".monaco-list-row", { hasText: offered }).first().waitFor({ timeout });
+          await box.locator(".monaco-list-row.focused", { hasText: offered }).first().waitFor({ timeout });
         }
         return;
       } catch (error) {

@@ -16,6 +16,8 @@ test("the setting, then beside the extension, then the PATH", async () => {
   await check(" ", ["/b/wedm", "/a/wedm"], { program: "/a/wedm", from: "path" });
   await check("wedm-2", ["/b/wedm-2"], { program: "/b/wedm-2", from: "setting" });
   await check("~/bin/wedm", ["/home/me/bin/wedm"], { program: "/home/me/bin/wedm", from: "setting" });
+  await check(null, ["/home/me/.cargo/bin/wedm", "/b/wedm"], { program: "/b/wedm", from: "path" });
+  await check(null, ["/home/me/.cargo/bin/wedm"], { program: "/home/me/.cargo/bin/wedm", from: "cargo" });
   await check(null, ["/b/wedm.exe"], { program: "/b/wedm.exe", from: "path" }, ".exe");
 });
 
@@ -25,5 +27,7 @@ test("a setting that leads nowhere is said, and nothing is taken in its place", 
   await check("/x/wedm", others, said("there is no program of that name", "/x/wedm"));
   await check("bin/wedm", ["bin/wedm"], said("expected an absolute path, or a name on the PATH", "bin/wedm"));
   await check("other", others, said("it is not on the PATH", "other"));
-  await check(null, ["relative/wedm"], { reason: "wedm is neither beside the extension (/ext/server/wedm) nor on the PATH" });
+  await check(null, ["relative/wedm"], {
+    reason: "wedm is neither beside the extension (/ext/server/wedm) nor on the PATH, nor is it /home/me/.cargo/bin/wedm",
+  });
 });

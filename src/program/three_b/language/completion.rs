@@ -3,7 +3,7 @@
 
 use super::pieces::{Field, pieces};
 use crate::geometry::{Arc, Point, Segment};
-use crate::program::language::{Completion, passages};
+use crate::program::language::{Completion, passage_of};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use crate::program::three_b::decode::decode;
@@ -72,7 +72,7 @@ impl Typed {
         let start = stand(document, line_start);
         let range = self.begun.map_or(offset, |begun| line_start + begun)..offset;
         let candidates = match (self.numbers[2], self.axis) {
-            (None, None) => shapes(x, y),
+            (None, None) => shapes(x, y, document.largest()),
             (Some(j), None) => [CountingAxis::X, CountingAxis::Y].into_iter().flat_map(|axis| motions(x, y, j, axis)).collect(),
             (Some(j), Some(axis)) => motions(x, y, j, axis),
             (None, Some(_)) => Vec::new(),
@@ -96,7 +96,7 @@ impl Typed {
 }
 
 /// Blocks with these X and Y: straight lines into each quadrant; circles, half and quarter turns from each of them.
-fn shapes(x: i64, y: i64) -> Vec<Block> {
+fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
     let origin = Node { x: 0, y: 0 };
     let corners = corners(x, y);
     let mut blocks: Vec<Block> = corners.iter().filter(|&&corner| corner != origin).map(|&corner| line_block(origin, corner)).collect();
@@ -108,7 +108,7 @@ fn shapes(x: i64, y: i64) -> Vec<Block> {
                 let Some(end) = snap(arc.end) else { continue };
                 let mut encoded = Vec::new();
                 let piece = Segment::Arc(Arc { start, end: point_of(end), ..arc });
-                if encode(&piece, corner, end, &mut encoded).is_some()
+                if encode(&piece, corner, end, largest, &mut encoded).is_some()
                     && let [one] = encoded[..]
                     && !matches!(one.block.motion, Motion::Line(_))
                 {
@@ -163,13 +163,13 @@ fn about(piece: &Segment) -> String {
     }
 }
 
-/// Where the machine stands at the beginning of a line.
-fn stand(document: &Document, line_start: usize) -> Point {
+/// Where the machine stands at a byte.
+fn stand(document: &Document, offset: usize) -> Point {
     let text = document.text();
-    let line = text.line_of(line_start);
+    let line = text.line_of(offset);
     let from = text.line_start(line.saturating_sub(LOOKED_BACK));
-    let steps = document.steps_in(from..line_start);
-    steps.iter().rfind(|step| step.range.end <= line_start).map_or_else(|| document.trace().start, |step| step.end)
+    let steps = document.steps_in(from..offset);
+    steps.iter().rfind(|step| step.range.end <= offset).map_or_else(|| document.start(), |step| step.end)
 }
 
 /// What can begin a line.
@@ -183,20 +183,17 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
         range: range.clone(),
         is_snippet: false,
     };
-    let trace = document.trace();
-    let before: Vec<_> = trace.steps.iter().filter(|step| step.range.end <= start).cloned().collect();
-    let at = before.last().map_or(trace.start, |step| step.end);
-    let contour = before.last().map(|step| step.contour);
-    let own: Vec<_> = before.iter().filter(|step| Some(step.contour) == contour && step.moves()).collect();
+    let at = stand(document, start);
     let mut targets: Vec<(&str, Point)> = Vec::new();
-    if let Some(first) = own.first() {
-        targets.push(("back to the start of the program's contour", first.start));
-        targets.push(("to the end of the lead-in", first.end));
-    }
-    let closed = passages(&crate::program::trace::Trace { steps: before.clone(), ..trace.clone() }).last().is_some_and(|last| last.closed);
-    if closed && own.len() > 1 {
-        // The contour is closed: what is left is the way out.
-        targets.truncate(1);
+    if let Some(chain) = document.chain_before(start) {
+        let first = chain.step(0);
+        targets.extend(first.map(|first| ("back to the start of the program's contour", first.start)));
+        targets.extend(first.map(|first| ("to the end of the lead-in", first.end)));
+        let closed = passage_of(&chain).is_some_and(|passage| passage.closed);
+        if closed && chain.count() > 1 {
+            // The contour is closed: what is left is the way out.
+            targets.truncate(1);
+        }
     }
     for (label, target) in targets {
         let (Some(from), Some(to)) = (snap(at), snap(target)) else { continue };

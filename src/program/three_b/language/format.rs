@@ -41,7 +41,7 @@ pub fn format(text: &SourceText, layout: Option<Layout>, words: &Words<'_>, line
         }
         walk.pass();
     }
-    edits.list
+    edits.joined(text)
 }
 
 /// What a text shows of its layout.
@@ -106,17 +106,23 @@ struct Walk<'a> {
     is_over: bool,
     items: Vec<Item>,
     pieces: Vec<Piece>,
+    /// What the stated end points of the line's blocks are worth, one for each item, and where the machine stands behind the line.
+    stated: Vec<Stated>,
+    behind: Stand,
     is_sound: bool,
 }
 
 impl<'a> Walk<'a> {
     fn new(words: &'a Words<'a>, layout: Layout, numbers_count_blocks: bool) -> Walk<'a> {
+        let stand = Stand { at: Point::origin(), trust: Trust::Known, arcs: 0.0 };
         Walk {
             words,
             layout,
             numbers_count_blocks,
             ordinal: 0,
-            stand: Stand { at: Point::origin(), trust: Trust::Known, arcs: 0.0 },
+            stand,
+            stated: Vec::new(),
+            behind: stand,
             is_over: false,
             items: Vec::new(),
             pieces: Vec::new(),
@@ -140,11 +146,35 @@ impl<'a> Walk<'a> {
             }
         }
         self.items = items;
-        self.pieces = pieces(line, self.words);
+        self.go_on();
+    }
+
+    /// Follows the machine through the line.
+    fn go_on(&mut self) {
+        let mut stand = self.stand;
+        if !self.is_sound {
+            stand.trust = Trust::Lost;
+        }
+        let mut found = std::mem::take(&mut self.stated);
+        found.clear();
+        for item in &self.items {
+            let mut stated = Stated::Absent(None);
+            match item {
+                Item::Block { block, stated_end, .. } => stated = self.stated(*stated_end, block, &mut stand),
+                Item::Word { word: Word::Pause, .. } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
+                Item::StartPoint { at: [x, y], .. } => {
+                    stand = Stand { at: Point::new(x * 1000.0, y * 1000.0), trust: Trust::Known, arcs: 0.0 };
+                }
+                Item::Word { .. } | Item::Text { .. } | Item::Fault(_) => {}
+            }
+            found.push(stated);
+        }
+        (self.stated, self.behind) = (found, stand);
     }
 
     /// The line in its new form, `None` where it stays as it is.
     fn form(&mut self, line: &[u8], line_end: &str) -> Option<Formed> {
+        self.pieces = pieces(line, self.words);
         let from = if line.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         let end = line.iter().rposition(|byte| !matches!(byte, b' ' | b'\t')).map_or(0, |last| last + 1).max(from);
         let trimmed = || (end < line.len()).then(|| Formed { from: line.len(), head: String::new(), kept: from..end });
@@ -163,15 +193,13 @@ impl<'a> Walk<'a> {
             return trimmed();
         }
         let mut head = Vec::with_capacity(64);
-        let mut stand = self.stand;
         let mut last_block = None;
-        for (index, item) in self.items.iter().enumerate() {
+        for (index, (item, &stated)) in self.items.iter().zip(&self.stated).enumerate() {
             if index > 0 {
                 head.extend_from_slice(line_end.as_bytes());
             }
             match item {
-                Item::Block { block, number, stated_end, range, part } => {
-                    let stated = self.stated(*stated_end, block, &mut stand);
+                Item::Block { block, number, range, part, .. } => {
                     let ordinal = self.ordinal + 1 + self.blocks_before(index);
                     let numbers = (*number, ordinal);
                     self.push_block(&mut head, (block, part.as_ref()), numbers, stated, self.coordinates_behind(line, range.end))?;
@@ -285,28 +313,9 @@ impl<'a> Walk<'a> {
 
     /// Takes the line's blocks and words as gone through.
     fn pass(&mut self) {
-        let mut stand = self.stand;
-        if !self.is_sound {
-            stand.trust = Trust::Lost;
-        }
-        let items = std::mem::take(&mut self.items);
-        for item in &items {
-            match item {
-                Item::Block { block, stated_end, .. } => {
-                    self.ordinal += 1;
-                    self.stated(*stated_end, block, &mut stand);
-                }
-                Item::Word { word: Word::Pause, .. } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
-                Item::Word { word: Word::Pause, .. } => {}
-                Item::Word { word: Word::End, .. } => self.is_over = true,
-                Item::StartPoint { at: [x, y], .. } => {
-                    stand = Stand { at: Point::new(x * 1000.0, y * 1000.0), trust: Trust::Known, arcs: 0.0 };
-                }
-                Item::Text { .. } | Item::Fault(_) => {}
-            }
-        }
-        self.stand = stand;
-        self.items = items;
+        self.stand = self.behind;
+        self.ordinal += self.blocks_before(self.items.len());
+        self.is_over |= self.items.iter().any(|item| matches!(item, Item::Word { word: Word::End, .. }));
     }
 
     /// Reads the new form and compares: the same blocks, numbers that stand, words, in the same order, and no fault.
@@ -370,6 +379,12 @@ enum Stated {
     Absent(Option<Node>),
 }
 
+/// So many edits of one text are many.
+const MANY: usize = 2_000;
+
+/// Bytes between two of many edits that are little.
+const LITTLE: usize = 64;
+
 /// Edits in the making: lines that follow each other become one.
 #[derive(Default)]
 struct Edits {
@@ -406,6 +421,29 @@ impl Edits {
             None => self.list.push(TextEdit { range: range.start + formed.from..range.end, text: new }),
         }
         self.last_line = Some(line);
+    }
+
+    /// The edits. Where nearly all of a long text changes, those become one that are parted by little: tens of thousands of edits cost
+    /// an editor more than the text between them.
+    fn joined(self, text: &SourceText) -> Vec<TextEdit> {
+        if self.list.len() <= MANY {
+            return self.list;
+        }
+        let mut joined: Vec<TextEdit> = Vec::new();
+        for edit in self.list {
+            let between = |last: &TextEdit| std::str::from_utf8(text.bytes().get(last.range.end..edit.range.start)?).ok();
+            match joined.last_mut() {
+                Some(last) if edit.range.start - last.range.end <= LITTLE && between(last).is_some() => {
+                    let between = between(last).unwrap_or_default();
+                    last.text.reserve(between.len() + edit.text.len());
+                    last.text.push_str(between);
+                    last.text.push_str(&edit.text);
+                    last.range.end = edit.range.end;
+                }
+                _ => joined.push(edit),
+            }
+        }
+        joined
     }
 
     fn push(&mut self, range: Range<usize>, text: String) {

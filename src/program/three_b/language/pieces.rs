@@ -3,7 +3,7 @@
 //! The reader in [`super::super::parse`] says what a sound line means. Here nothing is judged: an editor asks where the cursor stands
 //! while a block is still being written.
 
-use crate::program::three_b::parse::{Word, Words, before_comment, start_point, two_numbers};
+use crate::program::three_b::parse::{Word, Words, before_comment, is_remark, start_point, two_numbers};
 use std::ops::Range;
 
 /// What a piece of a line is.
@@ -109,6 +109,10 @@ impl Cutter<'_> {
         let start = self.at;
         let byte = *self.line.get(start)?;
         let rest = &self.line[start..];
+        if self.is_behind_block && self.block == Expected::Nothing && is_remark(self.line, start, words) {
+            self.run_to_end();
+            return Some(Piece { field: Field::Comment, range: start..self.at });
+        }
         let field = match byte.to_ascii_uppercase() {
             b';' => self.behind_semicolon(rest),
             b'0'..=b'9' | b'(' if !self.is_behind_block && self.row_number() => Field::Number,
@@ -310,6 +314,7 @@ mod tests {
         check("|B 1|B 2|", "Separator B | X 1 | Separator B | Y 2");
         check("(plate)", "Comment (plate)");
         check("; Start Point = 1 , 2", "StartPoint ; Start Point = 1 , 2");
+        check("B1B0B1GXL1 block N2", "Separator B | X 1 | Separator B | Y 0 | Separator B | J 1 | Axis GX | Motion L1 | Comment block N2");
         check("D ; thread", "Pause D | Comment ; thread");
         check("B1B2B3GXL1DD", "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Axis GX | Motion L1 | End DD");
     }

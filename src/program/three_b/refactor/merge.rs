@@ -12,7 +12,7 @@ use super::Refactoring;
 use super::rewrite::{New, Rewrite};
 use super::sheet::{Content, Row, Sheet};
 use crate::geometry::{Line, Point, Segment};
-use crate::program::three_b::block::{LARGEST, Motion, Node};
+use crate::program::three_b::block::{Motion, Node};
 use crate::program::three_b::encode::{Encoded, line_block};
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -71,7 +71,7 @@ fn run(content: &Content, nodes: &[(Node, Node)], rows: Range<usize>) -> Range<u
             last = share;
             forward && whole.distance_to(node) <= ASIDE
         });
-        if length == 0 || length > LARGEST || !runs_on {
+        if length == 0 || length > content.largest || !runs_on {
             break;
         }
         end += 1;

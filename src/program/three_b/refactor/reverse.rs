@@ -44,7 +44,7 @@ fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
 fn reversed(content: &Content, index: usize, (from, to): (Node, Node)) -> Result<Vec<New>, String> {
     let row = &content.rows[index];
     let piece = content.piece_from(index, from).reversed();
-    let Motion::Line(quadrant) = row.block.motion else { return encoded(&piece, to, from, row.part, index) };
+    let Motion::Line(quadrant) = row.block.motion else { return encoded(&piece, to, from, row.part, index, content.largest) };
     // The same numbers into the opposite quadrant.
     let opposite = match quadrant {
         Quadrant::First => Quadrant::Third,

@@ -43,10 +43,10 @@ const EXACT: f64 = 1e-3;
 /// How far the end of a program may lie from where it is meant to, µm, beside 1 µm for each arc.
 const END_TOLERANCE: f64 = 2.0;
 
-/// The blocks of a piece between two nodes, for the row `source`.
-pub fn encoded(piece: &Segment, from: Node, to: Node, part: Option<PartArc>, source: usize) -> Result<Vec<New>, String> {
+/// The blocks of a piece between two nodes, for the row `source`; none of their numbers is above `largest`.
+pub fn encoded(piece: &Segment, from: Node, to: Node, part: Option<PartArc>, source: usize, largest: i64) -> Result<Vec<New>, String> {
     let mut blocks = Vec::new();
-    encode(&fitted(piece, from, to), from, to, &mut blocks)
+    encode(&fitted(piece, from, to), from, to, largest, &mut blocks)
         .ok_or_else(|| format!("no blocks within tolerance lead from {from:?} to {to:?}"))?;
     Ok(blocks.into_iter().map(|encoded| New { encoded, part, source, exact: false }).collect())
 }

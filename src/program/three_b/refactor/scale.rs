@@ -43,7 +43,7 @@ pub fn scaled(sheet: &Sheet<'_>, factor: f64) -> Result<Vec<TextEdit>, String> {
     for (index, row) in content.rows.iter().enumerate() {
         let (from, to) = (node(nodes[index].0)?, node(nodes[index].1)?);
         let piece = scaled_segment(&content.piece_from(index, nodes[index].0), factor);
-        let news = encoded(&piece, from, to, None, index)?;
+        let news = encoded(&piece, from, to, None, index, content.largest)?;
         if news.is_empty() {
             return Err(format!("line {}: the block becomes shorter than 1 µm", row.line + 1));
         }

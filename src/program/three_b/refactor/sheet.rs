@@ -66,12 +66,14 @@ pub struct Content {
     pub contours: Vec<Contour>,
     /// The header with the start.
     pub header: Option<Range<usize>>,
+    /// The largest number that the controller takes, µm.
+    pub largest: i64,
 }
 
 impl<'a> Sheet<'a> {
     pub fn new(document: &'a Document, settings: &'a Effective, selection: Range<usize>) -> Sheet<'a> {
         let trace = document.trace().as_meant();
-        let content = content(document, &trace);
+        let content = content(document, &trace, settings.largest_number());
         Sheet { document, settings, selection, trace, content }
     }
 
@@ -164,7 +166,7 @@ pub fn moved(segment: &Segment, by: Vector) -> Segment {
     }
 }
 
-fn content(document: &Document, trace: &Trace) -> Result<Content, String> {
+fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, String> {
     let text = document.text();
     let words = document.words();
     let mut steps = trace.steps.iter().filter(|step| step.moves());
@@ -221,7 +223,7 @@ fn content(document: &Document, trace: &Trace) -> Result<Content, String> {
     match fault {
         Some(sentence) => Err(sentence),
         None if rows.is_empty() => Err("the program has no block".into()),
-        None => Ok(Content { contours: contours(trace), rows, header }),
+        None => Ok(Content { contours: contours(trace), rows, header, largest }),
     }
 }
 

@@ -8,17 +8,20 @@
 use super::Refactoring;
 use super::rewrite::{Rewrite, encoded};
 use super::sheet::Sheet;
-use crate::program::three_b::block::LARGEST;
 use crate::text::TextEdit;
 
-pub const SPLIT: Refactoring =
-    Refactoring { id: "refactor.rewrite.split", title: |_| format!("Split blocks over {LARGEST} µm"), rewrite: split };
+pub const SPLIT: Refactoring = Refactoring {
+    id: "refactor.rewrite.split",
+    title: |settings| format!("Split blocks over {} µm", settings.largest_number()),
+    rewrite: split,
+};
 
 fn split(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
+    let largest = sheet.settings.largest_number();
     let is_too_long = |index: &usize| {
         let block = &content.rows[*index].block;
-        block.x.max(block.y).max(block.j) > LARGEST
+        block.x.max(block.y).max(block.j) > largest
     };
     let long: Vec<usize> = sheet.selected_rows(content).filter(is_too_long).collect();
     if long.is_empty() {
@@ -32,7 +35,7 @@ fn split(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
             return Err(format!("line {}: a 4B block cannot be calculated anew", row.line + 1));
         }
         let (from, to) = nodes[index];
-        rewrite.rows.insert(index, encoded(&content.piece_from(index, from), from, to, None, index)?);
+        rewrite.rows.insert(index, encoded(&content.piece_from(index, from), from, to, None, index, largest)?);
     }
     rewrite.edits(sheet, content)
 }

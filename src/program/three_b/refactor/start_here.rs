@@ -49,12 +49,12 @@ fn start_here(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
             let hole = nodes[contour.rows.start].0;
             refuse_crossing(content, contour, &nodes, hole, begin)?;
             let row = contour.rows.start;
-            rewrite.rows.insert(row, encoded(&line_between(hole, begin), hole, begin, None, row)?);
+            rewrite.rows.insert(row, encoded(&line_between(hole, begin), hole, begin, None, row, content.largest)?);
             if contour.lead_out == 1 {
                 let row = contour.rows.end - 1;
                 let away = nodes[row].1;
                 refuse_crossing(content, contour, &nodes, away, begin)?;
-                rewrite.rows.insert(row, encoded(&line_between(begin, away), begin, away, None, row)?);
+                rewrite.rows.insert(row, encoded(&line_between(begin, away), begin, away, None, row, content.largest)?);
             } else {
                 rewrite.end = Point::new(begin.x as f64, begin.y as f64);
                 if content.contours.last().is_none_or(|last| last.rows != contour.rows) {

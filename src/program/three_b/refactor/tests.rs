@@ -5,6 +5,8 @@ use crate::program::language::passages;
 use crate::program::three_b::{Node, encode};
 use proptest::prelude::*;
 
+const LARGEST: i64 = 999_999;
+
 fn read(text: &str) -> Document {
     Document::read(text.as_bytes().to_vec())
 }
@@ -154,12 +156,12 @@ fn program_of(contour: &[(i64, i64, f64)]) -> Option<String> {
     let point = |node: Node| Point::new(node.x as f64, node.y as f64);
     let origin = Node { x: 0, y: 0 };
     let first = node(contour.first()?);
-    encode(&Segment::line(point(origin), point(first)), origin, first, &mut blocks)?;
+    encode(&Segment::line(point(origin), point(first)), origin, first, LARGEST, &mut blocks)?;
     for (index, vertex) in contour.iter().enumerate() {
         let (from, to) = (node(vertex), node(&contour[(index + 1) % contour.len()]));
-        encode(&Segment::from_bulge(point(from), point(to), vertex.2), from, to, &mut blocks)?;
+        encode(&Segment::from_bulge(point(from), point(to), vertex.2), from, to, LARGEST, &mut blocks)?;
     }
-    encode(&Segment::line(point(first), point(origin)), first, origin, &mut blocks)?;
+    encode(&Segment::line(point(first), point(origin)), first, origin, LARGEST, &mut blocks)?;
     let mut text = Vec::new();
     for block in &blocks {
         super::super::layout::push_fields(&mut text, crate::settings::Layout::Compact, &block.block, None);

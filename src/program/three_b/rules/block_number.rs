@@ -8,6 +8,8 @@ pub(in super::super) struct Numbered {
     pub number: Option<u32>,
     /// The first block behind a pause: counting may begin anew.
     pub is_after_pause: bool,
+    /// It cannot be read: whether it has a number is not known.
+    pub is_unread: bool,
 }
 
 /// What is wrong in the sequence: the index of each block concerned, and the number that it should have where that is plain.
@@ -27,6 +29,7 @@ pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, ProgramFault, O
         let expected = before.map_or(first, |before| before.saturating_add(step));
         let follows = |number: u32| blocks.get(index + 1).is_some_and(|next| next.number == Some(number));
         match block.number {
+            None if block.is_unread => before = before.map(|_| expected),
             None => {
                 let takes_one = follows(expected.saturating_add(step));
                 found.push((index, ProgramFault::Unnumbered { expected }, takes_one.then_some(expected)));
@@ -49,7 +52,7 @@ pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, ProgramFault, O
             }
         }
     }
-    let without = blocks.len() - numbered;
+    let without = blocks.iter().filter(|block| block.number.is_none() && !block.is_unread).count();
     let out_of_turn = found.iter().filter(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. })).count();
     if 2 * out_of_turn > numbered {
         return Vec::new();
@@ -72,9 +75,17 @@ fn usual_step(blocks: &[Numbered]) -> Option<u32> {
 mod tests {
     use super::*;
 
+    const UNREAD: u32 = u32::MAX;
+
     fn check(numbers: &[u32], expected: &str) {
-        let blocks: Vec<Numbered> =
-            numbers.iter().map(|&number| Numbered { number: (number > 0).then_some(number), is_after_pause: false }).collect();
+        let blocks: Vec<Numbered> = numbers
+            .iter()
+            .map(|&number| Numbered {
+                number: (number > 0 && number != UNREAD).then_some(number),
+                is_after_pause: false,
+                is_unread: number == UNREAD,
+            })
+            .collect();
         let found: Vec<String> = look(&blocks)
             .into_iter()
             .map(|(index, fault, meant)| {
@@ -97,6 +108,8 @@ mod tests {
         check(&[], "");
         check(&[0, 0, 0, 0], "");
         check(&[1, 0, 0, 2, 0, 0, 3], "");
+        check(&[1, 2, UNREAD, 4, 5], "");
+        check(&[0, 0, UNREAD, 0, 0], "");
         check(&[7, 3, 9, 1, 4], "");
     }
 

@@ -1,35 +1,134 @@
 //! Which single field of which block keeps a contour open.
 //!
 //! A contour that does not close, in which every block for itself is sound, has a field that means something else than its writer
-//! did: a wrong quadrant, turn, counting axis or J. Where changing one field of exactly one block closes the contour, that is it.
+//! did (a wrong quadrant, turn, counting axis or J), or lacks a block, or is meant to stay open. A field is named where changing it,
+//! and nothing else in the contour, closes it. Several such changes are weighed by what they do at the block's neighbours: one that
+//! makes the path run on smoothly counts, one that breaks what is smooth, doubles the wire back on itself or makes the path cross
+//! itself is none. The coordinates behind a block decide where there are any.
 
 use super::super::block::{Block, CountingAxis, Motion, Quadrant};
 use super::super::decode::meant;
 use super::super::encode::counted;
 use super::super::run::{BlockEntry, Move, Sum, travel_of};
 use super::not_closed::tolerance;
+use super::path_crosses_itself::crossings;
+use super::position_mismatch::mismatch;
 use super::{axis_of, motion_name};
 use crate::finding::ProgramFault;
-use crate::geometry::{Arc, Point, Segment, Vector};
+use crate::geometry::{Arc, Point, Segment, Vector, turn};
 
 /// Contours of fewer blocks close by too many changes, contours of more cost too long to try.
 pub(in super::super) const BLOCKS: std::ops::RangeInclusive<usize> = 4..=1000;
 
-/// The block whose one change closes the way, by its index, and what is wrong with it. `None` where there is none or more than one.
-pub(in super::super) fn culprit<'a>(sum: &Sum, blocks: impl Iterator<Item = &'a BlockEntry>) -> Option<(usize, ProgramFault)> {
-    let mut found: Option<(usize, ProgramFault)> = None;
-    for (index, entry) in blocks.enumerate() {
-        let Some(fault) = changes(&entry.block, sum, entry.travel, index == 0) else { continue };
-        if found.is_some() {
-            return None;
-        }
-        found = Some((index, fault));
-    }
-    found
+/// Blocks that meet within this angle run smoothly into each other, radians: two degrees, what rounding to µm makes of a small arc.
+const SMOOTH: f64 = 0.035;
+
+/// A change of one field that closes the way.
+struct Change {
+    index: usize,
+    block: Block,
+    fault: ProgramFault,
+    /// Smooth joints of the block that the change makes, less those that it breaks.
+    smoother: i32,
+    /// The coordinates behind the block say so.
+    is_stated: bool,
 }
 
-/// The first change of one field that closes the way.
-fn changes(block: &Block, sum: &Sum, travel: Move, is_first: bool) -> Option<ProgramFault> {
+/// The block whose one change closes the way, by its index, and what is wrong with it. `None` where there is none, or where several
+/// are as likely.
+pub(in super::super) fn culprit(sum: &Sum, blocks: &[&BlockEntry]) -> Option<(usize, ProgramFault)> {
+    let mut changes: Vec<Change> = (0..blocks.len()).filter_map(|index| change_of(index, sum, blocks)).collect();
+    if changes.iter().any(|change| change.is_stated) {
+        changes.retain(|change| change.is_stated);
+    }
+    let best = changes.iter().map(|change| change.smoother).max().filter(|best| *best >= 0)?;
+    changes.retain(|change| change.smoother == best);
+    let change = changes.pop().filter(|_| changes.is_empty())?;
+    let path = |changed: Option<Block>| crosses(blocks, change.index, changed, sum.arcs);
+    if path(Some(change.block)) {
+        return None;
+    }
+    let is_sure = change.is_stated || change.smoother > 0 || path(None);
+    Some((change.index, with_certainty(change.fault, is_sure)))
+}
+
+fn with_certainty(fault: ProgramFault, is_sure: bool) -> ProgramFault {
+    match fault {
+        ProgramFault::QuadrantKeepsOpen { found, meant, .. } => ProgramFault::QuadrantKeepsOpen { found, meant, is_sure },
+        ProgramFault::AxisKeepsOpen { axis, .. } => ProgramFault::AxisKeepsOpen { axis, is_sure },
+        ProgramFault::JKeepsOpen { j, meant, .. } => ProgramFault::JKeepsOpen { j, meant, is_sure },
+        other => other,
+    }
+}
+
+/// The most likely change of one field of a block that closes the way.
+fn change_of(index: usize, sum: &Sum, blocks: &[&BlockEntry]) -> Option<Change> {
+    let entry = blocks.get(index)?;
+    let before = index.checked_sub(1).and_then(|before| blocks.get(before));
+    // Lead-in and lead-out that lie on each other are right, both of them.
+    let (first, last) = (blocks.first()?, blocks.last()?);
+    if (index == 0 || index + 1 == blocks.len()) && first.travel.plus(last.travel).is_within(tolerance(0)) {
+        return None;
+    }
+    let stated = before.and_then(|before| before.stated_end()).zip(entry.stated_end());
+    let fits = |travel: &Move| stated.is_none_or(|(from, to)| mismatch(&from, travel, &to).is_none());
+    if stated.is_some() && fits(&entry.travel) {
+        return None;
+    }
+    let now = joints(blocks, index, &entry.block);
+    let weighed = candidates(entry, sum, index == 0).into_iter().filter_map(|(block, fault)| {
+        let then = joints(blocks, index, &block);
+        let doubles_back = then.doubled > now.doubled;
+        let fits = fits(&travel_of(&block));
+        (!doubles_back && fits).then(|| Change { index, block, fault, smoother: then.smooth - now.smooth, is_stated: stated.is_some() })
+    });
+    // Of several in one block the first is the plainest.
+    weighed.reduce(|best, other| if other.smoother > best.smoother { other } else { best })
+}
+
+/// How a block meets its neighbours.
+struct Joints {
+    smooth: i32,
+    /// Joints at which the wire runs back on the way that it came.
+    doubled: i32,
+}
+
+fn joints(blocks: &[&BlockEntry], index: usize, block: &Block) -> Joints {
+    let segment = |block: &Block| meant(block, Point::origin());
+    let neighbour = |index: Option<usize>| index.and_then(|index| blocks.get(index)).and_then(|entry| segment(&entry.block));
+    let mut joints = Joints { smooth: 0, doubled: 0 };
+    let Some(own) = segment(block) else { return joints };
+    let mut meet = |from: Vector, to: Vector| {
+        let angle = turn(from, to).abs();
+        joints.smooth += i32::from(angle <= SMOOTH);
+        joints.doubled += i32::from(angle >= std::f64::consts::PI - SMOOTH);
+    };
+    if let Some(before) = neighbour(index.checked_sub(1)) {
+        meet(before.end_tangent(), own.start_tangent());
+    }
+    if let Some(behind) = neighbour(index.checked_add(1)) {
+        meet(own.end_tangent(), behind.start_tangent());
+    }
+    joints
+}
+
+/// Whether the way crosses itself, with another block in the place of one.
+fn crosses(blocks: &[&BlockEntry], index: usize, changed: Option<Block>, arcs: usize) -> bool {
+    let mut at = Move::default();
+    let mut pieces = Vec::with_capacity(blocks.len());
+    for (nth, entry) in blocks.iter().enumerate() {
+        let block = changed.filter(|_| nth == index).unwrap_or(entry.block);
+        let [x, y] = at.meant_um();
+        let start = Point::new(x, y);
+        pieces.push(meant(&block, start).unwrap_or(Segment::line(start, start)));
+        at = at.plus(if nth == index { travel_of(&block) } else { entry.travel });
+    }
+    !crossings(&pieces, arcs).is_empty()
+}
+
+/// Every change of one field that closes the way, the plainest first.
+fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, ProgramFault)> {
+    let (block, travel) = (&entry.block, entry.travel);
     let closes = |changed: &Block| {
         let new = travel_of(changed);
         let whole = sum.travel.minus(travel).plus(new);
@@ -37,6 +136,7 @@ fn changes(block: &Block, sum: &Sum, travel: Move, is_first: bool) -> Option<Pro
         let near = tolerance(sum.arcs);
         new != travel && (whole.is_within(near) || (sum.blocks >= 3 && first.is_some_and(|first| whole.minus(first).is_within(near))))
     };
+    let mut found = Vec::new();
     let quadrants = [Quadrant::First, Quadrant::Second, Quadrant::Third, Quadrant::Fourth];
     let kinds: &[fn(Quadrant) -> Motion] = match block.motion {
         Motion::Line(_) => &[Motion::Line],
@@ -45,9 +145,10 @@ fn changes(block: &Block, sum: &Sum, travel: Move, is_first: bool) -> Option<Pro
     };
     for kind in kinds {
         for motion in quadrants.map(|quadrant| kind(usual_first(block, quadrant))) {
-            if motion != block.motion && closes(&Block { motion, ..*block }) {
-                let (found, meant) = (motion_name(block.motion), motion_name(motion));
-                return Some(ProgramFault::QuadrantKeepsOpen { found, meant });
+            let changed = Block { motion, ..*block };
+            if motion != block.motion && closes(&changed) {
+                let (name, meant) = (motion_name(block.motion), motion_name(motion));
+                found.push((changed, ProgramFault::QuadrantKeepsOpen { found: name, meant, is_sure: false }));
             }
         }
     }
@@ -55,11 +156,17 @@ fn changes(block: &Block, sum: &Sum, travel: Move, is_first: bool) -> Option<Pro
         CountingAxis::X => CountingAxis::Y,
         CountingAxis::Y => CountingAxis::X,
     };
-    if !matches!(block.motion, Motion::Line(_)) && closes(&Block { axis, ..*block }) {
-        return Some(ProgramFault::AxisKeepsOpen { axis: axis_of(block.axis) });
+    let changed = Block { axis, ..*block };
+    if !matches!(block.motion, Motion::Line(_)) && closes(&changed) {
+        found.push((changed, ProgramFault::AxisKeepsOpen { axis: axis_of(block.axis), is_sure: false }));
     }
-    let meant = j_to_close(block, sum, is_first)?;
-    closes(&Block { j: meant, ..*block }).then_some(ProgramFault::JKeepsOpen { j: block.j, meant })
+    if let Some(meant) = j_to_close(block, sum, is_first).filter(|j| *j > 0) {
+        let changed = Block { j: meant, ..*block };
+        if closes(&changed) {
+            found.push((changed, ProgramFault::JKeepsOpen { j: block.j, meant, is_sure: false }));
+        }
+    }
+    found
 }
 
 /// The quadrants of a line along an axis in the order in which they are usual for it: a zero has no sign, so two lead to one place.

@@ -45,6 +45,8 @@ pub(super) const ARC_TIE: f64 = 2.0 * J_TOLERANCE;
 pub(super) struct Limits {
     /// Digits of the controller's numbers.
     pub digits: u32,
+    /// What they hold, µm.
+    largest: i64,
     /// mm.
     pub correction: f64,
     /// The program holds the part's contour, not the wire's path.
@@ -56,7 +58,8 @@ pub(super) struct Limits {
 impl Limits {
     pub fn of(settings: &Effective) -> Limits {
         Limits {
-            digits: super::block::LARGEST.ilog10() + 1,
+            digits: settings.digits,
+            largest: settings.largest_number(),
             correction: settings.correction,
             holds_part: matches!(settings.compensation, Compensation::None | Compensation::Controller),
             side: settings.side,
@@ -65,7 +68,7 @@ impl Limits {
     }
 
     pub fn largest(&self) -> i64 {
-        10_i64.pow(self.digits) - 1
+        self.largest
     }
 }
 
@@ -99,8 +102,10 @@ impl Spot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Counts {
     Always,
-    /// Only where the contour does not close: else the block is what was meant, in an unusual way.
+    /// Only where the contour does not close: else the block is what was meant.
     IfOpen,
+    /// Where the contour closes, the block is what was meant in an unusual way: it is told as that.
+    MildIfClosed,
     /// Only where the wire runs on the arc's centre side; the arc turns left or not.
     IfInside {
         turns_left: bool,
@@ -179,6 +184,8 @@ pub(super) struct Site<'a> {
     pub line: Range<usize>,
     pub fields: Fields,
     pub block: Block,
+    /// The largest number that the controller takes, µm.
+    pub largest: i64,
     /// Whether a contour closes when other blocks stand in the place of this one.
     pub closes_with: &'a dyn Fn(&[Block]) -> bool,
 }

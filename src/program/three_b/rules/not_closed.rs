@@ -12,7 +12,7 @@ pub(in super::super) fn tolerance(arcs: usize) -> f64 {
 pub(in super::super) const FRAGMENT: usize = 2;
 
 /// True where the way comes back to its start or to the end of its lead-in, the first block or the first two; a lead-out that goes elsewhere
-/// counts as one only where it does not run back along the lead-in.
+/// counts as one only where it runs neither back along the lead-in nor on in its direction.
 pub(in super::super) fn is_closed(sum: &Sum) -> bool {
     let tolerance = tolerance(sum.arcs);
     if sum.blocks == 0 || sum.travel.is_within(tolerance) {
@@ -26,14 +26,14 @@ pub(in super::super) fn is_closed(sum: &Sum) -> bool {
     if sum.blocks >= 6 && sum.second.is_some_and(|second| sum.travel.minus(first).minus(second).is_within(tolerance)) {
         return true;
     }
-    sum.blocks >= 5 && sum.travel.minus(first).minus(last).is_within(tolerance) && !runs_back(first, last)
+    sum.blocks >= 5 && sum.travel.minus(first).minus(last).is_within(tolerance) && !runs_along(first, last)
 }
 
-/// True where the second move runs against the first, within a few degrees.
-fn runs_back(first: Move, last: Move) -> bool {
+/// True where the second move runs against the first, or on in its direction, through the contour; within a few degrees.
+fn runs_along(first: Move, last: Move) -> bool {
     let (a, b) = (first.meant_um(), last.meant_um());
     let dot = a[0] * b[0] + a[1] * b[1];
-    dot <= -0.99 * a[0].hypot(a[1]) * b[0].hypot(b[1])
+    dot.abs() >= 0.99 * a[0].hypot(a[1]) * b[0].hypot(b[1])
 }
 
 /// From the end of the way to the nearer of its start and the end of its lead-in, µm.

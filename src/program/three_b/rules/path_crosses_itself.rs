@@ -1,10 +1,11 @@
-//! `path-crosses-itself`: two blocks of one contour go through each other.
+//! `path-crosses-itself`: the way of one contour goes through itself.
 //!
-//! A touch is no crossing: lead-in and lead-out may lie on each other and end on the contour, and what a closed contour misses its
-//! own beginning by makes no crossing there. So two pieces cross only where each reaches further to both sides than that.
+//! A touch is no crossing: lead-in and lead-out may lie on each other and end on the contour, and a contour may touch itself. So where
+//! two pieces come together, the way is followed off that place on both sides, across the joints of its blocks, until the four ends lie
+//! apart; it crosses where they alternate round the place. What a counting machine drifts by makes no crossing: what happens within
+//! [`margin`] is no more than a touch.
 
-use super::not_closed::tolerance;
-use crate::geometry::{Bounds, Point, Segment, meetings};
+use crate::geometry::{Bounds, Point, Segment, Vector, meetings, positive_angle};
 
 /// Two pieces, by their index, and where they cross.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,98 +15,290 @@ pub(in super::super) struct Crossing {
     pub at: Point,
 }
 
-/// Crossings that are looked for in one contour; more tell nobody more.
+/// Crossings that are told of one contour; more tell nobody more.
 const MOST: usize = 50;
 
-/// Pieces that are compared before the search ends: a way that lies upon itself everywhere is no contour.
-const MOST_PAIRS: usize = 20_000_000;
+/// Pairs of pieces of one contour that are looked at: where much lies on one place all of them are near each other.
+const MOST_PAIRS: usize = 4_000;
 
-/// Where consecutive pieces of a way cross others, in the order of the way.
+/// Pieces in a row that lie along another one, for which its crossing is still that of the first.
+const MOST_ALONG: usize = 8;
+
+/// How near a place of one piece lies to another that goes through it, µm: nodes are on whole µm or ends of arcs.
+const ON: f64 = 0.01;
+
+/// The same for a first look from elsewhere, where places are rounded otherwise, µm.
+const NEARLY_ON: f64 = 0.05;
+
+/// How often the way is followed twice as far to see two of its branches part.
+const DOUBLINGS: usize = 10;
+
+/// How far a way of so many arcs may lie beside where it is meant, µm: each arc adds up to 1 µm to either side, by chance. The same for
+/// nearly as many, so that a block more or less leaves it as it is.
+pub(in super::super) fn margin(arcs: usize) -> f64 {
+    2.0 + (arcs.next_power_of_two() as f64).sqrt()
+}
+
+/// A way by its pieces, each of which begins where the one before ends.
+pub(in super::super) struct Way<'a> {
+    pub piece: &'a dyn Fn(usize) -> Option<Segment>,
+    pub count: usize,
+    pub margin: f64,
+}
+
+/// Where a way that is held as a whole crosses itself.
 pub(in super::super) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
-    // Half a millimetre, however many arcs: a crossing on a part is wider.
-    let margin = tolerance(arcs).min(500.0);
-    let mut found = Vec::new();
-    let mut pairs_left = MOST_PAIRS;
-    let tree = Boxes::of(pieces);
-    tree.pairs(&mut |first, second| {
-        pairs_left = pairs_left.saturating_sub(1);
-        if second > first + 1
-            && let (Some(a), Some(b)) = (pieces.get(first), pieces.get(second))
-            && let Some(at) = meetings(a, b).into_iter().find(|&at| goes_through(a, b, at, margin) && goes_through(b, a, at, margin))
-        {
-            found.push(Crossing { first, second, at });
-        }
-        pairs_left > 0 && found.len() < MOST
-    });
-    found.sort_by_key(|crossing| (crossing.second, crossing.first));
-    found
+    let way = Way { piece: &|index| pieces.get(index).copied(), count: pieces.len(), margin: margin(arcs) };
+    let boxes: Vec<Bounds> = pieces.iter().map(Segment::bounds).collect();
+    let mut near = Vec::new();
+    near_each_other(pieces, &boxes, &mut |first, second| near.push((first, second)));
+    way.crossings(near).0
 }
 
-/// True where `piece` comes from one side of `other` and goes to its other side at `at`, further than `margin` on both.
-fn goes_through(piece: &Segment, other: &Segment, at: Point, margin: f64) -> bool {
-    let share = piece.share_of(at);
-    let length = piece.length();
-    let ends = [piece.start(), piece.end()].map(|end| (end - at).norm());
-    if ends.iter().any(|&distance| distance <= margin) || length == 0.0 {
-        return false;
-    }
-    // A little way off on both sides, and at the ends.
-    let reach = (4.0 * margin / length).min(0.5);
-    let sides = [share - reach, share + reach].map(|share| side(other, piece.point_at(share.clamp(0.0, 1.0))));
-    let far = [0.0, 1.0].map(|end| other.distance_to(piece.point_at(end)) > margin);
-    sides[0] * sides[1] < 0.0 && far[0] && far[1]
-}
-
-/// On which side of a segment's line or circle a point lies.
-fn side(segment: &Segment, point: Point) -> f64 {
-    match segment {
-        Segment::Line(line) => crate::geometry::cross(line.end - line.start, point - line.start).signum(),
-        Segment::Arc(arc) => ((point - arc.center).norm() - arc.radius).signum(),
-    }
-}
-
-/// Boxes about pieces, about pairs of boxes, and so on up to one: neighbours on the way are neighbours in the plane.
-struct Boxes {
-    /// From single pieces up.
-    levels: Vec<Vec<Bounds>>,
-}
-
-impl Boxes {
-    fn of(pieces: &[Segment]) -> Boxes {
-        let mut levels = vec![pieces.iter().map(Segment::bounds).collect::<Vec<_>>()];
-        while let Some(last) = levels.last().filter(|level| level.len() > 1) {
-            let next = last.chunks(2).map(|pair| pair.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part))).collect();
-            levels.push(next);
-        }
-        Boxes { levels }
-    }
-
-    /// Calls `visit` with pairs of different pieces whose boxes touch, the earlier first, until it says false.
-    fn pairs(&self, visit: &mut impl FnMut(usize, usize) -> bool) {
-        let mut waiting = vec![(self.levels.len() - 1, 0, 0)];
-        while let Some((level, a, b)) = waiting.pop() {
-            if a != b && !self.touch(level, a, b) {
-                continue;
+/// Pairs of pieces that come near each other, the earlier first; neighbours where they meet again behind their joint.
+pub(in super::super) fn near_each_other(pieces: &[Segment], boxes: &[Bounds], found: &mut dyn FnMut(usize, usize)) {
+    // Along the axis on which they spread.
+    let whole = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
+    let by_x = whole.width() >= whole.height();
+    let low = |index: usize| if by_x { boxes[index].min.x } else { boxes[index].min.y };
+    let high = |index: usize| if by_x { boxes[index].max.x } else { boxes[index].max.y };
+    let mut order: Vec<usize> = (0..boxes.len().min(pieces.len())).collect();
+    order.sort_by(|&a, &b| low(a).total_cmp(&low(b)));
+    for (nth, &one) in order.iter().enumerate() {
+        for &other in order[nth + 1..].iter().take_while(|&&other| low(other) <= high(one) + NEARLY_ON) {
+            let (first, second) = (one.min(other), one.max(other));
+            let (a, b) = (&pieces[first], &pieces[second]);
+            let is_near = if second == first + 1 { meet_again(a, b) } else { come_near(a, &boxes[first], b, &boxes[second]) };
+            if is_near {
+                found(first, second);
             }
-            if level == 0 {
-                if a != b && !visit(a, b) {
-                    return;
-                }
-                continue;
+        }
+    }
+}
+
+/// True where a piece meets the one behind it at another place than their joint.
+pub(in super::super) fn meet_again(a: &Segment, b: &Segment) -> bool {
+    let is_elsewhere = |at: &Point| (at - a.end()).norm() > 1.0;
+    (a.as_arc().is_some() || b.as_arc().is_some()) && meetings(a, b).iter().any(is_elsewhere)
+}
+
+/// True where two pieces have a place in common, or nearly.
+pub(in super::super) fn come_near(a: &Segment, box_of_a: &Bounds, b: &Segment, box_of_b: &Bounds) -> bool {
+    let on = |piece: &Segment, other: &Segment| [other.start(), other.end()].iter().any(|&end| piece.distance_to(end) <= NEARLY_ON);
+    box_of_a.grown(NEARLY_ON).touches(box_of_b) && (!meetings(a, b).is_empty() || on(a, b) || on(b, a))
+}
+
+impl Way<'_> {
+    /// The crossings among pairs of pieces that come near each other, in the order of the way; and whether all pairs were looked at.
+    pub fn crossings(&self, mut near: Vec<(usize, usize)>) -> (Vec<Crossing>, bool) {
+        near.sort_unstable_by_key(|&(first, second)| (second, first));
+        near.dedup();
+        let is_all = near.len() <= MOST_PAIRS;
+        let mut found: Vec<Crossing> = Vec::new();
+        for (first, second) in near.into_iter().take(MOST_PAIRS) {
+            if found.len() == MOST {
+                break;
             }
-            let below = &self.levels[level - 1];
-            for i in 2 * a..(2 * a + 2).min(below.len()) {
-                for j in 2 * b..(2 * b + 2).min(below.len()) {
-                    if a != b || i <= j {
-                        waiting.push((level - 1, i, j));
+            // At a joint of two blocks one crossing is met by each of them, and at both ends of a stretch that the two share.
+            let is_known = |at: Point| {
+                let same = |known: &&Crossing| known.first.abs_diff(first) <= 1 && second - known.second <= MOST_ALONG;
+                let lies_on = |index: usize, at: Point| (self.piece)(index).is_some_and(|piece| piece.distance_to(at) <= self.margin);
+                let runs_along =
+                    |index: usize| (self.piece)(index).is_some_and(|piece| lies_on(first, piece.start()) && lies_on(first, piece.end()));
+                let is_one = |known: &Crossing| {
+                    if second - known.second > 1 {
+                        return (known.second + 1..second).all(runs_along);
                     }
+                    let middle = nalgebra::center(&known.at, &at);
+                    (known.at - at).norm() <= 4.0 * self.margin
+                        || (lies_on(first, middle) && (lies_on(second, middle) || lies_on(known.second, middle)))
+                };
+                found.iter().rev().take(8).filter(same).any(is_one)
+            };
+            let at = self.common(first, second).into_iter().find(|&at| !is_known(at) && self.crosses(first, second, at));
+            found.extend(at.map(|at| Crossing { first, second, at }));
+        }
+        (found, is_all)
+    }
+
+    /// The places that two pieces have in common.
+    fn common(&self, first: usize, second: usize) -> Vec<Point> {
+        let (Some(a), Some(b)) = ((self.piece)(first), (self.piece)(second)) else { return Vec::new() };
+        let mut places = meetings(&a, &b);
+        places.extend([b.start(), b.end()].into_iter().filter(|&end| a.distance_to(end) <= ON));
+        places.extend([a.start(), a.end()].into_iter().filter(|&end| b.distance_to(end) <= ON));
+        places
+    }
+
+    /// Whether the way that runs through `at` in one piece crosses what it does there in another.
+    fn crosses(&self, first: usize, second: usize, at: Point) -> bool {
+        if self.is_where_leads_end(first, second, at) {
+            return false;
+        }
+        let mut reach = 4.0 * self.margin;
+        for _ in 0..DOUBLINGS {
+            // Further than a third of the loop between the two is elsewhere on it.
+            if self.is_shorter((first, second), at, 3.0 * reach) {
+                return false;
+            }
+            let (Some(one), Some(other)) = (self.ends(first, at, reach), self.ends(second, at, reach)) else { return false };
+            if let Some(alternate) = alternate(at, one, other, self.margin) {
+                return alternate;
+            }
+            reach *= 2.0;
+        }
+        false
+    }
+
+    /// Lead-in and lead-out end on the contour, and may come to it from different sides.
+    fn is_where_leads_end(&self, first: usize, second: usize, at: Point) -> bool {
+        let near = |end: Option<Point>| end.is_some_and(|end| (end - at).norm() <= 2.0 * self.margin);
+        let piece = |index: usize| (self.piece)(index);
+        let back = |count: usize| self.count.checked_sub(count).and_then(piece);
+        first <= 2
+            && second + 3 >= self.count
+            && [0, 1].into_iter().any(|index| near(piece(index).map(|piece| piece.end())))
+            && ([1, 2].into_iter().any(|count| near(back(count).map(|piece| piece.start()))) || near(back(1).map(|piece| piece.end())))
+    }
+
+    /// Whether the way from `at` in one piece to `at` in another is shorter than `length`.
+    fn is_shorter(&self, (first, second): (usize, usize), at: Point, length: f64) -> bool {
+        let length_of = |index: usize| (self.piece)(index).map_or(0.0, |piece| piece.length());
+        let share = |index: usize| (self.piece)(index).map_or(0.0, |piece| piece.share_of(at).clamp(0.0, 1.0));
+        let mut sum = length_of(first) * (1.0 - share(first)) + length_of(second) * share(second);
+        for index in first + 1..second {
+            if sum >= length {
+                return false;
+            }
+            sum += length_of(index);
+        }
+        sum < length
+    }
+
+    /// The way `reach` before and behind a place on one of its pieces, or where it begins or ends; `None` where that is at the place.
+    fn ends(&self, index: usize, at: Point, reach: f64) -> Option<[Point; 2]> {
+        Some([self.along(index, at, reach, false)?, self.along(index, at, reach, true)?])
+    }
+
+    fn along(&self, mut index: usize, at: Point, reach: f64, is_forward: bool) -> Option<Point> {
+        let mut piece = (self.piece)(index)?;
+        let mut share = piece.share_of(at).clamp(0.0, 1.0);
+        let mut left = reach;
+        loop {
+            let length = piece.length();
+            let rest = length * if is_forward { 1.0 - share } else { share };
+            if rest >= left && length > 0.0 {
+                let by = left / length;
+                return Some(piece.point_at(if is_forward { share + by } else { share - by }));
+            }
+            left -= rest;
+            let next = if is_forward { index.checked_add(1).filter(|next| *next < self.count) } else { index.checked_sub(1) };
+            match next.and_then(|next| Some((next, (self.piece)(next)?))) {
+                Some((next, found)) => {
+                    (index, piece) = (next, found);
+                    share = if is_forward { 0.0 } else { 1.0 };
+                }
+                None => {
+                    let end = if is_forward { piece.end() } else { piece.start() };
+                    return (reach - left > self.margin).then_some(end);
                 }
             }
         }
     }
+}
 
-    fn touch(&self, level: usize, a: usize, b: usize) -> bool {
-        let boxes = &self.levels[level];
-        matches!((boxes.get(a), boxes.get(b)), (Some(a), Some(b)) if a.touches(b))
+/// Whether the ends of one branch and those of another alternate round a place; `None` where two lie too near each other to tell.
+fn alternate(at: Point, one: [Point; 2], other: [Point; 2], margin: f64) -> Option<bool> {
+    let one = one.map(|end| end - at);
+    let other = other.map(|end| end - at);
+    let lie_together = |a: &Vector, b: &Vector| {
+        let across = crate::geometry::cross(*a, *b).abs() / a.norm().max(b.norm()).max(margin);
+        a.dot(b) > 0.0 && across <= margin
+    };
+    let is_near = |end: &Vector| end.norm() <= margin;
+    if one.iter().chain(&other).any(is_near) || one.iter().any(|a| other.iter().any(|b| lie_together(a, b))) {
+        return None;
+    }
+    let angle = |end: Vector| positive_angle(end.y.atan2(end.x) - one[0].y.atan2(one[0].x));
+    let between = other.map(|end| angle(end) < angle(one[1]));
+    Some(between[0] != between[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pieces that cross on the way through points, as `first x second`.
+    #[track_caller]
+    fn check(points: &[(f64, f64)], expected: &[&str]) {
+        let point = |&(x, y): &(f64, f64)| Point::new(x, y);
+        for mirrored in [false, true] {
+            let mut way: Vec<Point> = points.iter().map(point).collect();
+            if mirrored {
+                way.iter_mut().for_each(|at| at.x = -at.x);
+            }
+            let pieces: Vec<Segment> = way.windows(2).map(|pair| Segment::line(pair[0], pair[1])).collect();
+            let found: Vec<String> = crossings(&pieces, 0).iter().map(|one| format!("{}x{}", one.first, one.second)).collect();
+            assert_eq!(found, expected, "{points:?} mirrored: {mirrored}");
+        }
+    }
+
+    #[test]
+    fn what_goes_through_crosses() {
+        check(&[(0.0, 0.0), (1000.0, 1000.0), (0.0, 1000.0), (1000.0, 0.0)], &["0x2"]);
+        // Through a joint of two blocks, and through the joints of both.
+        check(&[(0.0, 0.0), (500.0, 500.0), (1000.0, 1000.0), (0.0, 1000.0), (1000.0, 0.0)], &["0x3"]);
+        check(
+            &[
+                (-900.0, -900.0),
+                (-900.0, 0.0),
+                (0.0, 0.0),
+                (500.0, 500.0),
+                (1000.0, 1000.0),
+                (0.0, 1000.0),
+                (500.0, 500.0),
+                (1000.0, 0.0),
+                (1900.0, 0.0),
+                (1900.0, -900.0),
+            ],
+            &["2x5"],
+        );
+        // On one line for a while, from one side to the other.
+        check(&[(0.0, 0.0), (3000.0, 0.0), (3000.0, 2000.0), (1000.0, 0.0), (500.0, 0.0), (200.0, -1000.0)], &["0x2"]);
+    }
+
+    #[test]
+    fn an_arc_may_cross_the_line_before_it() {
+        let (start, corner) = (Point::new(0.0, 0.0), Point::new(1000.0, 0.0));
+        let arc = |end: Point| Segment::Arc(crate::geometry::Arc::about(Point::new(700.0, 300.0), corner, end, false));
+        let crossed = [Segment::line(start, corner), arc(Point::new(400.0, 600.0))];
+        assert_eq!(crossings(&crossed, 1).len(), 1);
+        // From the other side it leaves the line for good.
+        let left = [Segment::line(Point::new(2000.0, 0.0), corner), arc(Point::new(400.0, 600.0))];
+        assert_eq!(crossings(&left, 1).len(), 0);
+    }
+
+    #[test]
+    fn what_touches_does_not() {
+        check(&[(0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (500.0, 0.0), (0.0, 1000.0)], &[]);
+        check(&[(0.0, 0.0), (500.0, 500.0), (0.0, 1000.0), (1000.0, 1000.0), (500.0, 500.0), (1000.0, 0.0)], &[]);
+        check(&[(0.0, 0.0), (3000.0, 0.0), (3000.0, 2000.0), (1000.0, 0.0), (500.0, 0.0), (200.0, 1000.0)], &[]);
+        // It ends on itself.
+        check(&[(0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (500.0, 0.0)], &[]);
+        // A contour with lead-in and lead-out: it may be come to from both sides.
+        check(&[(0.0, 0.0), (500.0, 500.0), (1000.0, 1000.0), (0.0, 1000.0), (500.0, 500.0), (1000.0, 0.0)], &[]);
+        // Lead-in and lead-out, on one way and on two.
+        check(
+            &[(-9.0, -500.0), (0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (-1000.0, 1000.0), (-1000.0, 0.0), (0.0, 0.0), (-9.0, -500.0)],
+            &[],
+        );
+        check(
+            &[(-99.0, -500.0), (0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (-1000.0, 1000.0), (-1000.0, 0.0), (0.0, 0.0), (99.0, -500.0)],
+            &[],
+        );
+        check(
+            &[(99.0, -500.0), (0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (-1000.0, 1000.0), (-1000.0, 0.0), (0.0, 0.0), (-99.0, -500.0)],
+            &[],
+        );
     }
 }

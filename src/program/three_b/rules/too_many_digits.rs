@@ -3,7 +3,7 @@
 use super::{Seen, Sight, Site, Spot, TextFix, one_edit};
 use crate::finding::{FixKind, ProgramFault};
 use crate::geometry::Point;
-use crate::program::three_b::block::{LARGEST, Node};
+use crate::program::three_b::block::Node;
 use crate::program::three_b::decode::meant;
 use crate::program::three_b::encode::{encode, snap};
 use crate::program::three_b::layout::push_fields;
@@ -20,12 +20,12 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
 const MOST_PIECES: usize = 64;
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
-    let Some(segment) = meant(&site.block, Point::origin()).filter(|segment| segment.length() <= LARGEST as f64 * MOST_PIECES as f64)
+    let Some(segment) = meant(&site.block, Point::origin()).filter(|segment| segment.length() <= site.largest as f64 * MOST_PIECES as f64)
     else {
         return Vec::new();
     };
     let mut pieces = Vec::new();
-    let made = snap(segment.end()).and_then(|end| encode(&segment, Node { x: 0, y: 0 }, end, &mut pieces));
+    let made = snap(segment.end()).and_then(|end| encode(&segment, Node { x: 0, y: 0 }, end, site.largest, &mut pieces));
     if made.is_none() || pieces.len() < 2 || pieces.len() > MOST_PIECES {
         return Vec::new();
     }

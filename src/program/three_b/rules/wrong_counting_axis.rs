@@ -38,8 +38,8 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
     let axis = other(site.block.axis);
     let name = axis_of(axis);
     let only_axis = |in_fix_all| one_edit(FixKind::SetAxis { axis: name, j: None }, vec![site.set_axis(name)], true, in_fix_all);
-    if matches!(fault, ProgramFault::AxisKeepsOpen { .. }) {
-        return vec![only_axis(true)];
+    if let ProgramFault::AxisKeepsOpen { is_sure, .. } = fault {
+        return vec![only_axis(*is_sure)];
     }
     let flipped = Block { axis, ..site.block };
     if let Motion::Line(_) = site.block.motion {

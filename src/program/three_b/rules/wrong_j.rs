@@ -20,8 +20,8 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
 }
 
 pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
-    if let ProgramFault::JKeepsOpen { meant, .. } = *fault {
-        return vec![one_edit(FixKind::SetJ { j: meant }, vec![site.set_j(meant)], true, true)];
+    if let ProgramFault::JKeepsOpen { meant, is_sure, .. } = *fault {
+        return vec![one_edit(FixKind::SetJ { j: meant }, vec![site.set_j(meant)], true, is_sure)];
     }
     let Block { x, y, j, .. } = site.block;
     let projection = x.max(y);

@@ -1,7 +1,7 @@
 //! `wrong-quadrant`: Z contradicts a line along an axis, or it is what keeps the contour open.
 //!
 //! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to the same place;
-//! it is said only where nothing but Z tells the direction, or where the contour does not close.
+//! it is an error only where nothing but Z tells the direction, or where the contour does not close.
 
 use super::{Counts, Seen, Sight, Site, Spot, TextFix, motion_name, one_edit};
 use crate::finding::{Axis, FixKind, ProgramFault};
@@ -26,15 +26,16 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     }
     let expected = if along == Axis::X { ["L1", "L3"] } else { ["L2", "L4"] };
     let sight = Sight::at(Spot::Motion, ProgramFault::AxisQuadrant { found: motion_name(seen.block.motion), expected, axis: along });
-    Some(Sight { counts: if (x, y) == (0, 0) { Counts::Always } else { Counts::IfOpen }, ..sight })
+    Some(Sight { counts: if (x, y) == (0, 0) { Counts::Always } else { Counts::MildIfClosed }, ..sight })
 }
 
 pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
     match fault {
-        ProgramFault::QuadrantKeepsOpen { meant, .. } => {
-            vec![one_edit(FixKind::SetMotion { name: meant }, vec![site.set_motion(meant)], true, true)]
+        ProgramFault::QuadrantKeepsOpen { meant, is_sure, .. } => {
+            vec![one_edit(FixKind::SetMotion { name: meant }, vec![site.set_motion(meant)], true, *is_sure)]
         }
-        ProgramFault::AxisQuadrant { expected, .. } => {
+        ProgramFault::AxisQuadrant { expected, .. } | ProgramFault::UnusualQuadrant { expected, .. } => {
+            let is_fault = matches!(fault, ProgramFault::AxisQuadrant { .. });
             let motion = |name: &str| match name {
                 "L1" => Motion::Line(Quadrant::First),
                 "L2" => Motion::Line(Quadrant::Second),
@@ -51,7 +52,7 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
             let mut names = vec![first];
             names.extend(expected.iter().copied().filter(|name| *name != first));
             let fix = |(index, name): (usize, &'static str)| {
-                one_edit(FixKind::SetMotion { name }, vec![site.set_motion(name)], index == 0, index == 0 && closing.is_some())
+                one_edit(FixKind::SetMotion { name }, vec![site.set_motion(name)], index == 0, index == 0 && is_fault && closing.is_some())
             };
             names.into_iter().enumerate().map(fix).collect()
         }

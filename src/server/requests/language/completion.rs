@@ -13,7 +13,10 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn options() -> CompletionOptions {
     // A digit is no word: editors ask at these of their own accord.
-    CompletionOptions { trigger_characters: Some(vec!["B".into(), "G".into()]), ..CompletionOptions::default() }
+    CompletionOptions {
+        trigger_characters: Some(["B", "G", "M", "I", "J", "D", "H", "P"].map(Into::into).to_vec()),
+        ..CompletionOptions::default()
+    }
 }
 
 pub(in crate::server) fn completion(state: &mut State, params: &CompletionParams) -> Result<Option<CompletionResponse>> {

@@ -12,6 +12,7 @@ pub(in crate::server) mod rename;
 pub(in crate::server) mod selection;
 pub(in crate::server) mod signature;
 pub(in crate::server) mod symbols;
+pub(in crate::server) mod token_memory;
 pub(in crate::server) mod tokens;
 
 use super::{Errand, moved_on, run};

@@ -26,7 +26,7 @@ pub(in crate::server) fn rename(state: &mut State, params: &RenameParams) -> Res
     let Some(program) = program_in(open).and_then(|document| document.program()) else {
         return Err(refused(format!("{} is no program, expected one with block numbers", at.text_document.uri.as_str())));
     };
-    let edit = renamed(program, offset_of(program.text(), at.position, target.encoding), &params.new_name).map_err(refused)?;
-    let edits = lsp_edits(program.text(), vec![edit], target.encoding);
+    let edits = renamed(program, offset_of(program.text(), at.position, target.encoding), &params.new_name).map_err(refused)?;
+    let edits = lsp_edits(program.text(), edits, target.encoding);
     Ok(Some(workspace_edit(&target, edits)))
 }

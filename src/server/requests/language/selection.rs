@@ -27,10 +27,10 @@ pub(in crate::server) fn selection_range(state: &mut State, params: &SelectionRa
         ranges.into_iter().rev().fold(None, wrap).unwrap_or_else(nothing)
     };
     if let Some(program) = program_in(open).and_then(|document| document.program()) {
-        let (trace, text) = (program.trace(), program.text());
+        let text = program.text();
         let of = |position: &Position| {
             let offset = offset_of(text, *position, encoding);
-            around(text, position, program::language::selections(program, &trace, offset))
+            around(text, position, program::language::selections(program, offset))
         };
         return Ok(Some(params.positions.iter().map(of).collect()));
     }

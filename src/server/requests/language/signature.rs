@@ -11,8 +11,8 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn options() -> SignatureHelpOptions {
     SignatureHelpOptions {
-        trigger_characters: Some(vec!["B".into(), "b".into()]),
-        retrigger_characters: Some(vec!["G".into(), "g".into(), " ".into()]),
+        trigger_characters: Some(["B", "b", "X", "x", "I", "i", "D", "P"].map(Into::into).to_vec()),
+        retrigger_characters: Some(["G", "g", "Y", "y", "J", "j", "R", " "].map(Into::into).to_vec()),
         work_done_progress_options: WorkDoneProgressOptions::default(),
     }
 }

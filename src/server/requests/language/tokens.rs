@@ -1,5 +1,6 @@
-//! `textDocument/semanticTokens`: of the whole text, and of the lines in sight.
+//! `textDocument/semanticTokens`: of the whole text, of what has changed in it, and of the lines in sight.
 
+use super::token_memory::TokenMemory;
 use super::{dxf_in, program_in, whole, whole_program};
 use crate::dxf::language::{Token, TokenKind, tokens, tokens_in};
 use crate::program;
@@ -8,9 +9,11 @@ use crate::server::requests::{Errand, written};
 use crate::server::state::State;
 use crate::text::{Encoding, SourceText};
 use ls_types::{
-    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensFullOptions, SemanticTokensLegend, SemanticTokensOptions,
-    SemanticTokensRangeResult, SemanticTokensResult, SemanticTokensServerCapabilities, Uri,
+    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta, SemanticTokensFullOptions, SemanticTokensLegend,
+    SemanticTokensOptions, SemanticTokensRangeResult, SemanticTokensServerCapabilities, Uri,
 };
+use rayon::prelude::*;
+use std::sync::Arc;
 use tower_lsp::jsonrpc::Result;
 
 /// Tokens of one answer about a whole text.
@@ -22,7 +25,7 @@ pub(in crate::server) fn capabilities() -> SemanticTokensServerCapabilities {
     SemanticTokensServerCapabilities::SemanticTokensOptions(SemanticTokensOptions {
         legend: SemanticTokensLegend { token_types: TokenKind::ALL.map(type_of).to_vec(), token_modifiers: Vec::new() },
         range: Some(true),
-        full: Some(SemanticTokensFullOptions::Bool(true)),
+        full: Some(SemanticTokensFullOptions::Delta { delta: Some(true) }),
         ..SemanticTokensOptions::default()
     })
 }
@@ -75,12 +78,45 @@ fn tokens_of(program: &program::Document, lines: std::ops::Range<usize>, limit: 
     found
 }
 
-pub(in crate::server) fn full(state: &mut State, uri: &Uri, errand: Errand) {
-    let encoding = state.encoding;
+/// The tokens of a program, at most [`LIMIT`]; what a line says hangs on no other line.
+fn all_tokens_of(program: &program::Document) -> Vec<Token> {
+    const CHUNK: usize = 4_096;
+    let count = program.text().line_count();
+    if count <= CHUNK {
+        return tokens_of(program, 0..count, LIMIT);
+    }
+    let firsts: Vec<usize> = (0..count).step_by(CHUNK).collect();
+    let mut found = Vec::new();
+    // As many at once as there may be need for.
+    for some in firsts.chunks(16) {
+        let chunks: Vec<Vec<Token>> = some.par_iter().map(|&first| tokens_of(program, first..first + CHUNK, LIMIT)).collect();
+        found.extend(chunks.into_iter().flatten());
+        if found.len() >= LIMIT {
+            found.truncate(LIMIT);
+            break;
+        }
+    }
+    found
+}
+
+/// Answers with all tokens; with what has changed since the answer `previous`, where that is known.
+pub(in crate::server) fn full(state: &mut State, uri: &Uri, previous: Option<String>, errand: Errand) {
+    let (encoding, deltas) = (state.encoding, state.client.abilities.token_deltas);
+    let memory = match state.document(uri.as_str()) {
+        Ok(open) => Memory { kept: deltas.then(|| open.tokens.clone()), stamp: open.stamp, previous },
+        Err(error) => {
+            let _ = errand.reply.send(Err(error));
+            return;
+        }
+    };
+    if let Some(unchanged) = memory.unchanged() {
+        let _ = errand.reply.send(unchanged);
+        return;
+    }
     if state.documents.get(uri.as_str()).and_then(program_in).is_some() {
         whole_program(state, "Colouring", uri.as_str(), errand, move |program, _| {
-            let tokens = tokens_of(program, 0..program.text().line_count(), LIMIT);
-            written(&SemanticTokens { result_id: None, data: encoded(program.text(), &tokens, encoding) })
+            let tokens = all_tokens_of(program);
+            memory.answer(encoded(program.text(), &tokens, encoding))
         });
         return;
     }
@@ -89,14 +125,40 @@ pub(in crate::server) fn full(state: &mut State, uri: &Uri, errand: Errand) {
         if tokens.len() >= LIMIT {
             tracing::warn!("only the first {LIMIT} tokens of a text of {} lines are coloured", text.line_count());
         }
-        let answer = SemanticTokens { result_id: None, data: encoded(text, &tokens, encoding) };
-        (!stop()).then(|| written(&answer))
+        let data = encoded(text, &tokens, encoding);
+        (!stop()).then(|| memory.answer(data))
     });
 }
 
+/// What is known of earlier answers when a request comes.
+struct Memory {
+    /// `None` for a client that asks for no differences.
+    kept: Option<Arc<TokenMemory>>,
+    stamp: u64,
+    previous: Option<String>,
+}
+
+impl Memory {
+    /// The answer where nothing has changed since the one that the client names.
+    fn unchanged(&self) -> Option<Result<Vec<u8>>> {
+        let previous = self.previous.as_deref()?;
+        let is_current = self.kept.as_ref()?.is_current(previous, self.stamp);
+        is_current.then(|| written(&SemanticTokensDelta { result_id: Some(previous.to_owned()), edits: Vec::new() }))
+    }
+
+    fn answer(&self, data: Vec<SemanticToken>) -> Result<Vec<u8>> {
+        let kept = self.kept.as_ref().map(|kept| kept.replace(self.previous.as_deref(), self.stamp, &data));
+        let (result_id, edit) = kept.unwrap_or_default();
+        match edit {
+            Some(edit) => written(&SemanticTokensDelta { result_id, edits: vec![edit] }),
+            None => written(&SemanticTokens { result_id, data }),
+        }
+    }
+}
+
 /// A typed result that holds the token of the true one.
-pub(in crate::server) fn standing_for(token: serde_json::Value) -> SemanticTokensResult {
-    SemanticTokensResult::Tokens(SemanticTokens { result_id: token.as_str().map(str::to_owned), data: Vec::new() })
+pub(in crate::server) fn standing_for(token: serde_json::Value) -> SemanticTokens {
+    SemanticTokens { result_id: token.as_str().map(str::to_owned), data: Vec::new() }
 }
 
 pub(in crate::server) fn range(state: &mut State, uri: &Uri, range: Range) -> Result<Option<SemanticTokensRangeResult>> {

@@ -1,0 +1,166 @@
+"""Programs turned into something else, and places in texts; every method of the protocol has its call."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from wedm_client import Outdated, Polyline, Put, Refused, RequestFailed, Server, TextDocument
+
+from .plates import ROUND, TIGHT
+
+
+@pytest.fixture
+def hole(server: Server, data: Path) -> TextDocument:
+    document = server.open(data / "hole.3b")
+    assert isinstance(document, TextDocument)
+    return document
+
+
+def text_of(server: Server, path: Path) -> TextDocument:
+    document = server.open(path)
+    assert isinstance(document, TextDocument)
+    return document
+
+
+def test_a_program_becomes_a_drawing_and_another_program(server: Server, hole: TextDocument) -> None:
+    drawing = server.open_text(server.convert(hole, "dxf"))
+    arcs = [segment for entity in server.inspect(drawing).entities for segment in entity.segments if segment.radius]
+    assert [arc.radius for arc in arcs] == [pytest.approx(9.9, abs=0.002)] * len(arcs)
+    assert sum(arc.sweep or 0 for arc in arcs) == pytest.approx(360, abs=0.1)
+    iso = server.open_text(server.convert(hole, "iso", options={"program": {"profile": "fast-wire"}}), "wire-iso")
+    assert [one for one in server.diagnostics(iso) if one.severity == "error"] == []
+    assert server.simulate(iso).length == pytest.approx(server.simulate(hole).length, abs=0.01)
+    assert server.convert(hole, "iso", options={"program": {"profile": "robofil"}}) != iso.text
+    back = server.convert(iso, "3b", options={"program": {"layout": "compact"}})
+    assert [line for line in back.splitlines() if line.startswith("B")][0] == hole.text.splitlines()[0]
+
+
+def test_what_is_converted_is_the_text_as_it_is_now(server: Server, hole: TextDocument) -> None:
+    server.change(hole, hole.text.replace("GYNR1", "GXNR1"))
+    with pytest.raises(Refused, match="wrong-counting-axis"):
+        server.convert(hole, "dxf")
+    assert "EOF" in server.convert(hole, "dxf", force=True)
+
+
+def test_the_settings_file_of_the_program_holds_when_it_is_converted(server: Server, data: Path, tmp_path: Path) -> None:
+    (tmp_path / "wedm.toml").write_text('[program]\nprofile = "mine"\n[profiles.mine]\nend = ["M99"]\n')
+    (tmp_path / "hole.3b").write_bytes((data / "hole.3b").read_bytes())
+    assert "M99" in server.convert(text_of(server, tmp_path / "hole.3b"), "iso")
+
+
+def test_options_that_the_command_line_has_not_are_said(server: Server, hole: TextDocument) -> None:
+    with pytest.raises(ValueError, match="margin, program.thread by handle"):
+        server.convert(hole, "iso", options={"margin": 0.1, "program": {"thread": {"2A": (1, 2)}}})
+
+
+def test_a_program_is_scaled_and_formatted(server: Server, hole: TextDocument) -> None:
+    length = server.simulate(hole).length
+    server.scale(hole, 2.0)
+    assert server.simulate(hole).length == pytest.approx(2 * length, abs=0.01)
+    assert "B19800" in hole.text
+    with pytest.raises(Refused, match="the factor is -1"):
+        server.scale(hole, -1.0)
+    loose = server.open_text(hole.text.lower(), "3b")
+    assert server.format(loose) and loose.text == hole.text
+    assert not server.format(loose)
+
+
+def test_a_place_in_a_text_and_back(server: Server, data: Path) -> None:
+    text = text_of(server, data / "tight.dxf")
+    (fault,) = [one for one in server.diagnostics(text) if one.severity == "error"]
+    assert fault.line is not None
+    there = server.locate(text, fault.line, 3)
+    assert there is not None
+    assert (there.handle, there.segment, there.line, there.column, there.end_column) == ("2A", 1, fault.line, fault.column, fault.end_column)
+    assert server.locate(text, handle="2A", segment=1) == there
+    whole = server.locate(text, handle="2A")
+    assert whole is not None and whole.segment is None and whole.line < there.line
+    assert server.locate(text, 1) is None
+    for line in (0, 10_000):
+        with pytest.raises(ValueError, match="is not in a text of"):
+            server.locate(text, line)
+    with pytest.raises(TypeError):
+        server.locate(text)
+    with pytest.raises(RequestFailed, match="ZZ"):
+        server.locate(text, handle="ZZ")
+
+
+def test_a_column_counts_characters(server: Server, data: Path) -> None:
+    text = server.open_text((data / "tight.dxf").read_text().replace("DIE", "凹模"))
+    layer = next(number for number, line in enumerate(text.text.splitlines(), 1) if "凹模" in line)
+    there = server.locate(text, layer, 3)
+    assert there is not None and there.handle == "2A"
+
+
+def test_the_settings_in_force(data: Path, tmp_path: Path) -> None:
+    (tmp_path / "below").mkdir()
+    for folder in (tmp_path, tmp_path / "below"):
+        (folder / "die.dxf").write_bytes((data / "tight.dxf").read_bytes())
+    (tmp_path / "below/wedm.toml").write_text("[passes]\ncorrections = [0.15, 0.11]\n")
+    with Server(settings={"side": "opening"}) as server:
+        assert (found := server.settings(server.open(tmp_path / "die.dxf"))).correction_from == "default"
+        assert (found.correction, found.corrections, found.side, found.file) == (0.1, [0.1], "opening", None)
+        found = server.settings(server.open(tmp_path / "below/die.dxf"))
+        assert (found.correction, found.corrections, found.correction_from) == (0.15, [0.15, 0.11], "file")
+        assert found.file == (tmp_path / "below/wedm.toml").as_uri()
+
+
+# The call for each method that a client asks. What else there is, opening, changing and closing, is tested with the drawings.
+CALLS: dict[str, Callable[[Server, dict[str, Any]], Any]] = {
+    "wedm/inspect": lambda server, open: server.inspect(open["drawing"]),
+    "wedm/contours": lambda server, open: server.contours(open["drawing"]),
+    "wedm/toolpath": lambda server, open: server.toolpath(open["drawing"]),
+    "wedm/picture": lambda server, open: server.picture(open["drawing"]),
+    "wedm/simulate": lambda server, open: server.simulate(open["program"]),
+    "wedm/locate": lambda server, open: server.locate(open["text"], 1),
+    "wedm/settings": lambda server, open: server.settings(open["drawing"]),
+    "wedm/generate": lambda server, open: server.generate(open["drawing"]),
+    "wedm/didOpenDrawing": lambda server, open: server.open([Polyline(ROUND, handle="2A")]),
+    "wedm/didChangeDrawing": lambda server, open: server.change(open["drawing"], Put(Polyline(TIGHT, handle="2B", role="ignore"))),
+    "wedm/didCloseDrawing": lambda server, open: server.close_document(open["drawing"]),
+}
+# Asked of the client: the first on demand, which this one does not declare, as it makes its repairs itself.
+ASKED_OF_US = {"wedm/applyDrawingEdit", "wedm/resendDrawing"}
+
+
+def test_every_method_of_the_protocol_has_its_call(root: Path) -> None:
+    schema = json.loads((root / "docs/protocol.schema.json").read_text())
+    assert set(CALLS) | ASKED_OF_US == set(schema["methods"])
+    assert {method for method, what in schema["methods"].items() if what.get("sentBy") == "server"} == ASKED_OF_US
+
+
+@pytest.mark.parametrize("method", CALLS)
+def test_the_call_sends_the_method(server: Server, data: Path, monkeypatch: pytest.MonkeyPatch, method: str) -> None:
+    documents = {
+        "drawing": server.open([Polyline(ROUND, handle="2A", role="opening")]),
+        "text": server.open(data / "tight.dxf"),
+        "program": server.open(data / "hole.3b"),
+    }
+    server.diagnostics(documents["drawing"])
+    connection = server._live()
+    sent: list[str] = []
+    for name in ("request", "notify"):
+        passed_on = getattr(connection, name)
+
+        def spy(asked: str, *rest: Any, passed_on: Callable[..., Any] = passed_on) -> Any:
+            sent.append(asked)
+            return passed_on(asked, *rest)
+
+        monkeypatch.setattr(connection, name, spy)
+    CALLS[method](server, documents)
+    assert sent == [method]
+
+
+def test_an_edit_of_the_server_for_an_older_text_is_refused(server: Server, hole: TextDocument) -> None:
+    edit = {"documentChanges": [{"textDocument": {"uri": hole.uri, "version": 7}, "edits": []}]}
+    before = (hole.text, hole.version)
+    assert "is for version 7" in (server._apply_edit(edit) or "")
+    assert "not open" in (server._apply_edit({"documentChanges": [{"textDocument": {"uri": "untitled:none", "version": 1}, "edits": []}]}) or "")
+    assert (hole.text, hole.version) == before
+    with pytest.raises(Outdated):
+        server._apply_text_edit(hole, edit)

@@ -1,0 +1,26 @@
+// How an ISO program can be written, as a list to choose from. Knows nothing of VS Code.
+
+export interface Choice {
+  label: string;
+  description?: string;
+  detail?: string;
+  /** Missing: whatever the settings say. */
+  profile?: string;
+}
+
+/** The profiles that every server has. */
+const SHIPPED: readonly (readonly [name: string, meant: string])[] = [
+  ["generic", "G90, I and J from the start to the centre, mm: what most controls take"],
+  ["fast-wire", "Fast-wire controllers that take ISO: G91, whole µm"],
+  ["robofil", "Charmilles Robofil: G90 from the thread hole, I and J are the centre"],
+];
+
+/** What the settings say comes first, then what ships, then the user's own. */
+export function choices(set: string | null, own: readonly string[]): Choice[] {
+  const others = own.filter((name) => SHIPPED.every(([shipped]) => shipped !== name));
+  return [
+    { label: "As the Settings Say", description: set ?? "", detail: "wedm.toml beside the drawing or above, else wedm.program.profile, else generic" },
+    ...SHIPPED.map(([profile, detail]) => ({ label: profile, detail, profile })),
+    ...others.map((profile) => ({ label: profile, detail: "Set in wedm.profiles", profile })),
+  ];
+}

@@ -1,0 +1,94 @@
+//! Words that belong together: the correction's begin and end, a call and what it calls, both ends of a tape.
+
+use crate::program::iso::block::{Compensation, read_line, word_range};
+use crate::program::iso::document::Document;
+use crate::program::iso::order::labels;
+use crate::program::iso::word::{Token, words};
+use std::ops::Range;
+
+/// The word at a byte and the one that belongs to it; `None` where none does.
+///
+/// Of G41 and G42, the G40 that ends it; of G40, the word that it ends; of a call, the line that it calls; of M99, where its
+/// subprogram begins; of `%`, the other one.
+pub fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
+    let text = document.text();
+    let line = text.line_of(offset);
+    let range = text.line_range(line);
+    let bytes = text.bytes().get(range.clone())?;
+    let mut own = None;
+    words(bytes, range.start, |token| {
+        if let Token::Word { range, .. } | Token::Tape { range } = &token
+            && range.start <= offset
+            && offset <= range.end
+            && (own.is_none() || offset < range.end)
+        {
+            own = Some(token);
+        }
+    });
+    match own? {
+        Token::Word { letter: b'G', number, range } => match number.whole()? {
+            40 => Some((range, switched(document, (0..line).rev(), |side| side != Compensation::Off)?)),
+            41 | 42 => Some((range, switched(document, line + 1..text.line_count(), |side| side == Compensation::Off)?)),
+            _ => None,
+        },
+        Token::Word { letter: b'M' | b'P', range, .. } => {
+            let block = read_line(bytes, range.start, |_| {});
+            if let Some(number) = block.call {
+                let &line = labels(text).get(&number)?;
+                return Some((range, label_in(document, line, number)?));
+            }
+            if !block.returns {
+                return None;
+            }
+            (0..=line).rev().find_map(|line| {
+                let bytes = text.bytes().get(text.line_range(line))?;
+                let block = read_line(bytes, 1, |_| {});
+                let called = [block.number, block.program].into_iter().flatten().find(|number| document.calls(*number))?;
+                Some((range.clone(), label_in(document, line, called)?))
+            })
+        }
+        Token::Tape { range } => {
+            let other = (line..text.line_count()).chain(0..line).find_map(|line| tape_in(document, line, &range))?;
+            Some((range, other))
+        }
+        _ => None,
+    }
+}
+
+/// The word of the first of some lines that switches the correction as wanted.
+fn switched(document: &Document, lines: impl Iterator<Item = usize>, wanted: impl Fn(Compensation) -> bool) -> Option<Range<usize>> {
+    let text = document.text();
+    for line in lines {
+        let range = text.line_range(line);
+        let bytes = text.bytes().get(range.clone())?;
+        if read_line(bytes, 1, |_| {}).compensation.is_some_and(&wanted) {
+            return word_range(bytes, range.start, |letter, number| letter == b'G' && matches!(number.whole(), Some(40..=42)));
+        }
+    }
+    None
+}
+
+/// The N or O word of a line.
+fn label_in(document: &Document, line: usize, wanted: u32) -> Option<Range<usize>> {
+    let range = document.text().line_range(line);
+    let bytes = document.text().bytes().get(range.clone())?;
+    word_range(bytes, range.start, |letter, number| {
+        matches!(letter, b'N' | b'O') && number.whole().and_then(|whole| u32::try_from(whole).ok()) == Some(wanted)
+    })
+}
+
+fn tape_in(document: &Document, line: usize, besides: &Range<usize>) -> Option<Range<usize>> {
+    let range = document.text().line_range(line);
+    let bytes = document.text().bytes().get(range.clone())?;
+    let mut found = None;
+    if bytes.contains(&b'%') {
+        words(bytes, range.start, |token| {
+            if let Token::Tape { range } = token
+                && range != *besides
+            {
+                found.get_or_insert(range);
+            }
+        });
+    }
+    found
+}

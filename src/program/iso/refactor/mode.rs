@@ -1,0 +1,59 @@
+//! Coordinates that are absolute (G90), or that count from where the wire stands (G91).
+//!
+//! ```text
+//! G90                        G91
+//! G01 X5. Y0.           →    G01 X5. Y0.
+//! X5. Y3.                    X0. Y3.
+//! ```
+
+use super::Refactoring;
+use super::rewrite::Rewrite;
+use super::sheet::Sheet;
+use crate::program::iso::block::read_line;
+use crate::program::iso::machine::{CenterRule, Reading};
+use crate::program::iso::word::{Token, words};
+use crate::text::TextEdit;
+
+pub const ABSOLUTE: Refactoring = Refactoring {
+    id: "refactor.rewrite.coordinates.absolute",
+    title: "Make all coordinates absolute (G90)",
+    rewrite: |sheet| converted(sheet, false),
+};
+pub const INCREMENTAL: Refactoring = Refactoring {
+    id: "refactor.rewrite.coordinates.incremental",
+    title: "Let all coordinates count from where the wire stands (G91)",
+    rewrite: |sheet| converted(sheet, true),
+};
+
+fn converted(sheet: &Sheet<'_>, incremental: bool) -> Result<Vec<TextEdit>, String> {
+    let content = sheet.content()?;
+    if content.rows.iter().all(|row| row.made.incremental == incremental) {
+        return Ok(Vec::new());
+    }
+    let (text, old) = (sheet.document.text(), sheet.document.reading());
+    // An absolute centre says nothing under G91.
+    let rule = if incremental { old.absolute } else { old.incremental };
+    let under_g91 = if rule == CenterRule::Absolute { old.incremental } else { rule };
+    let reading = Reading { absolute: rule, incremental: under_g91, ..*old };
+    let word = if incremental { "G91" } else { "G90" };
+    let mut rewrite = Rewrite { reading: Some(reading), ..Rewrite::default() };
+    let first = content.rows.first().map_or(0, |row| row.line);
+    let mut stands = false;
+    for line in 0..text.line_count() {
+        let range = text.line_range(line);
+        let by = range.start.max(1) - range.start;
+        words(text.bytes().get(range.clone()).unwrap_or_default(), range.start.max(1), |token| {
+            if let Token::Word { letter: b'G', number, range } = token
+                && (number.mantissa, number.decimals) == (if incremental { 90 } else { 91 }, 0)
+            {
+                rewrite.words.push(TextEdit { range: range.start - by..range.end - by, text: word.into() });
+                stands |= line <= first;
+            }
+        });
+        let block = read_line(text.bytes().get(text.line_range(line)).unwrap_or_default(), 1, |_| {});
+        stands |= line <= first && block.incremental == Some(incremental);
+    }
+    // G90 holds where nothing is said.
+    rewrite.first_word = (!stands && incremental).then_some(word);
+    rewrite.edits(sheet, content)
+}

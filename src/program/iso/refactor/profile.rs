@@ -1,0 +1,48 @@
+//! Write a program anew as a profile has it.
+
+use crate::program::convert::cuts;
+use crate::program::iso::document::Document;
+use crate::program::iso::write::write;
+use crate::program::language::Proposal;
+use crate::program::{self};
+use crate::settings::{Effective, Profile, shipped_profiles};
+use crate::text::TextEdit;
+
+pub const ID: &str = "refactor.rewrite.profile";
+
+/// One proposal for each profile that ships and for that of the settings.
+pub fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
+    let own = settings.profile.iter().filter(|own| shipped_profiles().all(|name| name != own.name)).cloned();
+    let shipped = shipped_profiles().filter_map(|name| match &settings.profile {
+        Ok(own) if own.name == name => Some(own.clone()),
+        _ => Profile::of(name, None).ok(),
+    });
+    let mut known = None;
+    let mut found = Vec::new();
+    for profile in shipped.chain(own) {
+        let paths = known.get_or_insert_with(|| paths(document)).clone();
+        let title = format!("Write anew as profile {}: comments and words of the machine are left out", profile.name);
+        let edits = paths.and_then(|paths| {
+            let settings = Effective { profile: Ok(profile), ..settings.clone() };
+            let written = write(&paths, 1e-3, &settings).map_err(|error| error.to_string())?;
+            let whole = 0..document.text().len();
+            let same = document.text().bytes() == written.text.as_bytes();
+            Ok(if same { Vec::new() } else { vec![TextEdit { range: whole, text: written.text }] })
+        });
+        if edits.as_ref().map_or(true, |edits| !edits.is_empty()) {
+            found.push(Proposal { id: ID, title, edits });
+        }
+    }
+    found
+}
+
+fn paths(document: &Document) -> Result<Vec<crate::toolpath::WirePath>, String> {
+    let cuts = cuts(&program::Document::Iso(document.clone()));
+    if let Some(line) = cuts.lost.first() {
+        return Err(format!("line {}: the arc leads nowhere", line + 1));
+    }
+    if cuts.cuts.is_empty() {
+        return Err("the program cuts nothing".into());
+    }
+    Ok(cuts.paths())
+}

@@ -1,0 +1,116 @@
+//! A program as refactorings see it: its moves by lines, its contours, the selection.
+
+use crate::finding::{Detail, Place as Where, Severity};
+use crate::program::iso::document::Document;
+use crate::program::iso::machine::{Course, Move};
+use crate::program::language::{Passage, passages};
+use crate::settings::Effective;
+use std::ops::Range;
+
+/// A line that moves the wire.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    pub line: usize,
+    pub made: Move,
+    /// It is written in inches.
+    pub inch: bool,
+}
+
+/// A program for refactoring.
+pub struct Sheet<'a> {
+    pub document: &'a Document,
+    pub settings: &'a Effective,
+    /// Bytes of the text.
+    selection: Range<usize>,
+    content: Result<Content, String>,
+}
+
+pub struct Content {
+    pub rows: Vec<Row>,
+    /// Their steps are rows.
+    pub contours: Vec<Passage>,
+}
+
+impl<'a> Sheet<'a> {
+    pub fn new(document: &'a Document, settings: &'a Effective, selection: Range<usize>) -> Sheet<'a> {
+        Sheet { document, settings, selection, content: content(document) }
+    }
+
+    /// The moves; the error says which line cannot be read.
+    pub fn content(&self) -> Result<&Content, String> {
+        self.content.as_ref().map_err(Clone::clone)
+    }
+
+    /// Lines that the selection touches.
+    pub fn selected_lines(&self) -> Range<usize> {
+        let text = self.document.text();
+        let first = text.line_of(self.selection.start);
+        let last = text.line_of(self.selection.end.max(self.selection.start + 1) - 1);
+        first..last.max(first) + 1
+    }
+
+    /// The contours that the selection touches; all, where it touches none.
+    pub fn selected_contours<'c>(&self, content: &'c Content) -> Vec<&'c Passage> {
+        let lines = self.selected_lines();
+        let cut = || content.contours.iter().filter(|contour| !contour.is_way);
+        let touched = |contour: &&Passage| content.rows[contour.steps.clone()].iter().any(|row| lines.contains(&row.line));
+        let chosen: Vec<&Passage> = cut().filter(touched).collect();
+        if chosen.is_empty() { cut().collect() } else { chosen }
+    }
+}
+
+impl Content {
+    /// The rows of a closed contour whose ends are one place; the error says why there are none.
+    pub fn closed(&self, contour: &Passage) -> Result<Range<usize>, String> {
+        let own = contour.contour_steps();
+        let (Some(first), Some(last)) = (self.rows.get(own.start), own.end.checked_sub(1).and_then(|last| self.rows.get(last))) else {
+            return Err("the contour has no block".into());
+        };
+        if !contour.closed {
+            return Err(format!("the contour that begins in line {} is open", first.line + 1));
+        }
+        if first.made.from != last.made.to {
+            return Err(format!("the contour that begins in line {} misses its own begin: close it first", first.line + 1));
+        }
+        Ok(own)
+    }
+}
+
+/// Reads a program for refactoring. What cannot be read, or is run from somewhere else, is left alone.
+fn content(document: &Document) -> Result<Content, String> {
+    if document.order().is_some() {
+        return Err("the program runs subprograms: a line of them is run in more than one place".into());
+    }
+    let text = document.text();
+    for finding in document.findings() {
+        if let (Detail::Syntax(sentence), Severity::Error, Where::Text { range }) = (&finding.detail, finding.severity, &finding.place) {
+            return Err(format!("line {}: {sentence}", text.line_of(range.start) + 1));
+        }
+    }
+    let mut rows = Vec::new();
+    let mut fault = None;
+    document.moves(&mut |line, made, machine| {
+        if matches!(made.course(document.reading()), Course::OffRadius { .. } | Course::NoRadius) {
+            fault.get_or_insert_with(|| format!("line {}: the arc leads nowhere", line + 1));
+        }
+        rows.push(Row { line, made, inch: machine.inch });
+    });
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    if rows.is_empty() {
+        return Err("the program moves nothing".into());
+    }
+    // Passages count all steps, rows only those that move.
+    let trace = document.trace();
+    let mut row_of = Vec::with_capacity(trace.steps.len() + 1);
+    let mut row = 0;
+    for step in &trace.steps {
+        row_of.push(row);
+        row += usize::from(step.moves());
+    }
+    row_of.push(row);
+    let at = |step: usize| row_of.get(step).copied().unwrap_or(row);
+    let contours = passages(&trace).into_iter().map(|passage| Passage { steps: at(passage.steps.start)..at(passage.steps.end), ..passage });
+    Ok(Content { contours: contours.collect(), rows })
+}

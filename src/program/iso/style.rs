@@ -1,0 +1,84 @@
+//! How a program writes its lengths, found from those that stand in it: what is added to it is written alike.
+
+use super::block::read_line;
+use super::document::Document;
+use crate::settings::NumberUnit;
+
+/// Lines with coordinates that are looked at to find out whether zeros behind the last digit are written.
+const LOOKED_AT: usize = 200;
+
+/// Digits behind the point that are written where the program needs fewer, of mm and of inches: about a micrometre each.
+const LEAST_DECIMALS: [u8; 2] = [3, 5];
+
+/// Digits behind the point for which a step is a whole number of nm, of mm and of inches.
+const MOST_DECIMALS: [u8; 2] = [6, 5];
+
+/// How lengths are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Style {
+    /// Whole micrometres (ten-thousandths of an inch) without a point.
+    fine: bool,
+    decimals: u8,
+    /// All numbers have as many decimals.
+    padded: bool,
+    inch: bool,
+}
+
+impl Style {
+    /// The style of a program, for numbers in inches or millimetres.
+    pub fn of(document: &Document, inch: bool) -> Style {
+        let profile = document.limits.profile.as_ref();
+        // Where nothing has been written yet the profile says it.
+        let fine = match document.evidence().numbers {
+            0 => profile.is_some_and(|profile| profile.unit == NumberUnit::Um),
+            _ => document.reading().whole_numbers_are_fine,
+        };
+        let unit = usize::from(inch);
+        let decimals = document.evidence().decimals.clamp(LEAST_DECIMALS[unit], MOST_DECIMALS[unit]);
+        let (mut looked_at, mut padded) = (0, true);
+        let text = document.text();
+        for line in 0..text.line_count() {
+            let block = read_line(text.bytes().get(text.line_range(line)).unwrap_or_default(), 1, |_| {});
+            for number in [block.x, block.y, block.i, block.j].into_iter().flatten() {
+                padded &= number.decimals == decimals;
+                looked_at += 1;
+            }
+            if !padded || looked_at >= LOOKED_AT {
+                break;
+            }
+        }
+        Style { fine, decimals, padded: padded || looked_at == 0, inch }
+    }
+
+    /// What the last digit stands for, nm.
+    pub fn step(&self) -> i64 {
+        match (self.fine, self.inch) {
+            (true, false) => 1_000,
+            (true, true) => 2_540,
+            (false, inch) => (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals)),
+        }
+    }
+
+    /// The nearest length that can be written, nm.
+    pub fn rounded(&self, length: i64) -> i64 {
+        self.steps(length).wrapping_mul(self.step())
+    }
+
+    fn steps(&self, length: i64) -> i64 {
+        let half = self.step() / 2;
+        (if length < 0 { length.wrapping_sub(half) } else { length.wrapping_add(half) }) / self.step()
+    }
+
+    /// The number of a length in nm.
+    pub fn number(&self, length: i64) -> String {
+        let steps = self.steps(length);
+        let sign = if steps < 0 { "-" } else { "" };
+        let steps = steps.unsigned_abs();
+        if self.fine {
+            return format!("{sign}{steps}");
+        }
+        let per_unit = 10_u64.pow(u32::from(self.decimals));
+        let text = format!("{sign}{}.{:0width$}", steps / per_unit, steps % per_unit, width = usize::from(self.decimals));
+        if self.padded { text } else { text.trim_end_matches('0').to_owned() }
+    }
+}

@@ -1,0 +1,238 @@
+//! The search for crossings in a contour, stretch by stretch: what an edit leaves as it was is not looked at again.
+//!
+//! A stretch is the blocks of one run that belong to a contour. Two of them are held against each other where their boxes touch, and
+//! what came of it is kept by what they say and how they lie to each other: an edit changes the pairs of the stretch that it touched,
+//! and of what it moved away from the rest. Which pieces cross is then decided from the whole way, so that it does not hang on where
+//! runs begin.
+
+use super::rules::path_crosses_itself::{Crossing, Way, come_near, margin, meet_again};
+use super::run::Move;
+use crate::geometry::{Bounds, Point, Segment, Vector};
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::OnceLock;
+
+/// The blocks of a contour in one run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<'a> {
+    /// Tells two stretches apart: equal ways have equal marks.
+    pub mark: u64,
+    pub blocks: usize,
+    /// Where it begins, seen from the beginning of the contour.
+    pub start: Move,
+    /// µm, seen from its beginning.
+    pub bounds: Bounds,
+    /// Pieces of it that come near each other.
+    pub near: &'a [(u32, u32)],
+}
+
+impl Stretch<'_> {
+    fn placed(&self) -> Bounds {
+        let [x, y] = self.start.meant_um();
+        placed(&self.bounds, Vector::new(x, y))
+    }
+}
+
+/// Two stretches, how the second lies to the first, nm, and whether it comes next.
+type Pair = (u64, u64, [i64; 2], bool);
+
+/// Pieces of two stretches that come near each other, by their indices in there, and what it cost to find that out.
+type Near = (Box<[(u32, u32)]>, usize);
+
+/// What is known of pairs of stretches.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Known {
+    pairs: FxHashMap<Pair, Near>,
+    /// Contours, by their marks, in which nothing was found.
+    calm: FxHashSet<u64>,
+}
+
+impl Known {
+    pub fn is_calm(&self, mark: u64) -> bool {
+        self.calm.contains(&mark)
+    }
+
+    /// Keeps in mind that nothing was found in a contour.
+    pub fn note(&mut self, mark: u64, found: &Found) {
+        if found.crossings.is_empty() && !found.is_crowded {
+            self.calm.insert(mark);
+        }
+    }
+
+    /// Forgets all where much more is known than is in use.
+    pub fn tidy(&mut self, pairs: usize, contours: usize) {
+        if self.pairs.len() > 4 * pairs + 16_384 {
+            self.pairs.clear();
+        }
+        if self.calm.len() > 4 * contours + 4096 {
+            self.calm.clear();
+        }
+    }
+}
+
+/// What was found in a contour.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Found {
+    pub crossings: Vec<Crossing>,
+    /// So much lies on one place that not all of it was looked at.
+    pub is_crowded: bool,
+    /// Pairs of stretches that were held against each other.
+    pub pairs: usize,
+}
+
+/// Pairs of boxes that are held against each other in a contour of so many blocks. One that does not lie on itself takes a few for each
+/// block.
+fn most_looks(blocks: usize) -> usize {
+    2_000_000 + 32 * blocks
+}
+
+/// Finds where a contour crosses itself. `pieces` gives the pieces of a stretch from the origin.
+pub(super) fn search(stretches: &[Stretch<'_>], arcs: usize, known: &mut Known, pieces: &(dyn Fn(usize) -> Vec<Segment> + Sync)) -> Found {
+    let mut firsts = Vec::with_capacity(stretches.len());
+    let mut near: Vec<(usize, usize)> = Vec::new();
+    let mut count = 0;
+    for stretch in stretches {
+        firsts.push(count);
+        near.extend(stretch.near.iter().map(|&(a, b)| (count + a as usize, count + b as usize)));
+        count += stretch.blocks;
+    }
+    let prepared: Vec<OnceLock<Prepared>> = stretches.iter().map(|_| OnceLock::new()).collect();
+    let prepared = |index: usize| prepared[index].get_or_init(|| Prepared::of(pieces(index)));
+    let (pairs, is_all) = touching(stretches, 1024 + 256 * stretches.len());
+    let key = |a: usize, b: usize| (stretches[a].mark, stretches[b].mark, stretches[b].start.minus(stretches[a].start).meant, b == a + 1);
+    let unknown: Vec<(usize, usize)> = pairs.iter().copied().filter(|&(a, b)| !known.pairs.contains_key(&key(a, b))).collect();
+    let look = |&(a, b): &(usize, usize)| -> (Pair, Near) {
+        let [x, y] = stretches[b].start.minus(stretches[a].start).meant_um();
+        (key(a, b), prepared(a).near(prepared(b), Vector::new(x, y), b == a + 1))
+    };
+    let mut left = most_looks(count);
+    for some in unknown.chunks(1024) {
+        let found: Vec<(Pair, Near)> = if some.len() > 64 { some.par_iter().map(look).collect() } else { some.iter().map(look).collect() };
+        left = left.saturating_sub(found.iter().map(|(_, (_, cost))| cost).sum());
+        known.pairs.extend(found);
+        if left == 0 {
+            break;
+        }
+    }
+    // What is known already counts as well: how much of a contour is looked at must not hang on what was there before.
+    let mut left = most_looks(count);
+    let mut is_crowded = !is_all;
+    for &(a, b) in &pairs {
+        let Some((found, cost)) = known.pairs.get(&key(a, b)).filter(|_| left > 0) else {
+            is_crowded = true;
+            break;
+        };
+        near.extend(found.iter().map(|&(i, j)| (firsts[a] + i as usize, firsts[b] + j as usize)));
+        left = left.saturating_sub(*cost);
+    }
+    if near.is_empty() {
+        return Found { crossings: Vec::new(), is_crowded, pairs: pairs.len() };
+    }
+    let piece = |index: usize| {
+        let stretch = firsts.partition_point(|first| *first <= index).checked_sub(1)?;
+        let [x, y] = stretches.get(stretch)?.start.meant_um();
+        let own = prepared(stretch).pieces.get(index - firsts[stretch])?;
+        Some(own.moved(Vector::new(x, y)))
+    };
+    let (crossings, is_all) = Way { piece: &piece, count, margin: margin(arcs) }.crossings(near);
+    Found { crossings, is_crowded: is_crowded || !is_all, pairs: pairs.len() }
+}
+
+/// The pieces of a stretch from the origin, with boxes about them, about pairs of boxes, and so on up to one.
+struct Prepared {
+    pieces: Vec<Segment>,
+    levels: Vec<Vec<Bounds>>,
+}
+
+impl Prepared {
+    fn of(pieces: Vec<Segment>) -> Prepared {
+        let levels = levels_over(pieces.iter().map(|piece| piece.bounds().grown(SLACK)).collect());
+        Prepared { pieces, levels }
+    }
+
+    /// The pieces of two stretches that come near each other, where the other one begins at `by`; it may begin where this one ends.
+    fn near(&self, other: &Prepared, by: Vector, is_next: bool) -> Near {
+        let mut found = Vec::new();
+        let mut cost = 16;
+        let mut waiting = vec![((self.levels.len() - 1, 0), (other.levels.len() - 1, 0))];
+        while let Some(((level_a, a), (level_b, b))) = waiting.pop() {
+            cost += 1;
+            let (Some(ours), Some(theirs)) = (self.levels[level_a].get(a), other.levels[level_b].get(b)) else { continue };
+            let theirs = placed(theirs, by);
+            if !ours.touches(&theirs) {
+                continue;
+            }
+            match (level_a, level_b) {
+                (0, 0) => {
+                    let (piece, other) = (&self.pieces[a], other.pieces[b].moved(by));
+                    let is_neighbour = is_next && b == 0 && a + 1 == self.pieces.len();
+                    if if is_neighbour { meet_again(piece, &other) } else { come_near(piece, ours, &other, &theirs) } {
+                        found.push((a as u32, b as u32));
+                    }
+                }
+                _ if level_a >= level_b => waiting.extend([2 * a, 2 * a + 1].map(|a| ((level_a - 1, a), (level_b, b)))),
+                _ => waiting.extend([2 * b, 2 * b + 1].map(|b| ((level_a, a), (level_b - 1, b)))),
+            }
+        }
+        (found.into(), cost)
+    }
+}
+
+/// What boxes are grown by, µm: places are rounded to nm.
+const SLACK: f64 = 1.0;
+
+fn placed(bounds: &Bounds, by: Vector) -> Bounds {
+    Bounds { min: bounds.min + by, max: bounds.max + by }
+}
+
+/// Boxes about pairs of boxes, and so on up to one.
+fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
+    let mut levels = vec![boxes];
+    while let Some(last) = levels.last().filter(|level| level.len() > 1) {
+        let next = last.chunks(2).map(|pair| pair.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part))).collect();
+        levels.push(next);
+    }
+    levels
+}
+
+/// Pairs of stretches whose boxes touch, the earlier first; at most so many, and whether those are all.
+fn touching(stretches: &[Stretch<'_>], most: usize) -> (Vec<(usize, usize)>, bool) {
+    let levels = levels_over(stretches.iter().map(|stretch| stretch.placed().grown(SLACK)).collect());
+    let mut found = Vec::new();
+    let mut waiting = vec![(levels.len() - 1, 0, 0)];
+    while let Some((level, a, b)) = waiting.pop() {
+        let boxes = &levels[level];
+        if a != b && !matches!((boxes.get(a), boxes.get(b)), (Some(a), Some(b)) if a.touches(b)) {
+            continue;
+        }
+        if level == 0 {
+            if a != b && found.len() == most {
+                return (found, false);
+            }
+            found.extend((a != b).then_some((a, b)));
+            continue;
+        }
+        let below = levels[level - 1].len();
+        for i in (2 * a..(2 * a + 2).min(below)).rev() {
+            for j in (2 * b..(2 * b + 2).min(below)).rev() {
+                if a != b || i <= j {
+                    waiting.push((level - 1, i, j));
+                }
+            }
+        }
+    }
+    (found, true)
+}
+
+/// The pieces of blocks from the origin on; a block that leads nowhere is a piece of no length.
+pub(super) fn pieces_of<'a>(blocks: impl Iterator<Item = &'a super::run::BlockEntry>) -> Vec<Segment> {
+    let mut at = Move::default();
+    blocks
+        .map(|entry| {
+            let [x, y] = at.meant_um();
+            at = at.plus(entry.travel);
+            let start = Point::new(x, y);
+            super::decode::meant(&entry.block, start).unwrap_or(Segment::line(start, start))
+        })
+        .collect()
+}
