@@ -6,8 +6,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::program::three_b::{self, Words};
-use wedm::program::{Document, Language, language};
-use wedm::settings::{Effective, Layout};
+use wedm::program::{Document, Language, iso, language};
+use wedm::settings::{Effective, Layout, from_toml};
 use wedm::toolpath::{WirePath, plan};
 
 /// A wheel of `segments` segments, every other one an arc, each a tooth's flank or its rounded head and foot.
@@ -122,6 +122,61 @@ fn reading(c: &mut Criterion) {
     group.finish();
 }
 
+/// An ISO program of 200,000 blocks, absolute in mm, and one that counts from where the wire stands in µm; and what an editor asks of
+/// them.
+fn iso_programs(c: &mut Criterion) {
+    for profile in ["generic", "fast-wire"] {
+        let (set, _) = from_toml(&format!("[program]\nprofile = \"{profile}\"\n"));
+        let settings = Effective { correction: 0.1, ..Effective::of(&set) };
+        let paths = paths(134_000);
+        let written = iso::write(&paths, 1.0, &settings).expect("a proved program");
+        let text = written.text;
+        println!("the {profile} program has {} blocks and {} bytes", written.blocks, text.len());
+        let mut group = c.benchmark_group(format!("an ISO program of 200,000 blocks, {profile}"));
+        group.sample_size(20);
+        group.throughput(Throughput::Elements(written.blocks as u64));
+        group.bench_function("write", |b| b.iter(|| black_box(iso::write(&paths, 1.0, &settings))));
+        group.throughput(Throughput::Bytes(text.len() as u64));
+        group.bench_function("parse", |b| {
+            b.iter(|| {
+                let mut blocks = 0_usize;
+                for line in text.lines() {
+                    blocks += usize::from(iso::read_line(line.as_bytes(), 1, |_| {}).has_coordinates());
+                }
+                black_box(blocks)
+            })
+        });
+        group.bench_function("open with findings", |b| {
+            b.iter(|| {
+                let document = Document::read(Language::Iso, text.clone().into_bytes(), &settings);
+                black_box(document.findings(&settings, 500))
+            })
+        });
+        let mut document = Document::read(Language::Iso, text.clone().into_bytes(), &settings);
+        group.bench_function("trace", |b| b.iter(|| black_box(document.trace())));
+        group.bench_function("format, compact", |b| {
+            let settings = Effective { stated_layout: Some(Layout::Compact), ..settings.clone() };
+            b.iter(|| black_box(language::format(&document, &settings, 0..document.text().line_count())))
+        });
+        // The last digit of an X in the middle of the file comes and goes.
+        let line = text[..text.len() / 2].rfind('\n').map_or(0, |at| at + 1);
+        let at = line + text[line..].find(" Y").unwrap_or(0);
+        let mut is_in = false;
+        group.bench_function("one character, edit to findings", |b| {
+            b.iter(|| {
+                if is_in {
+                    document.edit(at..at + 1, "")
+                } else {
+                    document.edit(at..at, "5")
+                }
+                is_in = !is_in;
+                black_box(document.findings(&settings, 500))
+            })
+        });
+        group.finish();
+    }
+}
+
 fn formatting(c: &mut Criterion) {
     let settings = Effective::default();
     let document = Document::read(Language::ThreeB, generated::three_b(200_000).into_bytes(), &settings);
@@ -137,5 +192,5 @@ fn formatting(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, program, reading, formatting);
+criterion_group!(benches, program, reading, iso_programs, formatting);
 criterion_main!(benches);

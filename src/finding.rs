@@ -556,6 +556,12 @@ pub enum FixKind {
     SetMotion {
         name: &'static str,
     },
+    /// The coordinates behind a block become those where it ends, mm.
+    SetCoordinates {
+        at: [f64; 2],
+    },
+    /// A block becomes one that ends at the coordinates behind it.
+    FollowCoordinates,
     /// The `B` that is lost is put back.
     InsertB,
     /// `B25` becomes `N25`.

@@ -191,6 +191,16 @@ fn programs_are_formatted_where_they_are_told_to_be() {
     let tidy = "B9900B0B9900GXL1 ; in\r\nB9900B0B39600GYNR1\r\nB99B9900GXL3\r\n9900B0B9900GXL3\r\nDD\r\n";
     assert_eq!(String::from_utf8(desk.read("shop/untidy.3b")).unwrap(), tidy);
     check(&desk, "format --in-place shop --layout checking --pause D", 0, &["!2 programs formatted"]);
+    // ISO: words in upper case, apart or closed up; no number is written otherwise, and lines that cannot be read stay.
+    let untidy = "%\r\nn10 g01 x1.50y-0 (in)\r\nG02  X3.  Y4. i1.\r\ng01 x1,5\r\nm02\r\n";
+    desk.write("iso/untidy.nc", untidy);
+    let parted = "%\r\nN10 G01 X1.50 Y-0 (in)\r\nG02 X3. Y4. I1.\r\ng01 x1,5\r\nM02\r\n";
+    check(&desk, "format iso/untidy.nc", 0, &[parted]);
+    check(&desk, "format iso/untidy.nc --layout compact", 0, &["N10G01X1.50Y-0 (in)\r\nG02X3.Y4.I1.\r\ng01 x1,5\r\nM02\r\n"]);
+    check(&desk, "format --check iso", 1, &["would be formatted: iso/untidy.nc\n"]);
+    check(&desk, "format --in-place iso", 0, &["!1 program formatted"]);
+    assert_eq!(String::from_utf8(desk.read("iso/untidy.nc")).unwrap(), parted);
+    check(&desk, "format --check iso", 0, &["!0 programs would be formatted, 1 unchanged"]);
 }
 
 #[test]

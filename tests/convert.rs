@@ -287,6 +287,11 @@ fn what_is_drawn_is_opened_by_librecad() {
         .unwrap();
     let pdf = std::fs::read(folder.path().join("hole.pdf")).unwrap_or_default();
     assert!(pdf.starts_with(b"%PDF") && pdf.len() > 800, "{}", String::from_utf8_lossy(&printed.stderr));
+    // The sheet is A4 on its long side, 297 by 210 mm in points of 1/72 inch, not a few millimetres.
+    let text = String::from_utf8_lossy(&pdf);
+    let sheet = text.split("/MediaBox [").nth(1).and_then(|rest| rest.split(']').next()).unwrap_or_default();
+    let lengths: Vec<f64> = sheet.split_whitespace().filter_map(|length| length.parse().ok()).collect();
+    assert!(matches!(lengths[..], [_, _, width, height] if (width - 842.0).abs() < 3.0 && (height - 595.0).abs() < 3.0), "{sheet}");
 }
 
 /// A drawing that is made is read by another program without a fault. Skipped where Python has no ezdxf.

@@ -59,6 +59,37 @@ fn every_rule_has_its_page() {
     }
 }
 
+/// The picture of a rule is drawn from a drawing of its name, in which the rule is found.
+#[test]
+fn every_rule_of_drawings_has_a_picture_that_shows_it() {
+    let of_drawings = [
+        Rule::SmallRadius,
+        Rule::SharpCorner,
+        Rule::NarrowSlot,
+        Rule::LostPocket,
+        Rule::OffsetCollapse,
+        Rule::OpenContour,
+        Rule::Gap,
+        Rule::DuplicateEntity,
+        Rule::Overlap,
+        Rule::ShortSegment,
+        Rule::NearTangent,
+        Rule::SelfIntersection,
+        Rule::ArcAsChords,
+        Rule::UnsupportedEntity,
+        Rule::Units,
+    ];
+    for name in of_drawings.map(Rule::name) {
+        let page = read(&root().join(format!("docs/rules/{name}.md")));
+        assert!(page.contains(&format!("](../pictures/{name}.svg)")), "the page of {name} shows no picture");
+        let drawing = root().join(format!("docs/pictures/{name}.dxf"));
+        let output = wedm(&root(), &["check", drawing.to_str().unwrap(), "--side", "opening", "--output", "json"]);
+        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let rules: Vec<&str> = found["diagnostics"].as_array().unwrap().iter().filter_map(|row| row["rule"].as_str()).collect();
+        assert!(rules.contains(&name), "{name} is not found in its own picture: {rules:?}");
+    }
+}
+
 #[test]
 fn every_relative_link_leads_somewhere() {
     for path in pages() {

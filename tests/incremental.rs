@@ -99,22 +99,30 @@ fn chords(most: usize) -> impl Strategy<Value = Vec<Vertex>> {
         .prop_map(|(from, offs)| offs.into_iter().enumerate().map(|(at, off)| on_circle(from + at, off)).collect())
 }
 
-/// An outline of a polyline and lines, with corners all round; the polyline is travelled as it is drawn, or backwards.
+/// An outline of many short segments with a corner now and then; half of it is a polyline that is travelled as it is drawn, or
+/// backwards, half of it lines.
 fn mixed_outline(backwards: bool) -> (Drawing, EntityId) {
-    let corner = |at: usize| {
-        let angle = at as f64 * std::f64::consts::TAU / 24.0;
-        Point::new((10.0 + 2.0 * (at % 2) as f64) * angle.cos(), (10.0 + 2.0 * (at % 2) as f64) * angle.sin())
+    const SIDES: usize = 24;
+    const PARTS: usize = 12;
+    const ALL: usize = SIDES * PARTS;
+    let point = |at: usize| {
+        let corner = |side: usize| {
+            let angle = side as f64 * std::f64::consts::TAU / SIDES as f64;
+            Point::new(100.0 * angle.cos(), 100.0 * angle.sin())
+        };
+        let (from, to) = (corner(at / PARTS), corner(at / PARTS + 1));
+        from + (to - from) * ((at % PARTS) as f64 / PARTS as f64)
     };
     let mut drawing = Drawing::new(None);
-    let line = |at: usize| entity(Geometry::Line { start: corner(at), end: corner(at + 1) }, Some(Role::Opening));
+    let line = |at: usize| entity(Geometry::Line { start: point(at), end: point(at + 1) }, Some(Role::Opening));
     // The first entity says which way the contour is travelled.
     drawing.push(line(0));
-    let mut vertices: Vec<Vertex> = (1..=12).map(|at| Vertex { point: corner(at), bulge: 0.0 }).collect();
+    let mut vertices: Vec<Vertex> = (1..=ALL / 2).map(|at| Vertex { point: point(at), bulge: 0.0 }).collect();
     if backwards {
         vertices.reverse();
     }
     let polyline = drawing.push(entity(Geometry::Polyline { closed: false, vertices }, Some(Role::Opening)));
-    for at in 12..24 {
+    for at in ALL / 2..ALL {
         drawing.push(line(at));
     }
     (drawing, polyline)
@@ -125,12 +133,12 @@ fn mixed_outline(backwards: bool) -> (Drawing, EntityId) {
 #[test]
 fn a_splice_that_changes_the_count_moves_what_was_seen_behind_it() {
     for (backwards, start, removed, inserted) in
-        [(false, 2, 0, 1), (true, 2, 0, 1), (false, 9, 2, 0), (true, 9, 2, 0), (true, 5, 1, 3), (false, 5, 1, 3)]
+        [(false, 20, 0, 1), (true, 20, 0, 1), (false, 90, 2, 0), (true, 90, 2, 0), (true, 140, 1, 3), (false, 5, 1, 3)]
     {
         let settings = Arc::new(Effective::of(&Settings::default()));
         let (mut drawing, polyline) = mixed_outline(backwards);
         let mut analysis = Analysis::new(&drawing, settings.clone());
-        let inserted: Vec<Vertex> = (0..inserted).map(|at| Vertex::new(0.5 * at as f64, 3.0, 0.0)).collect();
+        let inserted: Vec<Vertex> = (0..inserted).map(|at| Vertex::new(at as f64, 3.0, 0.0)).collect();
         let touched = drawing.splice(polyline, start, removed, &inserted).unwrap();
         analysis.update(&drawing, &Delta { touched: vec![touched] });
         let mut fresh = Analysis::new(&drawing, settings.clone());

@@ -92,3 +92,42 @@ fn every_fault_of_wrong_programs_is_found_at_its_place() {
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+/// How often each rule has something to say.
+fn counts(document: &mut Document) -> std::collections::BTreeMap<&'static str, usize> {
+    let mut counts = std::collections::BTreeMap::new();
+    for finding in document.findings(usize::MAX).0 {
+        *counts.entry(finding.rule.name()).or_default() += 1;
+    }
+    counts
+}
+
+#[test]
+fn every_fix_that_is_offered_repairs_and_makes_nothing_worse() {
+    let mut failures: Vec<String> = Vec::new();
+    for path in folder("wrong") {
+        let bytes = std::fs::read(&path).unwrap();
+        let mut document = read(bytes.clone());
+        let before = counts(&mut document);
+        for finding in document.findings(usize::MAX).0 {
+            for fix in document.fixes(&finding) {
+                let Edit::Text(edits) = fix.edit else { panic!("a fix of a program edits its text") };
+                let mut repaired = bytes.clone();
+                for edit in edits.iter().rev() {
+                    repaired.splice(edit.range.clone(), edit.text.bytes());
+                }
+                let mut repaired = read(repaired);
+                let after = counts(&mut repaired);
+                let rule = finding.rule.name();
+                let is_less = after.get(rule).copied().unwrap_or(0) < before[rule];
+                let worse = after.iter().filter(|(rule, count)| **count > before.get(*rule).copied().unwrap_or(0));
+                let worse: Vec<_> = worse.collect();
+                if !is_less || !worse.is_empty() {
+                    let text = String::from_utf8_lossy(repaired.text().unwrap().bytes()).into_owned();
+                    failures.push(format!("{}: {rule} by {:?}: {before:?} became {after:?}\n{text}", path.display(), fix.kind));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}

@@ -1,7 +1,7 @@
 //! New drawings as DXF text, by the `dxf` crate: a text that nobody wrote by hand needs no places.
 
 use crate::drawing::{Drawing, Geometry, Unit};
-use crate::geometry::{Point, positive_angle};
+use crate::geometry::{Bounds, Point, positive_angle};
 use ::dxf as crate_dxf;
 use crate_dxf::entities::{self, Entity, EntityCommon, EntityType};
 use crate_dxf::enums::{AcadVersion, Units};
@@ -9,6 +9,9 @@ use crate_dxf::{LwPolylineVertex, Point as Point3};
 
 /// Height of texts, in millimetres: a start mark has no height of its own.
 const TEXT_HEIGHT_MM: f64 = 1.0;
+
+/// A4 on its long side.
+const SHEET_MM: [f64; 2] = [297.0, 210.0];
 
 /// The drawing as an ASCII DXF file of release 2000: LWPOLYLINE, LINE, ARC, CIRCLE and TEXT on their layers.
 ///
@@ -25,6 +28,7 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
         Some(Unit { mm: 1000.0 }) => Units::Meters,
         _ => Units::Unitless,
     };
+    set_extents(&mut file, drawing);
     let text_height = TEXT_HEIGHT_MM / drawing.unit.unwrap_or(Unit::MILLIMETRE).mm;
     for (_, entity) in drawing.entities() {
         let specific = match &entity.geometry {
@@ -58,6 +62,23 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     file.save(&mut bytes).map_err(|error| format!("the DXF file cannot be written: {error}"))?;
     Ok(with_table_handles(bytes))
+}
+
+/// What the drawing covers, and a sheet of A4: the crate's own are those of a drawing in inches, and programs print as much of it.
+fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
+    let mut bounds = Bounds::EMPTY;
+    for (_, entity) in drawing.entities() {
+        entity.geometry.segments().for_each(|segment| bounds.merge(&segment.bounds()));
+    }
+    if !bounds.is_empty() {
+        let (min, max) = (in_space(bounds.min), in_space(bounds.max));
+        file.header.minimum_drawing_extents = min.clone();
+        file.header.maximum_drawing_extents = max.clone();
+        file.header.minimum_drawing_limits = min;
+        file.header.maximum_drawing_limits = max;
+    }
+    let [width, height] = SHEET_MM.map(|length| length / drawing.unit.unwrap_or(Unit::MILLIMETRE).mm);
+    file.header.paperspace_maximum_drawing_limits = Point3::new(width, height, 0.0);
 }
 
 /// The same file with a handle for each symbol table, which the crate leaves out: readers that hold to the reference repair that.

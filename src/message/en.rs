@@ -118,6 +118,8 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::SetAxis { axis, j: None } => format!("Count G{}", axis.letter()),
         FixKind::SetAxis { axis, j: Some(j) } => format!("Count G{}, J {j}", axis.letter()),
         FixKind::SetMotion { name } => format!("Set Z to {name}"),
+        FixKind::SetCoordinates { at: [x, y] } => format!("Set the coordinates to where the block ends ({x:.3}, {y:.3})"),
+        FixKind::FollowCoordinates => "Change the block to end at its coordinates".into(),
         FixKind::InsertB => "Put the lost B back".into(),
         FixKind::NumberWithN => "Write the block number with N".into(),
         FixKind::ZeroForO => "Write a zero for the letter O".into(),

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "camelCase")]
 pub struct Generate {
     pub uri: String,
-    /// Language of the program: `3b` or `iso`.
+    /// Language of the program: `3b`, `4b` or `iso`.
     pub format: String,
     /// Only the contours that hold one of these entities.
     #[serde(default, skip_serializing_if = "Option::is_none")]

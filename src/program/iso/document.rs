@@ -1,10 +1,11 @@
 //! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
 
 use super::block::{Code, Motion, Note, Offset, Stop, read_line};
+use super::crossings::Crossings;
 use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
-use super::stretch::{Run, Stretch};
+use super::stretch::{Hears, Run, Stretch};
 use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
@@ -36,8 +37,10 @@ pub struct Document {
     evidence: Evidence,
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
+    /// Where the cuts cross themselves.
+    crossings: Box<Crossings>,
     /// What settings a fault is held against.
-    pub(super) limits: Limits,
+    pub(super) limits: Box<Limits>,
 }
 
 /// The settings that decide what is a fault.
@@ -140,7 +143,8 @@ impl Document {
             reading: Evidence::default().reading(limits.center),
             evidence: Evidence::default(),
             order: None,
-            limits,
+            crossings: Box::default(),
+            limits: Box::new(limits),
         };
         document.guess_reading();
         document.run_all();
@@ -167,11 +171,11 @@ impl Document {
     /// Looks again under other settings.
     pub fn set_settings(&mut self, settings: &Effective) {
         let limits = Limits::of(settings);
-        if limits == self.limits {
+        if limits == *self.limits {
             return;
         }
         let center = limits.center != self.limits.center;
-        self.limits = limits;
+        *self.limits = limits;
         if center {
             self.settle();
         }
@@ -185,6 +189,26 @@ impl Document {
     /// The fixes of one finding, the preferred one first.
     pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
         super::fixes::fixes(self, finding)
+    }
+
+    pub(super) fn stretches(&self) -> &[Stretch] {
+        &self.stretches
+    }
+
+    pub(super) fn crossings(&self) -> &Crossings {
+        &self.crossings
+    }
+
+    /// Runs a stretch once more and tells `each` of its moves; gives the byte from which their places count.
+    pub(super) fn run_again(&self, index: usize, each: &mut Hears<'_>) -> usize {
+        let Some(Placed { stretch, first_line, offset }) = self.placed().nth(index) else { return 0 };
+        let bytes = self.text.bytes();
+        let lines = (first_line..first_line + stretch.lines as usize).map(|line| {
+            let range = self.text.line_range(line);
+            (range.start, &bytes[range])
+        });
+        Stretch::run_with(lines, offset, stretch.before, self.reading, each);
+        offset
     }
 
     /// The stretches in the order in which they run.
@@ -424,6 +448,12 @@ impl Document {
     /// Holds the reading against what the whole program shows, and runs it again where it shows another one: first the unit and the
     /// finest step, then, measured with these, where I and J lead.
     fn settle(&mut self) {
+        self.find_reading();
+        let crossings = std::mem::take(&mut self.crossings);
+        *self.crossings = crossings.look(self);
+    }
+
+    fn find_reading(&mut self) {
         if self.order.is_none() && self.stretches.iter().any(|stretch| stretch.calls) {
             self.order = Some(order(&self.text));
             self.run_stretches();

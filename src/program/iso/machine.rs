@@ -166,7 +166,12 @@ impl Move {
 
     /// The same move, started at the zero of the plane.
     pub fn at_origin(self) -> Move {
-        let back = [self.from[0].wrapping_neg(), self.from[1].wrapping_neg()];
+        self.seen_from(self.from)
+    }
+
+    /// The same move with `place` as the zero of the plane.
+    pub fn seen_from(self, place: Place) -> Move {
+        let back = place.map(i64::wrapping_neg);
         let mut moved = self.shifted(back);
         if let Bend::Center { absolute, .. } = &mut moved.bend {
             *absolute = added(*absolute, back);

@@ -48,6 +48,7 @@ pub(super) fn findings(document: &Document) -> Vec<Finding> {
     if let Some(run) = open.take() {
         report.judge(&run);
     }
+    report.findings.extend(document.crossings().findings(document));
     report.foreign_words();
     report.block_numbers();
     report.calls();

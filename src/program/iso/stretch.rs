@@ -5,9 +5,11 @@
 
 use super::block::{Code, Note, Offset, Stop, read_line};
 use super::evidence::Evidence;
-use super::machine::{Course, Machine, Move, Place, Reading, added};
+use super::machine::{Bend, Course, Machine, Move, Place, Reading, added};
 use super::word::{Number, WordFault};
 use crate::finding::Side;
+use crate::geometry::{Bounds, Segment};
+use crate::program::three_b::near_each_other;
 use std::ops::Range;
 
 /// A fault of one line. Places are bytes from the start of the stretch.
@@ -97,7 +99,7 @@ impl Run {
         }
     }
 
-    fn start(&self) -> Place {
+    pub fn start(&self) -> Place {
         self.first[0].from
     }
 
@@ -155,6 +157,52 @@ fn joined(a: RunSide, b: RunSide) -> RunSide {
     }
 }
 
+/// How a run lies on itself: what tells where the way crosses itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Tells two runs apart: equal ways have equal marks.
+    pub mark: u64,
+    /// µm, seen from where the run begins.
+    pub bounds: Bounds,
+    /// Moves of it that come near each other, by their number in the run.
+    pub near: Box<[(u32, u32)]>,
+}
+
+/// Hears of every move of a run: the run's index, the move, the place of its words.
+pub type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
+
+/// The moves of a run as they are made.
+#[derive(Default)]
+struct Ways {
+    start: Option<Place>,
+    mark: u64,
+    ways: Vec<Segment>,
+}
+
+impl Ways {
+    fn push(&mut self, step: &Move, reading: &Reading) {
+        let start = *self.start.get_or_insert(step.from);
+        self.ways.push(step.seen_from(start).segment(reading));
+        let along = step.at_origin();
+        let bend = match along.bend {
+            Bend::Center { .. } => along.center(reading.rule(along.incremental)).unwrap_or_default(),
+            Bend::Radius(radius) => [radius, i64::MIN],
+            Bend::Nothing => [0, i64::MAX],
+        };
+        let fields = [along.to[0], along.to[1], bend[0], bend[1], along.motion as i64];
+        let mix = |mark: u64, field: i64| (mark ^ field as u64).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
+        self.mark = fields.into_iter().fold(self.mark.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1), mix);
+    }
+
+    fn path(self) -> Path {
+        let boxes: Vec<Bounds> = self.ways.iter().map(Segment::bounds).collect();
+        let mut near = Vec::new();
+        near_each_other(&self.ways, &boxes, &mut |first, second| near.push((first as u32, second as u32)));
+        let bounds = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
+        Path { mark: self.mark, bounds, near: near.into() }
+    }
+}
+
 /// A word whose meaning is a matter of the machine, where it stands first, and how often.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foreign {
@@ -175,6 +223,8 @@ pub struct Stretch {
     pub faults: Vec<LineFault>,
     pub tight: Vec<Tight>,
     pub runs: Vec<Run>,
+    /// Of each run, how it lies on itself.
+    pub paths: Vec<Path>,
     pub foreign: Vec<Foreign>,
     pub definitions: Vec<(Offset, Number, bool)>,
     /// N words with the byte at which they stand.
@@ -201,6 +251,25 @@ pub struct Stretch {
 impl Stretch {
     /// Runs `lines`, each with the byte at which it begins, counted from `start`.
     pub fn run<'a>(lines: impl Iterator<Item = (usize, &'a [u8])>, start: usize, before: Machine, reading: Reading) -> Stretch {
+        let mut ways: Vec<Ways> = Vec::new();
+        let mut stretch = Stretch::run_with(lines, start, before, reading, &mut |run, step, _| {
+            if ways.len() <= run {
+                ways.resize_with(run + 1, Ways::default);
+            }
+            ways[run].push(step, &reading);
+        });
+        stretch.paths = ways.into_iter().map(Ways::path).collect();
+        stretch
+    }
+
+    /// The same without paths; `each` hears of every move of a run.
+    pub fn run_with<'a>(
+        lines: impl Iterator<Item = (usize, &'a [u8])>,
+        start: usize,
+        before: Machine,
+        reading: Reading,
+        each: &mut Hears<'_>,
+    ) -> Stretch {
         let mut stretch = Stretch {
             lines: 0,
             before,
@@ -210,6 +279,7 @@ impl Stretch {
             faults: Vec::new(),
             tight: Vec::new(),
             runs: Vec::new(),
+            paths: Vec::new(),
             foreign: Vec::new(),
             definitions: Vec::new(),
             numbers: Vec::new(),
@@ -224,12 +294,12 @@ impl Stretch {
             fixed: false,
         };
         for (offset, line) in lines {
-            stretch.line(line, offset - start);
+            stretch.line(line, offset - start, each);
         }
         stretch
     }
 
-    fn line(&mut self, line: &[u8], offset: usize) {
+    fn line(&mut self, line: &[u8], offset: usize, each: &mut Hears<'_>) {
         self.lines += 1;
         let Stretch { faults, foreign, definitions, after, .. } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
@@ -268,7 +338,7 @@ impl Stretch {
         let torn = self.after.torn;
         let made = self.after.run(&block, &self.reading);
         match made {
-            Some(made) => self.made(made, range, torn),
+            Some(made) => self.made(made, range, torn, each),
             None if self.after.torn => self.interrupt(false),
             None => {}
         }
@@ -287,7 +357,7 @@ impl Stretch {
         }
     }
 
-    fn made(&mut self, made: Move, range: (u32, u32), torn: bool) {
+    fn made(&mut self, made: Move, range: (u32, u32), torn: bool, each: &mut Hears<'_>) {
         self.moves += 1;
         self.fixed |= !made.incremental;
         if let Some(on) = made.switches
@@ -329,6 +399,7 @@ impl Stretch {
                 self.runs.push(Run::begin(made, cap, range, continues, !torn));
             }
         }
+        each(self.runs.len() - 1, &made, range);
     }
 
     /// True when these lines do the same wherever the wire stands before them.

@@ -203,6 +203,34 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
 }
 
 #[test]
+fn a_cut_that_goes_through_itself_is_told_at_both_places() {
+    // A bow tie, absolute and incremental, cut by the wire's own path and by the part's contour.
+    let bow = |side: &str| format!("G92 X0. Y0.\nG90\n{side}\nG01 X10. Y0.\nX20. Y10.\nX20. Y0.\nX10. Y10.\nX10. Y0.\nG40\nX0. Y0.\nM02\n");
+    check(&bow("G40"), &[(7, "path-crosses-itself")]);
+    check(&bow("G41 D1"), &[(7, "path-crosses-itself")]);
+    check("G92 X0 Y0\nG91\nG01 X10000\nX10000 Y10000\nY-10000\nX-10000 Y10000\nY-10000\nX-10000\nM02\n", &[(6, "path-crosses-itself")]);
+    let document = read(&bow("G40"));
+    let finding = &document.findings()[0];
+    assert_eq!(
+        en::sentence(finding, 1.0),
+        "the wire crosses its own path of line 5 here, at (15.000, 5.000) mm from the contour's start: it cuts the part in two"
+    );
+    // An arc through a line; a line that only touches; the same contour twice, as in a second pass.
+    check("G92 X0. Y0.\nG91\nG01 X5.\nX10.\nG03 X-4. Y4. I-4. J0.\nG01 X-4. Y-8.\nX-7. Y4.\nM02\n", &[(6, "path-crosses-itself")]);
+    check("G92 X0. Y0.\nG90\nG01 X10. Y0.\nX20. Y10.\nX10. Y20.\nX15. Y10.\nX10. Y0.\nX0. Y0.\nM02\n", &[]);
+    check("G92 X0. Y0.\nG90\nG01 X5. Y0.\nY5.\nX0.\nY0.\nX5. Y0.\nY5.\nX0.\nY0.\nM02\n", &[]);
+    // Other cuts lie elsewhere, whatever lies between them in the text; a cut with a wrong arc is not told anything of.
+    check("G92 X0. Y0.\nG90\nG01 X9. Y9.\nX0.\nY0.\nM00\nG00 X0. Y5.\nG01 X9.\nY0.\nX0. Y5.\nM02\n", &[]);
+    check(&bow("G40").replace("X20. Y0.\n", "X20. Y0.\nG02 X20. Y0. R0\nG01 "), &[(7, "arc-without-radius")]);
+    // Far apart in the text, and across the borders of what is run together.
+    let mut long = String::from("G92 X0 Y0\nG91\nG01 X1000\n");
+    (0..700).for_each(|step| long += if step % 2 == 0 { "X10\n" } else { "Y10\n" });
+    long += "Y3000\nX-2000\nY-5000\nX700 Y-3000\nX1000 Y6000\nX-700\nM02\n";
+    let found = faults(&long, &Effective::default());
+    assert!(found.iter().any(|(line, rule)| *rule == "path-crosses-itself" && *line == 708), "{found:?}");
+}
+
+#[test]
 fn programs_and_subprograms_number_their_blocks_for_themselves() {
     let body = "N10 G01 X1000\nN20 Y1000\nN30 X0 Y0\n";
     check(&format!("G92 X0 Y0\n{body}M98 P2\nM02\nO2\n{body}M99\n"), &[]);
@@ -268,6 +296,29 @@ fn subprograms_are_followed_where_they_are_called() {
     check("G92 X0 Y0\nM98 P7\nG01 X1000\nG01 X0\nM02\n", &[(2, "machine-dependent")]);
     // Calls without end are cut off.
     check("M98 P1\nM02\nN1 G91 G01 X1\nM98 P1\nM99\n", &[(3, "not-closed"), (4, "machine-dependent"), (4, "missing-end")]);
+}
+
+/// Programs in the forms that the machines of the field have, found in programs and manuals of theirs: nothing is said of them but which
+/// words are the machine's own.
+#[test]
+fn the_dialects_of_the_field_are_no_faults() {
+    let square = "G01 X10.000 Y0.000\nG01 X10.000 Y10.000\nG01 X0.000 Y10.000\nG01 X0.000 Y0.000\n";
+    for text in [
+        // Rough and skim pass in one go, conditions by E, the wire threaded and fed by M words.
+        format!("%\nO0001 (ROBOCUT)\nG90 G21\nG92 X0 Y0\nE0001 (ROUGH)\nM06\nM50\nM80 M81\nG42 H01 (RIGHT)\n{square}G40\nE0002\nG42 H02\n{square}G40\nM82 M83\nM51\nM02\n%\n"),
+        // The taper, and conditions by C.
+        format!("%\nO0010\nG90 G21\nG92 X0. Y0.\nC100 (IP8 ON12)\nM50\nG51 U3.500\nG42 D01\n{square}G40\nG50\nM51\nM02\n%\n"),
+        // Fast wire: pump and wire switched by T words, blocks that end with a semicolon, a subprogram for each pass.
+        "N10 T84 T86 G90 G92X0.000Y0.000;\nN12 G01 X5.000Y0.000;\nN14 G03 X-5.000 Y0.000 I-5.000 J0.000;\nN16 G03 X5.000 Y0.000 I5.000 J0.000;\nN18 G01 X0.000 Y0.000;\nN20 T85 T87 M02;\n".into(),
+        "H000=+00000000 H001=+00000110;\nH005=+00000000;T84 T86 G54 G90 G92X+0Y+0;\nC007;\nG01X+3000Y+0;G04X0.0+H005;\nG41H000;\nC001;\nG41H000;\nG01X+4000Y+0;G04X0.0+H005;\nG41H001;\nX+4000Y+4000;\nX-4000Y+4000;\nX-4000Y-4000;\nX+4000Y-4000;\nX+4000Y+0;\nG40H000G01X+3000Y+0;\nM00;\nT85 T87 M02;\n".into(),
+        // Robofil: the centre's own coordinates, the prologue before G90.
+        "G92 X0 Y0\r\nG60\r\nG38\r\nG42 D0\r\nG90\r\nG01 X10.000 Y0.000\r\nG02 X0.000 Y-10.000 I0.000 J0.000\r\nG02 X10.000 Y0.000 I0.000 J0.000\r\nG40\r\nG01 X0.000 Y0.000\r\nM02\r\n".into(),
+        // Numbers without zeros, R in the place of I and J, M30.
+        "%\nN1G21G90\nN2G92X-5.Y0\nN3G42D1\nN4G1X0.Y0\nN5Y-9.\nN6G3X1.Y-10.R1.\nN7G1X9.\nN8G3X10.Y-9.R1.\nN9G1Y0\nN10X0.\nN11G40\nN12X-5.\nN13M30\n%\n".into(),
+    ] {
+        let found = faults(&text, &Effective::default());
+        assert!(found.iter().all(|(_, rule)| *rule == "machine-dependent"), "{found:?}\n{text}");
+    }
 }
 
 /// Lines that programs are made of, with some that are damaged.

@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 
 /// The blocks of a contour in one run.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretch<'a> {
+pub(in crate::program) struct Stretch<'a> {
     /// Tells two stretches apart: equal ways have equal marks.
     pub mark: u64,
     pub blocks: usize,
@@ -41,7 +41,7 @@ type Near = (Box<[(u32, u32)]>, usize);
 
 /// What is known of pairs of stretches.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Known {
+pub(in crate::program) struct Known {
     pairs: FxHashMap<Pair, Near>,
     /// Contours, by their marks, in which nothing was found.
     calm: FxHashSet<u64>,
@@ -72,7 +72,7 @@ impl Known {
 
 /// What was found in a contour.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Found {
+pub(in crate::program) struct Found {
     pub crossings: Vec<Crossing>,
     /// So much lies on one place that not all of it was looked at.
     pub is_crowded: bool,
@@ -87,7 +87,12 @@ fn most_looks(blocks: usize) -> usize {
 }
 
 /// Finds where a contour crosses itself. `pieces` gives the pieces of a stretch from the origin.
-pub(super) fn search(stretches: &[Stretch<'_>], arcs: usize, known: &mut Known, pieces: &(dyn Fn(usize) -> Vec<Segment> + Sync)) -> Found {
+pub(in crate::program) fn search(
+    stretches: &[Stretch<'_>],
+    arcs: usize,
+    known: &mut Known,
+    pieces: &(dyn Fn(usize) -> Vec<Segment> + Sync),
+) -> Found {
     let mut firsts = Vec::with_capacity(stretches.len());
     let mut near: Vec<(usize, usize)> = Vec::new();
     let mut count = 0;

@@ -8,9 +8,11 @@ use super::crossings::{Found, Known, Stretch, pieces_of, search};
 use super::decode::meant;
 use super::encode::line_block;
 use super::fields::fields_of;
+use super::language::{Field, Piece, pieces};
 use super::layout::push_fields;
-use super::parse::{Words, unexpected};
+use super::parse::{StatedPoint, Words, unexpected};
 use super::rules::block_number::Numbered;
+use super::rules::position_mismatch::Mismatched;
 use super::rules::{
     self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, position_mismatch, text_after_end,
 };
@@ -691,8 +693,55 @@ impl Document {
             ProgramFault::DoubledNumber { .. } | ProgramFault::NumberOutOfOrder { .. } | ProgramFault::Unnumbered { .. } => {
                 self.number_fixes(range)
             }
+            ProgramFault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
             fault => self.block_fixes(range, fault),
         }
+    }
+
+    fn position_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
+        let (at, entry) = self.block_at(range)?;
+        let own = self.range_of(at, &self.view.starts);
+        let stated = entry.stated_end()?;
+        let before = self.stated_before(at)?;
+        let next = self.next_block(at).and_then(|next| Some((next.stated_end()?, next.travel)));
+        let goes_on = next.map(|(end, travel)| position_mismatch::mismatch(&stated, &travel, &end).is_none());
+        let line = self.text.line_range(self.text.line_of(own.start));
+        let is_behind = |piece: &&Piece| piece.field == Field::Coordinates && line.start + piece.range.start >= own.end;
+        let pieces = pieces(self.text.bytes().get(line.clone())?, &self.words());
+        let coordinates = pieces.iter().find(is_behind).map(|piece| line.start + piece.range.start..line.start + piece.range.end)?;
+        let section = self.section_of(at)?;
+        Some(position_mismatch::fixes(&Mismatched {
+            text: self.text.bytes(),
+            block: entry.block,
+            fields: fields_of(self.text.bytes(), own)?,
+            coordinates,
+            before,
+            stated,
+            goes_on,
+            closes: self.closes(&self.view, &section),
+            closes_with: &|blocks| self.closes_with(at, entry, blocks),
+        }))
+    }
+
+    /// The coordinates that stand behind the block before, or those of the start.
+    fn stated_before(&self, at: At) -> Option<StatedPoint> {
+        (0..=at.run).rev().find_map(|run| {
+            let of = self.runs.get(run)?;
+            let end = if run == at.run { at.entry } else { of.entries.len() };
+            of.entries.get(..end)?.iter().rev().find_map(|entry| match &entry.what {
+                What::Block(block) => Some(block.stated_end()),
+                What::StartPoint(at) => Some(Some(StatedPoint { at: *at, decimals: 3 })),
+                What::Unread => Some(None),
+                What::Word { .. } | What::Text { .. } => None,
+            })
+        })?
+    }
+
+    fn next_block(&self, at: At) -> Option<&BlockEntry> {
+        self.runs.iter().enumerate().skip(at.run).find_map(|(run, of)| {
+            let from = if run == at.run { at.entry + 1 } else { 0 };
+            of.entries.get(from..)?.iter().find_map(Entry::block)
+        })
     }
 
     /// The block that a range lies in or before.
@@ -755,12 +804,26 @@ impl Document {
         let own = self.text.bytes().get(range.clone()).unwrap_or_default();
         let layout = if own.contains(&b' ') { Layout::Aligned } else { Layout::Compact };
         let mut text = missing_end::line_end_of(&self.text).as_bytes().to_vec();
+        if let Some(number) = self.number_behind(at) {
+            text.extend_from_slice(format!("N{number} ").as_bytes());
+        }
         push_fields(&mut text, layout, &block, None);
         let behind = self.text.line_range(self.text.line_of(range.start)).end;
         let Ok(text) = String::from_utf8(text) else { return Vec::new() };
         let length = (x as f64).hypot(y as f64) / 1000.0;
         let edit = vec![TextEdit { range: behind..behind, text }];
         vec![crate::finding::Fix { kind: FixKind::Close { length }, preferred: true, in_fix_all: false, edit }]
+    }
+
+    /// The number that a block behind another one has, where the two before it are numbered.
+    fn number_behind(&self, at: At) -> Option<u32> {
+        let own = self.entry(at)?.number()?;
+        let before = (0..=at.run).rev().find_map(|run| {
+            let of = self.runs.get(run)?;
+            let end = if run == at.run { at.entry } else { of.entries.len() };
+            of.entries.get(..end)?.iter().rev().find(|entry| entry.block().is_some())
+        });
+        own.checked_add(own.checked_sub(before?.number()?).filter(|step| *step > 0)?)
     }
 
     fn number_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {

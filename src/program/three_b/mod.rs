@@ -22,6 +22,10 @@ mod tests;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
+pub(in crate::program) use crossings::{Found, Known, Stretch as PathStretch, search};
+pub(in crate::program) use rules::path_crosses_itself::near_each_other;
+pub(in crate::program) use run::Move as Displacement;
+
 pub use block::{Block, CountingAxis, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
 pub use document::{Document, PlacedBlock};

@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Move {
+pub(in crate::program) struct Move {
     pub machine: [i64; 2],
     pub meant: [i64; 2],
 }

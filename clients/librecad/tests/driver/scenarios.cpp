@@ -22,6 +22,8 @@ namespace {
 
 /// ms that a busy machine may need for 200,000 vertices.
 constexpr int LONG = 60000;
+/// A look of so many slices takes long enough for a key to come between.
+constexpr int SLICES_TO_BREAK_OFF = 4;
 
 } // namespace
 
@@ -371,6 +373,17 @@ void Driver::large()
                    .arg(controller()->property("lookMilliseconds").toInt())
                    .arg(controller()->property("slices").toInt())
                    .arg(controller()->property("sliceMilliseconds").toInt()));
+    }
+    const auto number = [this](const char *name) { return controller()->property(name).toInt(); };
+    if (number("slices") >= SLICES_TO_BREAK_OFF) {
+        const int looks = number("looks");
+        drawLine();
+        wait([&] { return number("slices") == 1; }, LONG);
+        touch();
+        // Longer than the rest of the look takes; the next one waits for a moment of rest.
+        QTest::qWait(1500);
+        expect("a look is broken off when somebody types", number("looks") == looks, QString::number(number("slices")));
+        expectSoon("and taken when they rest", [&] { return number("looks") > looks; }, {}, LONG);
     }
     // A server that does not answer at all holds nothing up: were anything waited for, this would never end.
     const pid_t server = pid_t(controller()->property("serverProcessId").toLongLong());

@@ -38,10 +38,10 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
     }
   }
 
-  /** After a reload of the window. */
+  /** After a reload of the window. What is in front now counts more than what was when the picture was drawn last. */
   async deserializeWebviewPanel(panel: vscode.WebviewPanel, state: unknown): Promise<void> {
     const kept = typeof state === "object" && state !== null ? (state as { uri?: unknown }).uri : undefined;
-    const uri = typeof kept === "string" ? uriOf(kept) : undefined;
+    const uri = this.front.document?.uri ?? (typeof kept === "string" ? uriOf(kept) : undefined);
     if (uri === undefined || this.#picture !== undefined) {
       panel.dispose();
       return;

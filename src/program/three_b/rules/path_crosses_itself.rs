@@ -9,7 +9,7 @@ use crate::geometry::{Bounds, Point, Segment, Vector, meetings, positive_angle};
 
 /// Two pieces, by their index, and where they cross.
 #[derive(Clone, Debug, PartialEq)]
-pub(in super::super) struct Crossing {
+pub(in crate::program) struct Crossing {
     pub first: usize,
     pub second: usize,
     pub at: Point,
@@ -56,7 +56,7 @@ pub(in super::super) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossi
 }
 
 /// Pairs of pieces that come near each other, the earlier first; neighbours where they meet again behind their joint.
-pub(in super::super) fn near_each_other(pieces: &[Segment], boxes: &[Bounds], found: &mut dyn FnMut(usize, usize)) {
+pub(in crate::program) fn near_each_other(pieces: &[Segment], boxes: &[Bounds], found: &mut dyn FnMut(usize, usize)) {
     // Along the axis on which they spread.
     let whole = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
     let by_x = whole.width() >= whole.height();

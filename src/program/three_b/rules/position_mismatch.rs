@@ -2,8 +2,17 @@
 //!
 //! Each end point is held against the one before it and the block between them, so that one wrong block is one finding.
 
+use super::super::block::{Block, CountingAxis, Motion, Node};
+use super::super::decode::meant;
+use super::super::encode::{counted, line_block};
 use super::super::parse::StatedPoint;
-use super::super::run::Move;
+use super::super::run::{Move, travel_of};
+use super::{TextFix, motion_name, one_edit};
+use crate::finding::FixKind;
+use crate::geometry::{Arc, Point, Segment, Vector};
+use crate::program::three_b::fields::Fields;
+use crate::text::TextEdit;
+use std::ops::Range;
 
 /// How far coordinates of three decimals may lie off, µm: both ends are rounded, and J of an arc moves its end by two µm on each axis.
 const TOLERANCE: f64 = 4.0;
@@ -23,3 +32,101 @@ pub(in super::super) fn mismatch(before: &StatedPoint, travel: &Move, stated: &S
 
 /// More of the end points than this share are off: the numbers are something else than end points.
 pub(in super::super) const FOREIGN: f64 = 0.5;
+
+/// A block whose coordinates are off, for those who make its fixes.
+pub(in super::super) struct Mismatched<'a> {
+    pub text: &'a [u8],
+    pub block: Block,
+    pub fields: Fields,
+    /// Bytes of the coordinates behind the block.
+    pub coordinates: Range<usize>,
+    pub before: StatedPoint,
+    pub stated: StatedPoint,
+    /// Whether the next block leads on from these coordinates (`true`) or from where this block ends; `None` where nothing says.
+    pub goes_on: Option<bool>,
+    /// The contour closes as its blocks stand, and with another block in the place of this one.
+    pub closes: bool,
+    pub closes_with: &'a dyn Fn(&[Block]) -> bool,
+}
+
+/// The coordinates become those of the block's end, or the block one that ends at them, as the coordinates behind allow. Made without
+/// asking only where the contour says which of the two is wrong.
+pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
+    let coordinates = if site.goes_on == Some(true) { None } else { set_coordinates(site) };
+    let block = if site.goes_on == Some(false) { None } else { set_block(site) };
+    let block_closes = block.as_ref().is_some_and(|(block, _)| (site.closes_with)(&[*block]));
+    let block_first = block_closes && !site.closes;
+    let mut fixes = Vec::new();
+    if let Some((kind, edit)) = coordinates {
+        fixes.push(one_edit(kind, edit, !block_first, site.closes && !block_closes && site.goes_on == Some(false)));
+    }
+    if let Some((_, edit)) = block {
+        let fix = one_edit(FixKind::FollowCoordinates, edit, block_first || fixes.is_empty(), block_first && site.goes_on == Some(true));
+        fixes.insert(if block_first { 0 } else { fixes.len() }, fix);
+    }
+    fixes
+}
+
+fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
+    let [x, y] = travel_of(&site.block).meant_um();
+    let at = [site.before.at[0] + x / 1000.0, site.before.at[1] + y / 1000.0];
+    let bytes = site.text.get(site.coordinates.clone())?;
+    let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+');
+    let mut edit = Vec::new();
+    let mut from = 0;
+    for value in at {
+        let start = from + bytes.get(from..)?.iter().position(is_part)?;
+        let length = bytes[start..].iter().position(|byte| !is_part(byte)).unwrap_or(bytes.len() - start);
+        let number = std::str::from_utf8(&bytes[start..start + length]).ok()?;
+        let places = number.split_once('.').map_or(0, |(_, places)| places.len());
+        // A zero has no sign.
+        let text = format!("{:.places$}", value + 0.0);
+        let text = if text.trim_start_matches('-').bytes().all(|byte| matches!(byte, b'0' | b'.')) { text.replace('-', "") } else { text };
+        let range = site.coordinates.start + start..site.coordinates.start + start + length;
+        edit.extend((text != number).then_some(TextEdit { range, text }));
+        from = start + length;
+    }
+    (!edit.is_empty()).then_some((FixKind::SetCoordinates { at }, edit))
+}
+
+/// The block with which the way goes from the coordinates before to those behind: a line, or the same circle as far as that.
+fn set_block(site: &Mismatched<'_>) -> Option<(Block, Vec<TextEdit>)> {
+    let by = [0, 1].map(|axis| (site.stated.at[axis] - site.before.at[axis]) * 1000.0);
+    let block = match meant(&site.block, Point::origin()) {
+        Some(Segment::Arc(arc)) => {
+            let end = Point::origin() + Vector::new(by[0], by[1]);
+            let off = ((end - arc.center).norm() - arc.radius).abs();
+            if off > TOLERANCE || (end - arc.start).norm() <= TOLERANCE {
+                return None;
+            }
+            let out = end - arc.center;
+            let axis = if out.x.abs() <= out.y.abs() { CountingAxis::X } else { CountingAxis::Y };
+            let j = counted(&Arc::about(arc.center, arc.start, end, arc.sweep > 0.0), axis).round() as i64;
+            Block { j, axis, ..site.block }
+        }
+        _ if matches!(site.block.motion, Motion::Line(_)) => {
+            let [x, y] = by.map(|um| um.round() as i64);
+            if (x, y) == (0, 0) {
+                return None;
+            }
+            line_block(Node { x: 0, y: 0 }, Node { x, y })
+        }
+        _ => return None,
+    };
+    if mismatch(&site.before, &travel_of(&block), &site.stated).is_some() {
+        return None;
+    }
+    let Fields { x, y, j, axis, motion, .. } = &site.fields;
+    let is_lower = site.text.get(motion.start).is_some_and(u8::is_ascii_lowercase);
+    let cased = |text: &str| if is_lower { text.to_lowercase() } else { text.to_owned() };
+    let axis_name = if block.axis == CountingAxis::X { "GX" } else { "GY" };
+    let new = [
+        (x, block.x.to_string(), block.x == site.block.x),
+        (y, block.y.to_string(), block.y == site.block.y),
+        (j, block.j.to_string(), block.j == site.block.j),
+        (axis, cased(axis_name), block.axis == site.block.axis),
+        (motion, cased(motion_name(block.motion)), block.motion == site.block.motion),
+    ];
+    let edit = new.into_iter().filter(|(.., is_same)| !is_same);
+    Some((block, edit.map(|(range, text, _)| TextEdit { range: range.clone(), text }).collect()))
+}

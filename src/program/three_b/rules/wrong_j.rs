@@ -40,6 +40,10 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
         let edit = vec![site.replace(larger, j.to_string())];
         let set_number = one_edit(FixKind::SetEnd { axis: field, value: j }, edit, number_first, number_closes);
         fixes.insert(if number_first { 0 } else { 1 }, set_number);
+        // The contour says which of the two is wrong.
+        if number_closes && !j_closes {
+            fixes.truncate(1);
+        }
     }
     fixes
 }

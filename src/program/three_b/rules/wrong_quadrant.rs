@@ -48,9 +48,10 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
                 (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => expected[0],
                 _ => expected[1],
             };
-            let first = closing.unwrap_or(same);
+            let first = if is_fault { closing.unwrap_or(same) } else { same };
             let mut names = vec![first];
-            names.extend(expected.iter().copied().filter(|name| *name != first));
+            // The other one leads the other way, which nobody has a reason to want where the contour closes.
+            names.extend(expected.iter().copied().filter(|name| is_fault && *name != first));
             let fix = |(index, name): (usize, &'static str)| {
                 one_edit(FixKind::SetMotion { name }, vec![site.set_motion(name)], index == 0, index == 0 && is_fault && closing.is_some())
             };
