@@ -216,10 +216,14 @@ impl<'a> Walk<'a> {
             }
         }
         let comment = self.pieces.last().filter(|piece| piece.field == Field::Comment).map(|piece| piece.range.clone());
-        if comment.is_some() {
+        if let Some(comment) = &comment {
             match last_block {
                 Some(block) if self.layout == Layout::Aligned => push_to_comment_column(&mut head, block),
                 _ => head.push(b' '),
+            }
+            // Behind coordinates a remark without its mark would belong to them.
+            if memchr::memchr(b';', &head).is_some() && line.get(comment.start) != Some(&b';') {
+                head.extend_from_slice(b"; ");
             }
         }
         let kept = comment.map_or(end..end, |comment| comment.start..end);

@@ -48,6 +48,18 @@ fn every_layout_keeps_blocks_numbers_and_comments() {
 }
 
 #[test]
+fn a_remark_without_its_mark_does_not_swallow_the_end_point() {
+    let text = "B9900B0B9900GXL1 way in\nB9900B0B39600GYNR1 \u{5706}\n";
+    check(
+        Some(Layout::Checking),
+        text,
+        "N    1: B   9900 B      0 B   9900 GX L1  ;      9.900 ,      0.000 ; way in\n\
+         N    2: B   9900 B      0 B  39600 GY NR1 ;      9.900 ,      0.000 ; \u{5706}\n",
+    );
+    check(Some(Layout::Compact), text, text);
+}
+
+#[test]
 fn damaged_lines_headings_and_what_follows_the_end_stay() {
     let text = "***** x\nB1B2GXL1  \n9900B0B9900GXL1\n  b5b0b5gxl1\nN7\nn8 dd\n dd \n b1b0b1gxl1\n";
     check(Some(Layout::Compact), text, "***** x\nB1B2GXL1  \n9900B0B9900GXL1\nB5B0B5GXL1\nN7\nN8 DD\n dd \n b1b0b1gxl1\n");
