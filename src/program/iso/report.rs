@@ -156,7 +156,10 @@ impl<'a> Report<'a> {
             run.run.whole &= whole;
             self.judge(&run);
         }
-        let mut tight = stretch.tight.iter().peekable();
+        // Most programs have no arc as tight as any correction.
+        let is_tight = stretch.tightest < self.largest_correction() - RADIUS_TOLERANCE;
+        let tight = if is_tight { &stretch.tight[..] } else { &[] };
+        let mut tight = tight.iter().peekable();
         for (index, run) in stretch.runs.iter().enumerate() {
             match open {
                 Some(known) if run.continues => {
@@ -312,6 +315,12 @@ impl<'a> Report<'a> {
                 );
             }
         }
+    }
+
+    /// The largest correction that a move may have, µm.
+    fn largest_correction(&self) -> f64 {
+        let stated = self.definitions.values().map(|&(value, inch)| (self.reading.length(value, inch) as f64 / 1e3).abs());
+        stated.fold(self.limits.correction * 1e3, f64::max)
     }
 
     /// The correction of a move in µm: what the program's own table says, else the settings.

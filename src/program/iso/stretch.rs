@@ -222,6 +222,8 @@ pub struct Stretch {
     pub evidence: Evidence,
     pub faults: Vec<LineFault>,
     pub tight: Vec<Tight>,
+    /// The smallest radius among them, µm; infinite where there is none.
+    pub tightest: f64,
     pub runs: Vec<Run>,
     /// Of each run, how it lies on itself.
     pub paths: Vec<Path>,
@@ -278,6 +280,7 @@ impl Stretch {
             evidence: Evidence::default(),
             faults: Vec::new(),
             tight: Vec::new(),
+            tightest: f64::INFINITY,
             runs: Vec::new(),
             paths: Vec::new(),
             foreign: Vec::new(),
@@ -376,6 +379,7 @@ impl Stretch {
                     if arc.radius * 1e3 < LARGEST_CORRECTION {
                         let goes_on = self.runs.last().is_some_and(|run| run.open);
                         let run = (self.runs.len() - usize::from(goes_on)) as u32;
+                        self.tightest = self.tightest.min(arc.radius);
                         self.tight.push(Tight { arc: made, range, run });
                     }
                 }
