@@ -291,7 +291,7 @@ struct Loose<'a> {
 impl<'a> Loose<'a> {
     fn new(cells: Cells, entities: &'a [EntityId], ends_of: &'a [Ends]) -> Loose<'a> {
         let count = entities.len();
-        let ends = Buckets::new(count, count);
+        let ends = Buckets::new(count, 2 * count);
         let mut loose = Loose { cells, entities, ends_of, ends, taken_by: vec![NO_KEY; count], way: Vec::new(), touching: Vec::new() };
         for at in (0..count as u32).rev() {
             let ends = loose.ends_of(at);

@@ -131,12 +131,10 @@ impl Buckets {
     }
 
     fn bucket(&self, (column, row): Cell) -> usize {
-        // Multiplied by 2⁶⁴ over the golden ratio, squares of four by four cells fall far apart; within one, cells stay beside each
-        // other: a contour is followed from one to the next.
+        // Multiplied by 2⁶⁴ over the golden ratio, neighbours fall far apart: drawings on a grid fill all lists alike.
         const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
-        let hash = ((column >> 2) as u64).wrapping_mul(SPREAD).rotate_left(32) ^ (row >> 2) as u64;
-        let within = (column & 3) << 2 | row & 3;
-        ((hash.wrapping_mul(SPREAD) >> 32 << 4) as usize | within as usize) & (self.first.len() - 1)
+        let hash = (column as u64).wrapping_mul(SPREAD).rotate_left(32) ^ row as u64;
+        (hash.wrapping_mul(SPREAD) >> 32) as usize & (self.first.len() - 1)
     }
 
     /// Puts an end before all others of its cell.
