@@ -69,7 +69,8 @@ fn editing(c: &mut Criterion) {
     let vertices: Vec<Vertex> = generated::long_outline(1_000_000).into_iter().map(|[x, y, bulge]| Vertex::new(x, y, bulge)).collect();
     let mut drawing = Drawing::new(None);
     let geometry = Geometry::Polyline { closed: true, vertices };
-    let id = drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: "LWPOLYLINE", geometry });
+    let id =
+        drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: wedm::drawing::Kind::LightPolyline, geometry });
     let mut analysis = Analysis::new(&drawing, settings);
     let mut moved = false;
     group.bench_function("one vertex of a polyline of 1,000,000", |b| {

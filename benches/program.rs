@@ -25,7 +25,8 @@ fn wheel(segments: usize) -> (Drawing, Outline) {
     }
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     let geometry = Geometry::Polyline { closed: true, vertices };
-    let id = drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: "LWPOLYLINE", geometry });
+    let id =
+        drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: wedm::drawing::Kind::LightPolyline, geometry });
     let contour = Contour::new(&drawing, [(id, false)], true);
     let twice_area = contour.twice_area(&drawing);
     (drawing, Outline { contour, role: Role::Punch, twice_area })

@@ -1,6 +1,6 @@
 //! Reading to contours, side by side with other readers in one run: `cargo bench --bench reading`.
 //!
-//! The fastest of a few runs counts for each. ezdxf runs in an interpreter of its own (`benches/reading.py` says how it gets
+//! The fastest of a few runs counts for each; `-- --alone` leaves the other readers out. ezdxf runs in an interpreter of its own (`benches/reading.py` says how it gets
 //! there); where there is none the row says so.
 
 mod generated;
@@ -13,6 +13,7 @@ use wedm::drawing::Chains;
 use wedm::settings::Effective;
 
 fn main() {
+    let alone = std::env::args().any(|argument| argument == "--alone");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     println!("{:<44} {:<24} {:>10} {:>10}   goal", "", "reader", "time", "MB/s");
     for (name, file, text, goal) in [
@@ -27,6 +28,9 @@ fn main() {
         let bytes = text.as_bytes();
         row("wedm, to geometry", fastest(7, || bytes.to_vec(), |bytes| drop(black_box(wedm::dxf::Document::read(bytes)))), "");
         row("wedm, to contours", fastest(7, || bytes.to_vec(), |bytes| drop(black_box(contours(bytes)))), goal);
+        if alone {
+            continue;
+        }
         row(
             "dxf crate, to geometry",
             fastest(1, || bytes, |mut bytes| drop(black_box(dxf::Drawing::load(&mut bytes).expect("it reads")))),

@@ -1,7 +1,8 @@
 //! Sessions with the real server over its pipes, as an editor or a CAD program sees them: `cargo bench --bench session`.
 //!
 //! Every figure is printed beside its goal; nothing fails on a slow machine. The clock runs from before the message is
-//! written to after the answer has been read and parsed. `-- --quick` makes fewer rounds.
+//! written to after the answer has been read and parsed. `-- --quick` makes fewer rounds; `-- NAME …` runs only the sessions
+//! whose names hold one of these: "start", "5 MB", "50 MB", "program", "drawing", "generate".
 
 mod generated;
 #[allow(dead_code)]
@@ -12,24 +13,43 @@ use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use support::{Client, capabilities};
 
+/// A text by its name.
+type Named = (&'static str, fn() -> String);
+
 fn main() {
-    let quick = std::env::args().any(|argument| argument == "--quick");
+    let (options, names): (Vec<String>, Vec<String>) = std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let quick = options.iter().any(|option| option == "--quick");
+    // Without names, all sessions but the large ones of a quick run.
+    let is_chosen = |session: &str| names.iter().any(|name| session.contains(name.as_str())) || names.is_empty();
     let rounds = if quick { 40 } else { 400 };
     println!("{:<58} {:>10} {:>10} {:>10}   goal", "", "p50", "p99", "most");
-    start(if quick { 5 } else { 30 });
-    for (name, text) in [
-        ("5 MB DXF of LWPOLYLINE", generated::polylines(5_000_000)),
-        ("5 MB DXF of LINE and ARC", generated::lines_and_arcs(5_000_000)),
-        ("5 MB DXF, one LWPOLYLINE", generated::one_polyline(140_000)),
-    ] {
-        text_session(name, &text, rounds);
+    if is_chosen("start") {
+        start(if quick { 5 } else { 30 });
     }
-    if !quick {
-        large_sessions(rounds / 4);
+    let texts: [Named; 3] = [
+        ("5 MB DXF of LWPOLYLINE", || generated::polylines(5_000_000)),
+        ("5 MB DXF of LINE and ARC", || generated::lines_and_arcs(5_000_000)),
+        ("5 MB DXF, one LWPOLYLINE", || generated::one_polyline(140_000)),
+    ];
+    for (name, text) in texts.into_iter().filter(|(name, _)| is_chosen(name)) {
+        text_session(name, &text(), rounds);
     }
-    program_session(rounds);
-    drawing_session(rounds);
-    generate_session(if quick { 200 } else { 1000 });
+    let large: [Named; 2] = [
+        ("50 MB DXF of LWPOLYLINE", || generated::polylines(50_000_000)),
+        ("50 MB DXF of LINE and ARC", || generated::lines_and_arcs(50_000_000)),
+    ];
+    for (name, text) in large.into_iter().filter(|(name, _)| is_chosen(name) && !(quick && names.is_empty())) {
+        large_session(name, &text(), rounds / 4);
+    }
+    if is_chosen("program") {
+        program_session(rounds);
+    }
+    if is_chosen("drawing") {
+        drawing_session(rounds);
+    }
+    if is_chosen("generate") {
+        generate_session(if quick { 200 } else { 1000 });
+    }
 }
 
 /// Prints p50, p99 and the largest of some durations.
@@ -60,15 +80,6 @@ fn memory_row(name: &str, client: &Client, length: usize) {
         if let Some(bytes) = resident(client) {
             println!("{name}: resident memory{when} {:.1} times the text   goal 10 times", bytes as f64 / length as f64);
         }
-    }
-}
-
-fn large_sessions(rounds: usize) {
-    for (name, text) in [
-        ("50 MB DXF of LWPOLYLINE", generated::polylines(50_000_000)),
-        ("50 MB DXF of LINE and ARC", generated::lines_and_arcs(50_000_000)),
-    ] {
-        large_session(name, &text, rounds);
     }
 }
 

@@ -265,7 +265,7 @@ impl Picture<'_> {
                 let Some(entity) = self.drawing.get(piece.entity) else { continue };
                 if count > TOOLTIP_SEGMENTS {
                     let data = path_data(frame, entity.geometry.segments(), entity.geometry.is_closed());
-                    let label = format!("{} {} · {} segments", entity.kind, entity.handle, piece.count);
+                    let label = format!("{} {} · {} segments", entity.kind, entity.handle, piece.count());
                     let _ = writeln!(
                         sheet,
                         r#"<path class="contour" data-handle="{}" d="{data}"><title>{}</title></path>"#,

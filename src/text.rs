@@ -2,6 +2,10 @@
 //!
 //! The bytes may be anything; nothing here knows what the text means. Offsets are bytes, lines count from 0.
 
+mod line_starts;
+
+pub(crate) use line_starts::LineStarts;
+
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -27,19 +31,19 @@ pub struct TextEdit {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
     bytes: Vec<u8>,
-    line_starts: Vec<u32>,
+    line_starts: LineStarts,
 }
 
 impl Default for SourceText {
     fn default() -> Self {
-        SourceText { bytes: Vec::new(), line_starts: vec![0] }
+        SourceText::new(Vec::new())
     }
 }
 
 impl SourceText {
     pub fn new(mut bytes: Vec<u8>) -> SourceText {
         bytes.truncate(u32::MAX as usize);
-        let line_starts = line_starts(&bytes);
+        let line_starts = LineStarts::new(&bytes);
         SourceText { bytes, line_starts }
     }
 
@@ -70,17 +74,16 @@ impl SourceText {
 
     /// Where a line begins; the end of the text for a line past the last.
     pub fn line_start(&self, line: usize) -> usize {
-        self.line_starts.get(line).map_or(self.bytes.len(), |&start| start as usize)
+        self.line_starts.get(line).unwrap_or(self.bytes.len())
     }
 
-    /// The starts of all lines, the first of which is 0.
-    pub(crate) fn line_starts(&self) -> &[u32] {
+    pub(crate) fn line_starts(&self) -> &LineStarts {
         &self.line_starts
     }
 
     /// The line that holds the byte at `offset`; the last line for an offset past the end.
     pub fn line_of(&self, offset: usize) -> usize {
-        self.line_starts.partition_point(|&start| start as usize <= offset).saturating_sub(1)
+        self.line_starts.begun_by(offset).saturating_sub(1)
     }
 
     /// The bytes of a line without its line end; empty at the end of the text for a line past the last.
@@ -98,14 +101,15 @@ impl SourceText {
         start..end
     }
 
-    /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail and one addition per line behind it.
+    /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where lines come or
+    /// go, also a step for each line behind it.
     pub fn replace(&mut self, range: Range<usize>, replacement: &str) {
         let end = range.end.min(self.bytes.len());
         let start = range.start.min(end);
         // The starts that the edit can make or unmake lie between its two ends, both included:
         // a CR and a LF that meet there are one line end.
-        let first = self.line_starts.partition_point(|&line| (line as usize) < start.max(1));
-        let last = self.line_starts.partition_point(|&line| line as usize <= end).max(first);
+        let first = self.line_starts.begun_by(start.saturating_sub(1));
+        let last = self.line_starts.begun_by(end).max(first);
         if end - start == replacement.len() {
             self.bytes[start..end].copy_from_slice(replacement.as_bytes());
         } else {
@@ -114,16 +118,7 @@ impl SourceText {
         let new_end = start + replacement.len();
         let fresh: Vec<u32> = (start.max(1)..=new_end).filter(|&at| self.begins_line(at)).map(|at| at as u32).collect();
         let shift = (new_end as u32).wrapping_sub(end as u32);
-        if fresh.len() == last - first {
-            self.line_starts[first..last].copy_from_slice(&fresh);
-        } else {
-            self.line_starts.splice(first..last, fresh.iter().copied());
-        }
-        if shift != 0 {
-            for line in &mut self.line_starts[first + fresh.len()..] {
-                *line = line.wrapping_add(shift);
-            }
-        }
+        self.line_starts.replace(first..last, &fresh, shift);
     }
 
     fn begins_line(&self, at: usize) -> bool {
@@ -170,36 +165,6 @@ impl SourceText {
         }
         (line, character)
     }
-}
-
-/// The starts of all lines. Looks at eight bytes at a time: the lines of such texts are so short that a search for each
-/// line end costs more than looking at every byte.
-fn line_starts(bytes: &[u8]) -> Vec<u32> {
-    const LOW: u64 = 0x7f7f_7f7f_7f7f_7f7f;
-    let zero_bytes = |word: u64| !(((word & LOW) + LOW) | word | LOW);
-    let mut starts = Vec::with_capacity(bytes.len() / 8 + 1);
-    starts.push(0);
-    let mut end_at = |end: usize| {
-        if bytes[end] == b'\n' || bytes.get(end + 1) != Some(&b'\n') {
-            starts.push(end as u32 + 1);
-        }
-    };
-    let (words, rest) = bytes.as_chunks::<8>();
-    for (index, word) in words.iter().enumerate() {
-        let word = u64::from_le_bytes(*word);
-        let mut ends = zero_bytes(word ^ 0x0a0a_0a0a_0a0a_0a0a) | zero_bytes(word ^ 0x0d0d_0d0d_0d0d_0d0d);
-        while ends != 0 {
-            end_at(index * 8 + ends.trailing_zeros() as usize / 8);
-            ends &= ends - 1;
-        }
-    }
-    for (index, byte) in rest.iter().enumerate() {
-        if matches!(byte, b'\n' | b'\r') {
-            end_at(words.len() * 8 + index);
-        }
-    }
-    starts.shrink_to_fit();
-    starts
 }
 
 /// Bytes and units of the first character; a byte that is no UTF-8 is a character of one unit.

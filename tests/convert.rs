@@ -133,7 +133,7 @@ proptest! {
         let off = farthest(&segments, &moved);
         prop_assert!(off <= allowed, "{via}: {off} of {allowed} mm\n{text}");
         // One polyline, closed, and the ways in and out as lines.
-        let kinds: Vec<&str> = back.drawing().entities().map(|(_, entity)| entity.kind).collect();
+        let kinds: Vec<&str> = back.drawing().entities().map(|(_, entity)| entity.kind.name()).collect();
         prop_assert_eq!(kinds.iter().filter(|kind| **kind == "LWPOLYLINE").count(), 1);
         let closed = back.drawing().entities().any(|(_, entity)| matches!(entity.geometry, Geometry::Polyline { closed: true, .. }));
         prop_assert!(closed, "{kinds:?}\n{text}");

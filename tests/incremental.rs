@@ -56,7 +56,7 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
-    Entity { handle: "A".into(), layer: "0".into(), role, kind: "LINE", geometry }
+    Entity { handle: "A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::Line, geometry }
 }
 
 fn apply(drawing: &mut Drawing, edit: &Edit) -> Option<Touched> {

@@ -25,7 +25,7 @@ fn open(vertices: &[(f64, f64, f64)]) -> Shape {
 }
 
 fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
-    Entity { handle: "A".into(), layer: "0".into(), role, kind: "LINE", geometry }
+    Entity { handle: "A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::Line, geometry }
 }
 
 impl Shape {

@@ -38,7 +38,7 @@ fn segments(list: &Value) -> Vec<Segment> {
 }
 
 fn entity(geometry: Geometry) -> Entity {
-    Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: "LWPOLYLINE", geometry }
+    Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: wedm::drawing::Kind::LightPolyline, geometry }
 }
 
 /// LINE, ARC and CIRCLE entities, chained as the server chains them.

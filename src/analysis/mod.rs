@@ -572,7 +572,7 @@ impl Analysis {
         let Some(key) = self.chains.contour_of(entity) else { return drawing.get(entity).is_none_or(|e| e.geometry.segment_count() == 0) };
         let Some(geometry) = drawing.get(entity).map(|entity| &entity.geometry) else { return false };
         let Some(before) = self.chains.piece_of(entity) else { return false };
-        let recounted = before.count != geometry.segment_count();
+        let recounted = before.count() != geometry.segment_count();
         if recounted {
             self.chains.recount(drawing, entity);
             self.answers.retain(|(other, _), _| *other != key);
@@ -584,14 +584,14 @@ impl Analysis {
             known.stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
         }
         // What holds of a whole entity is kept with its first and last segment.
-        let mut own = segments_of(vertices, piece.count, geometry.is_closed());
-        if piece.count > 0 {
-            own.extend([0..1, piece.count - 1..piece.count]);
+        let mut own = segments_of(vertices, piece.count(), geometry.is_closed());
+        if piece.count() > 0 {
+            own.extend([0..1, piece.count() - 1..piece.count()]);
         }
         let ranges = own.into_iter().map(|range| {
             let (start, end) = match piece.reversed {
-                true => (piece.first + piece.count - range.end, piece.first + piece.count - range.start),
-                false => (piece.first + range.start, piece.first + range.end),
+                true => (piece.range().end - range.end, piece.range().end - range.start),
+                false => (piece.first() + range.start, piece.first() + range.end),
             };
             // What lies behind has other indices now; in a piece travelled against its own direction, and in the pieces
             // behind this one, that reaches past the splice.

@@ -40,7 +40,7 @@ const MOST_SEEN: usize = 20_000;
 const GROUP: usize = 8;
 
 /// Runs whose segments are kept at hand while runs are compared.
-const KEPT: usize = 512;
+const KEPT: usize = 256;
 
 /// Two segments of a contour that form a slot, and the disc between them.
 pub type Slot = ([usize; 2], Option<(Point, f64)>);

@@ -95,13 +95,15 @@ fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
     }
     for segment in paths.iter().flat_map(|path| &path.segments) {
         let (kind, geometry) = match segment.geometry {
-            Segment::Line(line) => ("LINE", Geometry::Line { start: line.start, end: line.end }),
-            Segment::Arc(arc) if arc.is_full_turn() => ("CIRCLE", Geometry::Circle { center: arc.center, radius: arc.radius }),
+            Segment::Line(line) => (crate::drawing::Kind::Line, Geometry::Line { start: line.start, end: line.end }),
+            Segment::Arc(arc) if arc.is_full_turn() => {
+                (crate::drawing::Kind::Circle, Geometry::Circle { center: arc.center, radius: arc.radius })
+            }
             Segment::Arc(arc) => {
                 // A DXF arc runs counter-clockwise, whichever way the wire goes.
                 let arc = if arc.sweep < 0.0 { arc.reversed() } else { arc };
                 let (start_angle, end_angle) = (arc.start_angle, arc.start_angle + arc.sweep);
-                ("ARC", Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle })
+                (crate::drawing::Kind::Arc, Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle })
             }
         };
         drawing.push(Entity { handle: WIRE.into(), layer: WIRE.into(), role: None, kind, geometry });

@@ -1,44 +1,19 @@
 //! Chaining entities to contours by their end points.
 //!
 //! Closed entities are contours of their own. The others are joined end to end within the join tolerance, across kinds
-//! and layers. A *group* is what hangs together through shared end points: groups are chained independently of each other,
-//! so an edit chains again only the groups that it touches, and the result is that of a fresh start.
+//! and layers. A *group* is what hangs together through ends that lie near each other: groups are chained independently of each
+//! other, so an edit chains again only the groups that it touches, and the result is that of a fresh start.
 
+use super::ends::{Buckets, Cells, End, Ends, NO_ENDS, Visit, has_ends};
 use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
-use rayon::slice::ParallelSliceMut;
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Side of a cell of the plane in join tolerances: end points that meet lie in one cell, or in two when a border runs
-/// between them.
-const CELL: f64 = 8.0;
-
-/// The ends of up to so many entities are moved one by one, and as many ranks are held without a table of all entities.
+/// Up to so many entities are put in order without a look at all others.
 const FEW: usize = 16;
-
-/// One free end of an open entity: the cell that it lies in, and whose it is. Where it is, is kept by entity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct End {
-    cell: u64,
-    /// The id of the entity, doubled; odd for the entity's own end, even for its start. Ids stay below [`TAKEN`].
-    whose: u32,
-}
-
-impl End {
-    fn entity(self) -> EntityId {
-        EntityId(self.whose >> 1)
-    }
-
-    /// The entity's own start, not its end.
-    fn is_start(self) -> bool {
-        self.whose & 1 == 0
-    }
-}
-
-/// The free ends of an entity, start first. Most drawings have one for most entities, so none is a point that is no number.
-type Ends = (Point, Point);
-
-const NO_ENDS: Ends = (Point::new(f64::NAN, f64::NAN), Point::new(f64::NAN, f64::NAN));
+/// The ends of fewer than one in so many entities are moved one by one; of more, all are sorted into cells again.
+const BULK: usize = 8;
 
 /// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
 pub type Key = u32;
@@ -49,9 +24,10 @@ const NO_KEY: Key = 0;
 /// The contours of a drawing, kept up to date edit by edit.
 #[derive(Clone, Debug)]
 pub struct Chains {
-    join: f64,
-    /// All free ends, sorted by cell.
-    ends: Vec<End>,
+    cells: Cells,
+    /// All free ends by cell, numbered by entity id; none until something is edited. All contours with an end in one cell are of one
+    /// group.
+    ends: Option<Buckets>,
     /// Where the free ends of each open entity lie, by entity id; [`NO_ENDS`] for all others.
     ends_of: Vec<Ends>,
     contours: FxHashMap<Key, Chain>,
@@ -83,8 +59,8 @@ impl Chains {
     /// Chains every entity of `drawing` for which `is_cut` holds; `join` is the join tolerance in drawing units.
     pub fn new(drawing: &Drawing, join: f64, is_cut: &dyn Fn(EntityId) -> bool) -> Chains {
         let mut chains = Chains {
-            join,
-            ends: Vec::new(),
+            cells: Cells::new(join),
+            ends: None,
             ends_of: Vec::new(),
             contours: FxHashMap::default(),
             contour_of: Vec::new(),
@@ -95,14 +71,10 @@ impl Chains {
         };
         chains.grow(drawing);
         let entities: Vec<EntityId> = drawing.order().iter().copied().filter(|&id| is_cut(id)).collect();
-        for &id in &entities {
-            if let Some(pair) = free_ends(drawing, id) {
-                chains.ends_of[id.0 as usize] = pair;
-                chains.ends.extend(chains.ends_at(id, pair));
-            }
+        let ends: Vec<Ends> = entities.par_iter().map(|&id| free_ends(drawing, id).unwrap_or(NO_ENDS)).collect();
+        for (id, ends) in entities.iter().zip(ends) {
+            chains.ends_of[id.0 as usize] = ends;
         }
-        chains.ends.shrink_to_fit();
-        chains.ends.par_sort_unstable();
         chains.chain(drawing, &entities);
         chains
     }
@@ -132,7 +104,7 @@ impl Chains {
     }
 
     fn ends_of(&self, entity: EntityId) -> Option<Ends> {
-        self.ends_of.get(entity.0 as usize).copied().filter(|(start, _)| !start.x.is_nan())
+        self.ends_of.get(entity.0 as usize).copied().filter(has_ends)
     }
 
     /// The piece of a contour that an entity is.
@@ -158,7 +130,7 @@ impl Chains {
         let known = self.ends_of(entity);
         let now = if is_cut { free_ends(drawing, entity) } else { None };
         let chained = self.contour_of(entity).is_some();
-        let touching = now.is_some_and(|(start, end)| (end - start).norm() <= self.join);
+        let touching = now.is_some_and(|(start, end)| (end - start).norm() <= self.cells.join);
         known == now && !touching && chained == (is_cut && drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() > 0))
     }
 
@@ -171,42 +143,32 @@ impl Chains {
     /// Chains again what the entities of `touched` (new, changed or removed) belonged to or belong to now.
     pub fn update(&mut self, drawing: &Drawing, touched: &[EntityId], is_cut: &dyn Fn(EntityId) -> bool) -> Rechained {
         self.grow(drawing);
-        let mut affected = FxHashSet::default();
         let mut entities = FxHashSet::default();
         let distinct: FxHashSet<EntityId> = touched.iter().copied().collect();
-        affected.extend(distinct.iter().filter_map(|&id| self.contour_of(id)));
-        // Each end taken out or put in by itself moves all behind it.
-        let in_bulk = distinct.len() > FEW;
-        if in_bulk {
-            self.ends.retain(|end| !distinct.contains(&end.entity()));
+        let mut affected: FxHashSet<Key> = distinct.iter().filter_map(|&id| self.contour_of(id)).collect();
+        let few = distinct.len() * BULK <= self.ends_of.len();
+        let mut ends = self.ends.take().filter(|_| few);
+        for &id in &distinct {
+            if let (Some(old), Some(ends)) = (self.ends_of(id), &mut ends) {
+                End::both(id.0).into_iter().for_each(|end| ends.remove(self.cells.of(end.of(old)), end));
+            }
+            self.ends_of[id.0 as usize] = NO_ENDS;
         }
-        let mut fresh: Vec<End> = Vec::new();
-        for id in distinct {
-            let old = self.ends_of(id);
-            let new = if is_cut(id) { free_ends(drawing, id) } else { None };
-            for end in old.map(|pair| self.ends_at(id, pair)).into_iter().flatten().filter(|_| !in_bulk) {
-                if let Ok(at) = self.ends.binary_search(&end) {
-                    self.ends.remove(at);
-                }
-            }
-            self.ends_of[id.0 as usize] = new.unwrap_or(NO_ENDS);
-            for (end, point) in new.map(|pair| self.ends_at(id, pair).into_iter().zip([pair.0, pair.1])).into_iter().flatten() {
-                affected.extend(self.near(point).filter_map(|(other, _)| self.contour_of(other.entity())));
-                if in_bulk {
-                    fresh.push(end);
-                } else {
-                    let at = self.ends.partition_point(|other| *other < end);
-                    self.ends.insert(at, end);
-                }
-            }
-            if drawing.get(id).is_some() && is_cut(id) {
-                entities.insert(id);
+        let mut ends = ends.unwrap_or_else(|| self.sorted_ends());
+        ends.grow(self.ends_of.len());
+        let mut fresh = Vec::new();
+        for id in distinct.into_iter().filter(|&id| drawing.get(id).is_some() && is_cut(id)) {
+            entities.insert(id);
+            if let Some(both) = free_ends(drawing, id) {
+                affected.extend([both.0, both.1].into_iter().flat_map(|point| self.contours_about(&ends, point)));
+                fresh.push((id, both));
             }
         }
-        if in_bulk {
-            self.ends.append(&mut fresh);
-            self.ends.sort_unstable();
+        for (id, both) in fresh {
+            self.ends_of[id.0 as usize] = both;
+            End::both(id.0).into_iter().for_each(|end| ends.insert(self.cells.of(end.of(both)), end));
         }
+        self.ends = Some(if ends.is_crowded() { self.sorted_ends() } else { ends });
         for &id in touched {
             self.contour_of[id.0 as usize] = NO_KEY;
         }
@@ -237,223 +199,222 @@ impl Chains {
         self.piece_of.resize(bound, 0);
     }
 
+    /// All ends by cell.
+    fn sorted_ends(&self) -> Buckets {
+        let open = self.ends_of.iter().filter(|ends| has_ends(ends)).count();
+        let mut ends = Buckets::new(self.ends_of.len(), open);
+        for (id, &both) in (0..).zip(&self.ends_of).filter(|(_, both)| has_ends(both)) {
+            End::both(id).into_iter().for_each(|end| ends.insert(self.cells.of(end.of(both)), end));
+        }
+        ends
+    }
+
     fn fresh_key(&mut self) -> Key {
         self.next_key += 1;
         self.next_key
     }
 
-    /// The cell that holds a point, as a key that sorts by column and row. Coordinates beyond its range share cells.
-    fn cell(&self, x: f64, y: f64) -> u64 {
-        let number = |coordinate: f64| (coordinate / (CELL * self.join)).floor() as i32;
-        let ordered = |number: i32| u64::from(number as u32 ^ 0x8000_0000);
-        ordered(number(x)) << 32 | ordered(number(y))
-    }
-
-    fn ends_at(&self, entity: EntityId, (start, end): Ends) -> [End; 2] {
-        let at = |point: Point, own_end: u32| End { cell: self.cell(point.x, point.y), whose: entity.0 << 1 | own_end };
-        [at(start, 0), at(end, 1)]
-    }
-
-    /// Free ends within the join tolerance of `point`, each with its place.
-    fn near(&self, point: Point) -> impl Iterator<Item = (End, Point)> + '_ {
-        let (left, right) = (point.x - self.join, point.x + self.join);
-        let (below, above) = (point.y - self.join, point.y + self.join);
-        let mut cells = [self.cell(left, below), self.cell(left, above), self.cell(right, below), self.cell(right, above)];
-        // Sorted, so that equal ones stand side by side.
-        cells.sort_unstable();
-        let distinct = (0..4).filter(move |&i| i == 0 || cells[i] != cells[i - 1]).map(move |i| cells[i]);
-        let of_cell = |cell: u64| {
-            let first = self.ends.partition_point(|end| end.cell < cell);
-            self.ends[first..].iter().take_while(move |end| end.cell == cell)
-        };
-        let place = |end: &End| {
-            let (start, own_end) = self.ends_of(end.entity())?;
-            Some((*end, if end.is_start() { start } else { own_end }))
-        };
-        distinct.flat_map(of_cell).filter_map(place).filter(move |(_, at)| (at - point).norm() <= self.join)
+    /// One contour of each cell about a point in which there are any: the others there are of its group.
+    fn contours_about<'a>(&'a self, ends: &'a Buckets, point: Point) -> impl Iterator<Item = Key> + 'a {
+        self.cells.about(point).filter_map(move |cell| {
+            let is_here = |end: &End| self.ends_of(EntityId(end.entity())).is_some_and(|ends| self.cells.of(end.of(ends)) == cell);
+            self.contour_of(EntityId(ends.of_cell(cell).find(is_here)?.entity()))
+        })
     }
 
     /// Groups and chains `entities`, which come in machining order and hold whole groups. Returns the new contours.
     fn chain(&mut self, drawing: &Drawing, entities: &[EntityId]) -> Vec<Key> {
         let mut new = Vec::new();
-        let mut open = Open::new(drawing.id_bound(), entities);
-        for &first in entities {
-            if !open.has(first) {
+        let mut loose = Loose::new(self.cells, entities, &self.ends_of);
+        let mut neighbours = Vec::new();
+        for (first, &id) in (0..).zip(entities) {
+            let Some(geometry) = drawing.get(id).map(|entity| &entity.geometry) else { continue };
+            if loose.is_taken(first) || geometry.segment_count() == 0 {
                 continue;
             }
-            let Some(geometry) = drawing.get(first).map(|entity| &entity.geometry) else { continue };
-            if geometry.segment_count() == 0 {
-                continue;
-            }
-            open.touching.clear();
-            let (pieces, closed) = match self.ends_of(first) {
-                None => {
-                    open.take(first);
-                    (vec![(first, false)], true)
-                }
-                Some(_) => self.walk(drawing, first, &mut open),
+            self.next_key += 1;
+            let key = self.next_key;
+            let closed = match has_ends(&loose.ends_of(first)) {
+                true => loose.walk(drawing, first, key),
+                false => loose.take_alone(first, key),
             };
+            let pieces = loose.way.iter().map(|&(at, reversed)| (entities[at as usize], reversed));
             let contour = Contour::new(drawing, pieces, closed);
-            let key = self.fresh_key();
-            self.enter(key, &contour, &open.touching);
-            self.contours.insert(key, Chain { contour, first });
+            for (place, piece) in (0..).zip(&contour.pieces) {
+                self.contour_of[piece.entity.0 as usize] = key;
+                self.piece_of[piece.entity.0 as usize] = place;
+            }
+            neighbours.extend(loose.touching.drain(..).map(|other| (key, other)));
+            self.contours.insert(key, Chain { contour, first: id });
             new.push(key);
         }
+        neighbours.into_iter().for_each(|(one, other)| self.unite(one, other));
         new
     }
 
-    /// Enters a new contour into the groups of the entities that it touches, which become one: the largest takes in the others.
-    fn enter(&mut self, key: Key, contour: &Contour, touching: &[EntityId]) {
-        let touched: FxHashSet<Key> = touching.iter().filter_map(|&id| self.contour_of(id)).collect();
-        for (place, piece) in contour.pieces.iter().enumerate() {
-            self.contour_of[piece.entity.0 as usize] = key;
-            self.piece_of[piece.entity.0 as usize] = place as u32;
-        }
-        if touched.is_empty() {
-            return;
-        }
-        let mut loose = vec![key];
-        let mut groups = FxHashSet::default();
-        for contour in touched {
-            match self.group_of.get(&contour) {
-                Some(&group) => drop(groups.insert(group)),
-                None => loose.push(contour),
+    /// Makes one group of those of two contours: the larger takes in the smaller.
+    fn unite(&mut self, one: Key, other: Key) {
+        let group = |contour: Key| self.group_of.get(&contour).copied();
+        let (larger, smaller) = match (group(one), group(other)) {
+            (Some(one), Some(other)) if one == other => return,
+            (Some(one), Some(other)) => {
+                let size = |group: Key| self.groups.get(&group).map_or(0, Vec::len);
+                let (larger, smaller) = if size(one) >= size(other) { (one, other) } else { (other, one) };
+                (larger, self.groups.remove(&smaller).unwrap_or_default())
             }
-        }
-        let size = |group: &Key| self.groups.get(group).map_or(0, Vec::len);
-        let largest = groups.iter().copied().max_by_key(|group| (size(group), *group));
-        let largest = largest.unwrap_or_else(|| self.fresh_key());
-        for group in groups.into_iter().filter(|&group| group != largest) {
-            loose.extend(self.groups.remove(&group).unwrap_or_default());
-        }
-        for &contour in &loose {
-            self.group_of.insert(contour, largest);
-        }
-        self.groups.entry(largest).or_default().extend(loose);
-    }
-
-    /// The chain through `first`, in its direction: forward to a free end or back to its start, else backward too.
-    fn walk(&self, drawing: &Drawing, first: EntityId, open: &mut Open) -> (Vec<(EntityId, bool)>, bool) {
-        let mut forward = vec![(first, false)];
-        let mut here = open.take(first);
-        let Some((start, mut tip)) = self.ends_of(first) else { return (forward, true) };
-        let closed = loop {
-            let home = (tip - start).norm();
-            let next = self.next(tip, here, open);
-            let closes = home <= self.join && next.as_ref().is_none_or(|(_, distance)| home <= *distance);
-            if closes && (forward.len() > 1 || comes_back(drawing, first)) {
-                break true;
-            }
-            let Some((end, _)) = next else { break false };
-            forward.push((end.entity(), !end.is_start()));
-            here = open.take(end.entity());
-            let Some(other) = self.other_end(end) else { break false };
-            tip = other;
+            (Some(group), None) => (group, vec![other]),
+            (None, Some(group)) => (group, vec![one]),
+            (None, None) => (self.fresh_key(), vec![one, other]),
         };
-        if closed {
-            return (forward, true);
+        for &contour in &smaller {
+            self.group_of.insert(contour, larger);
         }
-        let mut backward = Vec::new();
-        let mut tail = start;
-        here = open.taken_rank(first);
-        while let Some((end, _)) = self.next(tail, here, open) {
-            // Travelled towards the chain: its own end meets the tail when it is not reversed.
-            backward.push((end.entity(), end.is_start()));
-            here = open.take(end.entity());
-            let Some(other) = self.other_end(end) else { break };
-            tail = other;
-        }
-        backward.reverse();
-        backward.append(&mut forward);
-        (backward, false)
-    }
-
-    fn other_end(&self, end: End) -> Option<Point> {
-        self.ends_of(end.entity()).map(|(start, own_end)| if end.is_start() { own_end } else { start })
-    }
-
-    /// The open end that continues the chain at `tip`: the nearest; of equally near ones that of the entity that follows in
-    /// machining order the one of rank `here`. Everything else that ends there is noted as touching.
-    fn next(&self, tip: Point, here: u32, open: &mut Open) -> Option<(End, f64)> {
-        let mut best: Option<(End, f64, u32)> = None;
-        for (end, at) in self.near(tip) {
-            let Some(rank) = open.rank(end.entity()) else {
-                open.touching.push(end.entity());
-                continue;
-            };
-            let distance = (at - tip).norm();
-            // Those before `here` come after all that follow it.
-            let after = rank.wrapping_sub(here);
-            let better = |(other, near, later): &(End, f64, u32)| {
-                distance.total_cmp(near).then(after.cmp(later)).then(other.is_start().cmp(&end.is_start())).is_lt()
-            };
-            if best.as_ref().is_none_or(better) {
-                best = Some((end, distance, after));
-            }
-        }
-        best.map(|(end, distance, _)| (end, distance))
+        self.groups.entry(larger).or_default().extend(smaller);
     }
 }
 
-const UNRANKED: u32 = u32::MAX;
-const TAKEN: u32 = 1 << 31;
-
-/// The entities that are still to be chained, by their rank in machining order, and what the chain at hand has touched.
-struct Open {
-    ranks: Ranks,
-    touching: Vec<EntityId>,
+/// Entities that are still to be chained, numbered in machining order, with their ends by cell.
+struct Loose<'a> {
+    cells: Cells,
+    entities: &'a [EntityId],
+    ends_of: &'a [Ends],
+    /// Each list in machining order, and of one entity the start first; before them what was taken last in each cell.
+    ends: Buckets,
+    /// By number: the contour that took the entity, or [`NO_KEY`].
+    taken_by: Vec<Key>,
+    /// The chain at hand, in order of travel: entities, and whether they are travelled against their own direction.
+    way: Vec<(u32, bool)>,
+    /// Contours that the chain at hand has an end near.
+    touching: Vec<Key>,
 }
 
-/// Ranks by entity id, with the top bit set once the entity is taken.
-enum Ranks {
-    All(Vec<u32>),
-    /// Of a few among many: an edit does not cost the length of the drawing.
-    Few(FxHashMap<EntityId, u32>),
-}
-
-impl Open {
-    fn new(id_bound: usize, entities: &[EntityId]) -> Open {
-        let ranked = entities.iter().copied().zip(0u32..);
-        let ranks = if entities.len() * FEW < id_bound {
-            Ranks::Few(ranked.collect())
-        } else {
-            let mut ranks = vec![UNRANKED; id_bound];
-            ranked.for_each(|(id, rank)| ranks[id.0 as usize] = rank);
-            Ranks::All(ranks)
-        };
-        Open { ranks, touching: Vec::new() }
+impl<'a> Loose<'a> {
+    fn new(cells: Cells, entities: &'a [EntityId], ends_of: &'a [Ends]) -> Loose<'a> {
+        let count = entities.len();
+        let ends = Buckets::new(count, 2 * count);
+        let mut loose = Loose { cells, entities, ends_of, ends, taken_by: vec![NO_KEY; count], way: Vec::new(), touching: Vec::new() };
+        for at in (0..count as u32).rev() {
+            let ends = loose.ends_of(at);
+            if has_ends(&ends) {
+                End::both(at).into_iter().rev().for_each(|end| loose.ends.insert(cells.of(end.of(ends)), end));
+            }
+        }
+        loose
     }
 
-    fn entry(&self, id: EntityId) -> u32 {
-        match &self.ranks {
-            Ranks::All(ranks) => ranks.get(id.0 as usize).copied().unwrap_or(UNRANKED),
-            Ranks::Few(ranks) => ranks.get(&id).copied().unwrap_or(UNRANKED),
+    fn ends_of(&self, at: u32) -> Ends {
+        self.entities.get(at as usize).and_then(|id| self.ends_of.get(id.0 as usize)).copied().unwrap_or(NO_ENDS)
+    }
+
+    fn is_taken(&self, at: u32) -> bool {
+        self.taken_by.get(at as usize).is_none_or(|&key| key != NO_KEY)
+    }
+
+    fn take(&mut self, at: u32, key: Key) {
+        if let Some(taken) = self.taken_by.get_mut(at as usize) {
+            *taken = key;
         }
     }
 
-    /// The rank of an entity that is not taken yet.
-    fn rank(&self, id: EntityId) -> Option<u32> {
-        Some(self.entry(id)).filter(|rank| rank & TAKEN == 0)
+    /// A chain of one closed entity.
+    fn take_alone(&mut self, first: u32, key: Key) -> bool {
+        self.take(first, key);
+        self.way.clear();
+        self.way.push((first, false));
+        true
     }
 
-    fn has(&self, id: EntityId) -> bool {
-        self.rank(id).is_some()
-    }
-
-    /// Takes the entity and gives back its rank.
-    fn take(&mut self, id: EntityId) -> u32 {
-        let entry = match &mut self.ranks {
-            Ranks::All(ranks) => ranks.get_mut(id.0 as usize),
-            Ranks::Few(ranks) => ranks.get_mut(&id),
-        };
-        if let Some(entry) = entry {
-            *entry |= TAKEN;
+    /// Takes an entity that goes on from `tip` with one of its ends; gives back where its other end leads to.
+    fn follow(&mut self, end: End, tip: Point, key: Key) -> End {
+        self.take(end.entity(), key);
+        if !self.cells.are_one(self.place_of(end), tip) {
+            // What is near its end need not be near the tip.
+            self.next(end, key);
         }
-        self.taken_rank(id)
+        end.other()
     }
 
-    fn taken_rank(&self, id: EntityId) -> u32 {
-        self.entry(id) & !TAKEN
+    fn place_of(&self, end: End) -> Point {
+        end.of(self.ends_of(end.entity()))
+    }
+
+    /// The chain through `first`, in its direction: forward to a free end or back to its start, else backward too. True where
+    /// it is closed.
+    fn walk(&mut self, drawing: &Drawing, first: u32, key: Key) -> bool {
+        self.take_alone(first, key);
+        let [tail, mut tip] = End::both(first);
+        let start = self.place_of(tail);
+        loop {
+            let here = self.place_of(tip);
+            let home = self.cells.distance(here, start);
+            let next = self.next(tip, key);
+            let closes = home <= self.cells.join && next.is_none_or(|(_, distance)| home <= distance);
+            if closes && (self.way.len() > 1 || comes_back(drawing, self.entities[first as usize])) {
+                if !self.cells.are_one(here, start) {
+                    self.next(tail, key);
+                }
+                return true;
+            }
+            let Some((end, _)) = next else { break };
+            self.way.push((end.entity(), !end.is_start()));
+            tip = self.follow(end, here, key);
+        }
+        let forward = self.way.len();
+        let mut tip = tail;
+        while let Some((end, _)) = self.next(tip, key) {
+            // Travelled towards the chain: its own end meets the tip when it is not reversed.
+            self.way.push((end.entity(), end.is_start()));
+            let here = self.place_of(tip);
+            tip = self.follow(end, here, key);
+        }
+        self.way[forward..].reverse();
+        self.way.rotate_left(forward);
+        false
+    }
+
+    /// The open end that continues the chain at its tip, an end of an entity that is taken: the nearest; of equally near ones that of
+    /// the entity that follows in machining order. Contours that have an end in a cell about the tip are noted as touching.
+    ///
+    /// The tip comes to stand before all others of its cell, so that whoever looks there next is told of the chain at hand first.
+    /// What else is taken goes from there, and nobody looks at it again.
+    fn next(&mut self, tip: End, key: Key) -> Option<(End, f64)> {
+        let (place, here) = (self.place_of(tip), tip.entity());
+        let mut best: Option<(End, f64)> = None;
+        // Those before `here` come after all that follow it.
+        let after = |end: End| end.entity().wrapping_sub(here);
+        let Loose { cells, entities, ends_of, ends, taken_by, touching, .. } = self;
+        let own = cells.of(place);
+        for cell in cells.about(place) {
+            ends.visit(cell, |end| {
+                let at = end.entity() as usize;
+                let point = end.of(ends_of[entities[at].0 as usize]);
+                if taken_by[at] != NO_KEY {
+                    if cells.of(point) != cell {
+                        return Visit::Next;
+                    }
+                    if taken_by[at] != key && touching.last() != Some(&taken_by[at]) {
+                        touching.push(taken_by[at]);
+                    }
+                    return if cell == own { Visit::Remove } else { Visit::Next };
+                }
+                let distance = cells.distance(point, place);
+                if distance > cells.join {
+                    return Visit::Next;
+                }
+                let better = |(other, near): (End, f64)| {
+                    distance.total_cmp(&near).then(after(end).cmp(&after(other))).then(other.is_start().cmp(&end.is_start())).is_lt()
+                };
+                if best.is_none_or(better) {
+                    best = Some((end, distance));
+                }
+                // Nothing is nearer, and what comes later in the list is later in machining order. The tip came before it.
+                if distance == 0.0 && end.entity() > here { Visit::Stop } else { Visit::Next }
+            });
+            if cell == own {
+                ends.insert(cell, tip);
+            }
+        }
+        best
     }
 }
 
@@ -487,6 +448,7 @@ fn free_ends(drawing: &Drawing, id: EntityId) -> Option<Ends> {
 mod tests {
     use super::*;
     use crate::drawing::{Entity, Geometry};
+    use proptest::prelude::*;
 
     type Coordinates = (f64, f64, f64, f64);
 
@@ -494,7 +456,13 @@ mod tests {
         let mut drawing = Drawing::new(None);
         for (i, &(x0, y0, x1, y1)) in lines.iter().enumerate() {
             let geometry = Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) };
-            drawing.push(Entity { handle: format!("{i}").into(), layer: "0".into(), role: None, kind: "LINE", geometry });
+            drawing.push(Entity {
+                handle: format!("{i}").into(),
+                layer: "0".into(),
+                role: None,
+                kind: crate::drawing::Kind::Line,
+                geometry,
+            });
         }
         drawing
     }
@@ -544,5 +512,29 @@ mod tests {
     fn a_line_shorter_than_the_tolerance_is_not_skipped() {
         check(&[(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.005, 0.0), (1.005, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["0 1 2 3 o"]);
         check(&[(0.0, 0.0, 0.005, 0.0)], &["0"]);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Ends on a few places, some of them a little apart; the first lie on borders of cells.
+        #[test]
+        fn contours_with_ends_near_each_other_are_of_one_group(
+            lines in prop::collection::vec(((0..3usize, 0..4usize), (0..3usize, 0..4usize)), 1..14),
+        ) {
+            let place = |(at, off): (usize, usize)| at as f64 + [0.0, 0.004, -1e-16, 0.009][off];
+            let lines: Vec<Coordinates> = lines.into_iter().map(|(from, to)| (place(from), 0.0, place(to), 0.0)).collect();
+            let drawing = self::lines(&lines);
+            let chains = Chains::new(&drawing, 0.01, &|_| true);
+            let ends: Vec<(EntityId, Point)> =
+                drawing.order().iter().filter_map(|&id| Some((id, chains.ends_of(id)?))).flat_map(|(id, (a, b))| [(id, a), (id, b)]).collect();
+            for (one, at) in &ends {
+                for (other, there) in ends.iter().filter(|(_, there)| (at - there).norm() <= 0.01) {
+                    let [a, b] = [one, other].map(|id| chains.contour_of(*id).unwrap());
+                    let group = |key: Key| chains.group_of.get(&key);
+                    prop_assert!(a == b || (group(a).is_some() && group(a) == group(b)), "{one:?} at {at} and {other:?} at {there}");
+                }
+            }
+        }
     }
 }

@@ -10,17 +10,30 @@ pub struct Piece {
     pub entity: EntityId,
     /// Travelled against the entity's own direction.
     pub reversed: bool,
-    /// Number of segments of the contour before this piece.
-    pub first: usize,
-    /// Number of segments of the piece.
-    pub count: usize,
+    first: u32,
+    count: u32,
 }
 
 impl Piece {
+    /// Number of segments of the contour before this piece.
+    pub fn first(&self) -> usize {
+        self.first as usize
+    }
+
+    /// Number of segments of the piece.
+    pub fn count(&self) -> usize {
+        self.count as usize
+    }
+
+    /// The segments of the contour that the piece is.
+    pub fn range(&self) -> Range<usize> {
+        self.first()..self.first() + self.count()
+    }
+
     /// The index within the contour of one of the piece's own segments.
     pub fn index_of(&self, segment: usize) -> Option<usize> {
-        let along = if self.reversed { self.count.checked_sub(1 + segment)? } else { segment };
-        (along < self.count).then_some(self.first + along)
+        let along = if self.reversed { self.count().checked_sub(1 + segment)? } else { segment };
+        (along < self.count()).then_some(self.first() + along)
     }
 }
 
@@ -46,10 +59,11 @@ pub struct ContourSegment {
 impl Contour {
     /// A contour of `(entity, reversed)` in order of travel; entities without segments are left out.
     pub fn new(drawing: &Drawing, entities: impl IntoIterator<Item = (EntityId, bool)>, closed: bool) -> Contour {
-        let mut pieces = Vec::new();
+        let entities = entities.into_iter();
+        let mut pieces = Vec::with_capacity(entities.size_hint().0);
         let mut first = 0;
         for (entity, reversed) in entities {
-            let count = drawing.get(entity).map_or(0, |entity| entity.geometry.segment_count());
+            let count = drawing.get(entity).map_or(0, |entity| entity.geometry.segment_count()) as u32;
             if count > 0 {
                 pieces.push(Piece { entity, reversed, first, count });
                 first += count;
@@ -60,7 +74,7 @@ impl Contour {
 
     /// Number of segments.
     pub fn len(&self) -> usize {
-        self.pieces.last().map_or(0, |piece| piece.first + piece.count)
+        self.pieces.last().map_or(0, |piece| piece.range().end)
     }
 
     pub fn is_empty(&self) -> bool {
@@ -69,8 +83,8 @@ impl Contour {
 
     /// Segment `index` in the direction of travel, `None` past the end.
     pub fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
-        let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.first + piece.count <= index))?;
-        segment_of(piece, &drawing.get(piece.entity)?.geometry, index - piece.first)
+        let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.range().end <= index))?;
+        segment_of(piece, &drawing.get(piece.entity)?.geometry, index - piece.first())
     }
 
     /// All segments in the direction of travel.
@@ -80,11 +94,11 @@ impl Contour {
 
     /// The segments of a range of indices in the direction of travel.
     pub fn segments_in<'a>(&'a self, drawing: &'a Drawing, range: Range<usize>) -> impl Iterator<Item = ContourSegment> + 'a {
-        let first = self.pieces.partition_point(|piece| piece.first + piece.count <= range.start);
-        let pieces = self.pieces[first..].iter().take_while(move |piece| piece.first < range.end);
+        let first = self.pieces.partition_point(|piece| piece.range().end <= range.start);
+        let pieces = self.pieces[first..].iter().take_while(move |piece| piece.first() < range.end);
         pieces.flat_map(move |piece| {
             let geometry = drawing.get(piece.entity).map(|entity| &entity.geometry);
-            let along = range.start.saturating_sub(piece.first)..range.end.min(piece.first + piece.count) - piece.first;
+            let along = range.start.saturating_sub(piece.first())..range.end.min(piece.range().end) - piece.first();
             along.filter_map(move |along| segment_of(piece, geometry?, along))
         })
     }
@@ -116,7 +130,7 @@ impl Contour {
 
 /// The segment `along` a piece in the direction of travel.
 fn segment_of(piece: &Piece, geometry: &Geometry, along: usize) -> Option<ContourSegment> {
-    let segment = if piece.reversed { piece.count.checked_sub(1 + along)? } else { along };
+    let segment = if piece.reversed { piece.count().checked_sub(1 + along)? } else { along };
     let own = geometry.segment(segment)?;
     let geometry = if piece.reversed { own.reversed() } else { own };
     Some(ContourSegment { entity: piece.entity, segment, reversed: piece.reversed, geometry })

@@ -1,6 +1,6 @@
 //! Edits to a drawing, as rules make them and as CAD programs send them, and what they touched.
 
-use super::{Drawing, Entity, EntityId, Geometry, Vertex};
+use super::{Drawing, Entity, EntityId, Geometry, Kind, Vertex};
 use crate::geometry::Point;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -280,11 +280,11 @@ impl Drawing {
             }
             let model = self.get(after).ok_or(ChangeError::UnknownEntity)?.clone();
             let kind = match geometry {
-                Geometry::Polyline { .. } => "LWPOLYLINE",
-                Geometry::Line { .. } => "LINE",
-                Geometry::Arc { .. } => "ARC",
-                Geometry::Circle { .. } => "CIRCLE",
-                Geometry::Text { .. } => "TEXT",
+                Geometry::Polyline { .. } => Kind::LightPolyline,
+                Geometry::Line { .. } => Kind::Line,
+                Geometry::Arc { .. } => Kind::Arc,
+                Geometry::Circle { .. } => Kind::Circle,
+                Geometry::Text { .. } => Kind::Text,
             };
             // At the end for now: a place in the middle costs the length of the order, for each.
             let entity = self.push(Entity { geometry: geometry.clone(), kind, ..model });

@@ -1,5 +1,6 @@
 //! One entity of a drawing.
 
+use super::{Handle, Kind};
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
@@ -119,11 +120,17 @@ impl Geometry {
 
     /// The two free ends, start first; `None` for closed geometry and for what has no segment.
     pub fn ends(&self) -> Option<(Point, Point)> {
-        if self.is_closed() {
-            return None;
+        match self {
+            Geometry::Line { start, end } => Some((*start, *end)),
+            Geometry::Circle { .. } | Geometry::Text { .. } | Geometry::Polyline { closed: true, .. } => None,
+            Geometry::Polyline { vertices, .. } if vertices.len() < 2 => None,
+            Geometry::Polyline { vertices, .. } => Some((vertices.first()?.point, vertices.last()?.point)),
+            Geometry::Arc { .. } => {
+                let segment = self.segment(0)?;
+                let is_full_turn = segment.as_arc().is_some_and(Arc::is_full_turn);
+                (!is_full_turn).then(|| (segment.start(), segment.end()))
+            }
         }
-        let last = self.segment_count().checked_sub(1)?;
-        Some((self.segment(0)?.start(), self.segment(last)?.end()))
     }
 
     pub fn bounds(&self) -> Bounds {
@@ -153,11 +160,10 @@ impl Geometry {
 /// One entity: what it is called, where it belongs, what it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entity {
-    pub handle: Shared<str>,
+    pub handle: Handle,
     pub layer: Shared<str>,
     /// The role that the entity itself states; layers and settings come after it.
     pub role: Option<Role>,
-    /// What the source calls it: LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE, TEXT, …
-    pub kind: &'static str,
+    pub kind: Kind,
     pub geometry: Geometry,
 }

@@ -7,23 +7,32 @@ mod appearance;
 mod chain;
 mod contour;
 mod edit;
+mod ends;
 mod entity;
+mod handle;
 mod index;
+mod kind;
+mod names;
 mod nesting;
 mod orientation;
 mod outline;
+mod slots;
 
 pub use appearance::{Color, Visibility};
 pub use chain::{Chains, Key as ContourKey, Rechained, stated_role};
 pub use contour::{Contour, ContourSegment, Piece};
 pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, Geometry, Role, Vertex};
+pub use handle::Handle;
 pub use index::{ContourIndex, RUN};
+pub use kind::Kind;
 pub use nesting::{nesting_depths, winding};
 pub use orientation::{Orientation, orientation, orientation_by_extreme_point, orientation_by_turns};
 pub use outline::{Outline, wire_side};
 
+use names::Names;
 use rustc_hash::{FxHashMap, FxHashSet};
+use slots::Slots;
 use std::sync::Arc;
 
 /// The place of an entity in its drawing: stays the same until the entity is removed, and is not used again.
@@ -50,13 +59,14 @@ const RANK_STEP: u64 = 1 << 24;
 pub struct Drawing {
     /// The unit that the drawing states; `None` where it states none and the settings decide.
     pub unit: Option<Unit>,
-    slots: Vec<Option<Arc<Entity>>>,
+    slots: Slots,
     order: Vec<EntityId>,
-    /// By id: a number that rises in machining order, so that two entities are compared without a search.
+    /// By id: a number that rises in machining order, so that two entities are compared without a search. None while the
+    /// order is that of the ids.
     ranks: Vec<u64>,
-    by_handle: FxHashMap<Arc<str>, EntityId>,
+    by_handle: Names,
     /// The number given last to a handle that was taken, while none has become free.
-    last_number: FxHashMap<Arc<str>, u64>,
+    last_number: FxHashMap<Handle, u64>,
     /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
     fixed: FxHashSet<EntityId>,
     /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
@@ -76,11 +86,11 @@ impl Drawing {
 
     /// The entity, `None` once it has been removed.
     pub fn get(&self, id: EntityId) -> Option<&Entity> {
-        self.slots.get(id.0 as usize)?.as_deref()
+        self.slots.get(id)
     }
 
     pub fn find(&self, handle: &str) -> Option<EntityId> {
-        self.by_handle.get(handle).copied()
+        self.by_handle.find(handle, |id| Some(&self.slots.get(id)?.handle))
     }
 
     /// Ids in machining order.
@@ -116,25 +126,37 @@ impl Drawing {
     /// Adds an entity at `position` of the machining order (clamped to its length); handles as in [`Drawing::push`].
     pub fn insert_at(&mut self, position: usize, mut entity: Entity) -> EntityId {
         let id = EntityId(self.slots.len() as u32);
-        if self.by_handle.contains_key(&entity.handle) {
+        if !self.enter(&entity.handle, id) {
             let base = entity.handle.clone();
             let mut number = self.last_number.get(&base).map_or(2, |last| last + 1);
-            while self.by_handle.contains_key(format!("{base}#{number}").as_str()) {
+            while self.find(&format!("{base}#{number}")).is_some() {
                 number += 1;
             }
             entity.handle = format!("{base}#{number}").into();
             self.last_number.insert(base, number);
+            self.enter(&entity.handle, id);
         }
-        self.by_handle.insert(entity.handle.clone(), id);
-        self.slots.push(Some(Arc::new(entity)));
+        self.slots.push(entity);
         let position = position.min(self.order.len());
         self.rank_at(position);
         self.order.insert(position, id);
         id
     }
 
-    /// Ranks a new entity, the one behind the last slot, between those that stand around `position` now.
+    /// Takes a handle for an id. False, with nothing done, where another entity has it.
+    fn enter(&mut self, handle: &Handle, id: EntityId) -> bool {
+        let Drawing { slots, by_handle, .. } = self;
+        by_handle.insert(handle, id, |id| Some(&slots.get(id)?.handle))
+    }
+
+    /// Ranks the newest entity between those that stand around `position` now.
     fn rank_at(&mut self, position: usize) {
+        if self.ranks.is_empty() {
+            if position == self.order.len() {
+                return;
+            }
+            self.ranks = (1..self.slots.len() as u64).map(|number| number * RANK_STEP).collect();
+        }
         let rank_of = |position: Option<usize>| position.and_then(|at| self.ranks.get(self.order.get(at)?.0 as usize)).copied();
         let before = rank_of(position.checked_sub(1)).unwrap_or(0);
         let behind = rank_of(Some(position)).unwrap_or(before + 2 * RANK_STEP);
@@ -153,6 +175,9 @@ impl Drawing {
 
     /// Ranks all entities by the order as it stands.
     fn rank_anew(&mut self) {
+        if self.ranks.is_empty() {
+            self.ranks = (1..=self.slots.len() as u64).map(|number| number * RANK_STEP).collect();
+        }
         for (at, id) in self.order.iter().enumerate() {
             self.ranks[id.0 as usize] = (at as u64 + 1) * RANK_STEP;
         }
@@ -161,15 +186,18 @@ impl Drawing {
     /// A number that is larger for what comes later in machining order. It may change with every edit; which of two
     /// entities has the larger one does not while both stand.
     pub fn rank(&self, id: EntityId) -> u64 {
-        self.ranks.get(id.0 as usize).copied().unwrap_or(u64::MAX)
+        match self.ranks.is_empty() {
+            true if (id.0 as usize) < self.slots.len() => (u64::from(id.0) + 1) * RANK_STEP,
+            _ => self.ranks.get(id.0 as usize).copied().unwrap_or(u64::MAX),
+        }
     }
 
     /// Adds an entity at the end of the machining order that shares its handle with the entity that [`Drawing::find`]
     /// gives for it, as the parts of a block do. It is not editable.
     pub fn push_part(&mut self, entity: Entity) -> EntityId {
         let id = EntityId(self.slots.len() as u32);
-        self.by_handle.entry(entity.handle.clone()).or_insert(id);
-        self.slots.push(Some(Arc::new(entity)));
+        self.enter(&entity.handle, id);
+        self.slots.push(entity);
         self.rank_at(self.order.len());
         self.order.push(id);
         self.fixed.insert(id);
@@ -243,11 +271,9 @@ impl Drawing {
 
     /// Puts another entity in the place of `id`, keeping id, handle and machining order.
     pub fn replace(&mut self, id: EntityId, entity: Entity) {
-        if let Some(slot) = self.slots.get_mut(id.0 as usize)
-            && let Some(old) = slot.as_ref()
-        {
+        if let Some(old) = self.slots.get(id) {
             let handle = old.handle.clone();
-            *slot = Some(Arc::new(Entity { handle, ..entity }));
+            self.slots.set(id, Entity { handle, ..entity });
         }
     }
 
@@ -261,12 +287,10 @@ impl Drawing {
     /// Puts an entity that was removed back under its id and at its place in the machining order. False, with nothing done,
     /// where its handle is taken or the id is that of another.
     pub(crate) fn put_back(&mut self, id: EntityId, entity: Arc<Entity>) -> bool {
-        let Some(slot @ None) = self.slots.get_mut(id.0 as usize) else { return false };
-        if self.by_handle.contains_key(&entity.handle) {
+        if id.0 as usize >= self.slots.len() || self.get(id).is_some() || !self.enter(&entity.handle, id) {
             return false;
         }
-        self.by_handle.insert(entity.handle.clone(), id);
-        *slot = Some(entity);
+        self.slots.put_back(id, entity);
         let rank = self.rank(id);
         let position = self.order.partition_point(|&other| self.rank(other) < rank);
         self.order.insert(position, id);
@@ -289,10 +313,8 @@ impl Drawing {
     }
 
     fn take(&mut self, id: EntityId) -> Option<Arc<Entity>> {
-        let entity = self.slots.get_mut(id.0 as usize)?.take()?;
-        if self.by_handle.get(&entity.handle) == Some(&id) {
-            self.by_handle.remove(&entity.handle);
-        }
+        let entity = self.slots.take(id)?;
+        self.by_handle.remove(&entity.handle, id);
         self.last_number.clear();
         self.fixed.remove(&id);
         self.straight.remove(&id);
@@ -303,8 +325,7 @@ impl Drawing {
 
     /// The vertices of a polyline, to be changed in place; copies them first when a snapshot still holds them.
     pub(crate) fn vertices_mut(&mut self, id: EntityId) -> Option<&mut Vec<Vertex>> {
-        let entity = Arc::make_mut(self.slots.get_mut(id.0 as usize)?.as_mut()?);
-        match &mut entity.geometry {
+        match &mut self.slots.get_mut(id)?.geometry {
             Geometry::Polyline { vertices, .. } => Some(vertices),
             _ => None,
         }

@@ -9,9 +9,12 @@ use super::lexer::Lexer;
 use super::number::{self, Number};
 use super::place;
 use super::shape::{Affine, Shape};
-use crate::drawing::{Color, Geometry, Visibility};
+use super::space::{FLAT, Lies, Space, Vector3, in_space};
+use crate::drawing::{Color, Geometry, Kind, Visibility};
 use crate::geometry::Point;
 use rustc_hash::FxHashMap;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// All block references of a document together draw at most this many segments, and are copied at most this often.
@@ -22,7 +25,7 @@ const REFERS_TO_A_FILE: i64 = 4 | 8;
 
 #[derive(Clone, Debug)]
 enum Content {
-    Shape { layer: Arc<str>, look: Look, kind: &'static str, shape: Shape },
+    Shape { layer: Arc<str>, look: Look, kind: Kind, shape: Shape, lies: Lies },
     Reference(Box<Insert>),
 }
 
@@ -30,7 +33,7 @@ enum Content {
 struct Block {
     /// As the text has it.
     name: String,
-    base: Point,
+    base: Vector3,
     is_file: bool,
     contents: Vec<Content>,
 }
@@ -49,8 +52,16 @@ pub(super) struct Part {
     pub(super) visibility: (Visibility, Arc<str>),
     /// A colour that is not that of its layer.
     pub(super) color: Option<Color>,
-    pub(super) kind: &'static str,
+    pub(super) kind: Kind,
     pub(super) geometry: Geometry,
+}
+
+/// What one reference draws.
+#[derive(Default)]
+pub(super) struct Drawn {
+    pub(super) parts: Vec<Part>,
+    /// What does not end level with the drawing, and is not cut: how many of which kind.
+    pub(super) tilted: BTreeMap<Kind, usize>,
 }
 
 /// Blocks in the order of the text.
@@ -77,7 +88,7 @@ impl Blocks {
     /// Begins the block whose record starts at `line` and ends before the lexer's place. A name that is taken stays with
     /// the block that had it first.
     pub(super) fn begin(&mut self, lexer: &Lexer, line: usize) {
-        let mut block = Block { name: String::new(), base: Point::origin(), is_file: false, contents: Vec::new() };
+        let mut block = Block { name: String::new(), base: Vector3::zeros(), is_file: false, contents: Vec::new() };
         let number = |line: usize| match number::number(lexer.lines.content(line)) {
             Number::Exact(value) | Number::Blemished(value, _) => value,
             Number::Bad => 0.0,
@@ -88,6 +99,7 @@ impl Blocks {
                 2 => name = lexer.lines.trimmed(tag.value_line()),
                 10 => block.base.x = number(tag.value_line()),
                 20 => block.base.y = number(tag.value_line()),
+                30 => block.base.z = number(tag.value_line()),
                 70 => block.is_file = number(tag.value_line()) as i64 & REFERS_TO_A_FILE != 0,
                 _ => {}
             }
@@ -104,7 +116,13 @@ impl Blocks {
         let Some(block) = self.blocks.last_mut() else { return };
         match outcome {
             Outcome::Entity(read) => {
-                block.contents.push(Content::Shape { layer: read.layer, look: read.look, kind: read.kind, shape: read.shape });
+                block.contents.push(Content::Shape {
+                    layer: read.layer,
+                    look: read.look,
+                    kind: read.kind,
+                    shape: read.shape,
+                    lies: read.lies,
+                });
             }
             Outcome::Insert(insert) => block.contents.push(Content::Reference(insert)),
             Outcome::Unsupported(..) | Outcome::Damaged => {}
@@ -112,7 +130,7 @@ impl Blocks {
     }
 
     /// What a reference in the modelspace draws; curves are fitted within `tolerance`. An error says why it draws nothing.
-    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64, states: &mut LayerStates) -> Result<Vec<Part>, String> {
+    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64, states: &mut LayerStates) -> Result<Drawn, String> {
         let Some(&block) = self.by_name.get(&insert.block) else {
             return Err("the block is not in the file: nothing is drawn for this INSERT".into());
         };
@@ -135,11 +153,11 @@ impl Blocks {
             ));
         }
         self.drawn += all;
-        let mut parts = Vec::new();
+        let mut drawn = Drawn::default();
         let inherited = Inherited::from(insert, &insert.layer, None, states);
-        self.draw(insert, block, &Affine::IDENTITY, &inherited, &mut Pen { tolerance, states, parts: &mut parts });
+        self.draw(insert, block, &Space::IDENTITY, &inherited, &mut Pen { tolerance, states, drawn: &mut drawn });
         self.mark_used(block);
-        Ok(parts)
+        Ok(drawn)
     }
 
     /// Counts a block. `path` holds the blocks around it.
@@ -188,13 +206,13 @@ impl Blocks {
         Ok(size)
     }
 
-    fn draw(&self, insert: &Insert, block: usize, around: &Affine, inherited: &Inherited, pen: &mut Pen) {
+    fn draw(&self, insert: &Insert, block: usize, around: &Space, inherited: &Inherited, pen: &mut Pen) {
         let Some(block) = self.blocks.get(block) else { return };
-        let base = Affine { origin: Point::from(-block.base.coords), ..Affine::IDENTITY };
+        let base = Space { origin: -block.base, ..Space::IDENTITY };
         for row in 0..insert.rows.0 {
             for column in 0..insert.columns.0 {
                 let offset = insert.columns.1 * column as f64 + insert.rows.1 * row as f64;
-                let placed = Affine { origin: insert.map.origin + offset, ..insert.map };
+                let placed = Space { origin: insert.map.origin + offset, ..insert.map };
                 let map = around.after(&placed).after(&base);
                 for content in &block.contents {
                     let own = match content {
@@ -204,12 +222,16 @@ impl Blocks {
                     // What lies on layer 0 takes the layer of the reference.
                     let layer = if **own == *"0" { &inherited.layer } else { own };
                     match content {
-                        Content::Shape { kind, shape, look, .. } => {
+                        Content::Shape { kind, shape, look, lies, .. } => {
+                            let Some((shape, map)) = level(&map, shape, lies, *kind) else {
+                                *pen.drawn.tilted.entry(*kind).or_default() += 1;
+                                continue;
+                            };
                             let (visibility, color) = inherited.hand_on(*look, layer, pen.states);
-                            shape.placed(&map, kind, &mut |kind, shape| {
+                            shape.placed(&map, *kind, &mut |kind, shape| {
                                 let drawn = shape.drawn(pen.tolerance).filter(Geometry::is_sound);
                                 let part = |geometry| Part { layer: layer.clone(), visibility: visibility.clone(), color, kind, geometry };
-                                pen.parts.extend(drawn.map(part));
+                                pen.drawn.parts.extend(drawn.map(part));
                             });
                         }
                         Content::Reference(inner) => {
@@ -243,7 +265,7 @@ impl Blocks {
 struct Pen<'a> {
     tolerance: f64,
     states: &'a mut LayerStates,
-    parts: &'a mut Vec<Part>,
+    drawn: &'a mut Drawn,
 }
 
 /// What a reference hands on to what it draws.
@@ -287,6 +309,36 @@ impl Inherited {
         };
         (visibility, color)
     }
+}
+
+/// A shape in its plane, and the way from there to the drawing; `None` where it does not end level with it.
+fn level<'a>(map: &Space, shape: &'a Shape, lies: &Lies, kind: Kind) -> Option<(Cow<'a, Shape>, Affine)> {
+    let placed = match lies {
+        Lies::Level(height) => map.after(&Space { origin: Vector3::new(0.0, 0.0, *height), ..Space::IDENTITY }),
+        Lies::Aslant(plane, _) => map.after(plane),
+        Lies::Rising(ends) => {
+            let ends = ends.map(|end| map.point(end));
+            let line = Geometry::Line { start: ends[0].xy().into(), end: ends[1].xy().into() };
+            // As in the modelspace, a line is cut as it looks from above where the block itself is not tilted.
+            return (map.is_flat() || are_level(&ends)).then_some((Cow::Owned(Shape::Plain(line)), Affine::IDENTITY));
+        }
+    };
+    // Points on one line, and a single one, have no plane of their own.
+    let point = |at: Point| placed.point(in_space(at.coords, 0.0));
+    let is_level = placed.is_flat()
+        || match shape {
+            Shape::Plain(Geometry::Line { start, end }) => are_level(&[point(*start), point(*end)]),
+            Shape::Plain(Geometry::Polyline { vertices, .. }) if vertices.iter().all(|vertex| vertex.bulge == 0.0) => {
+                are_level(&vertices.iter().map(|vertex| point(vertex.point)).collect::<Vec<_>>())
+            }
+            _ => kind == Kind::Point,
+        };
+    is_level.then(|| (Cow::Borrowed(shape), placed.seen_from_above()))
+}
+
+fn are_level(points: &[Vector3]) -> bool {
+    let spread = points.iter().map(|point| (point - points[0]).norm()).fold(0.0, f64::max);
+    points.iter().all(|point| (point.z - points[0].z).abs() <= FLAT * spread)
 }
 
 fn too_deep() -> String {

@@ -5,31 +5,41 @@ use super::fault::{damage, oddity};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::shape::{Shape, ellipse};
+use super::space::{FLAT, Lies, Space, Vector3, in_space};
+use crate::drawing::Kind;
 use crate::finding::Finding;
 use crate::geometry::{Point, Spline, Vector};
 use std::f64::consts::TAU;
 
 pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
-    let mut numbers = Numbers::new([10, 20, 11, 21, 40, 31, 41, 42]);
+    let mut numbers = Numbers::new([10, 20, 11, 21, 40, 31, 41, 42, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
     let Some([x, y, major_x, major_y, ratio]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
-    let mirrored = match common.plane() {
-        _ if common.paper_space => return Outcome::Unsupported("ELLIPSE".into(), PAPER_SPACE),
-        Plane::Tilted => return Outcome::Unsupported("ELLIPSE".into(), TILTED),
-        plane => plane == Plane::Mirrored,
-    };
-    let major = Vector::new(major_x, major_y);
-    if numbers.values[5].unwrap_or(0.0).abs() > 1e-9 * major.norm() {
-        return Outcome::Unsupported("ELLIPSE".into(), TILTED);
+    if common.paper_space {
+        return Outcome::Unsupported("ELLIPSE".into(), PAPER_SPACE);
     }
-    let (from, to) = (numbers.values[6].unwrap_or(0.0), numbers.values[7].unwrap_or(TAU));
-    let arc = ellipse(Point::new(x, y), major, ratio, mirrored, from, to);
+    let [.., rise, from, to, height] = numbers.values;
+    let (rise, height) = (rise.unwrap_or(0.0), height.unwrap_or(0.0));
+    let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(TAU));
+    let (center, major) = (Point::new(x, y), Vector::new(major_x, major_y));
+    let is_level = common.plane() != Plane::Tilted && rise.abs() <= FLAT * major.norm();
+    let (arc, lies) = match is_level {
+        true => (ellipse(center, major, ratio, common.plane() == Plane::Mirrored, from, to), Lies::Level(height)),
+        false => {
+            // Its own plane: the half axes are its coordinates.
+            let along = in_space(major, rise);
+            let Some(normal) = common.normal().try_normalize(0.0) else { return Outcome::Unsupported("ELLIPSE".into(), TILTED) };
+            let plane = Space { x: along, y: normal.cross(&along), z: normal, origin: in_space(center.coords, height) };
+            let arc = ellipse(Point::origin(), Vector::x(), ratio, false, from, to);
+            (arc, Lies::Aslant(Box::new(plane), TILTED))
+        }
+    };
     if !arc.is_sound() {
         let sentence = "ELLIPSE has no width or no length: it is not drawn".to_owned();
         damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
         return Outcome::Damaged;
     }
-    common.finish(lexer, layers, "ELLIPSE", Shape::Ellipse(arc), None, findings)
+    common.finish(lexer, layers, Kind::Ellipse, (Shape::Ellipse(arc), lies), None, findings)
 }
 
 /// Points in space as they come: x opens one.
@@ -70,6 +80,10 @@ impl Points {
     fn differ_in_height(&self) -> bool {
         self.heights.windows(2).any(|pair| (pair[0] - pair[1]).abs() > 1e-9 * pair[0].abs().max(1.0))
     }
+
+    fn in_space(&self) -> Vec<Vector3> {
+        self.points.iter().zip(&self.heights).map(|(point, &height)| in_space(point.coords, height)).collect()
+    }
 }
 
 pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
@@ -78,13 +92,13 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
     let (mut controls, mut through) = (Points::default(), Points::default());
     let (mut knots, mut weights) = (Vec::new(), Vec::new());
     let (mut degree, mut flags) = (None, 0);
-    let mut tangents: [Option<f64>; 4] = [None; 4];
+    let mut tangents: [[Option<f64>; 3]; 2] = [[None; 3]; 2];
     while let Some(tag) = tag_of_record(lexer, findings) {
         if common.take(lexer, tag, findings) {
             continue;
         }
         match tag.code {
-            10..=13 | 20..=23 | 30..=31 | 40 | 41 => {
+            10..=13 | 20..=23 | 30..=33 | 40 | 41 => {
                 // A number that is none has its finding.
                 let Some(value) = common.coordinate(lexer, tag, findings) else { continue };
                 match tag.code {
@@ -94,10 +108,8 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
                     11 => through.x(value),
                     21 => through.y(value),
                     31 => through.z(value),
-                    12 => tangents[0] = Some(value),
-                    22 => tangents[1] = Some(value),
-                    13 => tangents[2] = Some(value),
-                    23 => tangents[3] = Some(value),
+                    12 | 22 | 32 => tangents[0][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value),
+                    13 | 23 | 33 => tangents[1][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value),
                     40 => knots.push(value),
                     _ => weights.push(value),
                 }
@@ -117,22 +129,30 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
         missing(start, lexer, &[(10, false), (20, false)], findings);
         return Outcome::Damaged;
     }
-    let used = if controls.points.is_empty() { &through } else { &controls };
+    let used = if controls.points.is_empty() { &mut through } else { &mut controls };
     if used.is_bad() {
         let sentence = "SPLINE has a point that lacks x or y".to_owned();
         damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
         return Outcome::Damaged;
     }
+    let mut lies = Lies::Level(used.heights.first().copied().unwrap_or(0.0));
     if used.differ_in_height() {
-        return Outcome::Unsupported("SPLINE".into(), NOT_PLANE);
+        let points = used.in_space();
+        let Some(plane) = Space::through(&points) else { return Outcome::Unsupported("SPLINE".into(), NOT_PLANE) };
+        used.points = points.into_iter().map(|point| plane.seen_from(point)).collect();
+        for tangent in &mut tangents {
+            if let [Some(x), Some(y), z] = *tangent {
+                let seen = plane.seen_from(plane.origin + Vector3::new(x, y, z.unwrap_or(0.0)));
+                *tangent = [Some(seen.x), Some(seen.y), None];
+            }
+        }
+        lies = Lies::Aslant(Box::new(plane), NOT_PLANE);
     }
     let spline = if controls.points.is_empty() {
         let points = through.points;
-        let tangent = |x: Option<f64>, y: Option<f64>| Some(Vector::new(x?, y?));
+        let [first, last] = tangents.map(|[x, y, _]| Some(Vector::new(x?, y?)));
         let closed = if flags & CLOSED != 0 { Spline::round(&points) } else { None };
-        closed
-            .or_else(|| Spline::through(&points, tangent(tangents[0], tangents[1]), tangent(tangents[2], tangents[3])))
-            .ok_or_else(|| "has less than two different points".to_owned())
+        closed.or_else(|| Spline::through(&points, first, last)).ok_or_else(|| "has less than two different points".to_owned())
     } else {
         let degree = degree.unwrap_or(3);
         usize::try_from(degree)
@@ -140,7 +160,9 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
             .and_then(|degree| Spline::new(degree, knots, controls.points, weights))
     };
     match spline {
-        Ok(spline) => common.finish(lexer, layers, "SPLINE", Shape::Spline(Box::new(spline)), None, findings),
+        Ok(spline) => common.finish(lexer, layers, Kind::Spline, (Shape::Spline(Box::new(spline)), lies), None, findings),
+        // What is not cut anyway is told once.
+        Err(_) if matches!(lies, Lies::Aslant(..)) => Outcome::Unsupported("SPLINE".into(), NOT_PLANE),
         Err(why) => {
             oddity(findings, lexer.lines.trimmed_range(start.value_line()), format!("SPLINE {why}: it is not drawn"));
             Outcome::Damaged

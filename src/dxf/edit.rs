@@ -13,7 +13,7 @@ use super::reader::{ReadItem, Said, range_key, read_item};
 use super::shape::Shape;
 use super::table::{Became, Context, Item, NO_ITEM, Named};
 use super::{is_fitted, set_look};
-use crate::drawing::{Delta, Drawing, Entity, EntityId, Touched, Vertex};
+use crate::drawing::{Delta, Drawing, Entity, EntityId, Handle, Touched, Vertex};
 use crate::finding::{Finding, Place, Rule};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -231,7 +231,7 @@ impl Document {
         for item in read {
             ordinal += usize::from(matches!(item.said, Said::Entity(_)) && counted(item.context));
             let Some(entity) = item.said.entity() else { continue };
-            let handle: Arc<str> = entity.handle.as_ref().map_or_else(|| format!("#{ordinal}").into(), |(handle, _)| handle.clone());
+            let handle: Handle = entity.handle.as_ref().map_or_else(|| format!("#{ordinal}").into(), |(handle, _)| handle.clone());
             let at = position.get(&*handle).copied();
             // Taken by an entity elsewhere, doubled here, or moved past another one.
             let taken = at.is_none() && self.drawing.find(&handle).is_some();
@@ -336,7 +336,7 @@ impl Document {
 
 /// The entities read, by handle, with the id of the same entity before.
 struct Plan {
-    entities: Vec<(Arc<str>, Option<EntityId>)>,
+    entities: Vec<(Handle, Option<EntityId>)>,
     gone: bool,
     come: bool,
 }

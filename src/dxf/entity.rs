@@ -8,9 +8,10 @@ use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
 use super::shape::Shape;
+use super::space::{FLAT, Lies, Space, Vector3, in_space as at_height};
 use super::strings::words_of_mtext;
-use super::{curve, insert};
-use crate::drawing::{Color, Geometry, Vertex};
+use super::{curve, insert, plain};
+use crate::drawing::{Color, Geometry, Handle, Kind, Vertex};
 use crate::finding::Finding;
 use crate::geometry::Point;
 use std::sync::Arc;
@@ -19,11 +20,12 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(super) struct Read {
     /// The handle, and the line it stands on.
-    pub(super) handle: Option<(Arc<str>, usize)>,
+    pub(super) handle: Option<(Handle, usize)>,
     pub(super) layer: Arc<str>,
     pub(super) look: Look,
-    pub(super) kind: &'static str,
+    pub(super) kind: Kind,
     pub(super) shape: Shape,
+    pub(super) lies: Lies,
     pub(super) vertices: Option<VertexLines>,
 }
 
@@ -181,9 +183,26 @@ impl Common {
         flags
     }
 
+    pub(super) fn normal(&self) -> Vector3 {
+        Vector3::new(self.extrusion[0].unwrap_or(0.0), self.extrusion[1].unwrap_or(0.0), self.extrusion[2].unwrap_or(1.0))
+    }
+
+    /// Where an entity lies whose coordinates are those of its extrusion, at `height` over its plane. `None` where the extrusion is
+    /// no direction.
+    pub(super) fn lies(&self, height: f64) -> Option<Lies> {
+        Some(match self.plane() {
+            Plane::Normal => Lies::Level(height),
+            Plane::Mirrored => Lies::Level(0.0 - height),
+            Plane::Tilted => {
+                let system = Space::of_extrusion(self.normal())?;
+                Lies::Aslant(Box::new(Space { origin: system.z * height, ..system }), TILTED)
+            }
+        })
+    }
+
     pub(super) fn plane(&self) -> Plane {
-        let [x, y, z] = [self.extrusion[0].unwrap_or(0.0), self.extrusion[1].unwrap_or(0.0), self.extrusion[2].unwrap_or(1.0)];
-        let tilt = 1e-9 * z.abs();
+        let [x, y, z] = self.normal().into();
+        let tilt = FLAT * z.abs();
         match () {
             () if z == 0.0 || x.abs() > tilt || y.abs() > tilt => Plane::Tilted,
             () if z < 0.0 => Plane::Mirrored,
@@ -191,7 +210,7 @@ impl Common {
         }
     }
 
-    pub(super) fn handle(&self, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<(Arc<str>, usize)> {
+    pub(super) fn handle(&self, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<(Handle, usize)> {
         let line = self.handle?.value_line();
         let value = lexer.lines.trimmed(line);
         let hexadecimal = !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
@@ -203,7 +222,7 @@ impl Common {
         if value.is_empty() || value.iter().all(|&digit| digit == b'0') {
             return None;
         }
-        Some((String::from_utf8_lossy(value).into(), line))
+        Some((Handle::new(&String::from_utf8_lossy(value)), line))
     }
 
     pub(super) fn layer(&self, lexer: &Lexer, layers: &mut Layers) -> Arc<str> {
@@ -226,13 +245,13 @@ impl Common {
         self,
         lexer: &Lexer,
         layers: &mut Layers,
-        kind: &'static str,
-        shape: Shape,
+        kind: Kind,
+        (shape, lies): (Shape, Lies),
         vertices: Option<VertexLines>,
         findings: &mut Vec<Finding>,
     ) -> Outcome {
         let look = self.look(lexer);
-        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), look, kind, shape, vertices })
+        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), look, kind, shape, lies, vertices })
     }
 }
 
@@ -258,13 +277,24 @@ pub(super) fn pass_over(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> bool 
 
 /// Reads the entity whose record begins at `start`; the lexer stands behind its name.
 pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+    match plain::read(lexer.lines, start.line, layers) {
+        Some((read, next)) => {
+            lexer.begin_item(next);
+            Outcome::Entity(read)
+        }
+        None => read_closely(start, lexer, layers, findings),
+    }
+}
+
+/// Reads any entity, sound or not.
+pub(super) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
     match lexer.lines.trimmed(start.value_line()) {
         b"LWPOLYLINE" => light_polyline(start, lexer, layers, findings),
         b"LINE" => line(start, lexer, layers, findings),
         b"ARC" => arc(start, lexer, layers, findings),
         b"CIRCLE" => circle(start, lexer, layers, findings),
-        b"TEXT" => text("TEXT", start, lexer, layers, findings),
-        b"MTEXT" => text("MTEXT", start, lexer, layers, findings),
+        b"TEXT" => text(Kind::Text, start, lexer, layers, findings),
+        b"MTEXT" => text(Kind::LongText, start, lexer, layers, findings),
         b"POLYLINE" => polyline(start, lexer, layers, findings),
         b"ELLIPSE" => curve::read_ellipse(start, lexer, layers, findings),
         b"SPLINE" => curve::read_spline(start, lexer, layers, findings),
@@ -360,19 +390,25 @@ fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<F
     if common.paper_space {
         return Outcome::Unsupported("LINE".into(), PAPER_SPACE);
     }
-    if numbers.values[4].unwrap_or(0.0) != numbers.values[5].unwrap_or(0.0) {
+    let (low, high) = (numbers.values[4].unwrap_or(0.0), numbers.values[5].unwrap_or(0.0));
+    if low != high {
         let sentence = "the ends of this LINE differ in z: it is read as it looks from above".to_owned();
         oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
     }
     let geometry = Geometry::Line { start: Point::new(x, y), end: Point::new(end_x, end_y) };
-    common.finish(lexer, layers, "LINE", Shape::Plain(geometry), None, findings)
+    let lies = match low == high {
+        true => Lies::Level(low),
+        false => Lies::Rising(Box::new([Vector3::new(x, y, low), Vector3::new(end_x, end_y, high)])),
+    };
+    common.finish(lexer, layers, Kind::Line, (Shape::Plain(geometry), lies), None, findings)
 }
 
 /// The radius, when it is positive; else a finding.
-fn radius_of(value: f64, kind: &str, radius_line: usize, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<f64> {
+fn radius_of(value: f64, kind: &str, start: Tag, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<f64> {
     if value > 0.0 {
         return Some(value);
     }
+    let radius_line = value_line_of(start, lexer, 40);
     let found = quoted(lexer.lines.trimmed(radius_line));
     let sentence = format!("group code 40 (radius) of {kind} is {found}, expected a number above 0");
     damage(findings, lexer.lines.trimmed_range(radius_line), sentence);
@@ -380,22 +416,21 @@ fn radius_of(value: f64, kind: &str, radius_line: usize, lexer: &Lexer, findings
 }
 
 fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
-    let mut numbers = Numbers::new([10, 20, 40, 50, 51]);
+    let mut numbers = Numbers::new([10, 20, 40, 50, 51, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
     let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
-    let radius_line = value_line_of(start, lexer, 40);
-    let Some(radius) = radius_of(radius, "ARC", radius_line, lexer, findings) else { return Outcome::Damaged };
+    let Some(radius) = radius_of(radius, "ARC", start, lexer, findings) else { return Outcome::Damaged };
     let (from, to) = (from.to_radians(), to.to_radians());
+    let Some(lies) = common.lies(numbers.values[5].unwrap_or(0.0)) else { return Outcome::Unsupported("ARC".into(), TILTED) };
     let geometry = match common.plane() {
         _ if common.paper_space => return Outcome::Unsupported("ARC".into(), PAPER_SPACE),
-        Plane::Tilted => return Outcome::Unsupported("ARC".into(), TILTED),
-        Plane::Normal => Geometry::Arc { center: Point::new(x, y), radius, start_angle: from, end_angle: to },
+        Plane::Normal | Plane::Tilted => Geometry::Arc { center: Point::new(x, y), radius, start_angle: from, end_angle: to },
         Plane::Mirrored => {
             let (start_angle, end_angle) = mirrored_angles(from, to);
             Geometry::Arc { center: Point::new(0.0 - x, y), radius, start_angle, end_angle }
         }
     };
-    common.finish(lexer, layers, "ARC", Shape::Plain(geometry), None, findings)
+    common.finish(lexer, layers, Kind::Arc, (Shape::Plain(geometry), lies), None, findings)
 }
 
 /// Start and end of an arc, counter-clockwise again, once x runs the other way. Its own inverse.
@@ -404,59 +439,67 @@ pub(super) fn mirrored_angles(start: f64, end: f64) -> (f64, f64) {
 }
 
 fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
-    let mut numbers = Numbers::new([10, 20, 40]);
+    let mut numbers = Numbers::new([10, 20, 40, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
     let Some([x, y, radius]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
-    let radius_line = value_line_of(start, lexer, 40);
-    let Some(radius) = radius_of(radius, "CIRCLE", radius_line, lexer, findings) else { return Outcome::Damaged };
+    let Some(radius) = radius_of(radius, "CIRCLE", start, lexer, findings) else { return Outcome::Damaged };
+    let Some(lies) = common.lies(numbers.values[3].unwrap_or(0.0)) else { return Outcome::Unsupported("CIRCLE".into(), TILTED) };
     let x = match common.plane() {
         _ if common.paper_space => return Outcome::Unsupported("CIRCLE".into(), PAPER_SPACE),
-        Plane::Tilted => return Outcome::Unsupported("CIRCLE".into(), TILTED),
-        Plane::Normal => x,
+        Plane::Normal | Plane::Tilted => x,
         Plane::Mirrored => 0.0 - x,
     };
-    common.finish(lexer, layers, "CIRCLE", Shape::Plain(Geometry::Circle { center: Point::new(x, y), radius }), None, findings)
+    let shape = Shape::Plain(Geometry::Circle { center: Point::new(x, y), radius });
+    common.finish(lexer, layers, Kind::Circle, (shape, lies), None, findings)
 }
 
-fn text(kind: &'static str, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
     let mut content = Vec::new();
-    let mut numbers = Numbers::new([10, 20, 11, 21]);
+    let mut numbers = Numbers::new([10, 20, 11, 21, 30]);
     let mut is_aligned = false;
     let common = numbers.gather(lexer, findings, |lexer, tag| match tag.code {
         1 | 3 => content.extend_from_slice(lexer.lines.content(tag.value_line())),
         // To the right, to the middle, above a line: then the point that somebody has set is the second one.
-        72 if kind == "TEXT" => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4"),
-        73 if kind == "TEXT" => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"3"),
+        72 if kind == Kind::Text => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4"),
+        73 if kind == Kind::Text => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"3"),
         _ => {}
     });
     let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
-    let (x, y) = match numbers.values {
-        [_, _, Some(x), Some(y)] if is_aligned => (x, y),
+    let [_, _, set_x, set_y, height] = numbers.values;
+    let (x, y) = match (set_x, set_y) {
+        (Some(x), Some(y)) if is_aligned => (x, y),
         _ => (x, y),
     };
-    let x = match common.plane() {
-        _ if common.paper_space => return Outcome::Unsupported(kind.into(), PAPER_SPACE),
-        Plane::Tilted => return Outcome::Unsupported(kind.into(), TILTED),
+    if common.paper_space {
+        return Outcome::Unsupported(kind.name().into(), PAPER_SPACE);
+    }
+    let height = height.unwrap_or(0.0);
+    let Some(lies) = common.lies(height) else { return Outcome::Unsupported(kind.name().into(), TILTED) };
+    let (x, y, lies) = match (kind, lies) {
         // The place of an MTEXT is in world coordinates.
-        Plane::Mirrored if kind == "TEXT" => 0.0 - x,
-        _ => x,
+        (Kind::LongText, Lies::Aslant(system, why)) => {
+            (0.0, 0.0, Lies::Aslant(Box::new(Space { origin: Vector3::new(x, y, height), ..*system }), why))
+        }
+        (Kind::LongText, _) => (x, y, Lies::Level(height)),
+        (_, lies) => (if common.plane() == Plane::Mirrored { 0.0 - x } else { x }, y, lies),
     };
     let content = layers.text(&content);
-    let words = if kind == "MTEXT" { words_of_mtext(&content) } else { content };
+    let words = if kind == Kind::LongText { words_of_mtext(&content) } else { content };
     let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
-    common.finish(lexer, layers, kind, Shape::Plain(geometry), None, findings)
+    common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None, findings)
 }
 
 /// A POINT marks a start as a text "O" does. Its place is in world coordinates.
 fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
-    let mut numbers = Numbers::new([10, 20]);
+    let mut numbers = Numbers::new([10, 20, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
     let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
     if common.paper_space {
         return Outcome::Unsupported("POINT".into(), PAPER_SPACE);
     }
     let geometry = Geometry::Text { at: Point::new(x, y), text: "O".into() };
-    common.finish(lexer, layers, "POINT", Shape::Plain(geometry), None, findings)
+    let lies = Lies::Level(numbers.values[2].unwrap_or(0.0));
+    common.finish(lexer, layers, Kind::Point, (Shape::Plain(geometry), lies), None, findings)
 }
 
 /// The line of the last value of `code` among the entity's own tags; the name's line where there is none.
@@ -497,7 +540,7 @@ impl Vertices {
 fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
     let mut common = Common::default();
     let mut read = Vertices::default();
-    let (mut closed, mut count) = (false, None);
+    let (mut closed, mut count, mut height) = (false, None, 0.0);
     while let Some(tag) = tag_of_record(lexer, findings) {
         match tag.code {
             10 | 20 | 42 if !common.foreign && !common.group => {
@@ -526,6 +569,7 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
             }
             _ if common.take(lexer, tag, findings) => {}
             70 => closed = common.flags(lexer, tag, findings) & 1 != 0,
+            38 => height = common.coordinate(lexer, tag, findings).unwrap_or_default(),
             90 => count = Some(tag),
             _ => {}
         }
@@ -540,11 +584,11 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
         damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
         return Outcome::Damaged;
     }
-    let mirrored = match common.plane() {
-        _ if common.paper_space => return Outcome::Unsupported("LWPOLYLINE".into(), PAPER_SPACE),
-        Plane::Tilted => return Outcome::Unsupported("LWPOLYLINE".into(), TILTED),
-        plane => plane == Plane::Mirrored,
-    };
+    if common.paper_space {
+        return Outcome::Unsupported("LWPOLYLINE".into(), PAPER_SPACE);
+    }
+    let Some(lies) = common.lies(height) else { return Outcome::Unsupported("LWPOLYLINE".into(), TILTED) };
+    let mirrored = common.plane() == Plane::Mirrored;
     let found = read.vertices.len();
     if let Some(tag) = count
         && found > 1
@@ -554,17 +598,17 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
         let sentence = format!("group code 90 (number of vertices) is {stated}, but {found} vertices are there");
         oddity(findings, lexer.lines.range(tag.value_line()), sentence);
     }
-    polyline_of("LWPOLYLINE", start, common, closed, read, (mirrored, false), lexer, layers, findings)
+    polyline_of(Kind::LightPolyline, start, common, closed, read, (mirrored, false, lies), lexer, layers, findings)
 }
 
 #[expect(clippy::too_many_arguments, reason = "what a polyline is made of, in one call from each of its two kinds")]
 fn polyline_of(
-    kind: &'static str,
+    kind: Kind,
     start: Tag,
     common: Common,
     closed: bool,
     mut read: Vertices,
-    (mirrored, in_space): (bool, bool),
+    (mirrored, in_space, lies): (bool, bool, Lies),
     lexer: &Lexer,
     layers: &mut Layers,
     findings: &mut Vec<Finding>,
@@ -580,7 +624,8 @@ fn polyline_of(
     read.vertices.shrink_to_fit();
     read.lines.shrink_to_fit();
     let geometry = Geometry::Polyline { closed, vertices: read.vertices };
-    common.finish(lexer, layers, kind, Shape::Plain(geometry), Some(VertexLines { lines: read.lines, mirrored, in_space }), findings)
+    let vertices = VertexLines { lines: read.lines, mirrored, in_space };
+    common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), Some(vertices), findings)
 }
 
 /// A vertex once x runs the other way. Its own inverse.
@@ -595,11 +640,16 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
     const IN_SPACE: i64 = 8;
     const MESHES: i64 = 16 | 64;
     const CONTROL_POINT: i64 = 16;
-    let mut flags = 0;
+    let (mut flags, mut height) = (0, 0.0);
     let mut common = Common::default();
     while let Some(tag) = tag_of_record(lexer, findings) {
-        if !common.take(lexer, tag, findings) && tag.code == 70 {
-            flags = common.flags(lexer, tag, findings);
+        if common.take(lexer, tag, findings) {
+            continue;
+        }
+        match tag.code {
+            70 => flags = common.flags(lexer, tag, findings),
+            30 => height = common.coordinate(lexer, tag, findings).unwrap_or_default(),
+            _ => {}
         }
     }
     if flags & MESHES != 0 {
@@ -658,13 +708,23 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
         oddity(findings, lexer.lines.trimmed_range(start.value_line()), "POLYLINE does not end with SEQEND".into());
     }
     let in_space = flags & IN_SPACE != 0;
-    let mirrored = match common.plane() {
-        _ if common.paper_space => return Outcome::Unsupported("POLYLINE".into(), PAPER_SPACE),
-        // The points of a 3D polyline are world coordinates.
-        _ if in_space && heights.windows(2).any(|pair| pair[0] != pair[1]) => return Outcome::Unsupported("POLYLINE".into(), NOT_PLANE),
-        _ if in_space => false,
-        Plane::Tilted => return Outcome::Unsupported("POLYLINE".into(), TILTED),
-        plane => plane == Plane::Mirrored,
+    if common.paper_space {
+        return Outcome::Unsupported("POLYLINE".into(), PAPER_SPACE);
+    }
+    // The points of a 3D polyline are world coordinates.
+    let lies = match in_space {
+        true if heights.windows(2).all(|pair| pair[0] == pair[1]) => Some(Lies::Level(heights.first().copied().unwrap_or(0.0))),
+        true => {
+            let points: Vec<Vector3> = read.vertices.iter().zip(&heights).map(|(vertex, z)| at_height(vertex.point.coords, *z)).collect();
+            let plane = Space::through(&points);
+            if let Some(plane) = &plane {
+                read.vertices.iter_mut().zip(points).for_each(|(vertex, point)| vertex.point = plane.seen_from(point));
+            }
+            plane.map(|plane| Lies::Aslant(Box::new(plane), NOT_PLANE))
+        }
+        false => common.lies(height),
     };
-    polyline_of("POLYLINE", start, common, flags & CLOSED != 0, read, (mirrored, in_space), lexer, layers, findings)
+    let Some(lies) = lies else { return Outcome::Unsupported("POLYLINE".into(), if in_space { NOT_PLANE } else { TILTED }) };
+    let mirrored = !in_space && common.plane() == Plane::Mirrored;
+    polyline_of(Kind::Polyline, start, common, flags & CLOSED != 0, read, (mirrored, in_space, lies), lexer, layers, findings)
 }

@@ -4,16 +4,17 @@ use super::entity::{Common, Look, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, 
 use super::fault::{damage, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
-use super::shape::Affine;
+use super::space::{Space, Vector3, in_space};
+use crate::drawing::Handle;
 use crate::finding::Finding;
-use crate::geometry::{Point, Vector, direction, left_normal};
+use crate::geometry::{Vector, direction, left_normal};
 use std::sync::Arc;
 
 /// A reference to a block, as it stands in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Insert {
     /// The handle, and the line it stands on.
-    pub(super) handle: Option<(Arc<str>, usize)>,
+    pub(super) handle: Option<(Handle, usize)>,
     pub(super) layer: Arc<str>,
     pub(super) look: Look,
     /// The block's name as [`block_key`] has it.
@@ -21,10 +22,10 @@ pub(super) struct Insert {
     /// The line of the block's name.
     pub(super) name_line: usize,
     /// From the block's coordinates, its base point at the origin, to those around the reference.
-    pub(super) map: Affine,
+    pub(super) map: Space,
     /// Columns and rows, at least 1, and the step from one to the next.
-    pub(super) columns: (u64, Vector),
-    pub(super) rows: (u64, Vector),
+    pub(super) columns: (u64, Vector3),
+    pub(super) rows: (u64, Vector3),
 }
 
 impl Insert {
@@ -42,7 +43,7 @@ pub(super) fn block_key(name: &[u8]) -> String {
 }
 
 pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
-    let mut numbers = Numbers::new([10, 20, 41, 42, 50, 44, 45]);
+    let mut numbers = Numbers::new([10, 20, 41, 42, 50, 44, 45, 30, 43]);
     let (mut name, mut columns, mut rows) = (None, None, None);
     let mut common = numbers.gather(lexer, findings, |_, tag| match tag.code {
         2 => name = Some(tag),
@@ -69,21 +70,26 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings:
         missing(start, lexer, &[(2, false)], findings);
         return Outcome::Damaged;
     };
-    let mirrored = match common.plane() {
-        _ if common.paper_space => return Outcome::Unsupported("INSERT".into(), PAPER_SPACE),
-        Plane::Tilted => return Outcome::Unsupported("INSERT".into(), TILTED),
-        plane => plane == Plane::Mirrored,
+    if common.paper_space {
+        return Outcome::Unsupported("INSERT".into(), PAPER_SPACE);
+    }
+    let system = match common.plane() {
+        Plane::Normal => Some(Space::IDENTITY),
+        Plane::Mirrored => Some(Space { x: -Vector3::x(), z: -Vector3::z(), ..Space::IDENTITY }),
+        Plane::Tilted => Space::of_extrusion(common.normal()),
     };
-    let [_, _, x_scale, y_scale, rotation, column_step, row_step] = numbers.values;
+    let Some(system) = system else { return Outcome::Unsupported("INSERT".into(), TILTED) };
+    let [_, _, x_scale, y_scale, rotation, column_step, row_step, height, z_scale] = numbers.values;
     // A scale of 0 would flatten the block; programs write it where they mean that none is set.
     let scale = |value: Option<f64>| value.filter(|&value| value != 0.0).unwrap_or(1.0);
     let along = turned(rotation.unwrap_or(0.0));
     let across = left_normal(along);
-    let seen = |vector: Vector| if mirrored { Vector::new(-vector.x, vector.y) } else { vector };
-    let map = Affine {
-        x_axis: seen(along * scale(x_scale)),
-        y_axis: seen(across * scale(y_scale)),
-        origin: Point::from(seen(Vector::new(x, y))),
+    let seen = |vector: Vector| system.vector(in_space(vector, 0.0));
+    let map = Space {
+        x: seen(along * scale(x_scale)),
+        y: seen(across * scale(y_scale)),
+        z: system.z * scale(z_scale),
+        origin: system.vector(Vector3::new(x, y, height.unwrap_or(0.0))),
     };
     let insert = Insert {
         block: block_key(lexer.lines.trimmed(name.value_line())),

@@ -75,6 +75,11 @@ impl<'a> Lexer<'a> {
         begins.then_some(Tag { code: 0, line })
     }
 
+    /// Passes over the tag that begins a record, as [`Lexer::peek_record`] gave it.
+    pub(super) fn pass(&mut self, record: Tag) {
+        self.at = record.line + 2;
+    }
+
     /// The next tag; `None` at the end of the text. What is no tag is passed over with one finding.
     pub(super) fn next(&mut self, findings: &mut Vec<Finding>) -> Option<Tag> {
         loop {

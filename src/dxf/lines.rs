@@ -1,7 +1,7 @@
 //! The lines of DXF text as the lexer sees them. Knows of line ends and the byte-order mark, not of tags.
 
 use super::number::trimmed;
-use crate::text::SourceText;
+use crate::text::{LineStarts, SourceText};
 use std::ops::Range;
 
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -10,15 +10,19 @@ pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 #[derive(Clone, Copy)]
 pub(super) struct Lines<'a> {
     bytes: &'a [u8],
-    starts: &'a [u32],
+    starts: &'a LineStarts,
     count: usize,
 }
 
 impl<'a> Lines<'a> {
     pub(super) fn new(text: &'a SourceText) -> Lines<'a> {
         let (bytes, starts) = (text.bytes(), text.line_starts());
-        let empty_last = starts.last().is_some_and(|&last| last as usize >= bytes.len());
+        let empty_last = starts.len().checked_sub(1).and_then(|last| starts.get(last)).is_some_and(|last| last >= bytes.len());
         Lines { bytes, starts, count: starts.len() - usize::from(empty_last) }
+    }
+
+    pub(super) fn bytes(&self) -> &'a [u8] {
+        self.bytes
     }
 
     pub(super) fn count(&self) -> usize {
@@ -35,11 +39,9 @@ impl<'a> Lines<'a> {
     }
 
     pub(super) fn range(&self, line: usize) -> Range<usize> {
-        let Some(&start) = self.starts.get(line) else { return self.bytes.len()..self.bytes.len() };
-        let mut start = start as usize;
+        let Some(mut start) = self.starts.get(line) else { return self.bytes.len()..self.bytes.len() };
         let mut end = match self.starts.get(line + 1) {
-            Some(&next) => {
-                let next = next as usize;
+            Some(next) => {
                 // A line that has a follower ends with LF, CR or CR LF.
                 let shortened = next.saturating_sub(1);
                 let crlf = self.bytes.get(shortened) == Some(&b'\n') && shortened > start && self.bytes[shortened - 1] == b'\r';

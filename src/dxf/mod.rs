@@ -24,10 +24,12 @@ mod lexer;
 mod lines;
 mod number;
 mod place;
+mod plain;
 mod reader;
 mod record;
 mod shape;
 mod sleep;
+mod space;
 mod strings;
 mod table;
 #[cfg(test)]
@@ -36,13 +38,13 @@ mod write;
 
 pub use write::write;
 
-use crate::drawing::{Drawing, Entity, EntityId, Unit, Visibility};
+use crate::drawing::{Drawing, Entity, EntityId, Handle, Kind, Unit, Visibility};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use crate::text::SourceText;
-use blocks::{Blocks, Part};
+use blocks::{Blocks, Drawn, Part};
 use code_page::CodePage;
-use entity::{Look, Outcome, Paint};
+use entity::{Look, Outcome, Paint, TILTED};
 use insert::Insert;
 use layer_table::LayerStates;
 use layers::Layers;
@@ -270,14 +272,20 @@ impl Document {
             if item.became == Became::Block {
                 is_drawn = used.next().copied().unwrap_or(false);
             }
-            if let Became::Unsupported(kind) = item.became
-                && (item.context != Context::Blocks || is_drawn)
-            {
+            let mut name = |kind: u32, how_many: usize| {
                 let kind = kind as usize;
                 if count[kind] == 0 {
                     first[kind] = index as u32;
                 }
-                count[kind] += 1;
+                count[kind] += how_many;
+            };
+            match item.became {
+                Became::Unsupported(kind) if item.context != Context::Blocks || is_drawn => name(kind, 1),
+                Became::Parts { first, .. } if !self.table.tilted.is_empty() => {
+                    let tilted = self.table.tilted.get(&first).into_iter().flatten();
+                    tilted.for_each(|&(kind, how_many)| name(kind, how_many));
+                }
+                _ => {}
             }
         }
         let lines = Lines::new(&self.text);
@@ -351,7 +359,7 @@ impl Document {
 #[derive(Default)]
 struct Reading {
     drawing: Drawing,
-    unit: Option<i64>,
+    unit: Option<i32>,
     ordinal: usize,
     any_record: bool,
     blocks: Blocks,
@@ -371,7 +379,7 @@ impl Reading {
     fn push_entity(
         &mut self,
         entity: Entity,
-        handle: Option<(Arc<str>, usize)>,
+        handle: Option<(Handle, usize)>,
         line: usize,
         item: &mut Item,
         table: &mut Table,
@@ -379,10 +387,10 @@ impl Reading {
         lines: Lines,
     ) -> EntityId {
         item.named = if handle.is_some() { Named::ByText } else { Named::ByOrdinal };
-        let asked = handle.as_ref().map_or_else(|| format!("#{}", self.ordinal).into(), |(handle, _)| handle.clone());
+        let asked: Handle = handle.as_ref().map_or_else(|| format!("#{}", self.ordinal).into(), |(handle, _)| handle.clone());
         let handle_line = handle.as_ref().map_or(line + 1, |(_, line)| *line);
         let id = self.drawing.push(Entity { handle: asked.clone(), ..entity });
-        if let Some(given) = self.drawing.get(id).map(|entity| &entity.handle).filter(|given| **given != asked) {
+        if let Some(given) = self.drawing.get(id).map(|entity| &entity.handle).filter(|given| ***given != *asked) {
             let sentence = format!("the handle {asked} is taken by an entity before this one, which is called {given} here");
             fault::oddity(findings, lines.trimmed_range(handle_line), sentence);
             item.named = Named::Anew;
@@ -409,15 +417,19 @@ impl Reading {
             return;
         }
         let blocks = self.known.as_mut().unwrap_or(&mut self.blocks);
-        let parts = match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
-            Ok(parts) => parts,
+        let Drawn { parts, tilted } = match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
+            Ok(drawn) => drawn,
             Err(sentence) => {
                 item.became = Became::Damaged;
                 return fault::damage(findings, lines.trimmed_range(insert.name_line), sentence);
             }
         };
+        if parts.is_empty() && !tilted.is_empty() {
+            item.became = Became::Unsupported(table.kinds.index("INSERT".into(), TILTED));
+            return;
+        }
         let mut ids = EntityId(0)..EntityId(0);
-        let mut name: Option<Arc<str>> = None;
+        let mut name: Option<Handle> = None;
         for Part { layer, visibility, color, kind, geometry } in parts {
             let entity = Entity { handle: "".into(), layer, role: None, kind, geometry };
             let id = match &name {
@@ -435,6 +447,10 @@ impl Reading {
             ids.end = EntityId(id.0 + 1);
         }
         item.became = Became::Parts { first: ids.start, count: ids.end.0 - ids.start.0 };
+        if !tilted.is_empty() {
+            let tilted = tilted.into_iter().map(|(kind, count)| (table.kinds.index(kind.name().into(), TILTED), count)).collect();
+            table.tilted.insert(ids.start, tilted);
+        }
     }
 }
 
@@ -450,8 +466,8 @@ fn set_look(drawing: &mut Drawing, id: EntityId, look: Look, layer: &Arc<str>, s
 }
 
 /// Kinds that become arcs within a tolerance.
-fn is_fitted(kind: &str) -> bool {
-    matches!(kind, "ELLIPSE" | "SPLINE")
+fn is_fitted(kind: Kind) -> bool {
+    matches!(kind, Kind::Ellipse | Kind::Spline)
 }
 
 /// The setting for fitted arcs in drawing units. A drawing that does not say its unit may be taken for inches.
@@ -460,7 +476,7 @@ fn fit_tolerance(arc_fit: Option<f64>, unit: Option<Unit>) -> f64 {
 }
 
 /// The unit that a value of `$INSUNITS` stands for (DXF reference, HEADER section); `None` where it is no length.
-fn unit_of(insunits: i64) -> Option<Unit> {
+fn unit_of(insunits: i32) -> Option<Unit> {
     let mm = match insunits {
         1 => 25.4,
         2 => 304.8,
@@ -485,7 +501,7 @@ fn unit_of(insunits: i64) -> Option<Unit> {
     Some(Unit { mm })
 }
 
-fn about_unit(insunits: Option<i64>) -> Option<String> {
+fn about_unit(insunits: Option<i32>) -> Option<String> {
     match insunits {
         None => Some("the drawing does not say its unit ($INSUNITS is missing): the unit of the settings holds".into()),
         Some(0) => Some("the drawing says that it has no unit ($INSUNITS is 0): the unit of the settings holds".into()),

@@ -87,8 +87,58 @@ pub(super) fn number(line: &[u8]) -> Number {
     Number::Bad
 }
 
+/// The number `[-] digits [. digits]` that bytes begin with, and its length. `None` also where it is one, but too long to be read in
+/// one step.
+#[inline]
+pub(super) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
+    let digit = |at: usize| bytes.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10);
+    let negative = bytes.first() == Some(&b'-');
+    let first = usize::from(negative);
+    let (mut at, mut mantissa, mut decimals) = (first, 0u64, 0);
+    while let Some(digit) = digit(at) {
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+        at += 1;
+    }
+    let mut digits = at - first;
+    if bytes.get(at) == Some(&b'.') {
+        let point = at + 1;
+        at = point;
+        if let Some(eight) = bytes.get(at..).and_then(<[u8]>::first_chunk).and_then(|chunk| eight_digits(*chunk)) {
+            mantissa = mantissa.wrapping_mul(100_000_000).wrapping_add(eight);
+            at += 8;
+        }
+        while let Some(digit) = digit(at) {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+            at += 1;
+        }
+        decimals = at - point;
+        digits += decimals;
+    }
+    if !(1..=19).contains(&digits) || mantissa > 1 << 53 {
+        return None;
+    }
+    // Both factors are exact, so the one rounding is the right one (Clinger, "How to read floating point numbers accurately").
+    let value = mantissa as f64 / POWERS.get(decimals)?;
+    // A zero has no sign here.
+    Some((if negative { 0.0 - value } else { value }, at))
+}
+
+/// The number that eight digits are, pairs first, then pairs of pairs.
+fn eight_digits(digits: [u8; 8]) -> Option<u64> {
+    let word = u64::from_le_bytes(digits);
+    let high = 0xf0f0_f0f0_f0f0_f0f0;
+    let are_digits = word & high == 0x3030_3030_3030_3030 && word.wrapping_add(0x0606_0606_0606_0606) & high == 0x3030_3030_3030_3030;
+    let pairs = (word & 0x0f0f_0f0f_0f0f_0f0f).wrapping_mul((10 << 8) + 1) >> 8;
+    let fours = (pairs & 0x00ff_00ff_00ff_00ff).wrapping_mul((100 << 16) + 1) >> 16;
+    let eight = (fours & 0x0000_ffff_0000_ffff).wrapping_mul((10_000 << 32) + 1) >> 32;
+    are_digits.then_some(eight)
+}
+
 /// `[+-] digits [. digits] [e [+-] digits]` with at least one digit before the exponent.
 fn decimal(text: &[u8]) -> Option<f64> {
+    if let Some((value, _)) = leading(text).filter(|&(_, length)| length == text.len()) {
+        return Some(value);
+    }
     let (negative, start) = match text.first()? {
         b'-' => (true, 1),
         b'+' => (false, 1),
@@ -166,6 +216,21 @@ pub(super) fn written(value: f64, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn a_number_is_what_the_standard_library_reads(text in "[-+]?[0-9]{0,12}(\\.[0-9]{0,20})?([eE][-+]?[0-9]{1,3})?") {
+            let expected = text.parse::<f64>().ok().filter(|value| value.is_finite()).map(|value| value + 0.0);
+            let found = match number(text.as_bytes()) {
+                Number::Exact(value) => Some(value),
+                _ => None,
+            };
+            prop_assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits), "{}", text);
+        }
+    }
 
     #[test]
     fn codes() {

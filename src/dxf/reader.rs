@@ -8,6 +8,7 @@ use super::lexer::{Lexer, Tag};
 use super::lines::BYTE_ORDER_MARK;
 use super::number::{self, Number};
 use super::shape::Shape;
+use super::space::Lies;
 use super::table::{Became, Context};
 use crate::finding::{Finding, Severity};
 
@@ -19,7 +20,7 @@ pub(super) enum Said {
     /// Another section: whether ENTITIES begins, and the unit that a HEADER states (`$INSUNITS`).
     Structure {
         entities: bool,
-        unit: Option<i64>,
+        unit: Option<i32>,
     },
     Entity(Outcome),
     /// A block of the drawing begins.
@@ -77,7 +78,7 @@ pub(super) fn read_item(
         close(None, already, lexer, context, findings);
         return Some(item(Said::Nothing, context));
     };
-    lexer.next(findings);
+    lexer.pass(start);
     let name = lexer.lines.trimmed(start.value_line());
     let mut read = match (context, name) {
         (_, b"SECTION") => {
@@ -139,9 +140,12 @@ pub(super) fn read_item(
     Some(read)
 }
 
-/// The entity with its geometry; a fault where its curve has none.
+/// The entity with its geometry as it lies in the modelspace; a fault where its curve has none.
 fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: &mut Vec<Finding>) -> Outcome {
     let Outcome::Entity(read) = outcome else { return outcome };
+    if let Lies::Aslant(_, why) = read.lies {
+        return Outcome::Unsupported(read.kind.name().into(), why);
+    }
     if let Shape::Plain(_) = read.shape {
         return Outcome::Entity(read);
     }
@@ -231,7 +235,7 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
             2 if name.is_none() => name = Some(value),
             9 => variable = value,
             70 if variable == b"$INSUNITS" && name == Some(b"HEADER") => match number::number(value) {
-                Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e6 => unit = Some(value as i64),
+                Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e6 => unit = Some(value as i32),
                 _ => {
                     let sentence = format!("group code 70 of $INSUNITS is {}, expected a whole number", quoted(value));
                     damage(findings, lexer.lines.range(tag.value_line()), sentence);

@@ -1,6 +1,6 @@
 //! What an entity draws before it is placed: block references move, turn and stretch it, and curves are fitted last.
 
-use crate::drawing::{Geometry, Vertex};
+use crate::drawing::{Geometry, Kind, Vertex};
 use crate::geometry::{Chain, EllipticArc, Point, Segment, Spline, SplineCurve, Vector, cross, fit};
 use std::f64::consts::TAU;
 
@@ -35,11 +35,6 @@ impl Affine {
         self.origin + self.vector(point.coords)
     }
 
-    /// First `inner`, then this one.
-    pub(super) fn after(&self, inner: &Affine) -> Affine {
-        Affine { x_axis: self.vector(inner.x_axis), y_axis: self.vector(inner.y_axis), origin: self.point(inner.origin) }
-    }
-
     /// The scale, and whether it mirrors, of a transformation that keeps angles; `None` of any other.
     fn similarity(&self) -> Option<(f64, bool)> {
         let (x, y) = (self.x_axis.norm(), self.y_axis.norm());
@@ -70,7 +65,7 @@ impl Shape {
     }
 
     /// What becomes of the shape under a transformation, each part with the name of what it is then.
-    pub(super) fn placed(&self, map: &Affine, kind: &'static str, put: &mut impl FnMut(&'static str, Shape)) {
+    pub(super) fn placed(&self, map: &Affine, kind: Kind, put: &mut impl FnMut(Kind, Shape)) {
         match self {
             Shape::Ellipse(arc) => {
                 let (center, u, v) = (map.point(arc.center), map.vector(arc.u), map.vector(arc.v));
@@ -93,10 +88,10 @@ impl Shape {
                     for segment in geometry.segments() {
                         match segment {
                             Segment::Line(line) => {
-                                put("LINE", Shape::Plain(Geometry::Line { start: map.point(line.start), end: map.point(line.end) }));
+                                put(Kind::Line, Shape::Plain(Geometry::Line { start: map.point(line.start), end: map.point(line.end) }));
                             }
                             Segment::Arc(arc) => put(
-                                "ELLIPSE",
+                                Kind::Ellipse,
                                 Shape::Ellipse(EllipticArc {
                                     center: map.point(arc.center),
                                     u: map.x_axis * arc.radius,

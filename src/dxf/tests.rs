@@ -5,5 +5,6 @@ mod curves;
 mod editing;
 mod faults;
 mod layers;
+mod planes;
 pub(super) mod reading;
 mod writing;

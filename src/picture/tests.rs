@@ -1,11 +1,11 @@
 use super::figure::number;
 use super::*;
-use crate::drawing::{Contour, Geometry, Vertex};
+use crate::drawing::{Contour, Geometry, Kind, Vertex};
 use crate::finding::{Rule, Severity, Side};
 use crate::geometry::{Point, Segment};
 use crate::toolpath::PathSegment;
 
-fn entity(handle: &str, layer: &str, kind: &'static str, geometry: Geometry) -> Entity {
+fn entity(handle: &str, layer: &str, kind: Kind, geometry: Geometry) -> Entity {
     Entity { handle: handle.into(), layer: layer.into(), role: None, kind, geometry }
 }
 
@@ -40,12 +40,12 @@ fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
     let quarter = (std::f64::consts::PI / 8.0).tan();
     let mut drawing = Drawing::new(None);
     let rectangle = [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)].map(|(x, y)| Vertex::new(x, y, 0.0));
-    drawing.push(entity("10", "PLATE", "LWPOLYLINE", Geometry::Polyline { closed: true, vertices: rectangle.to_vec() }));
+    drawing.push(entity("10", "PLATE", Kind::LightPolyline, Geometry::Polyline { closed: true, vertices: rectangle.to_vec() }));
     let opening = [(10.0, 8.0, 0.0), (29.92, 8.0, quarter), (30.0, 8.08, 0.0), (30.0, 22.0, 0.0), (10.0, 22.0, 0.0)];
     let opening = opening.map(|(x, y, bulge)| Vertex::new(x, y, bulge));
-    let id = drawing.push(entity("2A", "DIE", "LWPOLYLINE", Geometry::Polyline { closed: true, vertices: opening.to_vec() }));
-    drawing.push(entity("2B", "DIE", "TEXT", Geometry::Text { at: Point::new(20.0, 15.0), text: "O".into() }));
-    drawing.push(entity("2C", "NOTE", "TEXT", Geometry::Text { at: Point::new(2.0, 26.0), text: "<plate & die>".into() }));
+    let id = drawing.push(entity("2A", "DIE", Kind::LightPolyline, Geometry::Polyline { closed: true, vertices: opening.to_vec() }));
+    drawing.push(entity("2B", "DIE", Kind::Text, Geometry::Text { at: Point::new(20.0, 15.0), text: "O".into() }));
+    drawing.push(entity("2C", "NOTE", Kind::Text, Geometry::Text { at: Point::new(2.0, 26.0), text: "<plate & die>".into() }));
     let contour = Contour::new(&drawing, [(id, false)], true);
     let twice_area = contour.twice_area(&drawing);
     let fault = contour.segment(&drawing, 1).unwrap();
@@ -108,7 +108,7 @@ fn numbers_are_short() {
 fn nothing_and_a_single_point_are_pictures_too() {
     assert!(svg(&Drawing::default(), &[], &[], &[], 1.0).contains("no lines, arcs or circles"));
     let mut drawing = Drawing::default();
-    drawing.push(entity("1", "0", "TEXT", Geometry::Text { at: Point::new(3.0, 4.0), text: "O\u{1}".into() }));
+    drawing.push(entity("1", "0", Kind::Text, Geometry::Text { at: Point::new(3.0, 4.0), text: "O\u{1}".into() }));
     let picture = svg(&drawing, &[], &[], &[], 1.0);
     assert!(picture.contains(">O</text>") && !picture.contains("NaN") && !picture.contains("inf"));
 }
@@ -117,7 +117,7 @@ fn nothing_and_a_single_point_are_pictures_too() {
 fn coordinates_beyond_all_measure_are_no_picture() {
     for (far, texts) in [(1e308, ["no lines, arcs", ""]), (1e150, ["class=\"aside\"", "e149 mm"])] {
         let mut drawing = Drawing::default();
-        drawing.push(entity("1", "0", "LINE", Geometry::Line { start: Point::new(-far, -far), end: Point::new(far, far) }));
+        drawing.push(entity("1", "0", Kind::Line, Geometry::Line { start: Point::new(-far, -far), end: Point::new(far, far) }));
         let picture = svg(&drawing, &[], &[], &[], 1.0);
         assert!(texts.iter().all(|text| picture.contains(text)) && picture.len() < 5000, "{far}: {picture}");
     }

@@ -174,7 +174,13 @@ impl Cuts {
                 push_line(&mut drawing, LEAD, ends);
             }
             if let Some(geometry) = polyline(cut.contour(), cut.closed) {
-                drawing.push(Entity { handle: CUT.into(), layer: CUT.into(), role: None, kind: "LWPOLYLINE", geometry });
+                drawing.push(Entity {
+                    handle: CUT.into(),
+                    layer: CUT.into(),
+                    role: None,
+                    kind: crate::drawing::Kind::LightPolyline,
+                    geometry,
+                });
             }
             if cut.lead_out
                 && let Some(ends) = lead(cut.segments.len() - 1)
@@ -207,7 +213,7 @@ impl Cuts {
 
 fn push_line(drawing: &mut Drawing, layer: &str, [start, end]: [Point; 2]) {
     let geometry = Geometry::Line { start: start / 1e3, end: end / 1e3 };
-    drawing.push(Entity { handle: layer.into(), layer: layer.into(), role: None, kind: "LINE", geometry });
+    drawing.push(Entity { handle: layer.into(), layer: layer.into(), role: None, kind: crate::drawing::Kind::Line, geometry });
 }
 
 /// The segments as a polyline in mm; arcs near a full turn, which no bulge holds well, in two halves.

@@ -250,15 +250,15 @@ impl Entity {
         let (kind, geometry) = match self.geometry {
             Geometry::Polyline { closed, vertices } => {
                 let vertices = vertices.into_iter().map(core::Vertex::from).collect();
-                ("LWPOLYLINE", core::Geometry::Polyline { closed, vertices })
+                (core::Kind::LightPolyline, core::Geometry::Polyline { closed, vertices })
             }
-            Geometry::Line { start, end } => ("LINE", core::Geometry::Line { start: start.into(), end: end.into() }),
+            Geometry::Line { start, end } => (core::Kind::Line, core::Geometry::Line { start: start.into(), end: end.into() }),
             Geometry::Arc { center, radius, start_angle, end_angle } => {
                 let (start_angle, end_angle) = (start_angle.to_radians(), end_angle.to_radians());
-                ("ARC", core::Geometry::Arc { center: center.into(), radius, start_angle, end_angle })
+                (core::Kind::Arc, core::Geometry::Arc { center: center.into(), radius, start_angle, end_angle })
             }
-            Geometry::Circle { center, radius } => ("CIRCLE", core::Geometry::Circle { center: center.into(), radius }),
-            Geometry::Text { at, text } => ("TEXT", core::Geometry::Text { at: at.into(), text }),
+            Geometry::Circle { center, radius } => (core::Kind::Circle, core::Geometry::Circle { center: center.into(), radius }),
+            Geometry::Text { at, text } => (core::Kind::Text, core::Geometry::Text { at: at.into(), text }),
         };
         let layer = self.layer.unwrap_or_else(|| "0".into());
         Ok(core::Entity { handle: self.handle.into(), layer: layer.into(), role: self.role, kind, geometry })

@@ -82,7 +82,7 @@ impl Inspection {
         let with_geometry = asked_for.filter(|(_, entity)| entity.geometry.segment_count() > 0);
         let entities = with_geometry.map(|(id, entity)| InspectedEntity {
             handle: entity.handle.to_string(),
-            r#type: entity.kind.into(),
+            r#type: entity.kind.name().into(),
             layer: entity.layer.to_string(),
             closed: entity.geometry.is_closed(),
             cut: is_cut(id),

@@ -23,10 +23,10 @@ pub const RULE: LocalRule = LocalRule {
 /// Only where a piece begins can there be a gap.
 fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     let pieces = &outlook.contour.pieces;
-    let first = pieces.partition_point(|piece| piece.first < range.start);
-    for piece in pieces[first..].iter().take_while(|piece| piece.first < range.end) {
-        if distance(outlook, piece.first).is_some_and(|distance| distance > outlook.limits.tolerances.report) {
-            facts.push(Fact { index: piece.first as u32, side: None, needs_side: false });
+    let first = pieces.partition_point(|piece| piece.first() < range.start);
+    for piece in pieces[first..].iter().take_while(|piece| piece.first() < range.end) {
+        if distance(outlook, piece.first()).is_some_and(|distance| distance > outlook.limits.tolerances.report) {
+            facts.push(Fact { index: piece.first() as u32, side: None, needs_side: false });
         }
     }
 }

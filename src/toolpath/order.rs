@@ -128,7 +128,7 @@ mod tests {
         let mut drawing = Drawing::new(None);
         for &(x, radius) in circles {
             let geometry = Geometry::Circle { center: Point::new(x, 0.0), radius };
-            drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: "CIRCLE", geometry });
+            drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::Circle, geometry });
         }
         let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
         assert_eq!(chosen(&drawing, &outlines, None), Ok(expected.to_vec()), "{circles:?}");

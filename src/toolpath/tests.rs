@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 fn entity(handle: &str, geometry: Geometry) -> Entity {
-    Entity { handle: handle.into(), layer: "0".into(), role: None, kind: "LWPOLYLINE", geometry }
+    Entity { handle: handle.into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::LightPolyline, geometry }
 }
 
 /// A drawing of polylines `[x, y, bulge]`, closed but where the role is none, with handles 2A, 2B, ….
@@ -483,7 +483,13 @@ fn circles(count: usize) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(None);
     for number in 0..count {
         let geometry = Geometry::Circle { center: Point::new(number as f64 * 10.0, 0.0), radius: 3.0 };
-        drawing.push(Entity { handle: format!("{number}").into(), layer: "0".into(), role: Some(Role::Opening), kind: "CIRCLE", geometry });
+        drawing.push(Entity {
+            handle: format!("{number}").into(),
+            layer: "0".into(),
+            role: Some(Role::Opening),
+            kind: crate::drawing::Kind::Circle,
+            geometry,
+        });
     }
     let outlines = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(defaults())).outlines(&drawing).to_vec();
     (drawing, outlines)

@@ -40,7 +40,7 @@ fn found(entities: &[Geometry], role: Role, rule: Rule) -> (Drawing, Analysis, V
     let mut drawing = Drawing::new(None);
     for geometry in entities {
         let role = (role != Role::Both).then_some(role);
-        drawing.push(Entity { handle: "A".into(), layer: "0".into(), role, kind: "LINE", geometry: geometry.clone() });
+        drawing.push(Entity { handle: "A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::Line, geometry: geometry.clone() });
     }
     let settings = Arc::new(Effective::of(&Settings { correction: Some(0.1), ..Settings::default() }));
     let mut analysis = Analysis::new(&drawing, settings);

@@ -16,7 +16,7 @@ fn drawing_of(vertices: &[Vertex], role: Role) -> Drawing {
     let mut drawing = Drawing::new(None);
     let geometry = Geometry::Polyline { closed: true, vertices: vertices.to_vec() };
     let role = (role != Role::Both).then_some(role);
-    drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role, kind: "LWPOLYLINE", geometry });
+    drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::LightPolyline, geometry });
     drawing
 }
 

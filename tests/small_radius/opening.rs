@@ -47,15 +47,15 @@ fn as_chain(vertices: &[Vertex]) -> Drawing {
     let outline = Geometry::Polyline { closed: true, vertices: vertices.to_vec() };
     for (i, segment) in outline.segments().enumerate() {
         let (kind, geometry) = match segment {
-            Segment::Line(line) if i % 2 == 0 => ("LINE", Geometry::Line { start: line.start, end: line.end }),
-            Segment::Line(line) => ("LINE", Geometry::Line { start: line.end, end: line.start }),
+            Segment::Line(line) if i % 2 == 0 => (wedm::drawing::Kind::Line, Geometry::Line { start: line.start, end: line.end }),
+            Segment::Line(line) => (wedm::drawing::Kind::Line, Geometry::Line { start: line.end, end: line.start }),
             Segment::Arc(arc) => {
                 let (from, to) = if arc.sweep > 0.0 {
                     (arc.start_angle, arc.start_angle + arc.sweep)
                 } else {
                     (arc.start_angle + arc.sweep, arc.start_angle)
                 };
-                ("ARC", Geometry::Arc { center: arc.center, radius: arc.radius, start_angle: from, end_angle: to })
+                (wedm::drawing::Kind::Arc, Geometry::Arc { center: arc.center, radius: arc.radius, start_angle: from, end_angle: to })
             }
         };
         drawing.push(Entity { handle: format!("{i}").into(), layer: "0".into(), role: None, kind, geometry });

@@ -13,7 +13,7 @@ pub fn polyline(vertices: &[[f64; 3]], closed: bool) -> Geometry {
 
 pub fn drawing_of(geometry: Geometry, role: Role) -> Drawing {
     let mut drawing = Drawing::new(None);
-    drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: Some(role), kind: "LWPOLYLINE", geometry });
+    drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: Some(role), kind: wedm::drawing::Kind::LightPolyline, geometry });
     drawing
 }
 

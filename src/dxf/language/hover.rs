@@ -169,7 +169,7 @@ fn about_variable_value(spot: &Spot<'_>, value: f64) -> Option<String> {
     if name != "$INSUNITS" {
         return None;
     }
-    let unit = crate::dxf::unit_of(value as i64)?;
+    let unit = crate::dxf::unit_of(value as i32)?;
     Some(format!("one unit is {} mm", unit.mm))
 }
 

@@ -14,7 +14,7 @@ pub type Stop<'a> = &'a dyn Fn() -> bool;
 pub struct ContourNote {
     pub closed: bool,
     pub segments: usize,
-    pub handles: Vec<std::sync::Arc<str>>,
+    pub handles: Vec<crate::drawing::Handle>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

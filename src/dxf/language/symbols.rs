@@ -101,7 +101,7 @@ fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
     contours.iter().enumerate().filter_map(node_of).collect()
 }
 
-fn entities(handles: &[std::sync::Arc<str>]) -> String {
+fn entities(handles: &[crate::drawing::Handle]) -> String {
     match handles {
         [one] => format!("entity {one}"),
         [first, ..] => format!("{} entities from {first} on", handles.len()),

@@ -65,7 +65,7 @@ fn blocks_in_blocks_mirrored_against_a_transform_by_hand() {
 fn unlike_scales_make_ellipses() {
     let block = "0 BLOCK 2 B 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 1 0 LWPOLYLINE 8 0 90 2 10 0 20 0 42 1 10 2 20 0 10 4 20 0 0 ENDBLK";
     let document = Document::read(with_blocks(block, "0 INSERT 5 A 8 P 2 B 10 0 20 0 41 3 42 1").into_bytes());
-    let kinds: Vec<_> = document.drawing().entities().map(|(_, entity)| (entity.kind, entity.geometry.is_closed())).collect();
+    let kinds: Vec<_> = document.drawing().entities().map(|(_, entity)| (entity.kind.name(), entity.geometry.is_closed())).collect();
     assert_eq!(kinds, [("ELLIPSE", true), ("ELLIPSE", false), ("LINE", false)]);
     for (_, entity) in document.drawing().entities().take(1) {
         for segment in entity.geometry.segments() {

@@ -1,7 +1,7 @@
 //! What is written reads back the same: edits of a drawing in its text, and new drawings.
 
 use super::reading::dxf;
-use crate::drawing::{Change, Drawing, DrawingEdit, Entity, Geometry, Unit, Vertex};
+use crate::drawing::{Change, Drawing, DrawingEdit, Entity, Geometry, Kind, Unit, Vertex};
 use crate::dxf::{Document, write};
 use crate::geometry::{Point, positive_angle};
 use proptest::prelude::*;
@@ -132,13 +132,13 @@ proptest! {
         let [x, y, z, u, v] = numbers;
         let vertices = vertices.into_iter().map(|(x, y, bulge)| Vertex::new(x, y, bulge)).collect();
         for (kind, layer, geometry) in [
-            ("LWPOLYLINE", "DIE", Geometry::Polyline { closed, vertices }),
-            ("LINE", "PUNCH", Geometry::Line { start: Point::new(x, y), end: Point::new(z, u) }),
-            ("ARC", "0", Geometry::Arc { center: Point::new(x, y), radius: z.abs() + 0.01, start_angle: u, end_angle: v }),
-            ("CIRCLE", "0", Geometry::Circle { center: Point::new(x, y), radius: z.abs() + 0.01 }),
-            ("TEXT", "märks", Geometry::Text { at: Point::new(x, y), text: "O".into() }),
+            (Kind::LightPolyline, "DIE", Geometry::Polyline { closed, vertices }),
+            (Kind::Line, "PUNCH", Geometry::Line { start: Point::new(x, y), end: Point::new(z, u) }),
+            (Kind::Arc, "0", Geometry::Arc { center: Point::new(x, y), radius: z.abs() + 0.01, start_angle: u, end_angle: v }),
+            (Kind::Circle, "0", Geometry::Circle { center: Point::new(x, y), radius: z.abs() + 0.01 }),
+            (Kind::Text, "märks", Geometry::Text { at: Point::new(x, y), text: "O".into() }),
         ] {
-            drawing.push(Entity { handle: kind.into(), layer: layer.into(), role: None, kind, geometry });
+            drawing.push(Entity { handle: kind.name().into(), layer: layer.into(), role: None, kind, geometry });
         }
         let document = Document::read(write(&drawing).unwrap());
         prop_assert_eq!(document.findings(), &[][..]);

@@ -297,17 +297,24 @@ impl Document {
         lines.filter_map(|line| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).offset)
     }
 
-    /// True where a line calls the subprogram of a number.
-    pub(super) fn calls(&self, number: u32) -> bool {
-        self.placed().filter(|placed| placed.stretch.calls).any(|placed| {
-            (placed.first_line..placed.first_line + placed.stretch.lines as usize)
-                .any(|line| read_line(&self.text.bytes()[self.text.line_range(line)], 1, |_| {}).call == Some(number))
-        })
+    /// The numbers of the subprograms that some line calls.
+    pub(super) fn called(&self) -> BTreeSet<u32> {
+        let calling = self.placed().filter(|placed| placed.stretch.calls);
+        let lines = calling.flat_map(|placed| placed.first_line..placed.first_line + placed.stretch.lines as usize);
+        lines.filter_map(|line| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).call).collect()
     }
 
-    /// True where the program has ended before a line.
-    pub(super) fn ends_before(&self, line: usize) -> bool {
-        self.order.is_none() && self.machine_before(line).is_some_and(|machine| machine.ended)
+    /// The line that ends a program without calls: what stands behind it is run by nobody yet.
+    pub(super) fn last_line(&self) -> Option<usize> {
+        if self.order.is_some() {
+            return None;
+        }
+        let ending = self.placed().find(|placed| placed.stretch.after.ended)?;
+        let mut lines = ending.first_line..ending.first_line + ending.stretch.lines as usize;
+        lines.find(|line| {
+            let bytes = self.text.bytes().get(self.text.line_range(*line)).unwrap_or_default();
+            read_line(bytes, 1, |_| {}).stop == Some(Stop::End)
+        })
     }
 
     /// The last block number before a line, and the step in which they count there.

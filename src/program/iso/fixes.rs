@@ -161,7 +161,7 @@ fn number_fixes(document: &Document, fault: &IsoFault, range: &Range<usize>) -> 
                 fixes.push(Fix { kind: FixKind::SetNumber { number: expected }, preferred: true, in_fix_all: true, edit });
             }
         }
-        IsoFault::NumberTwice { number } if !document.calls(number) => {
+        IsoFault::NumberTwice { number } if !document.called().contains(&number) => {
             let turn = document.numbers_before(line).map(|(last, step)| last.saturating_add(step));
             let next = document.number_behind(line);
             if let Some(turn) = turn.filter(|turn| free(*turn) && next.is_none_or(|next| next > *turn)) {

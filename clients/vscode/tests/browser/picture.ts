@@ -141,6 +141,8 @@ export async function picture(checks: Checks): Promise<void> {
       await host.page.reload();
       await window.status.waitFor();
       const again = await window.picture();
+      // VS Code may have kept another file in front: it writes that down from time to time.
+      await window.turnTo("small-radius.dxf");
       await expectSoon("the contour", async () => (await again.locator("svg .contour").count()) > 0);
       await window.goToLine(bulges[1] ?? 0);
       await expectSoon("segment 2 selected", async () => (await again.locator("svg .contour.selected").getAttribute("data-segment")) === "2");

@@ -21,6 +21,9 @@ const M_WORDS: [u8; 6] = [0, 1, 2, 30, 98, 99];
 /// A chord that runs this nearly along the way before it makes no arc that leaves it tangent: the sine of the angle between them.
 const ALONG: f64 = 1e-4;
 
+/// Subprograms that are offered.
+const MOST_SUBPROGRAMS: usize = 100;
+
 /// Places of the control's table that are offered where the program names none.
 const FIRST_PLACES: u32 = 4;
 
@@ -155,8 +158,9 @@ impl Offer<'_> {
         let mut numbers: Vec<(u32, usize)> = labels(self.document.text()).into_iter().filter(|(number, _)| *number < u32::MAX).collect();
         numbers.sort_unstable();
         let text = self.document.text();
-        for (number, line) in numbers.into_iter().filter(|(number, line)| self.document.ends_before(*line) || self.document.calls(*number))
-        {
+        let (called, last) = (self.document.called(), self.document.last_line());
+        let is_subprogram = |(number, line): &(u32, usize)| called.contains(number) || last.is_some_and(|last| *line > last);
+        for (number, line) in numbers.into_iter().filter(is_subprogram).take(MOST_SUBPROGRAMS) {
             let shown: String =
                 String::from_utf8_lossy(text.bytes().get(text.line_range(line)).unwrap_or_default()).chars().take(40).collect();
             self.push(format!("{before}P{number}"), format!("line {}: {}", line + 1, shown.trim()));

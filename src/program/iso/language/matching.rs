@@ -40,10 +40,11 @@ pub fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Rang
             if !block.returns {
                 return None;
             }
+            let calls = document.called();
             (0..=line).rev().find_map(|line| {
                 let bytes = text.bytes().get(text.line_range(line))?;
                 let block = read_line(bytes, 1, |_| {});
-                let called = [block.number, block.program].into_iter().flatten().find(|number| document.calls(*number))?;
+                let called = [block.number, block.program].into_iter().flatten().find(|number| calls.contains(number))?;
                 Some((range.clone(), label_in(document, line, called)?))
             })
         }

@@ -46,7 +46,13 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
         entries.insert(handle.clone(), in_mm(point(nodes[first].0)));
         threads.insert(handle.clone(), in_mm(point(nodes[contour.rows.start].0)));
         let geometry = geometry(content, contour, &nodes);
-        let id = drawing.push(Entity { handle: handle.into(), layer: "0".into(), role: Some(role), kind: "LWPOLYLINE", geometry });
+        let id = drawing.push(Entity {
+            handle: handle.into(),
+            layer: "0".into(),
+            role: Some(role),
+            kind: crate::drawing::Kind::LightPolyline,
+            geometry,
+        });
         let is_reversed = matches!(content.rows[first].piece, Segment::Arc(arc) if arc.is_full_turn() && arc.sweep < 0.0);
         let outline = drawing::Contour::new(&drawing, [(id, is_reversed)], true);
         let twice_area = outline.twice_area(&drawing);

@@ -1,0 +1,43 @@
+//! What the source calls an entity.
+
+use std::fmt;
+
+/// The name of an entity in DXF; a CAD program's entity has that of the DXF entity which says the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    Line,
+    Arc,
+    Circle,
+    /// LWPOLYLINE.
+    LightPolyline,
+    Polyline,
+    Ellipse,
+    Spline,
+    Text,
+    /// MTEXT.
+    LongText,
+    Point,
+}
+
+impl Kind {
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Line => "LINE",
+            Kind::Arc => "ARC",
+            Kind::Circle => "CIRCLE",
+            Kind::LightPolyline => "LWPOLYLINE",
+            Kind::Polyline => "POLYLINE",
+            Kind::Ellipse => "ELLIPSE",
+            Kind::Spline => "SPLINE",
+            Kind::Text => "TEXT",
+            Kind::LongText => "MTEXT",
+            Kind::Point => "POINT",
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
