@@ -5,12 +5,12 @@
 //! and of what it moved away from the rest. Which pieces cross is then decided from the whole way, so that it does not hang on where
 //! runs begin.
 
-use super::rules::path_crosses_itself::{Crossing, Way, come_near, margin, meet_again};
+use super::rules::path_crosses_itself::{Crossing, Way, come_near, margin};
 use super::run::Move;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use rayon::prelude::*;
-use rustc_hash::{FxHashMap, FxHashSet};
-use std::sync::OnceLock;
+use rustc_hash::FxHashMap;
+use std::sync::{Arc, OnceLock};
 
 /// The blocks of a contour in one run.
 #[derive(Clone, Copy, Debug)]
@@ -43,20 +43,24 @@ type Near = (Box<[(u32, u32)]>, usize);
 #[derive(Clone, Debug, Default)]
 pub(in crate::program) struct Known {
     pairs: FxHashMap<Pair, Near>,
-    /// Contours, by their marks, in which nothing was found.
-    calm: FxHashSet<u64>,
+    /// What was found in contours, by their marks.
+    found: FxHashMap<u64, Arc<Found>>,
 }
 
 impl Known {
-    pub fn is_calm(&self, mark: u64) -> bool {
-        self.calm.contains(&mark)
+    /// What was found in a contour before.
+    pub fn of(&self, mark: u64) -> Option<Arc<Found>> {
+        self.found.get(&mark).cloned()
     }
 
-    /// Keeps in mind that nothing was found in a contour.
+    /// True where nothing was found in a contour before.
+    pub fn is_calm(&self, mark: u64) -> bool {
+        self.found.get(&mark).is_some_and(|found| found.crossings.is_empty() && !found.is_crowded)
+    }
+
+    /// Keeps in mind what was found in a contour.
     pub fn note(&mut self, mark: u64, found: &Found) {
-        if found.crossings.is_empty() && !found.is_crowded {
-            self.calm.insert(mark);
-        }
+        self.found.insert(mark, Arc::new(found.clone()));
     }
 
     /// Forgets all where much more is known than is in use.
@@ -64,8 +68,8 @@ impl Known {
         if self.pairs.len() > 4 * pairs + 16_384 {
             self.pairs.clear();
         }
-        if self.calm.len() > 4 * contours + 4096 {
-            self.calm.clear();
+        if self.found.len() > 4 * contours + 4096 {
+            self.found.clear();
         }
     }
 }
@@ -83,7 +87,7 @@ pub(in crate::program) struct Found {
 /// Pairs of boxes that are held against each other in a contour of so many blocks. One that does not lie on itself takes a few for each
 /// block.
 fn most_looks(blocks: usize) -> usize {
-    2_000_000 + 32 * blocks
+    500_000 + 32 * blocks
 }
 
 /// Finds where a contour crosses itself. `pieces` gives the pieces of a stretch from the origin.
@@ -171,7 +175,7 @@ impl Prepared {
                 (0, 0) => {
                     let (piece, other) = (&self.pieces[a], other.pieces[b].moved(by));
                     let is_neighbour = is_next && b == 0 && a + 1 == self.pieces.len();
-                    if if is_neighbour { meet_again(piece, &other) } else { come_near(piece, ours, &other, &theirs) } {
+                    if !is_neighbour && come_near(piece, ours, &other, &theirs) {
                         found.push((a as u32, b as u32));
                     }
                 }

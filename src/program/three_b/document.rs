@@ -421,12 +421,16 @@ impl Document {
             contours += 1;
             // Where a block is wrong the path behind it is not the one that is meant.
             let is_asked = !section.is_jump && section.sum.blocks >= 4 && section.sum.errors == 0;
-            if !is_asked || known.is_calm(section.sum.mark) {
+            if !is_asked {
                 continue;
             }
             let section = &*section;
-            let found = self.crossings_in(section, known);
-            known.note(section.sum.mark, &found);
+            let mark = section.sum.mark;
+            let found = known.of(mark).unwrap_or_else(|| {
+                let found = std::sync::Arc::new(self.crossings_in(section, known));
+                known.note(mark, &found);
+                found
+            });
             pairs += found.pairs;
             for crossing in &found.crossings {
                 let mut blocks = self.blocks_of(section);
