@@ -6,7 +6,7 @@
 use libfuzzer_sys::fuzz_target;
 use std::sync::Arc;
 use wedm::document::{Document, Source};
-use wedm::drawing::{Drawing, DrawingEdit, Geometry};
+use wedm::drawing::{Drawing, DrawingEdit, Geometry, Kind};
 use wedm::dxf;
 use wedm::finding::Edit;
 use wedm::message::en;
@@ -82,7 +82,7 @@ fn apply(document: &Document, drawing: &Drawing, edit: &DrawingEdit) {
 }
 
 /// What an entity is called, and its numbers: those of its segments.
-fn shapes(drawing: &Drawing) -> Vec<(&'static str, Vec<f64>)> {
+fn shapes(drawing: &Drawing) -> Vec<(Kind, Vec<f64>)> {
     let numbers = |geometry: &Geometry| {
         let of_segments = geometry.segments().flat_map(|segment| {
             let (from, to, middle) = (segment.start(), segment.end(), segment.point_at(0.5));
@@ -94,7 +94,7 @@ fn shapes(drawing: &Drawing) -> Vec<(&'static str, Vec<f64>)> {
 }
 
 /// Alike within what twelve decimals and a bulge can say of numbers of this size.
-fn alike(one: &[(&'static str, Vec<f64>)], other: &[(&'static str, Vec<f64>)]) -> bool {
+fn alike(one: &[(Kind, Vec<f64>)], other: &[(Kind, Vec<f64>)]) -> bool {
     let all = one.iter().chain(other).flat_map(|(_, numbers)| numbers);
     let size = all.fold(1.0, |size: f64, number| size.max(number.abs()));
     one.len() == other.len()

@@ -5,7 +5,7 @@
 use libfuzzer_sys::fuzz_target;
 use std::sync::Arc;
 use wedm::document::{Document, Source};
-use wedm::drawing::{Delta, Drawing, Entity, Geometry, Touched, Vertex};
+use wedm::drawing::{Delta, Drawing, Entity, Geometry, Kind, Touched, Vertex};
 use wedm::dxf;
 use wedm::settings::{Effective, Settings, SideSetting};
 use wedm_fuzz::{Script, described, edit_of, segment_count, text_and_script};
@@ -158,15 +158,15 @@ fn entity(script: &mut Script) -> Entity {
     let (first, second) = (vertex(script), vertex(script));
     let quarters = |count: usize| count as f64 * std::f64::consts::FRAC_PI_2;
     let (geometry, kind) = match kind % 4 {
-        0 => (Geometry::Line { start: first.point, end: second.point }, "LINE"),
+        0 => (Geometry::Line { start: first.point, end: second.point }, Kind::Line),
         1 => {
             let (start_angle, end_angle) = (quarters(kind / 4 % 4), quarters(kind / 16 % 4));
-            (Geometry::Arc { center: first.point, radius: 0.5 + (kind / 64) as f64 / 2.0, start_angle, end_angle }, "ARC")
+            (Geometry::Arc { center: first.point, radius: 0.5 + (kind / 64) as f64 / 2.0, start_angle, end_angle }, Kind::Arc)
         }
-        2 => (Geometry::Circle { center: first.point, radius: 0.4 + (kind / 8) as f64 / 16.0 }, "CIRCLE"),
+        2 => (Geometry::Circle { center: first.point, radius: 0.4 + (kind / 8) as f64 / 16.0 }, Kind::Circle),
         _ => {
             let vertices = [first, second].into_iter().chain((0..kind / 16).map(|_| vertex(script))).collect();
-            (Geometry::Polyline { closed: kind / 4 % 2 == 0, vertices }, "LWPOLYLINE")
+            (Geometry::Polyline { closed: (kind / 4).is_multiple_of(2), vertices }, Kind::LightPolyline)
         }
     };
     Entity { handle: "A".into(), layer: "0".into(), role: None, kind, geometry }
