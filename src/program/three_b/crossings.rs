@@ -53,14 +53,9 @@ impl Known {
         self.found.get(&mark).cloned()
     }
 
-    /// True where nothing was found in a contour before.
-    pub fn is_calm(&self, mark: u64) -> bool {
-        self.found.get(&mark).is_some_and(|found| found.crossings.is_empty() && !found.is_crowded)
-    }
-
     /// Keeps in mind what was found in a contour.
-    pub fn note(&mut self, mark: u64, found: &Found) {
-        self.found.insert(mark, Arc::new(found.clone()));
+    pub fn note(&mut self, mark: u64, found: &Arc<Found>) {
+        self.found.insert(mark, found.clone());
     }
 
     /// Forgets all where much more is known than is in use.

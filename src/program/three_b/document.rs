@@ -1237,6 +1237,13 @@ mod tests {
     }
 
     const PROGRAM: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)(\r\n|\n|\r)){0,40}";
+    /// Closed ones, one that crosses itself, and the way between two.
+    const CONTOURS: [&str; 4] = [
+        "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\nD\n",
+        "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nD\n",
+        "B900B0B900GXL1\nB900B900B900GYL1\nB900B0B900GXL3\nB900B900B900GXL4\nB900B0B900GXL3\nB0B50B50GYL2\nB0B50B50GYL4\nD\n",
+        "B50000B0B50000GXL1\nD\n",
+    ];
     const REPLACEMENT: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)|\r|\n| |7){0,3}";
 
     proptest! {
@@ -1250,6 +1257,25 @@ mod tests {
             let mut document = Document::read(text.repeat(copies).into_bytes());
             for (start, length, replacement) in edits {
                 document.edit(start..start + length, &replacement);
+                assert_is_fresh(&document)?;
+            }
+        }
+
+        #[test]
+        fn an_edit_among_sound_contours_leaves_them_as_read_afresh(
+            contours in prop::collection::vec(prop::sample::select(CONTOURS.to_vec()), 1..60),
+            (is_numbered, restarts) in (any::<bool>(), any::<bool>()),
+            edits in prop::collection::vec((0_usize..9000, 0_usize..3, prop::sample::select(vec!["", "7", "1", "\n", "D\n", "DD\n", "N3 "])), 1..6),
+        ) {
+            let mut number = 0;
+            let line = |line: &str| {
+                number = if line == "D" && restarts { 0 } else { number + u32::from(line != "D") };
+                if is_numbered && line != "D" { format!("N{number} {line}\n") } else { format!("{line}\n") }
+            };
+            let text: String = contours.concat().lines().map(line).collect();
+            let mut document = Document::read((text + "DD\n").into_bytes());
+            for (start, length, replacement) in edits {
+                document.edit(start..start + length, replacement);
                 assert_is_fresh(&document)?;
             }
         }
