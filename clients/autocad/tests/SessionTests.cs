@@ -191,6 +191,20 @@ namespace Wedm.Tests
         }
 
         [Test]
+        public void A_fix_is_refused_when_something_else_has_changed_meanwhile_for_it_may_have_been_made_for_that()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(0.05), Plates.WithFillet(2, "2B"));
+            var drawing = Open(host);
+            string outcome = null;
+            _session.Fix(drawing, null, done => outcome = "done", refused => outcome = refused);
+            host.Edit(Plates.WithFillet(3, "2B"));
+            Assert.AreEqual(1, drawing.Flush());
+            _session.Until(() => outcome != null, "an answer");
+            Assert.AreEqual("the drawing has changed since the fix was made for it", outcome);
+            Assert.IsTrue(host.Read("2A").IsSameAs(Plates.WithFillet(0.05)), "nothing was changed");
+        }
+
+        [Test]
         public void A_server_that_is_killed_in_the_middle_of_an_edit_comes_back_with_the_drawing_as_it_is()
         {
             var host = new MemoryDrawing(Plates.WithFillet(2));
