@@ -320,7 +320,7 @@ sys.stdin.buffer.read()
         [Test]
         public void A_missing_server_is_said()
         {
-            StringAssert.Contains("there is no such file", Failure(() => ServerLocator.Find("/no/such/wedm", "", "")));
+            StringAssert.Contains("there is no such file", Failure(() => ServerLocator.Find("/no/such/wedm", "", "", "")));
         }
 
         [Test]
