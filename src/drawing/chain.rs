@@ -4,7 +4,7 @@
 //! and layers. A *group* is what hangs together through ends that lie near each other: groups are chained independently of each
 //! other, so an edit chains again only the groups that it touches, and the result is that of a fresh start.
 
-use super::ends::{Buckets, Cells, End, Ends, NO_ENDS, Visit, has_ends};
+use super::ends::{Buckets, Cells, End, Ends, NO_ENDS, Numbered, Visit, has_ends};
 use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
 use rayon::prelude::*;
@@ -279,7 +279,7 @@ struct Loose<'a> {
     entities: &'a [EntityId],
     ends_of: &'a [Ends],
     /// Each list in machining order, and of one entity the start first; before them what was taken last in each cell.
-    ends: Buckets,
+    ends: Numbered,
     /// By number: the contour that took the entity, or [`NO_KEY`].
     taken_by: Vec<Key>,
     /// The chain at hand, in order of travel: entities, and whether they are travelled against their own direction.
@@ -291,7 +291,7 @@ struct Loose<'a> {
 impl<'a> Loose<'a> {
     fn new(cells: Cells, entities: &'a [EntityId], ends_of: &'a [Ends]) -> Loose<'a> {
         let count = entities.len();
-        let ends = Buckets::new(count, 2 * count);
+        let ends = Numbered::new(count);
         let mut loose = Loose { cells, entities, ends_of, ends, taken_by: vec![NO_KEY; count], way: Vec::new(), touching: Vec::new() };
         for at in (0..count as u32).rev() {
             let ends = loose.ends_of(at);
@@ -385,7 +385,7 @@ impl<'a> Loose<'a> {
         let Loose { cells, entities, ends_of, ends, taken_by, touching, .. } = self;
         let own = cells.of(place);
         for cell in cells.about(place) {
-            ends.visit(cell, |end| {
+            let look = |end: End| {
                 let at = end.entity() as usize;
                 let point = end.of(ends_of[entities[at].0 as usize]);
                 if taken_by[at] != NO_KEY {
@@ -409,9 +409,12 @@ impl<'a> Loose<'a> {
                 }
                 // Nothing is nearer, and what comes later in the list is later in machining order. The tip came before it.
                 if distance == 0.0 && end.entity() > here { Visit::Stop } else { Visit::Next }
-            });
+            };
             if cell == own {
-                ends.insert(cell, tip);
+                ends.visit_about(tip, look);
+                ends.insert_again(tip);
+            } else {
+                ends.visit(cell, look);
             }
         }
         best
