@@ -3,6 +3,7 @@
 //! No number is rewritten: whether it has a decimal point, and how many digits, means something to a control.
 
 use super::word::{Token, words};
+use crate::program::edits::joined;
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
@@ -43,7 +44,7 @@ pub fn format(text: &SourceText, layout: Option<Layout>, lines: Range<usize>) ->
         }
         last = Some(line);
     }
-    edits
+    joined(edits, text)
 }
 
 /// Lines that are written together.

@@ -5,6 +5,7 @@
 
 use super::pieces::{Field, Piece, pieces};
 use crate::geometry::{Point, Vector};
+use crate::program::edits::joined;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::{point_of, snap as node_of};
@@ -13,6 +14,7 @@ use crate::program::three_b::parse::{Item, StatedPoint, Word, Words, read_line};
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// How far a stated end point may lie from the block's own and still be it: 2 µm, and 1 µm for each arc since the last one.
@@ -41,7 +43,7 @@ pub fn format(text: &SourceText, layout: Option<Layout>, words: &Words<'_>, line
     let formed: Vec<Edits> = if is_long { chunks.par_iter().map(form).collect() } else { chunks.iter().map(form).collect() };
     let mut edits = Edits::default();
     formed.into_iter().for_each(|next| edits.append(text, next));
-    edits.joined(text)
+    joined(edits.list, text)
 }
 
 /// Lines that are read and written together.
@@ -366,7 +368,10 @@ impl Writer<'_> {
     /// Reads the new form and compares: the same blocks, numbers that stand, words, in the same order, and no fault.
     fn reads_the_same(&self, line: &[u8], formed: &Formed) -> bool {
         let mut again: Vec<Item> = Vec::with_capacity(self.items.len());
-        let text = [formed.head.as_bytes(), line.get(formed.kept.clone()).unwrap_or_default()].concat();
+        let text = match line.get(formed.kept.clone()) {
+            Some(kept) if !kept.is_empty() => Cow::Owned([formed.head.as_bytes(), kept].concat()),
+            _ => Cow::Borrowed(formed.head.as_bytes()),
+        };
         for part in text.split(|byte| matches!(byte, b'\n' | b'\r')) {
             read_line(part, 1, self.words, |item| again.push(item));
         }
@@ -453,12 +458,6 @@ enum Stated {
     Absent(Option<Node>),
 }
 
-/// So many edits of one text are many.
-const MANY: usize = 2_000;
-
-/// Bytes between two of many edits that are little.
-const LITTLE: usize = 64;
-
 /// Edits in the making: lines that follow each other become one.
 #[derive(Default)]
 struct Edits {
@@ -485,19 +484,19 @@ impl Edits {
             self.last_line = None;
             return;
         }
-        let new = [&formed.head, kept_text].concat();
         let previous = line.checked_sub(1);
         match self.list.last_mut().filter(|_| previous.is_some() && self.last_line == previous) {
             Some(edit) => {
                 edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..range.start]).unwrap_or("\n"));
-                edit.text.push_str(&new);
+                edit.text.push_str(&formed.head);
+                edit.text.push_str(kept_text);
                 edit.range.end = range.end;
             }
             None => {
                 if self.list.is_empty() {
                     self.first_line = Some(line);
                 }
-                self.list.push(TextEdit { range: range.start + formed.from..range.end, text: new });
+                self.list.push(TextEdit { range: range.start + formed.from..range.end, text: [&formed.head, kept_text].concat() });
             }
         }
         self.last_line = Some(line);
@@ -520,29 +519,6 @@ impl Edits {
         }
         self.list.append(&mut next.list);
         self.last_line = next.last_line;
-    }
-
-    /// The edits. Where nearly all of a long text changes, those become one that are parted by little: tens of thousands of edits cost
-    /// an editor more than the text between them.
-    fn joined(self, text: &SourceText) -> Vec<TextEdit> {
-        if self.list.len() <= MANY {
-            return self.list;
-        }
-        let mut joined: Vec<TextEdit> = Vec::new();
-        for edit in self.list {
-            let between = |last: &TextEdit| std::str::from_utf8(text.bytes().get(last.range.end..edit.range.start)?).ok();
-            match joined.last_mut() {
-                Some(last) if edit.range.start - last.range.end <= LITTLE && between(last).is_some() => {
-                    let between = between(last).unwrap_or_default();
-                    last.text.reserve(between.len() + edit.text.len());
-                    last.text.push_str(between);
-                    last.text.push_str(&edit.text);
-                    last.range.end = edit.range.end;
-                }
-                _ => joined.push(edit),
-            }
-        }
-        joined
     }
 
     fn push(&mut self, range: Range<usize>, text: String) {
