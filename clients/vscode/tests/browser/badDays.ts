@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { promisify } from "node:util";
 import { type Checks, expectEqual, expectSoon } from "./checks";
 import { FILLET, large, lineOf } from "./drawings";
-import { Host } from "./host";
+import { Host, PATIENCE } from "./host";
 import { FAKE_SERVER, WEDM } from "./paths";
 import { Window } from "./window";
 
@@ -48,6 +48,16 @@ async function missing(checks: Checks): Promise<void> {
       await notice.waitFor();
       expectEqual("version", (await notice.innerText()).includes("wedm 9.9.9"), true);
       await checks.shot("other-protocol");
+      await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("a server that dies at every start is given up after five more tries, and that is said once", async () => {
+      const dies = join(host.folder, "..", "dies");
+      await writeFile(dies, `#!/bin/sh\necho >>${dies}.starts\necho the disk is full >&2\nexit 3\n`, { mode: 0o755 });
+      await choose(dies);
+      await window.notification("started again five times").waitFor({ timeout: 2 * PATIENCE });
+      await checks.shot("dies");
+      expectEqual("starts", (await readFile(`${dies}.starts`, "utf8")).length, 6);
+      expectEqual("notices", await host.page.locator(".notifications-toasts .notification-list-item").count(), 1);
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("the right server is taken at once when the setting names it", async () => {
