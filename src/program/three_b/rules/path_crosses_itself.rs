@@ -19,7 +19,7 @@ pub(in crate::program) struct Crossing {
 const MOST: usize = 50;
 
 /// Pairs of pieces of one contour that are looked at: where much lies on one place all of them are near each other.
-const MOST_PAIRS: usize = 1_000;
+pub(in super::super) const MOST_PAIRS: usize = 1_000;
 
 /// Pieces in a row that lie along another one, for which its crossing is still that of the first.
 const MOST_ALONG: usize = 8;
