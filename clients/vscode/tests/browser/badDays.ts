@@ -72,11 +72,17 @@ async function missing(checks: Checks): Promise<void> {
 
 async function killed(checks: Checks): Promise<void> {
   const big = large(51 * 1024 * 1024);
-  const host = await Host.start({ "wedm.server.path": WEDM, "workbench.editorLargeFileConfirmation": 1024 }, { "plate.dxf": FILLET, "large.dxf": big });
+  const host = await Host.start({ "wedm.server.path": WEDM, "workbench.editorLargeFileConfirmation": 1024 }, { "plate.dxf": FILLET, "second.dxf": FILLET, "large.dxf": big });
   const window = new Window(host.page);
   checks.page = host.page;
   const line = lineOf(FILLET, BULGE);
   try {
+    // A second text that is open, behind the first, with an edit that is not saved.
+    await window.open("second.dxf");
+    await window.squiggles.first().waitFor();
+    await window.goToLine(line - 4, 1);
+    await host.page.keyboard.press("Shift+End");
+    await host.page.keyboard.type("19.93");
     await window.open("plate.dxf");
     await window.squiggles.first().waitFor();
     await checks.check("a text that is changed by undo while a repair is on its way stays as it is", async () => {
@@ -118,6 +124,8 @@ async function killed(checks: Checks): Promise<void> {
       };
       await expectSoon("another server", another, async () => JSON.stringify(await servers(host.folder)));
       await says(window, "arc R 0.055 mm is below");
+      // The other text too, as it is in the window and in no file.
+      await says(window, "arc R 0.061 mm is below");
       await checks.shot("restarted");
     });
     await checks.check("the state is right again: edits after the restart are judged", async () => {
