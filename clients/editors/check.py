@@ -315,6 +315,17 @@ def helix(program: str, editor: str) -> None:
     place.log(f"{editor}.txt", screen)
 
 
+def helix_without_server(program: str) -> None:
+    """What the README names says that it is missing."""
+    place = Place("helix-without")
+    (place.folder / "programs/wedm").unlink()
+    configuration = place.folder / "home/.config/helix"
+    configuration.mkdir()
+    shutil.copy(HERE / "helix/languages.toml", configuration)
+    said = place.run([program, "--health", "dxf"], HELIX_RUNTIME=str(Path(program).parent / "runtime"), PATH=place.path_without_server())
+    saw(said, "wedm", "not found in $PATH")
+
+
 class Screen:
     """An X server of its own, with a window manager."""
 
@@ -435,6 +446,7 @@ def checks() -> list[tuple[str, str, Callable[[str], None]]]:
         ("Emacs, eglot: the server where cargo installs it", "emacs", emacs_installed),
         ("Emacs, eglot: no server", "emacs", emacs_without_server),
         ("Helix: repair, death of the server", "hx", lambda program: helix(program, "helix")),
+        ("Helix: no server", "hx", helix_without_server),
         ("Kate: repair, death of the server", "kate", lambda program: kate(program, "kate")),
     ]
 

@@ -232,14 +232,15 @@ impl Pairs {
 
     /// Says where segments have not been compared.
     fn report_uncompared(&self, drawing: &Drawing, outlook: Outlooks, report: &mut Report) {
+        if self.uncompared.is_empty() || !report.counts(Rule::Overlap, None) {
+            return;
+        }
         let first = self.uncompared.iter().filter_map(|&(key, run)| outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start));
         let rank = |place: &Place| match place {
             Place::Segment { entity, segment } => Some((drawing.rank(*entity), *segment)),
             _ => None,
         };
-        if let Some(place) = first.min_by_key(rank)
-            && report.counts(Rule::Overlap, None)
-        {
+        if let Some(place) = first.min_by_key(rank) {
             report.add(Rule::Overlap, None, place, Detail::Crowded { count: self.uncompared.len() }, Vec::new());
         }
     }

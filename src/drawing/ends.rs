@@ -119,6 +119,12 @@ impl Lists {
         self.next[end.0 as usize] = std::mem::replace(&mut self.first[list], end.0);
     }
 
+    fn of(&self, list: usize) -> impl Iterator<Item = End> + '_ {
+        let first = self.first.get(list).copied().unwrap_or(NONE);
+        let follows = |&end: &u32| self.next.get(end as usize).copied().filter(|&end| end != NONE);
+        std::iter::successors(Some(first).filter(|&end| end != NONE), follows).map(End)
+    }
+
     /// Goes through a list; gives back how many ends were removed from it.
     fn visit(&mut self, list: usize, mut look: impl FnMut(End) -> Visit) -> usize {
         let (mut at, mut before) = (self.first[list], NONE);
@@ -193,10 +199,7 @@ impl Buckets {
 
     /// The ends of a cell, and of others with the same hash.
     pub(super) fn of_cell(&self, cell: Cell) -> impl Iterator<Item = End> + '_ {
-        let Lists { first, next } = &self.lists;
-        let first = first.get(self.list(cell)).copied().unwrap_or(NONE);
-        let follows = |&end: &u32| next.get(end as usize).copied().filter(|&end| end != NONE);
-        std::iter::successors(Some(first).filter(|&end| end != NONE), follows).map(End)
+        self.lists.of(self.list(cell))
     }
 }
 
@@ -207,8 +210,12 @@ pub(super) struct Numbered {
     lists: Lists,
     /// By hash of a cell: the number of its list.
     by_hash: Vec<u32>,
+    /// By hash of a cell, a bit: there is a list. Most of the cells beside one are empty, and these bits are always at hand.
+    is_there: Vec<u64>,
     /// By end: the number of its list.
     of_end: Vec<u32>,
+    /// How many ends came into each list.
+    lengths: Vec<u32>,
 }
 
 impl Numbered {
@@ -216,19 +223,35 @@ impl Numbered {
     pub(super) fn new(entities: usize) -> Numbered {
         let ends = 2 * entities;
         let lists = Lists { first: Vec::with_capacity(ends), next: vec![NONE; ends] };
-        Numbered { lists, by_hash: vec![NONE; ends.next_power_of_two()], of_end: vec![NONE; ends] }
+        let hashes = ends.next_power_of_two();
+        Numbered {
+            lists,
+            by_hash: vec![NONE; hashes],
+            is_there: vec![0; hashes.div_ceil(64)],
+            of_end: vec![NONE; ends],
+            lengths: Vec::with_capacity(ends),
+        }
     }
 
     /// Puts a new end before all others of its cell.
     pub(super) fn insert(&mut self, cell: Cell, end: End) {
-        let number = hash(cell, self.by_hash.len());
-        let number = &mut self.by_hash[number];
+        let hash = hash(cell, self.by_hash.len());
+        let number = &mut self.by_hash[hash];
         if *number == NONE {
+            self.is_there[hash / 64] |= 1 << (hash % 64);
             *number = self.lists.first.len() as u32;
             self.lists.first.push(NONE);
+            self.lengths.push(0);
         }
         self.of_end[end.0 as usize] = *number;
+        self.lengths[*number as usize] += 1;
         self.lists.insert(*number as usize, end);
+    }
+
+    /// The ends in lists of more than `count`.
+    pub(super) fn of_long_lists(&self, count: usize) -> impl Iterator<Item = End> + '_ {
+        let long = self.lengths.iter().enumerate().filter(move |(_, length)| **length as usize > count);
+        long.flat_map(|(list, _)| self.lists.of(list))
     }
 
     /// Puts an end that was removed, or not, before all others of its cell.
@@ -243,9 +266,9 @@ impl Numbered {
 
     /// Goes through the ends of a cell, and of others with the same hash.
     pub(super) fn visit(&mut self, cell: Cell, look: impl FnMut(End) -> Visit) {
-        let number = self.by_hash[hash(cell, self.by_hash.len())];
-        if number != NONE {
-            self.lists.visit(number as usize, look);
+        let hash = hash(cell, self.by_hash.len());
+        if self.is_there[hash / 64] >> (hash % 64) & 1 == 1 {
+            self.lists.visit(self.by_hash[hash] as usize, look);
         }
     }
 }

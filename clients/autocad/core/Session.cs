@@ -228,8 +228,9 @@ namespace Wedm.Core
             if (version != ProtocolVersion)
             {
                 var name = (string)answer.SelectToken("serverInfo.name") ?? "the program";
+                var release = (string)answer.SelectToken("serverInfo.version");
                 var found = version == null ? "no protocol of wedm" : "protocol " + version;
-                Fail(name + " " + (string)answer.SelectToken("serverInfo.version") + " speaks " + found + ", this plugin needs protocol "
+                Fail(name + (release == null ? "" : " " + release) + " speaks " + found + ", this plugin needs protocol "
                     + ProtocolVersion + ": install plugin and server of the same release");
                 return;
             }

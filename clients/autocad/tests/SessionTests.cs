@@ -303,7 +303,7 @@ sys.stdin.buffer.read()
         [TestCase("{'capabilities': {'experimental': {'wedm': {'protocol': 2}}}, 'serverInfo': {'name': 'wedm', 'version': '9.0.0'}}",
             "wedm 9.0.0 speaks protocol 2, this plugin needs protocol 1: install plugin and server of the same release")]
         [TestCase("{'capabilities': {}, 'serverInfo': {'name': 'other'}}",
-            "other  speaks no protocol of wedm, this plugin needs protocol 1: install plugin and server of the same release")]
+            "other speaks no protocol of wedm, this plugin needs protocol 1: install plugin and server of the same release")]
         public void Another_protocol_is_refused_with_both_versions(string result, string expected)
         {
             var path = Script(Answer.Replace("RESULT", result));
