@@ -116,7 +116,7 @@ class Place:
 
 def saw(said: str, *expected: str) -> None:
     for line in expected:
-        expect(line in said, f"no {line!r} in:\n{said}")
+        expect(line in said, f"no {line!r} in:\n{said[-4000:]}")
 
 
 def neovim(program: str, native: bool, editor: str) -> None:
@@ -124,7 +124,7 @@ def neovim(program: str, native: bool, editor: str) -> None:
     words = [program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(HERE / "neovim/session.lua")]
     said = place.run(words, WEDM_CONFIGURATION=str(HERE / "neovim"), WEDM_NATIVE="1" if native else "0")
     place.log(f"{editor}.txt", said)
-    saw(said, FAULT, f"offered: {OFFERED}", "fixed and written", "the server was killed and started again: 1 fault")
+    saw(said, FAULT, f"offered: {OFFERED}", "fixed and written", "undo has overtaken changed nothing", "the server was killed and started again: 1 fault")
     place.check_drawing()
 
 
@@ -142,6 +142,45 @@ def neovim_by_path(program: str) -> None:
     )
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=place.path_without_server())
     saw(said, FAULT)
+
+
+def move_to_where_cargo_installs(place: Place) -> None:
+    target = place.folder / "home/.cargo/bin/wedm"
+    target.parent.mkdir(parents=True)
+    (place.folder / "programs/wedm").rename(target)
+
+
+def neovim_installed(program: str, native: bool, editor: str) -> None:
+    """The server is where cargo puts it, and that is not on the PATH."""
+    place = Place(editor + "-installed")
+    move_to_where_cargo_installs(place)
+    words = [program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(HERE / "neovim/session.lua")]
+    said = place.run(words, WEDM_CONFIGURATION=str(HERE / "neovim"), WEDM_NATIVE="1" if native else "0", PATH=place.path_without_server())
+    saw(said, FAULT, "fixed and written")
+
+
+def neovim_that_dies(program: str, native: bool, editor: str) -> None:
+    """A server that dies at every start is given up, and that is said."""
+    place = Place(editor + "-dies")
+    server = place.folder / "programs/wedm"
+    server.unlink()
+    server.write_text('#!/bin/sh\necho >>"$WEDM_DRAWING.starts"\nexit 3\n')
+    server.chmod(0o755)
+    if native:
+        start = f"vim.opt.runtimepath:append('{HERE}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
+    else:
+        start = f"dofile('{HERE}/neovim/wedm.lua').setup {{}}"
+    script = place.folder / "start.lua"
+    script.write_text(
+        f"{start}\nlocal notify, said = vim.notify, ''\nvim.notify = function(text, ...) said = said .. text notify(text, ...) end\n"
+        "vim.api.nvim_create_autocmd('VimEnter', { nested = true, callback = function()\n"
+        "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\n"
+        "vim.wait(30000, function() return said:find('not started again') ~= nil end, 20)\nvim.wait(1000)\nvim.cmd('qall!')\nend })\n"
+    )
+    said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)])
+    saw(said, "wedm has ended 6 times within two minutes and is not started again")
+    starts = Path(f"{place.drawing}.starts").read_text().count("\n")
+    expect(starts == 6, f"it was started {starts} times, expected 6")
 
 
 def neovim_without_server(program: str, native: bool, editor: str) -> None:
@@ -170,6 +209,15 @@ def emacs(program: str, editor: str) -> None:
     place.log(f"{editor}.txt", said)
     saw(said, FAULT, "mode: dxf-mode", f"offered: {OFFERED}", "fixed and written", "the server was killed and started again: 1 fault")
     place.check_drawing()
+
+
+def emacs_installed(program: str) -> None:
+    """The server is where cargo puts it, and that is not on the PATH."""
+    place = Place("emacs-installed")
+    move_to_where_cargo_installs(place)
+    show = "(princ (wedm--contact))"
+    said = place.run([program, "--batch", "-q", "-l", "package", "-f", "package-initialize", "-l", f"{HERE}/emacs/wedm.el", "--eval", show], PATH=place.path_without_server())
+    saw(said, f"{place.folder}/home/.cargo/bin/wedm")
 
 
 def emacs_without_server(program: str) -> None:
@@ -265,6 +313,17 @@ def helix(program: str, editor: str) -> None:
     finally:
         terminal.close()
     place.log(f"{editor}.txt", screen)
+
+
+def helix_without_server(program: str) -> None:
+    """What the README names says that it is missing."""
+    place = Place("helix-without")
+    (place.folder / "programs/wedm").unlink()
+    configuration = place.folder / "home/.config/helix"
+    configuration.mkdir()
+    shutil.copy(HERE / "helix/languages.toml", configuration)
+    said = place.run([program, "--health", "dxf"], HELIX_RUNTIME=str(Path(program).parent / "runtime"), PATH=place.path_without_server())
+    saw(said, "wedm", "not found in $PATH")
 
 
 class Screen:
@@ -378,10 +437,16 @@ def checks() -> list[tuple[str, str, Callable[[str], None]]]:
         ("Neovim 0.7, wedm.lua: the server by its path", "nvim", neovim_by_path),
         ("Neovim 0.7, wedm.lua: no server", "nvim", lambda program: neovim_without_server(program, False, "neovim-0.7")),
         ("Neovim 0.11, vim.lsp.config: repair, death of the server", "nvim-0.11", lambda program: neovim(program, True, "neovim-0.11")),
+        ("Neovim 0.7, wedm.lua: the server where cargo installs it", "nvim", lambda program: neovim_installed(program, False, "neovim-0.7")),
+        ("Neovim 0.11, vim.lsp.config: the server where cargo installs it", "nvim-0.11", lambda program: neovim_installed(program, True, "neovim-0.11")),
+        ("Neovim 0.7, wedm.lua: a server that dies at every start", "nvim", lambda program: neovim_that_dies(program, False, "neovim-0.7")),
+        ("Neovim 0.11, vim.lsp.config: a server that dies at every start", "nvim-0.11", lambda program: neovim_that_dies(program, True, "neovim-0.11")),
         ("Neovim 0.11, vim.lsp.config: no server", "nvim-0.11", lambda program: neovim_without_server(program, True, "neovim-0.11")),
         ("Emacs, eglot: repair, death of the server", "emacs", lambda program: emacs(program, "emacs")),
+        ("Emacs, eglot: the server where cargo installs it", "emacs", emacs_installed),
         ("Emacs, eglot: no server", "emacs", emacs_without_server),
         ("Helix: repair, death of the server", "hx", lambda program: helix(program, "helix")),
+        ("Helix: no server", "hx", helix_without_server),
         ("Kate: repair, death of the server", "kate", lambda program: kate(program, "kate")),
     ]
 

@@ -63,9 +63,9 @@ impl Known {
         }
     }
 
-    /// True when no local rule has seen anything and no arc is tight.
-    pub fn is_quiet(&self) -> bool {
-        self.facts.iter().flatten().all(Vec::is_empty) && self.index.tight().next().is_none()
+    /// True when a local rule has seen something.
+    pub fn has_facts(&self) -> bool {
+        !self.facts.iter().flatten().all(Vec::is_empty)
     }
 
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.

@@ -27,6 +27,22 @@ use std::sync::{Arc, OnceLock};
 
 /// Up to so many touched places are looked at one by one, however small the drawing is.
 const FEW: usize = 16;
+/// Where an edit takes more contours than these apart, and a good part of all, everything is looked at anew.
+const MANY: usize = 256;
+
+/// What of a contour that has something to tell is asked at every report, so that those beyond the limit of a report are not
+/// looked at.
+#[derive(Clone, Copy, Debug)]
+struct Loud {
+    /// The first of its entities in machining order.
+    first: EntityId,
+    has_tight_arcs: bool,
+    has_facts: bool,
+    /// A rule on whole contours holds.
+    as_a_whole: bool,
+    /// How many of its arcs are below the correction with the wire on a side, once they have been counted.
+    faults: Option<(Option<Side>, usize)>,
+}
 
 /// What is known of one drawing under one set of settings.
 #[derive(Clone, Debug)]
@@ -36,7 +52,7 @@ pub struct Analysis {
     chains: Chains,
     known: FxHashMap<ContourKey, Known>,
     /// Contours that have something to tell without a look at others: most have not.
-    loud: FxHashSet<ContourKey>,
+    loud: FxHashMap<ContourKey, Loud>,
     /// Contours larger than any machine.
     vast: FxHashSet<ContourKey>,
     /// How many contours have a stated role.
@@ -62,7 +78,7 @@ impl Analysis {
             limits,
             chains,
             known: FxHashMap::default(),
-            loud: FxHashSet::default(),
+            loud: FxHashMap::default(),
             vast: FxHashSet::default(),
             stated: 0,
             asleep: None,
@@ -121,6 +137,12 @@ impl Analysis {
         self.order = OnceLock::new();
         let settings = self.settings.clone();
         let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
+        // Thousands of contours with ends in one place are one group, and lie on each other: to forget each of them costs a look at all.
+        let gone = rechained.gone.len();
+        if gone > MANY && gone * 4 > self.known.len() {
+            *self = Analysis::new(drawing, settings);
+            return;
+        }
         for key in &rechained.gone {
             self.lost.remove(key);
             self.loud.remove(key);
@@ -155,11 +177,17 @@ impl Analysis {
     /// Takes down whether a contour has something to tell.
     fn listen_to(&mut self, drawing: &Drawing, key: ContourKey) {
         let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
-        let is_loud = self.known.get(&key).is_some_and(|known| !known.is_quiet()) || self.outlook(drawing, key).is_some_and(of_contour);
-        if is_loud {
-            self.loud.insert(key);
-        } else {
-            self.loud.remove(&key);
+        let known = self.known.get(&key);
+        let loud = self.chains.first_of(key).map(|first| Loud {
+            first,
+            has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
+            has_facts: known.is_some_and(Known::has_facts),
+            as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
+            faults: None,
+        });
+        match loud.filter(|loud| loud.has_tight_arcs || loud.has_facts || loud.as_a_whole) {
+            Some(loud) => drop(self.loud.insert(key, loud)),
+            None => drop(self.loud.remove(&key)),
         }
         if self.known.get(&key).is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm)) {
             self.vast.insert(key);
@@ -170,14 +198,9 @@ impl Analysis {
 
     /// The contours that have something to tell, in machining order.
     fn loud_in_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
-        if self.loud.len() * 8 > self.chains.len() {
-            return self.in_machining_order(drawing).iter().copied().filter(|key| self.loud.contains(key)).collect();
-        }
-        let place = |&key: &ContourKey| {
-            let first = self.chains.first_of(key).filter(|&first| drawing.get(first).is_some())?;
-            Some((drawing.rank(first), key))
-        };
-        let mut loud: Vec<(u64, ContourKey)> = self.loud.iter().filter_map(place).collect();
+        // What sleeps is not in the drawing.
+        let awake = self.loud.iter().filter(|(_, loud)| Some(loud.first) != self.asleep);
+        let mut loud: Vec<(u64, ContourKey)> = awake.map(|(&key, loud)| (drawing.rank(loud.first), key)).collect();
         loud.sort_unstable();
         loud.into_iter().map(|(_, key)| key).collect()
     }
@@ -234,8 +257,10 @@ impl Analysis {
             let ordered = self.in_machining_order(drawing);
             ordered.iter().copied().zip(self.roles(drawing, ordered)).collect()
         });
+        let everywhere = self.role_everywhere();
         let role_of = |analysis: &Analysis, key: ContourKey| match &nested {
             Some(roles) => roles.get(&key).copied().unwrap_or(Role::Both),
+            None if everywhere.is_some() => everywhere.unwrap_or(Role::Both),
             None => analysis.roles(drawing, &[key]).first().copied().unwrap_or(Role::Both),
         };
         let side_of = |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
@@ -244,11 +269,14 @@ impl Analysis {
             self.report_small_radii(drawing, key, wire_side, &mut report);
         }
         for &(key, wire_side) in &loud {
-            if let (Some(known), Some(outlook)) = (self.known.get(&key), self.outlook(drawing, key)) {
+            if self.loud.get(&key).is_some_and(|loud| loud.has_facts)
+                && let (Some(known), Some(outlook)) = (self.known.get(&key), self.outlook(drawing, key))
+            {
                 known.report(&outlook, wire_side, &mut report);
             }
         }
-        self.report_contours(drawing, loud.iter().map(|(key, _)| *key), &mut report);
+        let as_a_whole = |key: &ContourKey| self.loud.get(key).is_some_and(|loud| loud.as_a_whole);
+        self.report_contours(drawing, loud.iter().map(|(key, _)| *key).filter(as_a_whole), &mut report);
         self.report_size(drawing, &mut report);
         self.pairs.report(drawing, &|key| self.outlook(drawing, key), &|key| side_of(self, key), &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
@@ -348,14 +376,26 @@ impl Analysis {
 
     /// Arcs below the correction in one contour.
     fn report_small_radii(&mut self, drawing: &Drawing, key: ContourKey, wire_side: Option<Side>, report: &mut Report) {
+        let Some(loud) = self.loud.get(&key).filter(|loud| loud.has_tight_arcs) else { return };
+        if let Some((_, count)) = loud.faults.filter(|(side, _)| *side == wire_side)
+            && report.is_full(Rule::SmallRadius, None)
+        {
+            report.count(Rule::SmallRadius, None, count);
+            return;
+        }
         let tight: Vec<usize> = self.known.get(&key).map_or_else(Vec::new, |known| known.index.tight().collect());
+        let mut count = 0;
         for index in tight {
             let Some((segment, mut numbers)) = self.fault(drawing, key, index, wire_side) else { continue };
+            count += 1;
             if report.counts(Rule::SmallRadius, None) {
                 numbers.no_fix = self.answer(drawing, key, index);
                 let place = Place::Segment { entity: segment.entity, segment: segment.segment };
                 report.add(Rule::SmallRadius, None, place, Detail::SmallRadius(Box::new(numbers)), Vec::new());
             }
+        }
+        if let Some(loud) = self.loud.get_mut(&key) {
+            loud.faults = Some((wire_side, count));
         }
     }
 
@@ -505,8 +545,13 @@ impl Analysis {
     /// The replacement of the run that holds a tight arc, looked for on the side of its centre.
     fn attempt<'a>(&'a self, drawing: &'a Drawing, key: ContourKey, index: usize) -> Option<(Travel<'a>, Attempt)> {
         let contour = self.chains.get(key)?;
-        let arc = *contour.segment(drawing, index)?.geometry.as_arc()?;
+        let segment = contour.segment(drawing, index)?;
+        let arc = *segment.geometry.as_arc()?;
         let travel = Travel { drawing, contour, index: &self.known.get(&key)?.index, side: small_radius::center_side(arc.sweep) };
+        if !drawing.is_editable(segment.entity) {
+            // Whatever a search would find, it could not be made; and a fitted curve may have a million tight arcs.
+            return Some((travel, Attempt { outcome: Err(NoFix::NotEditable), region: segment.geometry.bounds() }));
+        }
         let run = small_radius::run_of(&travel, travel.position_of(index), &self.limits)?;
         let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
         if let Ok(replacement) = &attempt.outcome
@@ -653,6 +698,17 @@ impl Analysis {
             }
             keys
         })
+    }
+
+    /// The role that every contour has, where nothing states one and it does not depend on nesting.
+    fn role_everywhere(&self) -> Option<Role> {
+        match self.settings.side {
+            _ if self.stated > 0 => None,
+            SideSetting::Auto => None,
+            SideSetting::Opening => Some(Role::Opening),
+            SideSetting::Punch => Some(Role::Punch),
+            SideSetting::Both => Some(Role::Both),
+        }
     }
 
     /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting.

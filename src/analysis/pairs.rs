@@ -119,19 +119,7 @@ impl Pairs {
         }
         let new: FxHashSet<RunId> = runs.iter().copied().collect();
         let (mut near, mut found) = (Vec::new(), Vec::new());
-        // Runs are met again and again by those about them.
-        let mut kept: FxHashMap<RunId, Rc<Walls>> = FxHashMap::default();
-        let mut walls_of = |run: RunId| {
-            if let Some(walls) = kept.get(&run) {
-                return Some(walls.clone());
-            }
-            if kept.len() >= KEPT {
-                kept.clear();
-            }
-            let walls = Rc::new(Walls::of(&outlook(run.0)?, run.1));
-            kept.insert(run, walls.clone());
-            Some(walls)
-        };
+        let mut kept = Kept { outlook, walls: FxHashMap::default() };
         for &run in runs {
             let Some(own) = outlook(run.0) else { continue };
             if self.seen_count >= MOST_SEEN {
@@ -149,7 +137,7 @@ impl Pairs {
             if near.is_empty() {
                 continue;
             }
-            let Some(walls) = walls_of(run) else { continue };
+            let Some(walls) = kept.walls_of(run) else { continue };
             // A long line may have a box that holds half the drawing, and come near little of it.
             near.retain(|&other| {
                 let theirs = outlook(other.0).map_or(Bounds::EMPTY, |theirs| theirs.index.bounds_of_run(other.1 as usize));
@@ -167,7 +155,7 @@ impl Pairs {
                 let look = Look { rules: &rules, reach: self.reach, keys: (run.0, other.0) };
                 if other == run {
                     look.within(&walls, &mut found);
-                } else if let Some(theirs) = walls_of(other) {
+                } else if let Some(theirs) = kept.walls_of(other) {
                     look.between(&walls, &theirs, &mut found);
                 }
                 if !found.is_empty() {
@@ -183,34 +171,34 @@ impl Pairs {
                 }
             }
         }
-        self.ask_again(outlook, limits);
+        self.ask_again(&mut kept, limits);
     }
 
     /// Looks whether the discs of what has been seen at the stale runs are empty.
-    fn ask_again(&mut self, outlook: Outlooks, limits: &Limits) {
-        for run in std::mem::take(&mut self.stale) {
-            for partner in self.partners.get(&run).cloned().unwrap_or_default() {
-                let Some(mut seen) = self.seen.remove(&ordered(run, partner)) else { continue };
-                for each in &mut seen {
-                    each.blocked = each.disc.is_some_and(|disc| self.reaches_into(outlook, limits, disc));
-                }
-                self.seen.insert(ordered(run, partner), seen);
+    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits) {
+        let stale = std::mem::take(&mut self.stale);
+        let partners = stale.iter().filter_map(|run| Some((run, self.partners.get(run)?)));
+        let mut asked: Vec<(RunId, RunId)> =
+            partners.flat_map(|(&run, partners)| partners.iter().map(move |&partner| ordered(run, partner))).collect();
+        // In the order along the contours, so that what is kept of one pair serves the next.
+        asked.sort_unstable();
+        asked.dedup();
+        for pair in asked {
+            let Some(mut seen) = self.seen.remove(&pair) else { continue };
+            for each in &mut seen {
+                each.blocked = each.disc.is_some_and(|disc| self.reaches_into(kept, limits, disc));
             }
+            self.seen.insert(pair, seen);
         }
     }
 
     /// True when some segment reaches into a disc by more than rounding.
-    fn reaches_into(&self, outlook: Outlooks, limits: &Limits, (center, radius): (Point, f64)) -> bool {
+    fn reaches_into(&self, kept: &mut Kept, limits: &Limits, (center, radius): (Point, f64)) -> bool {
         let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
         self.grid.near(&area, |run| near.push(run));
-        near.into_iter().any(|(key, run)| {
-            outlook(key).is_some_and(|theirs| {
-                let mut segments = theirs.index.range_of(run as usize).filter_map(|index| theirs.segment(index as isize));
-                segments.any(|segment| segment.geometry.bounds().touches(&area) && segment.geometry.distance_to(center) < radius)
-            })
-        })
+        near.into_iter().any(|run| kept.walls_of(run).is_some_and(|walls| walls.reach_into(&area, center, radius)))
     }
 
     /// Contours that have something of `rule` between two of their own segments.
@@ -244,14 +232,15 @@ impl Pairs {
 
     /// Says where segments have not been compared.
     fn report_uncompared(&self, drawing: &Drawing, outlook: Outlooks, report: &mut Report) {
+        if self.uncompared.is_empty() || !report.counts(Rule::Overlap, None) {
+            return;
+        }
         let first = self.uncompared.iter().filter_map(|&(key, run)| outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start));
         let rank = |place: &Place| match place {
             Place::Segment { entity, segment } => Some((drawing.rank(*entity), *segment)),
             _ => None,
         };
-        if let Some(place) = first.min_by_key(rank)
-            && report.counts(Rule::Overlap, None)
-        {
+        if let Some(place) = first.min_by_key(rank) {
             report.add(Rule::Overlap, None, place, Detail::Crowded { count: self.uncompared.len() }, Vec::new());
         }
     }
@@ -359,6 +348,26 @@ fn merged(seen: &[&Seen], count_of: &dyn Fn(ContourKey) -> Option<usize>) -> FxH
     gone
 }
 
+/// The walls of some runs, which are met again and again by those about them.
+struct Kept<'a, 'b> {
+    outlook: Outlooks<'a, 'b>,
+    walls: FxHashMap<RunId, Rc<Walls<'b>>>,
+}
+
+impl<'b> Kept<'_, 'b> {
+    fn walls_of(&mut self, run: RunId) -> Option<Rc<Walls<'b>>> {
+        if let Some(walls) = self.walls.get(&run) {
+            return Some(walls.clone());
+        }
+        if self.walls.len() >= KEPT {
+            self.walls.clear();
+        }
+        let walls = Rc::new(Walls::of(&(self.outlook)(run.0)?, run.1));
+        self.walls.insert(run, walls.clone());
+        Some(walls)
+    }
+}
+
 /// The segments of a run with their boxes.
 struct Walls<'a> {
     each: Vec<(Wall<'a>, Bounds)>,
@@ -386,6 +395,13 @@ impl<'a> Walls<'a> {
         });
         let groups = groups.collect();
         Walls { each, groups, all }
+    }
+
+    /// True when a segment comes nearer to `center` than `radius`; `area` is the box of that disc.
+    fn reach_into(&self, area: &Bounds, center: Point, radius: f64) -> bool {
+        let groups = self.each.chunks(GROUP).zip(&self.groups).filter(|(_, bounds)| bounds.touches(area));
+        let mut near = groups.flat_map(|(group, _)| group).filter(|(_, bounds)| bounds.touches(area));
+        near.any(|(wall, _)| wall.geometry().distance_to(center) < radius)
     }
 }
 

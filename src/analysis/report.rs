@@ -61,15 +61,26 @@ impl Report {
 
     /// Counts a finding. True when it should be worked out and added.
     pub fn counts(&mut self, rule: Rule, mildest: Option<Severity>) -> bool {
-        let Some(severity) = self.severity(rule, mildest) else { return false };
-        self.count += 1;
+        self.count(rule, mildest, 1);
+        !self.is_full(rule, mildest)
+    }
+
+    /// Counts so many findings, which are not added.
+    pub fn count(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
+        let Some(severity) = self.severity(rule, mildest).filter(|_| count > 0) else { return };
+        self.count += count;
         match severity {
-            Severity::Error => self.tally.errors += 1,
-            Severity::Warning => self.tally.warnings += 1,
+            Severity::Error => self.tally.errors += count,
+            Severity::Warning => self.tally.warnings += count,
             Severity::Information | Severity::Hint => {}
         }
-        *self.tally.of_rule.entry(rule).or_default() += 1;
-        self.limit > 0 && self.kept.get(&severity).is_none_or(|kept| kept.len() < self.limit)
+        *self.tally.of_rule.entry(rule).or_default() += count;
+    }
+
+    /// True when no finding of this severity is added any more, or the rule is off.
+    pub fn is_full(&self, rule: Rule, mildest: Option<Severity>) -> bool {
+        let kept = |severity| self.kept.get(&severity).map_or(0, Vec::len);
+        self.severity(rule, mildest).is_none_or(|severity| kept(severity) >= self.limit)
     }
 
     /// Adds a finding that has been counted.

@@ -4,7 +4,7 @@
 //! and layers. A *group* is what hangs together through ends that lie near each other: groups are chained independently of each
 //! other, so an edit chains again only the groups that it touches, and the result is that of a fresh start.
 
-use super::ends::{Buckets, Cells, End, Ends, NO_ENDS, Visit, has_ends};
+use super::ends::{Buckets, Cell, Cells, End, Ends, NO_ENDS, Numbered, Visit, has_ends};
 use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
 use rayon::prelude::*;
@@ -14,6 +14,10 @@ use rustc_hash::{FxHashMap, FxHashSet};
 const FEW: usize = 16;
 /// The ends of fewer than one in so many entities are moved one by one; of more, all are sorted into cells again.
 const BULK: usize = 8;
+
+/// Of more ends than these in one cell of the plane the nearest is not sought: the first one within the join tolerance, in machining
+/// order, goes on. A drawing to be cut has a few.
+const CROWD: usize = 1000;
 
 /// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
 pub type Key = u32;
@@ -279,7 +283,9 @@ struct Loose<'a> {
     entities: &'a [EntityId],
     ends_of: &'a [Ends],
     /// Each list in machining order, and of one entity the start first; before them what was taken last in each cell.
-    ends: Buckets,
+    ends: Numbered,
+    /// Cells with more ends than [`CROWD`].
+    crowded: FxHashSet<Cell>,
     /// By number: the contour that took the entity, or [`NO_KEY`].
     taken_by: Vec<Key>,
     /// The chain at hand, in order of travel: entities, and whether they are travelled against their own direction.
@@ -291,14 +297,27 @@ struct Loose<'a> {
 impl<'a> Loose<'a> {
     fn new(cells: Cells, entities: &'a [EntityId], ends_of: &'a [Ends]) -> Loose<'a> {
         let count = entities.len();
-        let ends = Buckets::new(count, 2 * count);
-        let mut loose = Loose { cells, entities, ends_of, ends, taken_by: vec![NO_KEY; count], way: Vec::new(), touching: Vec::new() };
+        let ends = Numbered::new(count);
+        let mut loose = Loose {
+            cells,
+            entities,
+            ends_of,
+            ends,
+            crowded: FxHashSet::default(),
+            taken_by: vec![NO_KEY; count],
+            way: Vec::new(),
+            touching: Vec::new(),
+        };
         for at in (0..count as u32).rev() {
             let ends = loose.ends_of(at);
             if has_ends(&ends) {
                 End::both(at).into_iter().rev().for_each(|end| loose.ends.insert(cells.of(end.of(ends)), end));
             }
         }
+        let mut counts: FxHashMap<Cell, usize> = FxHashMap::default();
+        let place_of = |end: End| end.of(ends_of[entities[end.entity() as usize].0 as usize]);
+        loose.ends.of_long_lists(CROWD).for_each(|end| *counts.entry(cells.of(place_of(end))).or_default() += 1);
+        loose.crowded = counts.into_iter().filter(|(_, count)| *count > CROWD).map(|(cell, _)| cell).collect();
         loose
     }
 
@@ -334,6 +353,11 @@ impl<'a> Loose<'a> {
         end.other()
     }
 
+    /// True in a cell with so many ends that all within the join tolerance count as equally near.
+    fn is_crowded(&self, cell: Cell) -> bool {
+        !self.crowded.is_empty() && self.crowded.contains(&cell)
+    }
+
     fn place_of(&self, end: End) -> Point {
         end.of(self.ends_of(end.entity()))
     }
@@ -346,7 +370,10 @@ impl<'a> Loose<'a> {
         let start = self.place_of(tail);
         loop {
             let here = self.place_of(tip);
-            let home = self.cells.distance(here, start);
+            let mut home = self.cells.distance(here, start);
+            if home <= self.cells.join && self.is_crowded(self.cells.of(start)) {
+                home = 0.0;
+            }
             let next = self.next(tip, key);
             let closes = home <= self.cells.join && next.is_none_or(|(_, distance)| home <= distance);
             if closes && (self.way.len() > 1 || comes_back(drawing, self.entities[first as usize])) {
@@ -372,8 +399,8 @@ impl<'a> Loose<'a> {
         false
     }
 
-    /// The open end that continues the chain at its tip, an end of an entity that is taken: the nearest; of equally near ones that of
-    /// the entity that follows in machining order. Contours that have an end in a cell about the tip are noted as touching.
+    /// The open end that continues the chain at its tip, an end of an entity that is taken: the nearest; of equally near ones, as all
+    /// in a crowded cell are, that of the entity that follows in machining order. Contours that have an end in a cell about the tip are noted as touching.
     ///
     /// The tip comes to stand before all others of its cell, so that whoever looks there next is told of the chain at hand first.
     /// What else is taken goes from there, and nobody looks at it again.
@@ -382,10 +409,11 @@ impl<'a> Loose<'a> {
         let mut best: Option<(End, f64)> = None;
         // Those before `here` come after all that follow it.
         let after = |end: End| end.entity().wrapping_sub(here);
-        let Loose { cells, entities, ends_of, ends, taken_by, touching, .. } = self;
-        let own = cells.of(place);
-        for cell in cells.about(place) {
-            ends.visit(cell, |end| {
+        let own = self.cells.of(place);
+        for cell in self.cells.about(place) {
+            let is_crowded = self.is_crowded(cell);
+            let Loose { cells, entities, ends_of, ends, taken_by, touching, .. } = self;
+            let look = |end: End| {
                 let at = end.entity() as usize;
                 let point = end.of(ends_of[entities[at].0 as usize]);
                 if taken_by[at] != NO_KEY {
@@ -401,6 +429,7 @@ impl<'a> Loose<'a> {
                 if distance > cells.join {
                     return Visit::Next;
                 }
+                let distance = if is_crowded { 0.0 } else { distance };
                 let better = |(other, near): (End, f64)| {
                     distance.total_cmp(&near).then(after(end).cmp(&after(other))).then(other.is_start().cmp(&end.is_start())).is_lt()
                 };
@@ -409,9 +438,12 @@ impl<'a> Loose<'a> {
                 }
                 // Nothing is nearer, and what comes later in the list is later in machining order. The tip came before it.
                 if distance == 0.0 && end.entity() > here { Visit::Stop } else { Visit::Next }
-            });
+            };
             if cell == own {
-                ends.insert(cell, tip);
+                ends.visit_about(tip, look);
+                ends.insert_again(tip);
+            } else {
+                ends.visit(cell, look);
             }
         }
         best
@@ -512,6 +544,50 @@ mod tests {
     fn a_line_shorter_than_the_tolerance_is_not_skipped() {
         check(&[(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.005, 0.0), (1.005, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["0 1 2 3 o"]);
         check(&[(0.0, 0.0, 0.005, 0.0)], &["0"]);
+    }
+
+    /// So many lines from nearly one point outward, and a triangle with a corner there.
+    fn star(count: usize) -> Drawing {
+        let line = |number: usize| {
+            let angle = number as f64 * 0.003;
+            let (x, y) = (1.001 + 0.0001 * (number % 7) as f64, 1.001 + 0.0001 * (number % 11) as f64);
+            (x, y, x + 9.0 * angle.cos(), y + 9.0 * angle.sin())
+        };
+        let triangle = [(1.001, 1.001, -5.0, 1.0), (-5.0, 1.0, -5.0, -5.0), (-5.0, -5.0, 1.0012, 1.0011)];
+        lines(&(0..count).map(line).chain(triangle).collect::<Vec<_>>())
+    }
+
+    fn pieces(drawing: &Drawing, chains: &Chains) -> Vec<Vec<(EntityId, bool)>> {
+        let mut keys: Vec<Key> = chains.keys().collect();
+        keys.sort_unstable_by_key(|&key| drawing.rank(chains.first_of(key).unwrap()));
+        let pieces = |key| chains.get(key).unwrap().pieces.iter().map(|piece| (piece.entity, piece.reversed)).collect();
+        keys.into_iter().map(pieces).collect()
+    }
+
+    #[test]
+    fn thousands_of_ends_nearly_in_one_point_are_chained_in_machining_order() {
+        let drawing = star(2 * CROWD);
+        let chains = Chains::new(&drawing, 0.01, &|_| true);
+        let id = |number: usize| EntityId(number as u32);
+        let pair = |pair: usize| vec![(id(2 * pair + 1), true), (id(2 * pair), false)];
+        let mut expected: Vec<Vec<(EntityId, bool)>> = (0..CROWD).map(pair).collect();
+        expected.push([0, 1, 2].map(|number| (id(2 * CROWD + number), false)).to_vec());
+        let found = pieces(&drawing, &chains);
+        let differs = (0..).zip(&found).zip(&expected).find(|((_, found), expected)| found != expected);
+        assert!(found.len() == expected.len() && differs.is_none(), "{} contours, {differs:?}", found.len());
+        assert!(chains.keys().filter(|&key| chains.get(key).unwrap().closed).count() == 1);
+    }
+
+    #[test]
+    fn an_edit_among_thousands_of_ends_chains_them_as_a_fresh_start_does() {
+        let mut drawing = star(CROWD + 40);
+        let mut chains = Chains::new(&drawing, 0.01, &|_| true);
+        for number in [3, CROWD as u32, 17] {
+            drawing.remove(EntityId(number));
+            chains.update(&drawing, &[EntityId(number)], &|_| true);
+            let fresh = Chains::new(&drawing, 0.01, &|_| true);
+            assert!(pieces(&drawing, &chains) == pieces(&drawing, &fresh), "without entity {number}");
+        }
     }
 
     proptest! {

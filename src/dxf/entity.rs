@@ -409,6 +409,10 @@ fn radius_of(value: f64, kind: &str, start: Tag, lexer: &Lexer, findings: &mut V
         return Some(value);
     }
     let radius_line = value_line_of(start, lexer, 40);
+    if value == 0.0 {
+        oddity(findings, lexer.lines.trimmed_range(radius_line), format!("{kind} has the radius 0: it is a point, and is not cut"));
+        return None;
+    }
     let found = quoted(lexer.lines.trimmed(radius_line));
     let sentence = format!("group code 40 (radius) of {kind} is {found}, expected a number above 0");
     damage(findings, lexer.lines.trimmed_range(radius_line), sentence);

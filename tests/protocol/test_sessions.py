@@ -21,7 +21,7 @@ from pygls.protocol import default_converter
 SESSIONS = sorted((Path(__file__).parent / "sessions").glob("*.jsonl"))
 
 #: Clients of which there must be a session.
-CLIENTS = {"vscode", "librecad-live", "librecad-generate", "autocad", "python", "neovim-0.7", "neovim-0.11", "emacs", "helix", "kate"}
+CLIENTS = {"vscode", "vscode-picture", "librecad-live", "librecad-generate", "autocad", "python", "neovim-0.7", "neovim-0.11", "emacs", "helix", "kate"}
 
 #: How a request ends that the client has cancelled.
 CANCELLED = {"error": {"code": -32800}}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes recorded sessions fit to be kept: no names of folders, no process numbers, no log lines.
+"""Makes recorded sessions fit to be kept: no names of folders, no process numbers, no log lines, no pictures, which are not compared.
 
     tidy.py SESSION.jsonl...      rewrites each file
 """
@@ -23,6 +23,11 @@ def tidy(path: Path) -> None:
         message = said["message"]
         if message.get("method") in ("window/logMessage", "$/setTrace"):
             continue
+        if message.get("method") == "workspace/didChangeWatchedFiles":
+            # What follows hangs on files that are not kept with the session.
+            break
+        if isinstance(message.get("result"), dict) and "svg" in message["result"]:
+            message["result"]["svg"] = "<svg/>"
         if message.get("method") == "initialize":
             message["params"]["processId"] = None
         kept.append(FOLDER.sub(lambda found: "/session/" if found.group().endswith("/") else "/session", json.dumps(said, ensure_ascii=False, separators=(",", ":"))))

@@ -12,7 +12,7 @@ namespace Wedm.Core
         }
     }
 
-    /// <summary>Finds the program <c>wedm</c>: by the setting, beside this assembly, on the path.</summary>
+    /// <summary>Finds the program <c>wedm</c>: by the setting, beside this assembly, on the path, where cargo installs it.</summary>
     public static class ServerLocator
     {
         private static readonly bool IsWindows = Path.DirectorySeparatorChar == '\\';
@@ -22,8 +22,9 @@ namespace Wedm.Core
         /// <param name="setting">Full path that the user has set; null or empty where none is set.</param>
         /// <param name="besides">Folder of the plugin.</param>
         /// <param name="searchPath">Value of the environment variable PATH.</param>
+        /// <param name="home">The user's own folder: under it cargo installs programs, and CAD programs may not have that on their PATH.</param>
         /// <exception cref="ServerMissingException">It is in none of these places.</exception>
-        public static string Find(string setting, string besides, string searchPath)
+        public static string Find(string setting, string besides, string searchPath, string home)
         {
             if (!string.IsNullOrWhiteSpace(setting))
             {
@@ -31,7 +32,7 @@ namespace Wedm.Core
                     ? setting
                     : throw new ServerMissingException("the setting WEDM_SERVER names \"" + setting + "\", and there is no such file");
             }
-            foreach (var folder in Folders(besides, searchPath))
+            foreach (var folder in Folders(besides, searchPath, home))
             {
                 string candidate;
                 try
@@ -48,11 +49,11 @@ namespace Wedm.Core
                 }
             }
             throw new ServerMissingException(
-                ProgramName + " was not found beside the plugin (" + besides + ") nor on the PATH: install it with \"cargo install --path .\" "
+                ProgramName + " was not found beside the plugin (" + besides + "), on the PATH or in .cargo/bin: install it with \"cargo install --path .\" "
                 + "in a checkout of wedm, or copy " + ProgramName + " into that folder, or set WEDM_SERVER to its full path");
         }
 
-        private static IEnumerable<string> Folders(string besides, string searchPath)
+        private static IEnumerable<string> Folders(string besides, string searchPath, string home)
         {
             if (!string.IsNullOrEmpty(besides))
             {
@@ -65,6 +66,10 @@ namespace Wedm.Core
                 {
                     yield return trimmed;
                 }
+            }
+            if (!string.IsNullOrEmpty(home))
+            {
+                yield return Path.Combine(home, ".cargo", "bin");
             }
         }
     }

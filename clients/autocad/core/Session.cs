@@ -31,19 +31,23 @@ namespace Wedm.Core
         public const int ProtocolVersion = 1;
 
         private static readonly TimeSpan HandshakeLimit = TimeSpan.FromSeconds(15);
-        private static readonly TimeSpan FirstPause = TimeSpan.FromSeconds(0.5);
-        private static readonly TimeSpan LongestPause = TimeSpan.FromSeconds(30);
-
-        /// <summary>A server that has lived so long is not blamed for what came before.</summary>
-        private static readonly TimeSpan LongLife = TimeSpan.FromMinutes(2);
-
         private readonly Func<string> _locate;
         private readonly Dictionary<string, LiveDrawing> _drawings = new Dictionary<string, LiveDrawing>();
+        private readonly List<Deferred> _deferred = new List<Deferred>();
+        private readonly RestartPause _pause = new RestartPause();
         private readonly Stopwatch _clock = Stopwatch.StartNew();
         private ServerProcess _server;
         private TimeSpan _startedAt;
         private TimeSpan _restartAt;
-        private TimeSpan _pause = FirstPause;
+
+        /// <summary>A question that was asked before the greeting was over: it is put when it is, behind the drawings that it is about.</summary>
+        private sealed class Deferred
+        {
+            public string Method;
+            public JToken Parameters;
+            public Action<JToken> Result;
+            public Action<ServerError> Error;
+        }
 
         /// <param name="locate">Gives the path of the server's program, or throws <see cref="ServerMissingException"/>.</param>
         public Session(Func<string> locate)
@@ -208,6 +212,10 @@ namespace Wedm.Core
             {
                 _server.Connection.Request(method, parameters, result, error);
             }
+            else if (State == SessionState.Starting)
+            {
+                _deferred.Add(new Deferred { Method = method, Parameters = parameters, Result = result, Error = error });
+            }
             else
             {
                 error(new ServerError(ServerError.ConnectionLost, "the server is not running (" + State + ")", null));
@@ -220,8 +228,9 @@ namespace Wedm.Core
             if (version != ProtocolVersion)
             {
                 var name = (string)answer.SelectToken("serverInfo.name") ?? "the program";
+                var release = (string)answer.SelectToken("serverInfo.version");
                 var found = version == null ? "no protocol of wedm" : "protocol " + version;
-                Fail(name + " " + (string)answer.SelectToken("serverInfo.version") + " speaks " + found + ", this plugin needs protocol "
+                Fail(name + (release == null ? "" : " " + release) + " speaks " + found + ", this plugin needs protocol "
                     + ProtocolVersion + ": install plugin and server of the same release");
                 return;
             }
@@ -231,23 +240,39 @@ namespace Wedm.Core
             {
                 drawing.Open();
             }
+            foreach (var question in TakeDeferred())
+            {
+                Request(question.Method, question.Parameters, question.Result, question.Error);
+            }
+        }
+
+        private Deferred[] TakeDeferred()
+        {
+            var questions = _deferred.ToArray();
+            _deferred.Clear();
+            return questions;
+        }
+
+        /// <summary>Answers all that waits for a server that is gone.</summary>
+        private void Abandon(ServerProcess server, string reason)
+        {
+            server.Connection.Abandon(reason);
+            foreach (var question in TakeDeferred())
+            {
+                question.Error(new ServerError(ServerError.ConnectionLost, reason, null));
+            }
         }
 
         private void Died(string reason)
         {
             var server = _server;
             _server = null;
-            if (_clock.Elapsed - _startedAt > LongLife)
-            {
-                _pause = FirstPause;
-            }
-            _restartAt = _clock.Elapsed + _pause;
+            var pause = _pause.AfterLifeOf(_clock.Elapsed - _startedAt);
+            _restartAt = _clock.Elapsed + pause;
             var log = server.LastLogLine == null ? "" : " (" + server.LastLogLine + ")";
-            var pause = _pause;
-            _pause = TimeSpan.FromTicks(Math.Min(_pause.Ticks * 2, LongestPause.Ticks));
             server.Kill();
             Become(SessionState.WaitingToRestart);
-            server.Connection.Abandon(reason);
+            Abandon(server, reason);
             server.Dispose();
             Message?.Invoke(reason + log + "; it is started again in " + pause.TotalSeconds + " s");
         }
@@ -259,7 +284,7 @@ namespace Wedm.Core
             Become(SessionState.Failed);
             if (server != null)
             {
-                server.Connection.Abandon(reason);
+                Abandon(server, reason);
                 server.Kill();
                 server.Dispose();
             }

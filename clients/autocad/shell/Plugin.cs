@@ -31,7 +31,8 @@ namespace Wedm.AutoCad
             Instance = this;
             var folder = Path.GetDirectoryName(Assembly.GetExecutingAssembly().Location);
             _session = new Session(() => ServerLocator.Find(
-                Environment.GetEnvironmentVariable("WEDM_SERVER"), folder, Environment.GetEnvironmentVariable("PATH")));
+                Environment.GetEnvironmentVariable("WEDM_SERVER"), folder, Environment.GetEnvironmentVariable("PATH"),
+                Environment.GetFolderPath(Environment.SpecialFolder.UserProfile)));
             _session.Message += Say;
             // The timer's ticks come on AutoCAD's own thread, also while it waits for input.
             _timer = new Timer { Interval = PumpInterval };

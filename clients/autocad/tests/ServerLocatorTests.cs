@@ -30,21 +30,26 @@ namespace Wedm.Tests
         private string In(string folder) => Path.Combine(_root, folder, ServerLocator.ProgramName);
 
         [Test]
-        public void The_setting_wins_then_the_plugins_folder_then_the_path()
+        public void The_setting_wins_then_the_plugins_folder_then_the_path_then_where_cargo_installs()
         {
+            var home = Path.Combine(_root, "home");
+            var installed = Path.Combine(home, ".cargo", "bin", ServerLocator.ProgramName);
+            Directory.CreateDirectory(Path.GetDirectoryName(installed));
+            File.WriteAllText(installed, "");
             var path = Path.Combine(_root, "empty") + Path.PathSeparator + Path.Combine(_root, "path");
-            Assert.AreEqual(In("path"), ServerLocator.Find(In("path"), Path.Combine(_root, "beside"), path));
-            Assert.AreEqual(In("beside"), ServerLocator.Find("", Path.Combine(_root, "beside"), path));
-            Assert.AreEqual(In("path"), ServerLocator.Find(null, Path.Combine(_root, "empty"), path));
+            Assert.AreEqual(In("path"), ServerLocator.Find(In("path"), Path.Combine(_root, "beside"), path, home));
+            Assert.AreEqual(In("beside"), ServerLocator.Find("", Path.Combine(_root, "beside"), path, home));
+            Assert.AreEqual(In("path"), ServerLocator.Find(null, Path.Combine(_root, "empty"), path, home));
+            Assert.AreEqual(installed, ServerLocator.Find(null, Path.Combine(_root, "empty"), Path.Combine(_root, "empty"), home));
         }
 
         [Test]
         public void A_missing_server_is_said_with_the_way_to_get_it()
         {
-            var fault = Assert.Throws<ServerMissingException>(() => ServerLocator.Find(null, Path.Combine(_root, "empty"), ""));
+            var fault = Assert.Throws<ServerMissingException>(() => ServerLocator.Find(null, Path.Combine(_root, "empty"), "", _root));
             StringAssert.Contains("cargo install", fault.Message);
             StringAssert.Contains(Path.Combine(_root, "empty"), fault.Message);
-            fault = Assert.Throws<ServerMissingException>(() => ServerLocator.Find("/no/such/wedm", Path.Combine(_root, "beside"), ""));
+            fault = Assert.Throws<ServerMissingException>(() => ServerLocator.Find("/no/such/wedm", Path.Combine(_root, "beside"), "", _root));
             StringAssert.Contains("\"/no/such/wedm\"", fault.Message);
         }
     }

@@ -154,25 +154,54 @@ namespace Wedm.Tests
         }
 
         [Test]
-        public void A_fix_is_refused_when_undo_has_gone_by_while_it_was_on_its_way()
+        public void What_is_asked_before_the_server_has_greeted_is_answered_when_it_has()
+        {
+            // As the first command of a day: nothing has been pumped since the start.
+            Assert.AreEqual(SessionState.Starting, _session.State);
+            var host = new MemoryDrawing(Plates.WithFillet(0.05));
+            var drawing = _session.Open("cad:plate", host);
+            host.Watcher = drawing;
+            StringAssert.StartsWith("done: Fix all", Fix(drawing));
+            _session.UntilChecked(drawing);
+            CollectionAssert.IsEmpty(Rules(drawing));
+        }
+
+        /// <param name="told">Whether the CAD program tells of its undo: then the next version is on its way, else the plugin must see for itself.</param>
+        [TestCase(true)]
+        [TestCase(false)]
+        public void A_fix_is_refused_when_undo_has_gone_by_while_it_was_on_its_way(bool told)
         {
             var host = new MemoryDrawing(Plates.WithFillet(0.05));
             var drawing = Open(host);
             host.Edit(Plates.WithFillet(0.07));
             drawing.Flush();
             _session.UntilChecked(drawing);
-            // Undo without an event, after the question is out: the plugin must see for itself.
             string outcome = null;
             _session.Fix(drawing, null, done => outcome = "done", refused => outcome = refused);
-            host.Watcher = null;
+            host.Watcher = told ? drawing : null;
             host.Undo();
             host.Watcher = drawing;
             _session.Until(() => outcome != null, "an answer");
             Assert.AreEqual("the drawing has changed since the fix was made for it", outcome);
             Assert.IsTrue(host.Read("2A").IsSameAs(Plates.WithFillet(0.05)), "nothing was changed");
+            Assert.AreEqual(0, host.StepsOfUndo, "nothing was written");
             Assert.AreEqual(1, drawing.Flush(), "what undo has changed is sent now");
             _session.UntilChecked(drawing);
             Assert.AreEqual(0.05, drawing.Findings.First(finding => finding.Rule == "small-radius").Radius.Value, 1e-9);
+        }
+
+        [Test]
+        public void A_fix_is_refused_when_something_else_has_changed_meanwhile_for_it_may_have_been_made_for_that()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(0.05), Plates.WithFillet(2, "2B"));
+            var drawing = Open(host);
+            string outcome = null;
+            _session.Fix(drawing, null, done => outcome = "done", refused => outcome = refused);
+            host.Edit(Plates.WithFillet(3, "2B"));
+            Assert.AreEqual(1, drawing.Flush());
+            _session.Until(() => outcome != null, "an answer");
+            Assert.AreEqual("the drawing has changed since the fix was made for it", outcome);
+            Assert.IsTrue(host.Read("2A").IsSameAs(Plates.WithFillet(0.05)), "nothing was changed");
         }
 
         [Test]
@@ -180,6 +209,7 @@ namespace Wedm.Tests
         {
             var host = new MemoryDrawing(Plates.WithFillet(2));
             var drawing = Open(host);
+            var other = Open(new MemoryDrawing(Plates.WithFillet(0.06)), "cad:other");
             var first = _session.ServerId.Value;
             host.Edit(Plates.WithFillet(0.05));
             Process.GetProcessById(first).Kill();
@@ -191,6 +221,12 @@ namespace Wedm.Tests
             _session.Until(() => _session.State == SessionState.Running && _session.ServerId != first, "a new server");
             _session.UntilChecked(drawing);
             CollectionAssert.AreEqual(new[] { "small-radius" }, Rules(drawing));
+            // The other drawing is with the new server too: it has been told of it, and answers for it.
+            _session.UntilChecked(other);
+            IReadOnlyList<RadiusRow> rows = null;
+            _session.ListRadii(other, list => rows = list, Assert.Fail);
+            _session.Until(() => rows != null, "the list of the other drawing");
+            Assert.AreEqual(0.06, rows.Single(row => row.IsAtFault).Radius.Value, 1e-9);
             StringAssert.Contains("started again", _messages.Single());
         }
 
@@ -267,7 +303,7 @@ sys.stdin.buffer.read()
         [TestCase("{'capabilities': {'experimental': {'wedm': {'protocol': 2}}}, 'serverInfo': {'name': 'wedm', 'version': '9.0.0'}}",
             "wedm 9.0.0 speaks protocol 2, this plugin needs protocol 1: install plugin and server of the same release")]
         [TestCase("{'capabilities': {}, 'serverInfo': {'name': 'other'}}",
-            "other  speaks no protocol of wedm, this plugin needs protocol 1: install plugin and server of the same release")]
+            "other speaks no protocol of wedm, this plugin needs protocol 1: install plugin and server of the same release")]
         public void Another_protocol_is_refused_with_both_versions(string result, string expected)
         {
             var path = Script(Answer.Replace("RESULT", result));
@@ -284,7 +320,7 @@ sys.stdin.buffer.read()
         [Test]
         public void A_missing_server_is_said()
         {
-            StringAssert.Contains("there is no such file", Failure(() => ServerLocator.Find("/no/such/wedm", "", "")));
+            StringAssert.Contains("there is no such file", Failure(() => ServerLocator.Find("/no/such/wedm", "", "", "")));
         }
 
         [Test]
@@ -337,6 +373,10 @@ sys.stdin.buffer.read()
                     var vertices = Enumerable.Range(0, 100000).Select(index => new Vertex(index, 0.123456789, 0)).ToArray();
                     var drawing = session.Open("cad:big", new MemoryDrawing(new PolylineEntity("1", "0", false, vertices)));
                     Assert.AreEqual(1, drawing.Version, "it is on its way, megabytes more than a pipe holds");
+                    // Nobody reads, so who waited for the pipe would wait until this server had ended.
+                    session.Pump();
+                    Assert.AreEqual(SessionState.Running, session.State);
+                    Assert.IsFalse(Process.GetProcessById(session.ServerId.Value).HasExited, "the host waited for the server");
                 }
             }
             finally

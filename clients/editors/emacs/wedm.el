@@ -16,7 +16,7 @@
   :group 'languages)
 
 (defcustom wedm-program "wedm"
-  "The language server: a name on the PATH, or a file."
+  "The language server: a file, or a name on the PATH or in ~/.cargo/bin."
   :type 'string)
 
 (defcustom wedm-settings nil
@@ -47,19 +47,28 @@ A wedm.toml above a file wins over them."
 (add-to-list 'auto-mode-alist '("\\.[34][bB]\\'" . three-b-mode))
 (add-to-list 'auto-mode-alist '("\\.\\(?:iso\\|ISO\\|nc\\|NC\\)\\'" . wire-iso-mode))
 
+(defun wedm--program ()
+  "The file of the server, or nil.
+A desktop often starts Emacs with another PATH than a shell has, so it is
+also looked for where `cargo install' puts it."
+  (or (executable-find wedm-program)
+      (let ((exec-path (list (expand-file-name "~/.cargo/bin"))))
+        (executable-find wedm-program))))
+
 (defun wedm--contact (&rest _)
   "The command that starts the server, with the settings."
-  (if wedm-settings
-      (list wedm-program :initializationOptions wedm-settings)
-    (list wedm-program)))
+  (let ((program (or (wedm--program) wedm-program)))
+    (if wedm-settings
+        (list program :initializationOptions wedm-settings)
+      (list program))))
 
 (add-to-list 'eglot-server-programs '((dxf-mode three-b-mode wire-iso-mode) . wedm--contact))
 
 (defun wedm-ensure ()
   "Start the server for this buffer, or say how to get it."
-  (if (executable-find wedm-program)
+  (if (wedm--program)
       (eglot-ensure)
-    (message "wedm: %s is not on the PATH; build it in a checkout of wedm with `cargo install --path .', or set `wedm-program'"
+    (message "wedm: %s is neither on the PATH nor in ~/.cargo/bin; build it in a checkout of wedm with `cargo install --path .', or set `wedm-program'"
              wedm-program)))
 
 (dolist (hook '(dxf-mode-hook three-b-mode-hook wire-iso-mode-hook))

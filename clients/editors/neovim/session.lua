@@ -55,6 +55,36 @@ local function session()
     vim.cmd('undo')
     wait_for('fault after undo', function() return #faults() == 1 end)
 
+    -- An edit is undone while the fix that was asked for it is on its way. The server is held up so that it is.
+    local function signal(name)
+        vim.fn.system { 'kill', '-' .. name, vim.fn.trim(vim.fn.system { 'pgrep', '-P', tostring(vim.fn.getpid()) }) }
+    end
+    local before = vim.api.nvim_buf_get_lines(0, 0, -1, false)
+    vim.api.nvim_buf_set_lines(0, fault.lnum - 4, fault.lnum - 3, false, { '19.94' })
+    wait_for('other fault', function() return #faults() == 1 and faults()[1].message ~= fault.message end)
+    vim.api.nvim_win_set_cursor(0, { fault.lnum + 1, fault.col })
+    local answered, choose_first, notify = false, vim.ui.select, vim.notify
+    vim.ui.select = function(items, options, choose)
+        choose_first(items, options, choose)
+        answered = true
+    end
+    vim.notify = function(text, ...)
+        answered = true
+        return notify(text, ...)
+    end
+    signal('STOP')
+    vim.lsp.buf.code_action()
+    vim.cmd('undo')
+    signal('CONT')
+    wait_for('answer to what was asked before the undo', function() return answered end)
+    wait_for('fault as it was', function() return #faults() == 1 and faults()[1].message == fault.message end)
+    vim.ui.select, vim.notify = choose_first, notify
+    if not vim.deep_equal(before, vim.api.nvim_buf_get_lines(0, 0, -1, false)) then
+        say('FAIL a fix for another text was made')
+        vim.cmd('cquit 1')
+    end
+    say('a fix that undo has overtaken changed nothing')
+
     local function server()
         local clients = native and vim.lsp.get_clients { name = 'wedm' } or vim.lsp.get_active_clients()
         return clients[1]

@@ -3,7 +3,7 @@
 --   :luafile /path/to/wedm.lua            or, in init.lua:
 --   dofile('/path/to/wedm.lua').setup { settings = { correction = 0.12 } }
 --
--- Options: cmd (default { 'wedm' }), settings (see the README), on_attach(client, buffer).
+-- Options: cmd (default { 'wedm' }, of the PATH or ~/.cargo/bin), settings (see the README), on_attach(client, buffer).
 
 local M = {}
 
@@ -14,6 +14,12 @@ local clients = {} -- root folder -> client id
 local forgiven_after = 120
 local delays = { 0, 500, 1000, 2000, 4000 }
 local deaths = {}
+
+-- The program: on the PATH, or where `cargo install` puts it. A desktop often starts programs with another PATH than a shell has.
+local function program()
+    local own = vim.fn.expand('~/.cargo/bin/wedm')
+    return vim.fn.executable('wedm') == 0 and vim.fn.executable(own) == 1 and own or 'wedm'
+end
 
 -- The folder of the nearest wedm.toml or .git above the file, else the file's own folder.
 local function root_of(path)
@@ -34,9 +40,13 @@ local function root_of(path)
 end
 
 local function start(options, root)
+    -- Neovim heeds the version that an edit was made for, and does not say so: without it a fix would be made in a text that has changed meanwhile.
+    local capabilities = vim.lsp.protocol.make_client_capabilities()
+    capabilities.workspace.workspaceEdit.documentChanges = true
     return vim.lsp.start_client {
+        capabilities = capabilities,
         name = 'wedm',
-        cmd = options.cmd or { 'wedm' },
+        cmd = options.cmd,
         root_dir = root,
         workspace_folders = { { uri = vim.uri_from_fname(root), name = root } },
         init_options = options.settings or {},
@@ -97,9 +107,10 @@ function M.attach(options, buffer)
 end
 
 function M.setup(options)
-    options = options or {}
-    if vim.fn.executable((options.cmd or { 'wedm' })[1]) == 0 then
-        vim.notify('wedm: ' .. (options.cmd or { 'wedm' })[1] .. ' is not on the PATH; build it with: cargo install --path .', vim.log.levels.WARN)
+    options = vim.tbl_extend('keep', options or {}, { cmd = { program() } })
+    if vim.fn.executable(options.cmd[1]) == 0 then
+        vim.notify('wedm: ' .. options.cmd[1] .. ' is neither on the PATH nor in ~/.cargo/bin; build it in a checkout of wedm with: cargo install --path .',
+            vim.log.levels.WARN)
         return
     end
     local group = vim.api.nvim_create_augroup('wedm', { clear = true })

@@ -36,6 +36,8 @@ def nowhere(program: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Pa
     """No program in the environment nor on the PATH."""
     monkeypatch.delenv("WEDM")
     monkeypatch.setenv("PATH", str(tmp_path))
+    for home in ("HOME", "USERPROFILE"):
+        monkeypatch.setenv(home, str(tmp_path / "home"))
     return tmp_path
 
 
@@ -46,6 +48,8 @@ def _program_at(path: Path, program: str) -> str:
 
 
 def test_found_by_argument_environment_neighbourhood_and_path(nowhere: Path, program: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    installed = _program_at(nowhere / "home/.cargo/bin/wedm", program)
+    assert find() == [installed]
     on_path = _program_at(nowhere / "wedm", program)
     assert find() == [on_path]
     scripts = nowhere / "scripts"
@@ -64,7 +68,7 @@ def test_found_by_argument_environment_neighbourhood_and_path(nowhere: Path, pro
 @pytest.mark.parametrize(
     ("command", "variable", "said"),
     [
-        (None, None, "no program wedm in .* nor on the PATH"),
+        (None, None, r"no program wedm in .*, on the PATH or in .*cargo"),
         ("/no/such/wedm", None, "the command names /no/such/wedm"),
         (None, "/no/such/wedm", "the environment variable WEDM names /no/such/wedm"),
         ([], None, "the command is empty"),

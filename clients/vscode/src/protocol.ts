@@ -66,7 +66,8 @@ export interface Generated {
   length: number;
   /** µm */
   closure: { x: number; y: number };
-  minutes?: number;
+  /** Largest distance of a decoded block's end from the path, µm. */
+  deviation: number;
   warnings: Diagnostic[];
 }
 

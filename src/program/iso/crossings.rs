@@ -7,6 +7,7 @@ use crate::finding::{Detail, Finding, Place as Where, ProgramFault, Severity};
 use crate::geometry::Segment;
 use crate::program::three_b::{Displacement, Found, Known, PathStretch, search};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A cut with fewer moves does not cross itself.
 const FEWEST_MOVES: u32 = 4;
@@ -19,30 +20,18 @@ type Cut = Vec<(usize, usize)>;
 pub(super) struct Crossings {
     known: Known,
     /// The cuts that cross themselves or lie on themselves, and where.
-    found: Vec<(Cut, Found)>,
+    found: Vec<(Cut, Arc<Found>)>,
 }
 
 impl Crossings {
-    /// Looks through a program; what is known of pairs of its parts is taken as it is.
-    pub fn look(mut self, document: &Document) -> Crossings {
+    /// Looks through a program; what is known of pairs of its parts is taken as it is. Gives the stretches that have become calm.
+    pub fn look(&mut self, document: &Document) -> Vec<usize> {
         self.found.clear();
-        let stretches = document.stretches();
-        let (mut pairs, mut count) = (0, 0);
-        for cut in cuts(stretches) {
-            count += 1;
-            let mark = mark_of(stretches, &cut);
-            if self.known.is_calm(mark) {
-                continue;
-            }
-            let found = search_cut(document, &cut, &mut self.known);
-            self.known.note(mark, &found);
-            pairs += found.pairs;
-            if !found.crossings.is_empty() || found.is_crowded {
-                self.found.push((cut, found));
-            }
-        }
+        let mut look = Look { document, crossings: self, pairs: 0, count: 0 };
+        let calm = look.through(document.stretches());
+        let (pairs, count) = (look.pairs, look.count);
         self.known.tidy(pairs, count);
-        self
+        calm
     }
 
     /// The findings, in the order in which the cuts run.
@@ -82,49 +71,108 @@ impl Crossings {
     }
 }
 
-/// The cuts of which every line could be read and every arc runs.
-fn cuts(stretches: &[Stretch]) -> Vec<Cut> {
-    let mut cuts = Vec::new();
-    let mut open: Cut = Vec::new();
-    let mut moves = 0;
-    let mut sound = true;
-    let mut close = |open: &mut Cut, moves: &mut u32, sound: &mut bool| {
-        let cut = std::mem::take(open);
-        if std::mem::replace(sound, true) && std::mem::take(moves) >= FEWEST_MOVES {
-            cuts.push(cut);
-        } else {
-            *moves = 0;
-        }
-    };
-    for (index, stretch) in stretches.iter().enumerate() {
-        if stretch.ends_run_before.is_some() {
-            close(&mut open, &mut moves, &mut sound);
-        }
-        for (run_index, run) in stretch.runs.iter().enumerate() {
-            if !run.continues {
-                close(&mut open, &mut moves, &mut sound);
+/// A look through a program.
+struct Look<'a> {
+    document: &'a Document,
+    crossings: &'a mut Crossings,
+    pairs: usize,
+    count: usize,
+}
+
+/// A cut whose parts are being put together.
+struct OpenCut {
+    parts: Cut,
+    moves: u32,
+    /// Every line of it could be read and every arc runs.
+    is_sound: bool,
+}
+
+impl Look<'_> {
+    fn through(&mut self, stretches: &[Stretch]) -> Vec<usize> {
+        let mut calm = Vec::new();
+        let mut open = OpenCut { parts: Vec::new(), moves: 0, is_sound: true };
+        for (index, stretch) in stretches.iter().enumerate() {
+            open.is_sound &= !stretch.faulty_before;
+            if stretch.ends_run_before.is_some() {
+                self.close(&mut open);
             }
-            open.push((index, run_index));
-            moves += run.moves;
-            sound &= run.whole && stretch.faults.is_empty();
-            if !run.open {
-                close(&mut open, &mut moves, &mut sound);
+            let inner = stretch.inner();
+            for run in (0..inner.start).chain(inner.end..stretch.run_count()) {
+                // Those between do not go on from what was open before.
+                if run >= inner.end {
+                    self.inner(stretch, index, &inner, &mut calm);
+                }
+                let (Some(joints), Some((_, moves, _))) = (stretch.joints(run), stretch.extent(run)) else { continue };
+                if !joints.continues {
+                    self.close(&mut open);
+                }
+                open.parts.push((index, run));
+                open.moves += moves;
+                open.is_sound &= joints.sound;
+                if !joints.open {
+                    self.close(&mut open);
+                }
+            }
+            if inner.end == stretch.run_count() {
+                self.inner(stretch, index, &inner, &mut calm);
             }
         }
+        self.close(&mut open);
+        calm
     }
-    close(&mut open, &mut moves, &mut sound);
-    cuts
+
+    /// The cuts that begin and end in a stretch.
+    fn inner(&mut self, stretch: &Stretch, index: usize, inner: &Range<usize>, calm: &mut Vec<usize>) {
+        if stretch.is_calm {
+            return;
+        }
+        let mut is_calm = true;
+        for run in inner.clone() {
+            let is_near = stretch.paths.get(run).is_some_and(|path| !path.near.is_empty());
+            let is_sound = stretch.joints(run).is_some_and(|joints| joints.sound);
+            if is_near && is_sound && stretch.extent(run).is_some_and(|(_, moves, _)| moves >= FEWEST_MOVES) {
+                is_calm &= self.is_calm(&[(index, run)]);
+            }
+        }
+        calm.extend(is_calm.then_some(index));
+    }
+
+    fn close(&mut self, open: &mut OpenCut) {
+        if open.is_sound && open.moves >= FEWEST_MOVES {
+            self.is_calm(&open.parts);
+        }
+        open.parts.clear();
+        (open.moves, open.is_sound) = (0, true);
+    }
+
+    /// Whether a cut does not cross itself; one that does is kept.
+    fn is_calm(&mut self, cut: &[(usize, usize)]) -> bool {
+        self.count += 1;
+        let known = &mut self.crossings.known;
+        let mark = mark_of(self.document.stretches(), cut);
+        let found = known.of(mark).unwrap_or_else(|| {
+            let found = Arc::new(search_cut(self.document, cut, known));
+            known.note(mark, &found);
+            found
+        });
+        self.pairs += found.pairs;
+        let is_calm = found.crossings.is_empty() && !found.is_crowded;
+        if !is_calm {
+            self.crossings.found.push((cut.to_vec(), found));
+        }
+        is_calm
+    }
 }
 
 /// Equal ways that are parted alike have equal marks.
-fn mark_of(stretches: &[Stretch], cut: &Cut) -> u64 {
+fn mark_of(stretches: &[Stretch], cut: &[(usize, usize)]) -> u64 {
     let marks = cut.iter().filter_map(|(stretch, run)| Some(stretches.get(*stretch)?.paths.get(*run)?.mark));
     marks.fold(cut.len() as u64, |mark, next| (mark ^ next).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23))
 }
 
-fn search_cut(document: &Document, cut: &Cut, known: &mut Known) -> Found {
+fn search_cut(document: &Document, cut: &[(usize, usize)], known: &mut Known) -> Found {
     let stretches = document.stretches();
-    let Some(begin) = cut.first().and_then(|(stretch, run)| Some(stretches.get(*stretch)?.runs.get(*run)?.start())) else {
+    let Some(begin) = cut.first().and_then(|(stretch, run)| Some(stretches.get(*stretch)?.extent(*run)?.0)) else {
         return Found::default();
     };
     let mut arcs = 0;
@@ -132,12 +180,12 @@ fn search_cut(document: &Document, cut: &Cut, known: &mut Known) -> Found {
         .iter()
         .filter_map(|&(stretch, run)| {
             let stretch = stretches.get(stretch)?;
-            let (run, path) = (stretch.runs.get(run)?, stretch.paths.get(run)?);
-            arcs += run.arcs as usize;
+            let ((start, moves, its_arcs), path) = (stretch.extent(run)?, stretch.paths.get(run)?);
+            arcs += its_arcs as usize;
             Some(PathStretch {
                 mark: path.mark,
-                blocks: run.moves as usize,
-                start: seen_from(begin, run.start()),
+                blocks: moves as usize,
+                start: seen_from(begin, start),
                 bounds: path.bounds,
                 near: &path.near,
             })
@@ -172,14 +220,14 @@ fn pieces(document: &Document, stretch: usize, run: usize) -> (Vec<Segment>, Vec
 }
 
 fn moves_of(document: &Document, cut: &Cut) -> usize {
-    let moves = |&(stretch, run): &(usize, usize)| Some(document.stretches().get(stretch)?.runs.get(run)?.moves as usize);
+    let moves = |&(stretch, run): &(usize, usize)| Some(document.stretches().get(stretch)?.extent(run)?.1 as usize);
     cut.iter().filter_map(moves).sum()
 }
 
 /// The place of a move of a cut by its number.
 fn place_of(document: &Document, cut: &Cut, mut index: usize) -> Option<Range<usize>> {
     for &(stretch, run) in cut {
-        let moves = document.stretches().get(stretch)?.runs.get(run)?.moves as usize;
+        let moves = document.stretches().get(stretch)?.extent(run)?.1 as usize;
         if index < moves {
             return pieces(document, stretch, run).1.into_iter().nth(index);
         }

@@ -6,11 +6,13 @@ use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
 use super::stretch::{Hears, Run, Stretch};
+use super::word::Number;
 use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::{SourceText, TextEdit};
+use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::{Arc, LazyLock};
@@ -41,6 +43,8 @@ pub struct Document {
     crossings: Box<Crossings>,
     /// What settings a fault is held against.
     pub(super) limits: Box<Limits>,
+    /// What the program puts into the control's table.
+    pub(super) table: Box<Table>,
 }
 
 /// The settings that decide what is a fault.
@@ -111,6 +115,9 @@ fn end_word(settings: &Effective) -> String {
     ends.next_back().map_or_else(|| "M02".into(), |line| line.trim().into())
 }
 
+/// The last value of each place of the control's table, and whether it is in inches.
+pub(super) type Table = FxHashMap<Offset, (Number, bool)>;
+
 /// A cut that has begun before some line and may go on in it, nm.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Begun {
@@ -145,6 +152,7 @@ impl Document {
             order: None,
             crossings: Box::default(),
             limits: Box::new(limits),
+            table: Box::default(),
         };
         document.guess_reading();
         document.run_all();
@@ -176,8 +184,11 @@ impl Document {
         }
         let center = limits.center != self.limits.center;
         *self.limits = limits;
+        self.stretches.iter_mut().for_each(|stretch| stretch.is_quiet = false);
         if center {
             self.settle();
+        } else {
+            self.find_quiet();
         }
     }
 
@@ -261,8 +272,8 @@ impl Document {
             if stretch.ends_run_before.is_some() {
                 begun = None;
             }
-            for run in &stretch.runs {
-                begun = begun_by(begun.filter(|_| run.continues), run);
+            for run in stretch.runs() {
+                begun = begun_by(begun.filter(|_| run.continues), &run);
             }
         }
         begun
@@ -456,8 +467,26 @@ impl Document {
     /// finest step, then, measured with these, where I and J lead.
     fn settle(&mut self) {
         self.find_reading();
-        let crossings = std::mem::take(&mut self.crossings);
-        *self.crossings = crossings.look(self);
+        let mut crossings = std::mem::take(&mut self.crossings);
+        let calm = crossings.look(self);
+        self.crossings = crossings;
+        for index in calm {
+            self.stretches[index].is_calm = true;
+        }
+        self.find_quiet();
+    }
+
+    /// What a cut within one stretch comes to hangs on its own lines, on the settings and on the control's table: one with which nothing is
+    /// wrong is not judged again.
+    fn find_quiet(&mut self) {
+        let table = super::report::table(self);
+        if table != *self.table {
+            *self.table = table;
+            self.stretches.iter_mut().for_each(|stretch| stretch.is_quiet = false);
+        }
+        for index in super::report::quiet(self) {
+            self.stretches[index].is_quiet = true;
+        }
     }
 
     fn find_reading(&mut self) {

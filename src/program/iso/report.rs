@@ -1,12 +1,12 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
-use super::block::{Code, Offset, read_line, word_range};
-use super::document::{Document, Limits, Placed};
+use super::block::{Code, Motion, read_line, word_range};
+use super::document::{Document, Limits, Placed, Table};
 use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
 use super::stretch::{Fault, Run, RunSide, Stretch, Tight};
-use super::word::{Number, WordFault};
+use super::word::WordFault;
 use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, Rule, Severity, Side, SmallRadius};
-use crate::geometry::{Arc, Point, cross};
+use crate::geometry::{Arc, cross};
 use crate::settings::{Compensation, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -66,12 +66,25 @@ pub(super) fn findings(document: &Document) -> Vec<Finding> {
     report.finish()
 }
 
-/// A cut with the place of its first and last line in the text, and its tight arcs.
+/// What a program puts into the control's table.
+pub(super) fn table(document: &Document) -> Table {
+    let all = document.stretches().iter().flat_map(|stretch| &stretch.definitions);
+    all.map(|&(offset, value, inch)| (offset, (value, inch))).collect()
+}
+
+/// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
+pub(super) fn quiet(document: &Document) -> Vec<usize> {
+    let mut report = Report::new(document);
+    let not_known = document.placed().enumerate().filter(|(_, placed)| !placed.stretch.is_quiet);
+    not_known.filter(|(_, placed)| report.is_quiet(placed)).map(|(index, _)| index).collect()
+}
+
+/// A cut with the place of its first and last line in the text, and its arcs that may be too tight.
 struct OpenRun {
     run: Run,
     range: Range<usize>,
     last_range: Range<usize>,
-    tight: Vec<(Move, Range<usize>)>,
+    tight: Vec<(Tight, Range<usize>)>,
 }
 
 struct Report<'a> {
@@ -81,9 +94,16 @@ struct Report<'a> {
     limits: &'a Limits,
     findings: Vec<Finding>,
     foreign: FxHashMap<Code, (Range<usize>, usize)>,
-    definitions: FxHashMap<Offset, (Number, bool)>,
+    definitions: &'a Table,
+    /// An arc of at least this radius is no tighter than any correction, µm.
+    tight_below: f64,
     moves: u32,
     is_behind_end_said: bool,
+}
+
+/// From `b` to `a`.
+fn apart(a: Spot, b: Spot) -> Spot {
+    [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
 }
 
 fn at(offset: usize, range: (u32, u32)) -> Range<usize> {
@@ -99,15 +119,12 @@ impl<'a> Report<'a> {
             limits: &document.limits,
             findings: Vec::new(),
             foreign: FxHashMap::default(),
-            definitions: FxHashMap::default(),
+            definitions: &document.table,
+            tight_below: 0.0,
             moves: 0,
             is_behind_end_said: false,
         };
-        // The table may stand behind the cuts that use it.
-        for placed in document.placed() {
-            let definitions = placed.stretch.definitions.iter().map(|&(offset, value, inch)| (offset, (value, inch)));
-            report.definitions.extend(definitions);
-        }
+        report.tight_below = report.largest_correction() - RADIUS_TOLERANCE;
         report
     }
 
@@ -149,45 +166,58 @@ impl<'a> Report<'a> {
 
     /// Puts together the cuts that go on from stretch to stretch, and judges those that end.
     fn follow(&mut self, open: &mut Option<OpenRun>, placed: &Placed<'_>) {
-        let (stretch, offset) = (placed.stretch, placed.offset);
+        let stretch = placed.stretch;
         if let Some(whole) = stretch.ends_run_before
             && let Some(mut run) = open.take()
         {
             run.run.whole &= whole;
             self.judge(&run);
         }
-        // Most programs have no arc as tight as any correction.
-        let is_tight = stretch.tightest < self.largest_correction() - RADIUS_TOLERANCE;
-        let tight = if is_tight { &stretch.tight[..] } else { &[] };
-        let mut tight = tight.iter().peekable();
-        for (index, run) in stretch.runs.iter().enumerate() {
+        let skipped = if stretch.is_quiet { stretch.inner() } else { 0..0 };
+        for index in (0..skipped.start).chain(skipped.end..stretch.run_count()) {
+            let Some(own) = self.open_run(placed, index) else { continue };
+            let is_over = !own.run.open;
             match open {
-                Some(known) if run.continues => {
-                    known.run.append(run);
-                    known.last_range = at(offset, run.last_range);
+                Some(known) if own.run.continues => {
+                    known.run.append(&own.run);
+                    known.last_range = own.last_range;
+                    known.tight.extend(own.tight);
                 }
                 _ => {
-                    if let Some(run) = open.take() {
+                    if let Some(run) = open.replace(own) {
                         self.judge(&run);
                     }
-                    let (range, last_range) = (at(offset, run.range), at(offset, run.last_range));
-                    *open = Some(OpenRun { run: *run, range, last_range, tight: Vec::new() });
                 }
             }
-            if let Some(known) = open {
-                while let Some(&&Tight { arc, range, run }) = tight.peek()
-                    && run as usize <= index
-                {
-                    known.tight.push((arc, at(offset, range)));
-                    tight.next();
-                }
-            }
-            if !run.open
-                && let Some(run) = open.take()
-            {
+            if is_over && let Some(run) = open.take() {
                 self.judge(&run);
             }
         }
+    }
+
+    fn open_run(&self, placed: &Placed<'_>, index: usize) -> Option<OpenRun> {
+        let (stretch, offset) = (placed.stretch, placed.offset);
+        let run = stretch.run_at(index)?;
+        // Most programs have no arc as tight as any correction.
+        let is_offset_only = self.limits.compensation == Compensation::Path;
+        let tightest = stretch.tightest.offset.min(if is_offset_only { f64::INFINITY } else { stretch.tightest.plain });
+        let may_be_tight = |tight: &Tight| tight.radius < self.tight_below && (tight.arc.side.is_some() || !is_offset_only);
+        let tight = (tightest < self.tight_below).then(|| stretch.tight_of(index).filter(may_be_tight));
+        let tight = tight.into_iter().flatten().map(|tight| (tight, at(offset, tight.range))).collect();
+        Some(OpenRun { run, range: at(offset, run.range), last_range: at(offset, run.last_range), tight })
+    }
+
+    /// Whether nothing is wrong with the cuts that begin and end in a stretch, each as a whole.
+    fn is_quiet(&mut self, placed: &Placed<'_>) -> bool {
+        let known = self.findings.len();
+        for index in placed.stretch.inner() {
+            if let Some(run) = self.open_run(placed, index) {
+                self.judge(&run);
+            }
+        }
+        let is_quiet = self.findings.len() == known;
+        self.findings.truncate(known);
+        is_quiet
     }
 
     /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
@@ -207,16 +237,16 @@ impl<'a> Report<'a> {
         };
         if let Some(side) = side {
             let inside = (side == Side::Left) == (orientation > 0);
-            let range = self.switch_range(open.range.start);
             let is_wrong = match self.limits.side {
                 SideSetting::Opening => !inside,
                 SideSetting::Punch => inside,
                 SideSetting::Both | SideSetting::Auto => false,
             };
+            let range = || self.switch_range(open.range.start);
             if is_wrong {
-                self.add(Rule::WrongSide, range, IsoFault::RoleSide { side, punch: !inside });
+                self.add(Rule::WrongSide, range(), IsoFault::RoleSide { side, punch: !inside });
             } else if self.side_of_entry(run).is_some_and(|entry| entry != side) {
-                self.push(Rule::WrongSide, Severity::Warning, range, Detail::Iso(IsoFault::EntrySide { side }));
+                self.push(Rule::WrongSide, Severity::Warning, range(), Detail::Iso(IsoFault::EntrySide { side }));
             }
         }
         self.tight_arcs(open, orientation);
@@ -242,8 +272,9 @@ impl<'a> Report<'a> {
         }
         // Of three moves the one before the last is the first of the contour itself.
         if run.moves > 3 {
-            let first = run.first[1].segment(self.reading);
-            if ends.iter().any(|&end| first.distance_to(micrometres(end)) <= tolerance) {
+            // Seen from where the cut begins, so that it comes to the same to the last bit wherever that is.
+            let first = run.first[1].seen_from(run.start()).segment(self.reading);
+            if ends.iter().any(|&end| first.distance_to(micrometres(apart(end, run.start()))) <= tolerance) {
                 return Ok(());
             }
         }
@@ -257,12 +288,11 @@ impl<'a> Report<'a> {
         if lead.switches != Some(true) || lead.is_arc() || run.moves < FEWEST_MOVES {
             return None;
         }
-        let entry: Point = micrometres(lead.to);
         let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= CLOSED + f64::from(run.arcs);
         let last = run.last.iter().rev().find(|step| near(step.to))?;
-        let ahead = run.first[1].segment(self.reading).start_tangent();
-        let behind = last.segment(self.reading).end_tangent();
-        let way = micrometres(lead.from) - entry;
+        let ahead = run.first[1].at_origin().segment(self.reading).start_tangent();
+        let behind = last.at_origin().segment(self.reading).end_tangent();
+        let way = micrometres(apart(lead.from, lead.to)).coords;
         // A way in along the contour says nothing.
         let clear = way.norm() * 0.02;
         let sides = [cross(ahead, way), cross(behind, way)];
@@ -293,9 +323,8 @@ impl<'a> Report<'a> {
 
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
     fn tight_arcs(&mut self, open: &OpenRun, orientation: i128) {
-        for (step, range) in &open.tight {
-            let Course::Arc(arc) = step.course(self.reading) else { continue };
-            let side_of_center = if arc.sweep > 0.0 { Side::Left } else { Side::Right };
+        for (Tight { arc: step, radius, .. }, range) in &open.tight {
+            let side_of_center = if step.motion == Motion::CounterClockwise { Side::Left } else { Side::Right };
             let wire_side = match step.side {
                 Some(side) => side,
                 None if self.limits.compensation == Compensation::Path => continue,
@@ -306,7 +335,10 @@ impl<'a> Report<'a> {
                 },
             };
             let required = self.correction(step);
-            if wire_side == side_of_center && arc.radius < required - RADIUS_TOLERANCE {
+            if wire_side == side_of_center
+                && *radius < required - RADIUS_TOLERANCE
+                && let Course::Arc(arc) = step.course(self.reading)
+            {
                 self.push(
                     Rule::SmallRadius,
                     Rule::SmallRadius.default_severity(),
@@ -354,9 +386,10 @@ impl<'a> Report<'a> {
         for placed in self.document.placed() {
             blocks += placed.stretch.blocks as usize;
             numbers += placed.stretch.numbers.len();
-            for &(number, _) in &placed.stretch.numbers {
-                rising &= last.is_none_or(|last| number > last);
-                last = Some(number);
+            let ends = (placed.stretch.numbers.first(), placed.stretch.numbers.last());
+            if let (Some((first, _)), Some((end, _))) = ends {
+                rising &= placed.stretch.numbers_rise && last.is_none_or(|last| *first > last);
+                last = Some(*end);
             }
         }
         if numbers < blocks && numbers * 4 >= blocks * 3 {

@@ -39,10 +39,26 @@ pub enum Fault {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tight {
     pub arc: Move,
+    /// µm, taken about its own start: the same wherever it lies.
+    pub radius: f64,
     /// Bytes from the start of the stretch; the whole line's words.
     pub range: (u32, u32),
     /// The run that it is part of, by its index in the stretch.
     pub run: u32,
+}
+
+/// The smallest radii among some arcs, µm; infinite where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tightest {
+    /// Of those beside which the control lets the wire run on a side, and of the others.
+    pub offset: f64,
+    pub plain: f64,
+}
+
+impl Default for Tightest {
+    fn default() -> Self {
+        Tightest { offset: f64::INFINITY, plain: f64::INFINITY }
+    }
 }
 
 /// Arcs of a larger radius than this are not kept: no correction comes near, nm.
@@ -64,6 +80,8 @@ pub struct Run {
     pub last_range: (u32, u32),
     /// Nothing of it was lost to lines that could not be read.
     pub whole: bool,
+    /// In one of its lines, or between them, something is wrong.
+    pub faulty: bool,
     /// It goes on in the next stretch.
     pub open: bool,
     /// It is the continuation of the one before.
@@ -93,6 +111,7 @@ impl Run {
             range,
             last_range: range,
             whole,
+            faulty: false,
             open: true,
             continues,
             side,
@@ -138,6 +157,7 @@ impl Run {
         self.moves += next.moves;
         self.arcs += next.arcs;
         self.whole &= next.whole;
+        self.faulty |= next.faulty;
         self.open = next.open;
         self.side = joined(self.side, next.side);
     }
@@ -155,6 +175,14 @@ fn joined(a: RunSide, b: RunSide) -> RunSide {
         (one, other) if one == other => one,
         _ => RunSide::Both,
     }
+}
+
+/// How a run is joined to those of other stretches, and whether nothing of it was lost or is wrong in its lines.
+#[derive(Clone, Copy, Debug)]
+pub struct Joints {
+    pub continues: bool,
+    pub open: bool,
+    pub sound: bool,
 }
 
 /// How a run lies on itself: what tells where the way crosses itself.
@@ -221,22 +249,31 @@ pub struct Stretch {
     pub reading: Reading,
     pub evidence: Evidence,
     pub faults: Vec<LineFault>,
-    pub tight: Vec<Tight>,
-    /// The smallest radius among them, µm; infinite where there is none.
-    pub tightest: f64,
-    pub runs: Vec<Run>,
+    /// In the order of their runs, where they lay before the stretch was moved, as `runs`.
+    tight: Vec<Tight>,
+    pub tightest: Tightest,
+    runs: Vec<Run>,
+    /// By how much it has been moved since its lines were run.
+    moved: Place,
     /// Of each run, how it lies on itself.
     pub paths: Vec<Path>,
+    /// The runs that begin and end here are known not to cross themselves, and to have nothing wrong with them as a whole.
+    pub is_calm: bool,
+    pub is_quiet: bool,
     pub foreign: Vec<Foreign>,
     pub definitions: Vec<(Offset, Number, bool)>,
     /// N words with the byte at which they stand.
     pub numbers: Vec<(u32, u32)>,
+    /// Each of them is larger than the one before.
+    pub numbers_rise: bool,
     /// Lines that may have an N word.
     pub blocks: u32,
     /// Where a program or subprogram begins (`O`), whose numbers count for themselves: how many N words stand before it.
     pub programs: Vec<u32>,
     /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
     pub ends_run_before: Option<bool>,
+    /// Something is wrong in a line that belongs to that cut.
+    pub faulty_before: bool,
     /// The first words behind the end.
     pub behind_end: Option<(u32, u32)>,
     /// The last line that says anything.
@@ -280,15 +317,20 @@ impl Stretch {
             evidence: Evidence::default(),
             faults: Vec::new(),
             tight: Vec::new(),
-            tightest: f64::INFINITY,
+            tightest: Tightest::default(),
             runs: Vec::new(),
+            moved: [0, 0],
             paths: Vec::new(),
+            is_calm: false,
+            is_quiet: false,
             foreign: Vec::new(),
             definitions: Vec::new(),
             numbers: Vec::new(),
+            numbers_rise: true,
             blocks: 0,
             programs: Vec::new(),
             ends_run_before: None,
+            faulty_before: false,
             behind_end: None,
             last_words: None,
             calls: false,
@@ -297,7 +339,11 @@ impl Stretch {
             fixed: false,
         };
         for (offset, line) in lines {
+            let known = stretch.faults.len();
             stretch.line(line, offset - start, each);
+            if stretch.faults.len() > known {
+                stretch.mark_fault();
+            }
         }
         stretch
     }
@@ -329,6 +375,7 @@ impl Stretch {
         }
         self.blocks += u32::from(block.program.is_none());
         if let Some(number) = block.number {
+            self.numbers_rise &= self.numbers.last().is_none_or(|(before, _)| number > *before);
             self.numbers.push((number, range.0));
         }
         self.calls |= block.call.is_some();
@@ -348,6 +395,14 @@ impl Stretch {
         if let Some(stop) = block.stop {
             self.pauses += u32::from(stop == Stop::Pause);
             self.interrupt(true);
+        }
+    }
+
+    /// Notes that something is wrong in a line of the cut that is going on.
+    fn mark_fault(&mut self) {
+        match self.runs.last_mut() {
+            Some(run) => run.faulty |= run.open,
+            None => self.faulty_before |= self.ends_run_before.is_none(),
         }
     }
 
@@ -379,8 +434,9 @@ impl Stretch {
                     if arc.radius * 1e3 < LARGEST_CORRECTION {
                         let goes_on = self.runs.last().is_some_and(|run| run.open);
                         let run = (self.runs.len() - usize::from(goes_on)) as u32;
-                        self.tightest = self.tightest.min(arc.radius);
-                        self.tight.push(Tight { arc: made, range, run });
+                        let tightest = if made.side.is_some() { &mut self.tightest.offset } else { &mut self.tightest.plain };
+                        *tightest = tightest.min(arc.radius);
+                        self.tight.push(Tight { arc: made, radius: arc.radius, range, run });
                     }
                 }
                 Course::OffRadius { start, end, .. } => {
@@ -415,8 +471,46 @@ impl Stretch {
     pub fn shift(&mut self, by: Place) {
         self.before.at = added(self.before.at, by);
         self.after.at = added(self.after.at, by);
-        self.runs.iter_mut().for_each(|run| run.shift(by));
-        self.tight.iter_mut().for_each(|tight| tight.arc = tight.arc.shifted(by));
+        self.moved = added(self.moved, by);
+    }
+
+    pub fn run_count(&self) -> usize {
+        self.runs.len()
+    }
+
+    /// A run, where it lies.
+    pub fn run_at(&self, index: usize) -> Option<Run> {
+        let mut run = *self.runs.get(index)?;
+        run.shift(self.moved);
+        Some(run)
+    }
+
+    pub fn runs(&self) -> impl Iterator<Item = Run> + '_ {
+        (0..self.runs.len()).filter_map(|index| self.run_at(index))
+    }
+
+    /// Where a run begins, how many moves and arcs it has.
+    pub fn extent(&self, index: usize) -> Option<(Place, u32, u32)> {
+        self.runs.get(index).map(|run| (added(run.start(), self.moved), run.moves, run.arcs))
+    }
+
+    /// How a run is joined to those of other stretches.
+    pub fn joints(&self, index: usize) -> Option<Joints> {
+        self.runs.get(index).map(|run| Joints { continues: run.continues, open: run.open, sound: run.whole && !run.faulty })
+    }
+
+    /// The runs that begin and end here.
+    pub fn inner(&self) -> Range<usize> {
+        let first = usize::from(self.runs.first().is_some_and(|run| run.continues));
+        let end = self.runs.len() - usize::from(self.runs.last().is_some_and(|run| run.open));
+        first..end.max(first)
+    }
+
+    /// The arcs of a run that may be tighter than a correction, where they lie.
+    pub fn tight_of(&self, run: usize) -> impl Iterator<Item = Tight> + '_ {
+        let first = self.tight.partition_point(|tight| (tight.run as usize) < run);
+        let of_run = self.tight[first..].iter().take_while(move |tight| tight.run as usize == run);
+        of_run.map(|tight| Tight { arc: tight.arc.shifted(self.moved), ..*tight })
     }
 }
 

@@ -336,6 +336,23 @@ fn line() -> impl Strategy<Value = String> {
     ]
 }
 
+/// A closed contour with what is right with it, or not: compensation, a rounded corner, a crossing, numbers.
+fn contour() -> impl Strategy<Value = String> {
+    let size = 300_i32..2000;
+    (size, 20_i32..250, prop::sample::select(vec!["", "G41 D1\n", "G42 H1\n"]), any::<bool>(), prop::bool::weighted(0.1)).prop_map(
+        |(size, radius, side, is_turned, crosses)| {
+            let (a, b) = if is_turned { ("Y", "X") } else { ("X", "Y") };
+            let corner = if is_turned { format!("G02 Y{radius} X{radius} I{radius}") } else { format!("G03 X{radius} Y{radius} J{radius}") };
+            let rest = size - radius;
+            let long = if crosses { 3 * size } else { rest };
+            let back = if crosses { format!("G01 {a}-100 {b}-{size}\nG01 {b}-{}\nG01 {a}100\n", long - size - 100) } else { String::new() };
+            format!(
+                "{side}G01 {a}-{size}\nG01 {a}{size}\n{corner}\nG01 {b}{long}\nG01 {a}-{size}\n{back}G01 {b}-{size}\nG01 {a}{rest}\nG40\nG00 X5000\n"
+            )
+        },
+    )
+}
+
 proptest! {
     #[test]
     fn an_edited_document_is_the_one_read_afresh(
@@ -353,6 +370,23 @@ proptest! {
             let fresh = Document::read(document.text().bytes().to_vec());
             prop_assert_eq!(document.text(), fresh.text());
             prop_assert_eq!(document.reading(), fresh.reading());
+            prop_assert_eq!(document.findings(), fresh.findings());
+            prop_assert_eq!(document.trace(), fresh.trace());
+        }
+    }
+
+    #[test]
+    fn an_edit_among_sound_contours_leaves_them_as_read_afresh(
+        contours in prop::collection::vec(contour(), 1..60),
+        edits in prop::collection::vec((0_usize..6000, 0_usize..3, prop::sample::select(vec!["", "5", "1", "\n", "G90 ", "M00\n", "H1=2000\n", "X"])), 1..6),
+        side in prop::sample::select(vec!["auto", "opening", "punch"]),
+    ) {
+        let settings = crate::settings::Effective::of(&crate::settings::from_toml(&format!("side = \"{side}\"\n")).0);
+        let mut document = read(&format!("G91\n{}M02\n", contours.concat()));
+        document.set_settings(&settings);
+        for (start, length, replacement) in edits {
+            document.edit(start..start + length, replacement);
+            let fresh = Document::read_with(document.text().bytes().to_vec(), &settings);
             prop_assert_eq!(document.findings(), fresh.findings());
             prop_assert_eq!(document.trace(), fresh.trace());
         }

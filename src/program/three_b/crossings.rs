@@ -5,11 +5,12 @@
 //! and of what it moved away from the rest. Which pieces cross is then decided from the whole way, so that it does not hang on where
 //! runs begin.
 
-use super::rules::path_crosses_itself::{Crossing, Way, come_near, margin};
+use super::rules::path_crosses_itself::{Crossing, MOST_PAIRS, Way, come_near, margin};
 use super::run::Move;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use std::cell::Cell;
 use std::sync::{Arc, OnceLock};
 
 /// The blocks of a contour in one run.
@@ -53,14 +54,9 @@ impl Known {
         self.found.get(&mark).cloned()
     }
 
-    /// True where nothing was found in a contour before.
-    pub fn is_calm(&self, mark: u64) -> bool {
-        self.found.get(&mark).is_some_and(|found| found.crossings.is_empty() && !found.is_crowded)
-    }
-
     /// Keeps in mind what was found in a contour.
-    pub fn note(&mut self, mark: u64, found: &Found) {
-        self.found.insert(mark, Arc::new(found.clone()));
+    pub fn note(&mut self, mark: u64, found: &Arc<Found>) {
+        self.found.insert(mark, found.clone());
     }
 
     /// Forgets all where much more is known than is in use.
@@ -90,6 +86,9 @@ fn most_looks(blocks: usize) -> usize {
     500_000 + 32 * blocks
 }
 
+/// Pairs of stretches that are held against each other at once.
+const AT_ONCE: usize = 1024;
+
 /// Finds where a contour crosses itself. `pieces` gives the pieces of a stretch from the origin.
 pub(in crate::program) fn search(
     stretches: &[Stretch<'_>],
@@ -98,41 +97,48 @@ pub(in crate::program) fn search(
     pieces: &(dyn Fn(usize) -> Vec<Segment> + Sync),
 ) -> Found {
     let mut firsts = Vec::with_capacity(stretches.len());
-    let mut near: Vec<(usize, usize)> = Vec::new();
     let mut count = 0;
     for stretch in stretches {
         firsts.push(count);
-        near.extend(stretch.near.iter().map(|&(a, b)| (count + a as usize, count + b as usize)));
         count += stretch.blocks;
     }
     let prepared: Vec<OnceLock<Prepared>> = stretches.iter().map(|_| OnceLock::new()).collect();
     let prepared = |index: usize| prepared[index].get_or_init(|| Prepared::of(pieces(index)));
-    let (pairs, is_all) = touching(stretches, 1024 + 256 * stretches.len());
+    let (mut pairs, is_all) = touching(stretches, 1024 + 256 * stretches.len());
+    // In the order of the later one: the pieces that count are the first ones along the way, so the search may end where these are found.
+    pairs.sort_unstable_by_key(|&(a, b)| (b, a));
     let key = |a: usize, b: usize| (stretches[a].mark, stretches[b].mark, stretches[b].start.minus(stretches[a].start).meant, b == a + 1);
-    let unknown: Vec<(usize, usize)> = pairs.iter().copied().filter(|&(a, b)| !known.pairs.contains_key(&key(a, b))).collect();
     let look = |&(a, b): &(usize, usize)| -> (Pair, Near) {
         let [x, y] = stretches[b].start.minus(stretches[a].start).meant_um();
         (key(a, b), prepared(a).near(prepared(b), Vector::new(x, y), b == a + 1))
     };
-    let mut left = most_looks(count);
-    for some in unknown.chunks(1024) {
-        let found: Vec<(Pair, Near)> = if some.len() > 64 { some.par_iter().map(look).collect() } else { some.iter().map(look).collect() };
-        left = left.saturating_sub(found.iter().map(|(_, (_, cost))| cost).sum());
-        known.pairs.extend(found);
-        if left == 0 {
-            break;
-        }
-    }
-    // What is known already counts as well: how much of a contour is looked at must not hang on what was there before.
+    let mut near: Vec<(usize, usize)> = Vec::new();
     let mut left = most_looks(count);
     let mut is_crowded = !is_all;
-    for &(a, b) in &pairs {
-        let Some((found, cost)) = known.pairs.get(&key(a, b)).filter(|_| left > 0) else {
-            is_crowded = true;
-            break;
-        };
-        near.extend(found.iter().map(|&(i, j)| (firsts[a] + i as usize, firsts[b] + j as usize)));
-        left = left.saturating_sub(*cost);
+    // Pairs and stretches that have been gone through.
+    let (mut gone, mut behind) = (0, 0);
+    while behind < stretches.len() && near.len() <= MOST_PAIRS {
+        let next = pairs.get(gone + AT_ONCE).map_or(stretches.len(), |pair| pair.1).max(behind + 1);
+        let end = gone + pairs[gone..].partition_point(|pair| pair.1 < next);
+        let some = if left > 0 { &pairs[gone..end] } else { &[] };
+        is_crowded |= some.len() < end - gone;
+        let unknown: Vec<(usize, usize)> = some.iter().copied().filter(|&(a, b)| !known.pairs.contains_key(&key(a, b))).collect();
+        let found: Vec<(Pair, Near)> =
+            if unknown.len() > 64 { unknown.par_iter().map(look).collect() } else { unknown.iter().map(look).collect() };
+        known.pairs.extend(found);
+        for (stretch, first) in stretches[behind..next].iter().zip(&firsts[behind..next]) {
+            near.extend(stretch.near.iter().map(|&(a, b)| (first + a as usize, first + b as usize)));
+        }
+        for &(a, b) in some {
+            // What was known before counts as well: how much of a contour is looked at must not hang on that.
+            let Some((found, cost)) = known.pairs.get(&key(a, b)).filter(|_| left > 0) else {
+                is_crowded = true;
+                break;
+            };
+            near.extend(found.iter().map(|&(i, j)| (firsts[a] + i as usize, firsts[b] + j as usize)));
+            left = left.saturating_sub(*cost);
+        }
+        (gone, behind) = (end, next);
     }
     if near.is_empty() {
         return Found { crossings: Vec::new(), is_crowded, pairs: pairs.len() };
@@ -143,7 +149,7 @@ pub(in crate::program) fn search(
         let own = prepared(stretch).pieces.get(index - firsts[stretch])?;
         Some(own.moved(Vector::new(x, y)))
     };
-    let (crossings, is_all) = Way { piece: &piece, count, margin: margin(arcs) }.crossings(near);
+    let (crossings, is_all) = Way { piece: &piece, count, margin: margin(arcs), steps: Cell::new(0) }.crossings(near);
     Found { crossings, is_crowded: is_crowded || !is_all, pairs: pairs.len() }
 }
 

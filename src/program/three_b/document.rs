@@ -11,12 +11,12 @@ use super::fields::fields_of;
 use super::language::{Field, Piece, pieces};
 use super::layout::push_fields;
 use super::parse::{StatedPoint, Words, unexpected};
-use super::rules::block_number::Numbered;
+use super::rules::block_number::{Numbered, Sequence};
 use super::rules::position_mismatch::Mismatched;
 use super::rules::{
     self, Counts, Limits, Site, TextFix, block_number, culprit, missing_end, not_closed, position_mismatch, text_after_end,
 };
-use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Part, Run, Sum, What, is_jump, travel_of};
+use super::run::{BlockEntry, Entry, LINES, Local, Move, Numbering, Part, Run, Sum, What, is_jump, may_cross_itself, travel_of};
 use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault, Rule, Severity};
 use crate::geometry::{Point, Vector};
 use crate::program::trace::{Chain, Kind, Step, Trace};
@@ -203,11 +203,19 @@ impl Document {
 
     fn look_again(&mut self) {
         let mut known = std::mem::take(&mut self.known);
-        *self.view = self.look(&mut known);
+        let mut calm = Vec::new();
+        *self.view = self.look(&mut known, &mut calm);
         self.known = known;
+        // What a contour within one run comes to hangs on nothing else: it is not asked again.
+        for of_run in calm.chunk_by(|a, b| a.0 == b.0) {
+            let run = of_run.first().and_then(|(run, _)| self.runs.get_mut(*run));
+            let is_calm = |part: &usize| of_run.binary_search_by_key(part, |(_, part)| *part).is_ok();
+            run.into_iter().for_each(|run| run.tangled.retain(|part| !is_calm(part)));
+        }
     }
 
-    fn look(&self, known: &mut Known) -> View {
+    /// `calm` takes the contours within one run of which is known now that they do not cross themselves, in their order.
+    fn look(&self, known: &mut Known, calm: &mut Vec<PartAt>) -> View {
         let mut view = View { starts: Vec::with_capacity(self.runs.len()), ..View::default() };
         let (mut bytes, mut lines) = (0, 0);
         for run in &self.runs {
@@ -219,7 +227,7 @@ impl Document {
         view.outer = self.outer_sections(view.end);
         view.last_block = self.last_block(view.end);
         self.judge_contours(&mut view);
-        self.judge_crossings(&mut view, known);
+        self.judge_crossings(&mut view, known, calm);
         self.judge_end(&mut view);
         self.judge_texts(&mut view);
         self.judge_numbers(&mut view);
@@ -413,27 +421,28 @@ impl Document {
         })
     }
 
-    fn judge_crossings(&self, view: &mut View, known: &mut Known) {
+    fn judge_crossings(&self, view: &mut View, known: &mut Known, calm: &mut Vec<PartAt>) {
         let mut findings = Vec::new();
         let (mut pairs, mut contours) = (0, 0);
         let tangled = self.inner_sections(view.end, |run| &run.tangled).map(Cow::Owned);
         for section in tangled.chain(view.outer.iter().map(Cow::Borrowed)) {
             contours += 1;
-            // Where a block is wrong the path behind it is not the one that is meant.
-            let is_asked = !section.is_jump && section.sum.blocks >= 4 && section.sum.errors == 0;
-            if !is_asked {
+            if section.is_jump || !may_cross_itself(&section.sum) {
                 continue;
             }
-            let section = &*section;
             let mark = section.sum.mark;
             let found = known.of(mark).unwrap_or_else(|| {
-                let found = std::sync::Arc::new(self.crossings_in(section, known));
+                let found = std::sync::Arc::new(self.crossings_in(&section, known));
                 known.note(mark, &found);
                 found
             });
             pairs += found.pairs;
+            if found.crossings.is_empty() && !found.is_crowded {
+                calm.extend(matches!(section, Cow::Owned(_)).then_some(section.parts[0]));
+                continue;
+            }
             for crossing in &found.crossings {
-                let mut blocks = self.blocks_of(section);
+                let mut blocks = self.blocks_of(&section);
                 let first = blocks.nth(crossing.first);
                 let second = blocks.nth(crossing.second - crossing.first - 1);
                 if let (Some(first), Some(second)) = (first, second) {
@@ -446,7 +455,7 @@ impl Document {
                     findings.push(Finding { related, ..finding(self.range_of(second, &view.starts), fault) });
                 }
             }
-            if let Some(last) = self.last_block_of(section).filter(|_| found.is_crowded) {
+            if let Some(last) = self.last_block_of(&section).filter(|_| found.is_crowded) {
                 let fault = ProgramFault::PathOnItself { blocks: section.sum.blocks };
                 findings.push(Finding { severity: Severity::Information, ..finding(self.range_of(last, &view.starts), fault) });
             }
@@ -537,35 +546,61 @@ impl Document {
         if numbering != Numbering::Irregular || self.runs.iter().all(|run| run.numbered == 0) {
             return;
         }
-        let (places, blocks) = self.numbered(view.end);
-        for (index, fault, _) in block_number::look(&blocks) {
-            if let Some(at) = places.get(index) {
-                view.findings.push(finding(self.range_of(*at, &view.starts), fault));
+        let end = view.end;
+        let runs = || 0..end.map_or(self.runs.len(), |end| end.run + 1);
+        let from = |run: usize| (run..runs().end).flat_map(|run| self.numbered_in(run, end));
+        let head: Vec<Numbered> = from(0).map(|(_, block)| block).take(block_number::FIRST).collect();
+        let first = runs().filter(|run| self.runs[*run].numbered > 0).flat_map(|run| self.numbered_in(run, end));
+        let first = first.into_iter().find_map(|(_, block)| block.number);
+        let Some(mut sequence) = Sequence::of(&head, first) else { return };
+        for run in runs() {
+            // A run in which the numbers go on as before is not walked through.
+            let regular = match self.runs[run].numbering {
+                Numbering::Regular { first, last, step } if end.is_none_or(|end| run < end.run) => Some((first, last, step)),
+                _ => None,
+            };
+            let count = self.runs[run].numbered;
+            if regular.is_some_and(|(first, last, step)| sequence.skip(first, last, step, count)) {
+                continue;
             }
+            let mut blocks = self.numbered_in(run, end).peekable();
+            let mut is_first = true;
+            while let Some((at, block)) = blocks.next() {
+                let next = blocks.peek().copied().or_else(|| from(run + 1).next());
+                sequence.push(&block, next.map(|(_, next)| next).as_ref(), at);
+                let rest = regular.filter(|_| std::mem::take(&mut is_first) && count > 1);
+                if rest.is_some_and(|(first, last, step)| sequence.skip(first + step, last, step, count - 1)) {
+                    break;
+                }
+            }
+        }
+        for (at, fault, _) in sequence.found() {
+            view.findings.push(finding(self.range_of(at, &view.starts), fault));
         }
     }
 
     /// Blocks and numbered words up to the end, with their numbers.
     fn numbered(&self, end: Option<At>) -> (Vec<At>, Vec<Numbered>) {
-        let (mut places, mut blocks) = (Vec::new(), Vec::new());
-        let mut is_after_pause = false;
-        for (run, of) in self.runs.iter().enumerate() {
-            for (entry, what) in of.entries.iter().enumerate() {
-                let at = At { run, entry };
-                if end.is_some_and(|end| at > end) {
-                    return (places, blocks);
-                }
-                let number = what.number();
-                let is_word = matches!(what.what, What::Word { .. });
-                let is_unread = what.what == What::Unread;
-                if what.block().is_some() || is_unread || (is_word && number.is_some()) {
-                    places.push(at);
-                    blocks.push(Numbered { number, is_after_pause, is_unread });
-                }
-                is_after_pause = is_word;
-            }
-        }
-        (places, blocks)
+        (0..self.runs.len()).flat_map(|run| self.numbered_in(run, end)).unzip()
+    }
+
+    /// Those of one run.
+    fn numbered_in(&self, run: usize, end: Option<At>) -> impl Iterator<Item = (At, Numbered)> + '_ {
+        let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
+        let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
+        let mut is_after_pause = None;
+        entries.iter().enumerate().filter_map(move |(entry, what)| {
+            let follows_word = is_after_pause.unwrap_or_else(|| {
+                let before = self.runs[..run].iter().rev().find_map(|of| of.entries.last());
+                before.is_some_and(is_word)
+            });
+            is_after_pause = Some(is_word(what));
+            let at = At { run, entry };
+            let (number, is_unread) = (what.number(), what.what == What::Unread);
+            let counts = what.block().is_some() || is_unread || (is_word(what) && number.is_some());
+            let is_in_program = end.is_none_or(|end| at <= end);
+            (counts && is_in_program).then_some((at, Numbered { number, is_after_pause: follows_word, is_unread }))
+        })
     }
 
     fn judge_positions(&self, view: &mut View) {
@@ -1202,6 +1237,13 @@ mod tests {
     }
 
     const PROGRAM: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)(\r\n|\n|\r)){0,40}";
+    /// Closed ones, one that crosses itself, and the way between two.
+    const CONTOURS: [&str; 4] = [
+        "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\nD\n",
+        "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nD\n",
+        "B900B0B900GXL1\nB900B900B900GYL1\nB900B0B900GXL3\nB900B900B900GXL4\nB900B0B900GXL3\nB0B50B50GYL2\nB0B50B50GYL4\nD\n",
+        "B50000B0B50000GXL1\nD\n",
+    ];
     const REPLACEMENT: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)|\r|\n| |7){0,3}";
 
     proptest! {
@@ -1215,6 +1257,25 @@ mod tests {
             let mut document = Document::read(text.repeat(copies).into_bytes());
             for (start, length, replacement) in edits {
                 document.edit(start..start + length, &replacement);
+                assert_is_fresh(&document)?;
+            }
+        }
+
+        #[test]
+        fn an_edit_among_sound_contours_leaves_them_as_read_afresh(
+            contours in prop::collection::vec(prop::sample::select(CONTOURS.to_vec()), 1..60),
+            (is_numbered, restarts) in (any::<bool>(), any::<bool>()),
+            edits in prop::collection::vec((0_usize..9000, 0_usize..3, prop::sample::select(vec!["", "7", "1", "\n", "D\n", "DD\n", "N3 "])), 1..6),
+        ) {
+            let mut number = 0;
+            let line = |line: &str| {
+                number = if line == "D" && restarts { 0 } else { number + u32::from(line != "D") };
+                if is_numbered && line != "D" { format!("N{number} {line}\n") } else { format!("{line}\n") }
+            };
+            let text: String = contours.concat().lines().map(line).collect();
+            let mut document = Document::read((text + "DD\n").into_bytes());
+            for (start, length, replacement) in edits {
+                document.edit(start..start + length, replacement);
                 assert_is_fresh(&document)?;
             }
         }

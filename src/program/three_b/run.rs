@@ -307,7 +307,8 @@ pub(super) struct Run {
     pub own_end: Option<usize>,
     pub last_end: Option<usize>,
     pub last_word: Option<usize>,
-    /// Parts between two words of the run that do not come back to where they began, and those that come near themselves.
+    /// Parts between two words of the run that do not come back to where they began, and those that come near themselves, until it is known
+    /// that they do not cross.
     pub open: Vec<usize>,
     pub tangled: Vec<usize>,
 }
@@ -389,6 +390,11 @@ pub(super) fn is_jump(sum: &Sum) -> bool {
     (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0
 }
 
+/// True for what is asked whether it crosses itself: where a block is wrong the path behind it is not the one that is meant.
+pub(super) fn may_cross_itself(sum: &Sum) -> bool {
+    sum.blocks >= 4 && sum.errors == 0
+}
+
 /// Lines that one run holds at most.
 pub(super) const LINES: usize = 96;
 
@@ -442,7 +448,8 @@ impl Run {
             }
             if index > 0 && index < last {
                 self.open.extend((!is_jump(&part.sum) && !is_closed(&part.sum)).then_some(index));
-                self.tangled.extend((!part.near.is_empty()).then_some(index));
+                let may_cross = !part.near.is_empty() && may_cross_itself(&part.sum);
+                self.tangled.extend(may_cross.then_some(index));
             }
         }
     }

@@ -7,7 +7,9 @@
 -- Deaths within this many seconds count together; after as many as there are delays the server stays down.
 local forgiven_after = 120
 local delays = { 0, 500, 1000, 2000, 4000 }
-local deaths = {}
+-- Neovim reads this file again each time that the server is enabled: what is to be remembered stands outside.
+local memory = package.loaded['wedm.deaths'] or { deaths = {} }
+package.loaded['wedm.deaths'] = memory
 
 -- Neovim stops to follow a buffer that is edited while it has no client, and does not start again when it gets one. Until the server is
 -- back, buffers have this one, which knows nothing.
@@ -43,8 +45,9 @@ local function again(client_id)
         return
     end
     local now = vim.uv.now() / 1000
-    deaths = vim.tbl_filter(function(death) return now - death < forgiven_after end, deaths)
+    local deaths = vim.tbl_filter(function(death) return now - death < forgiven_after end, memory.deaths)
     deaths[#deaths + 1] = now
+    memory.deaths = deaths
     local delay = delays[#deaths]
     if not delay then
         vim.notify('wedm has ended ' .. #deaths .. ' times within two minutes and is not started again; see :LspLog', vim.log.levels.ERROR)
@@ -64,17 +67,25 @@ local function again(client_id)
     end, delay)
 end
 
+-- The program: on the PATH, or where `cargo install` puts it. A desktop often starts programs with another PATH than a shell has.
+local function program()
+    local own = vim.fn.expand('~/.cargo/bin/wedm')
+    return vim.fn.executable('wedm') == 0 and vim.fn.executable(own) == 1 and own or 'wedm'
+end
+
 -- Said once, when the first drawing is opened; the command may be set behind this file.
 vim.schedule(function()
     local command = vim.lsp.config.wedm.cmd
     if type(command) == 'table' and vim.fn.executable(command[1]) == 0 then
-        vim.notify('wedm: ' .. command[1] .. ' is not on the PATH; build it in a checkout of wedm with: cargo install --path .', vim.log.levels.WARN)
+        vim.notify('wedm: ' .. command[1] .. ' is neither on the PATH nor in ~/.cargo/bin; build it in a checkout of wedm with: cargo install --path .', vim.log.levels.WARN)
     end
 end)
 
 return {
-    cmd = { 'wedm' },
+    cmd = { program() },
     filetypes = { 'dxf', '3b', 'wire-iso' },
+    -- Neovim heeds the version that an edit was made for, and does not say so: without it a fix would be made in a text that has changed meanwhile.
+    capabilities = { workspace = { workspaceEdit = { documentChanges = true } } },
     root_markers = { 'wedm.toml', '.git' },
     before_init = function(params, config)
         -- The settings hold from the first document on.

@@ -421,6 +421,9 @@ qint64 rebuildTime(const Repair &repair)
 
 void drawMarks(Document_Interface &drawing, const QVector<QPointF> &places, double radius)
 {
+    // No layer for nothing.
+    if (places.isEmpty())
+        return;
     if (!drawing.getAllLayer().contains(QLatin1String(MARK_LAYER))) {
         const QString active = drawing.getCurrentLayer();
         drawing.setLayer(QString::fromLatin1(MARK_LAYER));

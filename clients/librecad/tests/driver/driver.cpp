@@ -264,6 +264,12 @@ int Driver::entitiesSaved(const QByteArray &type)
     return count;
 }
 
+bool Driver::isSaved(const QByteArray &line)
+{
+    QFile file(m_file);
+    return file.open(QIODevice::ReadOnly) && file.readAll().replace('\r', "").split('\n').contains(line);
+}
+
 bool Driver::wait(const std::function<bool()> &condition, int milliseconds)
 {
     return QTest::qWaitFor(condition, milliseconds);

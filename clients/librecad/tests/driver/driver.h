@@ -66,6 +66,8 @@ private:
     // What stands in the saved file, as the command line sees it.
     QString saved(const QString &key);
     int entitiesSaved(const QByteArray &type);
+    /// Whether the saved file has a line that is exactly this.
+    bool isSaved(const QByteArray &line);
 
     bool wait(const std::function<bool()> &condition, int milliseconds = 15000);
     void expect(const QString &what, bool good, const QString &seen = QString());

@@ -76,6 +76,11 @@ void Driver::fix()
     expectSoon("no fault is left", [this] { return verdictOf("0.1010") == "ok"; }, [this] { return verdictOf("0.1010"); });
     save();
     expect("the file has R 0.101 in place of R 0.080", saved("radii") == QString(radii).replace("0.0800", "0.1010"), saved("radii"));
+    choose("Mark faults");
+    expectSoon("there is nothing to mark", [this] { return text("wedm_message").startsWith("There is nothing to mark"); },
+               [this] { return text("wedm_message"); });
+    save();
+    expect("and no layer is made for it", isSaved("DIE") && !isSaved("WEDM_MARKS"));
     expect("it lies on its layer", saved("layers") == layers, saved("layers"));
     press("EditUndo");
     save();
@@ -152,6 +157,7 @@ void Driver::marks()
     choose("Mark faults");
     save();
     expect("a circle marks it", entitiesSaved("CIRCLE") == 1, QString::number(entitiesSaved("CIRCLE")));
+    expect("whose layer is in the file", isSaved("WEDM_MARKS"));
     expect("on the layer of marks", saved("layers").contains("WEDM_MARKS"), saved("layers"));
     choose("Check radii");
     QTest::qWait(500);

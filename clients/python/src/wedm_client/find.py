@@ -1,4 +1,4 @@
-"""Where the program ``wedm`` is: named by the caller, by the environment, beside this Python, or on the PATH."""
+"""Where the program ``wedm`` is: named by the caller, by the environment, beside this Python, on the PATH, or where cargo puts it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def find(command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | No
     """The command that starts the server.
 
     ``command`` is a path, the name of a program on the PATH, or a program with its arguments. Without it the environment
-    variable ``WEDM`` is asked, then the folder of this Python's programs, then the PATH.
+    variable ``WEDM`` is asked, then the folder of this Python's programs, then the PATH, then ``~/.cargo/bin``, which notebooks and services often have not on theirs.
 
     :raises ServerNotFound: there is none; the message says where it was looked for and how to get it.
     """
@@ -44,8 +44,11 @@ def find(command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | No
     on_path = shutil.which("wedm")
     if on_path is not None:
         return [on_path]
+    installed = Path.home() / ".cargo/bin" / name
+    if os.access(installed, os.X_OK) and installed.is_file():
+        return [str(installed)]
     folders = ", ".join(dict.fromkeys(str(candidate.parent) for candidate in beside))
-    raise ServerNotFound(f"no program wedm in {folders} nor on the PATH; {HOW_TO_GET_IT}")
+    raise ServerNotFound(f"no program wedm in {folders}, on the PATH or in {installed.parent}; {HOW_TO_GET_IT}")
 
 
 def _program(named: str, by: str) -> str:

@@ -203,7 +203,6 @@ class Program:
     length: float
     closure: Closure
     deviation: float = 0.0
-    minutes: float | None = None
     warnings: list[Diagnostic] = field(default_factory=list)
 
     def save(self, path: str | os.PathLike[str]) -> None:

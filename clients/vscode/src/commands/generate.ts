@@ -47,7 +47,7 @@ export async function generate(server: Server, front: Front, format: Format, arg
   // Where the drawing stands, so that its picture beside it becomes that of the program.
   const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
   await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
-  void vscode.window.showInformationMessage(`${TITLES[format]}: ${told(generated)}`);
+  void vscode.window.showInformationMessage(`${TITLES[format]}: ${told(generated, format)}`);
 }
 
 async function chooseProfile(document: vscode.TextDocument): Promise<How | undefined> {
@@ -106,10 +106,17 @@ async function answer(error: unknown, how: How): Promise<How | undefined> {
   }
 }
 
-function told(generated: Generated): string {
-  const blocks = generated.blocks === 1 ? "1 block" : `${generated.blocks} blocks`;
-  const minutes = generated.minutes === undefined ? "" : `, about ${generated.minutes.toFixed(0)} min`;
-  const { x, y } = generated.closure;
-  const warnings = generated.warnings.length === 0 ? "" : ` ${generated.warnings.length} warnings stand in the drawing.`;
-  return `${blocks}, wire path ${generated.length.toFixed(3)} mm${minutes}; a controller that counts drifts by ${x.toFixed(2)}, ${y.toFixed(2)} µm.${warnings}`;
+function told(generated: Generated, format: Format): string {
+  const blocks = counted(generated.blocks, "block");
+  const path = `wire path ${generated.length.toFixed(3)} mm, decoded again at most ${generated.deviation.toFixed(2)} µm beside it`;
+  // A drift that rounds to zero has no sign.
+  const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
+  const drift = format === "iso" ? "" : `; a controller that counts J drifts by ${x}, ${y} µm`;
+  const { length } = generated.warnings;
+  const warnings = length === 0 ? "" : ` ${counted(length, "finding")} ${length === 1 ? "stands" : "stand"} in the drawing.`;
+  return `${blocks}, ${path}${drift}.${warnings}`;
+}
+
+function counted(count: number, what: string): string {
+  return `${count} ${what}${count === 1 ? "" : "s"}`;
 }

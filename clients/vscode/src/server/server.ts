@@ -3,11 +3,12 @@
 import type { ChildProcessWithoutNullStreams } from "node:child_process";
 import { homedir } from "node:os";
 import * as vscode from "vscode";
-import { CloseAction, ErrorAction, LanguageClient, type LanguageClientOptions, State as ClientState } from "vscode-languageclient/node";
+import { CloseAction, ErrorAction, type LanguageClient, type LanguageClientOptions, State as ClientState } from "vscode-languageclient/node";
 import { selector } from "../languages";
 import type { Methods } from "../protocol";
 import { abilities } from "./abilities";
 import { Backoff } from "./backoff";
+import { QuietClient } from "./client";
 import { findServer } from "./find";
 import { misfit } from "./handshake";
 import { isProgram, launch } from "./process";
@@ -98,10 +99,14 @@ export class Server implements vscode.Disposable {
       return;
     }
     this.#child = child;
-    child.once("exit", (code, signal) => {
-      this.log.info(`${program} (process ${child.pid ?? 0}) ended with ${signal ?? `code ${code ?? 0}`}`);
+    const gone = new Promise<never>((_resolve, reject) => {
+      child.once("exit", (code, signal) => {
+        const how = `ended with ${signal ?? `code ${code ?? 0}`}`;
+        this.log.info(`${program} (process ${child.pid ?? 0}) ${how}`);
+        reject(new Error(`it ${how}`));
+      });
     });
-    const client = new LanguageClient("wedm", "Wire EDM", () => Promise.resolve(child), this.#options());
+    const client = new QuietClient("wedm", "Wire EDM", () => Promise.resolve(child), this.#options());
     client.registerFeature(abilities);
     this.#client = client;
     const clock = setTimeout(() => {
@@ -109,7 +114,11 @@ export class Server implements vscode.Disposable {
       child.kill("SIGKILL");
     }, PATIENCE);
     try {
-      await client.start();
+      // The client may wait for ever for a server that has ended before it answered, or take it for one that has started.
+      await Promise.race([client.start(), gone]);
+      if (client.initializeResult === undefined) {
+        throw new Error("it ended before it answered");
+      }
     } finally {
       clearTimeout(clock);
     }
@@ -128,7 +137,7 @@ export class Server implements vscode.Disposable {
       }
     });
     this.#backoff.started(Date.now());
-    this.log.info(`${program} (process ${child.pid ?? 0}) runs: ${client.initializeResult?.serverInfo?.version ?? ""}`);
+    this.log.info(`${program} (process ${child.pid ?? 0}) runs: ${client.initializeResult.serverInfo?.version ?? ""}`);
     this.#become({ kind: "running" });
   }
 
@@ -191,6 +200,8 @@ export class Server implements vscode.Disposable {
       traceOutputChannel: this.log,
       initializationOptions: {},
       progressOnInitialization: false,
+      // What fails at the start is said once for all tries.
+      initializationFailedHandler: () => false,
       // Deaths are dealt with here, with a wait that grows; the client's own way starts again at once, four times.
       errorHandler: {
         error: () => ({ action: ErrorAction.Continue, handled: true }),

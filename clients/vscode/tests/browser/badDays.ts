@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { promisify } from "node:util";
 import { type Checks, expectEqual, expectSoon } from "./checks";
 import { FILLET, large, lineOf } from "./drawings";
-import { Host } from "./host";
+import { Host, PATIENCE } from "./host";
 import { FAKE_SERVER, WEDM } from "./paths";
 import { Window } from "./window";
 
@@ -50,6 +50,16 @@ async function missing(checks: Checks): Promise<void> {
       await checks.shot("other-protocol");
       await window.command("Notifications: Clear All Notifications");
     });
+    await checks.check("a server that dies at every start is given up after five more tries, and that is said once", async () => {
+      const dies = join(host.folder, "..", "dies");
+      await writeFile(dies, `#!/bin/sh\necho >>${dies}.starts\necho the disk is full >&2\nexit 3\n`, { mode: 0o755 });
+      await choose(dies);
+      await window.notification("started again five times").waitFor({ timeout: 2 * PATIENCE });
+      await checks.shot("dies");
+      expectEqual("starts", (await readFile(`${dies}.starts`, "utf8")).length, 6);
+      expectEqual("notices", await host.page.locator(".notifications-toasts .notification-list-item").count(), 1);
+      await window.command("Notifications: Clear All Notifications");
+    });
     await checks.check("the right server is taken at once when the setting names it", async () => {
       await choose(WEDM);
       await window.squiggles.first().waitFor();
@@ -62,11 +72,17 @@ async function missing(checks: Checks): Promise<void> {
 
 async function killed(checks: Checks): Promise<void> {
   const big = large(51 * 1024 * 1024);
-  const host = await Host.start({ "wedm.server.path": WEDM, "workbench.editorLargeFileConfirmation": 1024 }, { "plate.dxf": FILLET, "large.dxf": big });
+  const host = await Host.start({ "wedm.server.path": WEDM, "workbench.editorLargeFileConfirmation": 1024 }, { "plate.dxf": FILLET, "second.dxf": FILLET, "large.dxf": big });
   const window = new Window(host.page);
   checks.page = host.page;
   const line = lineOf(FILLET, BULGE);
   try {
+    // A second text that is open, behind the first, with an edit that is not saved.
+    await window.open("second.dxf");
+    await window.squiggles.first().waitFor();
+    await window.goToLine(line - 4, 1);
+    await host.page.keyboard.press("Shift+End");
+    await host.page.keyboard.type("19.93");
     await window.open("plate.dxf");
     await window.squiggles.first().waitFor();
     await checks.check("a text that is changed by undo while a repair is on its way stays as it is", async () => {
@@ -108,6 +124,8 @@ async function killed(checks: Checks): Promise<void> {
       };
       await expectSoon("another server", another, async () => JSON.stringify(await servers(host.folder)));
       await says(window, "arc R 0.055 mm is below");
+      // The other text too, as it is in the window and in no file.
+      await says(window, "arc R 0.061 mm is below");
       await checks.shot("restarted");
     });
     await checks.check("the state is right again: edits after the restart are judged", async () => {

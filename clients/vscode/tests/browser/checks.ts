@@ -6,6 +6,9 @@ import { ARTIFACTS } from "./paths";
 
 const SOON = Number(process.env["PATIENCE"] ?? 30_000);
 
+/** How long VS Code takes to show a notice in full, ms. */
+const FADING = 400;
+
 export class Checks {
   passed = 0;
   failed = 0;
@@ -29,6 +32,8 @@ export class Checks {
   }
 
   async shot(name: string): Promise<void> {
+    // Notices fade in.
+    await this.page?.waitForTimeout(FADING);
     await this.page?.screenshot({ path: join(ARTIFACTS, `${name}.png`) }).catch(() => undefined);
   }
 }

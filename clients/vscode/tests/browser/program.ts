@@ -71,6 +71,20 @@ export async function program(checks: Checks): Promise<void> {
       await window.picture();
       await checks.shot("lenses");
     });
+    await checks.check("end points and radii stand behind the blocks, a block says what it does, and the contour is in the outline", async () => {
+      await window.openOurs("hole.3b");
+      await host.page.locator(".view-lines", { hasText: "R 9.900, 360°" }).first().waitFor();
+      await window.goToLine(2, 3);
+      await host.page.keyboard.press("Control+k");
+      await host.page.keyboard.press("Control+i");
+      await host.page.locator(".monaco-hover", { hasText: "counter-clockwise" }).first().waitFor();
+      await host.page.keyboard.press("Escape");
+      await host.page.keyboard.press("Control+Shift+o");
+      const outline = host.page.locator(".quick-input-widget .monaco-list-row");
+      await outline.filter({ hasText: "contour 1" }).first().waitFor();
+      await outline.filter({ hasText: "lead-in" }).first().waitFor();
+      await host.page.keyboard.press("Escape");
+    });
     await checks.check("the wire is played along the program, and the text follows", async () => {
       await window.openOurs("hole.3b");
       await window.command("Wire EDM: Play the Wire Along the Program");

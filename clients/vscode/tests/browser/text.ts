@@ -1,6 +1,6 @@
 // A drawing as text: squiggle, Problems, hover, hints, quick fix, undo, fix all, the correction in the status bar.
 
-import { readFile } from "node:fs/promises";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { type Checks, expectEqual, expectSoon } from "./checks";
 import { FILLET, lineOf } from "./drawings";
@@ -94,6 +94,19 @@ export async function text(checks: Checks): Promise<void> {
       await window.squiggles.first().waitFor();
       await host.page.keyboard.press("Control+s");
       await expectSoon("the old file", async () => (await readFile(file, "utf8")) === FILLET);
+    });
+    await checks.check("saving repairs, where that is set as the README says", async () => {
+      await mkdir(join(host.folder, ".vscode"), { recursive: true });
+      await writeFile(join(host.folder, ".vscode/settings.json"), JSON.stringify({ "editor.codeActionsOnSave": { "source.fixAll.wedm": "explicit" } }));
+      await window.goToLine(line, 1);
+      const repaired = async (): Promise<boolean> => {
+        // The setting is in force a moment later.
+        await host.page.keyboard.press("Control+s");
+        await host.page.waitForTimeout(300);
+        return /^19\.899\r?$/m.test(await readFile(file, "utf8"));
+      };
+      await expectSoon("a file that is repaired", repaired, () => readFile(file, "utf8"));
+      await window.squiggles.first().waitFor({ state: "hidden" });
     });
   } finally {
     await host.stop();

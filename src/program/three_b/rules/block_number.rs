@@ -12,39 +12,65 @@ pub(in super::super) struct Numbered {
     pub is_unread: bool,
 }
 
+/// Blocks whose numbers tell the step.
+pub(in super::super) const FIRST: usize = 16;
+
 /// What is wrong in the sequence: the index of each block concerned, and the number that it should have where that is plain.
 ///
 /// The step is the one that most of the first numbers have. Where fewer than three of four blocks have a number, or more than half of
 /// them are out of turn, the numbers follow another rule, and nothing is said.
 pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, ProgramFault, Option<u32>)> {
-    let Some(step) = usual_step(&blocks[..blocks.len().min(16)]) else { return Vec::new() };
-    let (Some(first), numbered) =
-        (blocks.iter().find_map(|block| block.number), blocks.iter().filter(|block| block.number.is_some()).count())
-    else {
-        return Vec::new();
-    };
-    let mut found = Vec::new();
-    let mut before: Option<u32> = None;
+    let first = blocks.iter().find_map(|block| block.number);
+    let Some(mut sequence) = Sequence::of(&blocks[..blocks.len().min(FIRST)], first) else { return Vec::new() };
     for (index, block) in blocks.iter().enumerate() {
+        sequence.push(block, blocks.get(index + 1), index);
+    }
+    sequence.found()
+}
+
+/// The numbers of a program as they come, and what is wrong with them; `P` is a block's place.
+pub(in super::super) struct Sequence<P> {
+    step: u32,
+    first: u32,
+    before: Option<u32>,
+    blocks: usize,
+    numbered: usize,
+    without: usize,
+    found: Vec<(P, ProgramFault, Option<u32>)>,
+}
+
+impl<P> Sequence<P> {
+    /// `blocks` are up to [`FIRST`] of the first ones, `first` the first number of all; `None` where these tell no step.
+    pub fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence<P>> {
+        let step = usual_step(blocks)?;
+        Some(Sequence { step, first: first?, before: None, blocks: 0, numbered: 0, without: 0, found: Vec::new() })
+    }
+
+    /// Takes the next block; `next` is the one behind it.
+    pub fn push(&mut self, block: &Numbered, next: Option<&Numbered>, place: P) {
+        let Sequence { step, first, before, .. } = *self;
+        self.blocks += 1;
+        self.numbered += usize::from(block.number.is_some());
+        self.without += usize::from(block.number.is_none() && !block.is_unread);
         let expected = before.map_or(first, |before| before.saturating_add(step));
-        let follows = |number: u32| blocks.get(index + 1).is_some_and(|next| next.number == Some(number));
+        let follows = |number: u32| next.is_some_and(|next| next.number == Some(number));
         match block.number {
-            None if block.is_unread => before = before.map(|_| expected),
+            None if block.is_unread => self.before = before.map(|_| expected),
             None => {
                 let takes_one = follows(expected.saturating_add(step));
-                found.push((index, ProgramFault::Unnumbered { expected }, takes_one.then_some(expected)));
+                self.found.push((place, ProgramFault::Unnumbered { expected }, takes_one.then_some(expected)));
                 if takes_one {
-                    before = Some(expected);
+                    self.before = Some(expected);
                 }
             }
-            Some(number) if number == expected || (block.is_after_pause && number == first) => before = Some(number),
+            Some(number) if number == expected || (block.is_after_pause && number == first) => self.before = Some(number),
             Some(number) => {
                 let is_seen = before.is_some_and(|before| (first..=before).contains(&number) && (number - first).is_multiple_of(step));
                 let meant = follows(expected.saturating_add(step)).then_some(expected);
                 let fault =
                     if is_seen { ProgramFault::DoubledNumber { number } } else { ProgramFault::NumberOutOfOrder { expected, number } };
-                found.push((index, fault, meant));
-                before = match (meant, is_seen) {
+                self.found.push((place, fault, meant));
+                self.before = match (meant, is_seen) {
                     (Some(meant), _) => Some(meant),
                     (None, true) => before,
                     (None, false) => Some(number),
@@ -52,15 +78,30 @@ pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, ProgramFault, O
             }
         }
     }
-    let without = blocks.iter().filter(|block| block.number.is_none() && !block.is_unread).count();
-    let out_of_turn = found.iter().filter(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. })).count();
-    if 2 * out_of_turn > numbered {
-        return Vec::new();
+
+    /// Takes `count` blocks at once that are numbered from `first` on to `last` by `step`, where they are in their turn; false where they
+    /// are not.
+    pub fn skip(&mut self, first: u32, last: u32, step: u32, count: usize) -> bool {
+        let expected = self.before.map_or(self.first, |before| before.saturating_add(self.step));
+        let is_next = first == expected && (step == self.step || count == 1);
+        if is_next {
+            self.before = Some(last);
+            self.blocks += count;
+            self.numbered += count;
+        }
+        is_next
     }
-    if 4 * without > blocks.len() {
-        found.retain(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }));
+
+    pub fn found(mut self) -> Vec<(P, ProgramFault, Option<u32>)> {
+        let out_of_turn = self.found.iter().filter(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. })).count();
+        if 2 * out_of_turn > self.numbered {
+            return Vec::new();
+        }
+        if 4 * self.without > self.blocks {
+            self.found.retain(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }));
+        }
+        self.found
     }
-    found
 }
 
 /// The difference that most of the numbers have to the one before; the smaller one of two that are as frequent.
