@@ -27,6 +27,8 @@ use std::sync::{Arc, OnceLock};
 
 /// Up to so many touched places are looked at one by one, however small the drawing is.
 const FEW: usize = 16;
+/// Where an edit takes more contours than these apart, and a good part of all, everything is looked at anew.
+const MANY: usize = 256;
 
 /// What of a contour that has something to tell is asked at every report, so that those beyond the limit of a report are not
 /// looked at.
@@ -135,6 +137,12 @@ impl Analysis {
         self.order = OnceLock::new();
         let settings = self.settings.clone();
         let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
+        // Thousands of contours with ends in one place are one group, and lie on each other: to forget each of them costs a look at all.
+        let gone = rechained.gone.len();
+        if gone > MANY && gone * 4 > self.known.len() {
+            *self = Analysis::new(drawing, settings);
+            return;
+        }
         for key in &rechained.gone {
             self.lost.remove(key);
             self.loud.remove(key);
