@@ -285,6 +285,10 @@ fn a_folder_is_searched_in_all_its_depth_and_every_file_stands_once() {
     desk.write("parts/deep/er/b.dxf", desk.read("clean.dxf"));
     desk.write("parts/notes.txt", "nothing");
     check(&desk, "check parts parts/a.DXF", 1, &["2 files checked: 1 error"]);
+    for ending in ["dxf", "dxb", "3b", "4b", "iso", "nc"] {
+        desk.write(&format!("all/a.{ending}"), "");
+    }
+    check(&desk, "check all", 1, &["6 files checked"]);
     desk.write("empty/notes.txt", "nothing");
     check(&desk, "check empty", 0, &["0 files checked"]);
 }

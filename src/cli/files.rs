@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Name endings that a folder is searched for.
-const ENDINGS: [&str; 5] = ["dxf", "dxb", "3b", "iso", "nc"];
+const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
 
 /// A file that has been read.
 pub struct Opened {

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 /// Say what is wrong in drawings and programs
 ///
-/// Folders are searched for .dxf, .dxb, .3b, .iso and .nc. Ends with 0 when no error was found, with 1 when one was, and with 2
+/// Folders are searched for .dxf, .dxb, .3b, .4b, .iso and .nc. Ends with 0 when no error was found, with 1 when one was, and with 2
 /// when something could not be read.
 #[derive(Args, Debug)]
 #[command(after_help = "\

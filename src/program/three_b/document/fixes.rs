@@ -1,0 +1,229 @@
+//! What can be done about one finding.
+
+use super::super::block::{Block, Node};
+use super::super::encode::line_block;
+use super::super::fields::fields_of;
+use super::super::language::{Field, Piece, pieces};
+use super::super::layout::push_fields;
+use super::super::parse::StatedPoint;
+use super::super::rules::position_mismatch::Mismatched;
+use super::super::rules::{self, Site, TextFix, block_number, missing_end, not_closed, position_mismatch, text_after_end};
+use super::super::run::{BlockEntry, Entry, Move, Sum, What, travel_of};
+use super::{At, Document};
+use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault};
+use crate::settings::Layout;
+use crate::text::TextEdit;
+use std::ops::Range;
+
+impl Document {
+    /// The fixes of one finding, the preferred one first.
+    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+        let Place::Text { range } = &finding.place else { return Vec::new() };
+        let fault = match &finding.detail {
+            Detail::Program(fault) => fault,
+            Detail::Syntax(_) => return self.letter_fixes(range),
+            _ => return Vec::new(),
+        };
+        match &**fault {
+            ProgramFault::MissingEnd { word } => missing_end::fixes(&self.text, range.end, word),
+            ProgramFault::TextAfterEnd { .. } => match self.view.end {
+                Some(end) => text_after_end::fixes(&self.text, self.range_of(end, &self.view.starts).start),
+                None => Vec::new(),
+            },
+            ProgramFault::NotClosed { .. } => self.closing_fixes(range),
+            ProgramFault::DoubledNumber { .. } | ProgramFault::NumberOutOfOrder { .. } | ProgramFault::Unnumbered { .. } => {
+                self.number_fixes(range)
+            }
+            ProgramFault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
+            fault => self.block_fixes(range, fault),
+        }
+    }
+
+    fn position_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
+        let (at, entry) = self.block_at(range)?;
+        let own = self.range_of(at, &self.view.starts);
+        let stated = entry.stated_end()?;
+        let before = self.stated_before(at)?;
+        let next = self.next_block(at).and_then(|next| Some((next.stated_end()?, next.travel)));
+        let goes_on = next.map(|(end, travel)| position_mismatch::mismatch(&stated, &travel, &end).is_none());
+        let line = self.text.line_range(self.text.line_of(own.start));
+        let is_behind = |piece: &&Piece| piece.field == Field::Coordinates && line.start + piece.range.start >= own.end;
+        let pieces = pieces(self.text.bytes().get(line.clone())?, &self.words());
+        let coordinates = pieces.iter().find(is_behind).map(|piece| line.start + piece.range.start..line.start + piece.range.end)?;
+        let section = self.section_of(at)?;
+        Some(position_mismatch::fixes(&Mismatched {
+            text: self.text.bytes(),
+            block: entry.block,
+            fields: fields_of(self.text.bytes(), own)?,
+            coordinates,
+            before,
+            stated,
+            goes_on,
+            closes: self.closes(&self.view, &section),
+            closes_with: &|blocks| self.closes_with(at, entry, blocks),
+        }))
+    }
+
+    /// The coordinates that stand behind the block before, or those of the start.
+    fn stated_before(&self, at: At) -> Option<StatedPoint> {
+        (0..=at.run).rev().find_map(|run| {
+            let of = self.runs.get(run)?;
+            let end = if run == at.run { at.entry } else { of.entries.len() };
+            of.entries.get(..end)?.iter().rev().find_map(|entry| match &entry.what {
+                What::Block(block) => Some(block.stated_end()),
+                What::StartPoint(at) => Some(Some(StatedPoint { at: *at, decimals: 3 })),
+                What::Unread => Some(None),
+                What::Word { .. } | What::Text { .. } => None,
+            })
+        })?
+    }
+
+    fn next_block(&self, at: At) -> Option<&BlockEntry> {
+        self.runs.iter().enumerate().skip(at.run).find_map(|(run, of)| {
+            let from = if run == at.run { at.entry + 1 } else { 0 };
+            of.entries.get(from..)?.iter().find_map(Entry::block)
+        })
+    }
+
+    /// The block that a range lies in or before.
+    fn block_at(&self, range: &Range<usize>) -> Option<(At, &BlockEntry)> {
+        let run = self.run_at(range.start);
+        let of = self.runs.get(run)?;
+        let local = range.start.checked_sub(self.base(run))?;
+        let entry = of.entries.partition_point(|entry| entry.range().end <= local);
+        Some((At { run, entry }, of.entries.get(entry)?.block()?))
+    }
+
+    fn block_fixes(&self, range: &Range<usize>, fault: &ProgramFault) -> Vec<TextFix> {
+        let Some((at, entry)) = self.block_at(range) else { return Vec::new() };
+        let own = self.range_of(at, &self.view.starts);
+        // A number that stands before the block belongs to it.
+        let block = if matches!(fault, ProgramFault::BlockNumberAsB { .. }) { range.clone() } else { own.clone() };
+        let Some(fields) = fields_of(self.text.bytes(), own) else { return Vec::new() };
+        let line = self.text.line_of(block.start);
+        let site = Site {
+            text: self.text.bytes(),
+            range: if matches!(fault, ProgramFault::MissingB) { range.clone() } else { block },
+            line: self.text.line_start(line)..self.text.line_start(line + 1),
+            fields,
+            block: entry.block,
+            largest: self.limits.largest(),
+            closes_with: &|blocks| self.closes_with(at, entry, blocks),
+        };
+        rules::fixes(&site, fault)
+    }
+
+    /// Whether the contour of a block closes with other blocks in its place.
+    fn closes_with(&self, at: At, entry: &BlockEntry, blocks: &[Block]) -> bool {
+        let Some(section) = self.section_of(at) else { return false };
+        let new = blocks.iter().map(travel_of).fold(Move::default(), Move::plus);
+        let mut sum = Sum { travel: section.sum.travel.minus(entry.travel).plus(new), ..section.sum };
+        if self.blocks_of(&section).next() == Some(at) {
+            sum.first = blocks.first().map(travel_of).or(sum.first);
+        }
+        if self.last_block_of(&section) == Some(at) {
+            sum.last = blocks.last().map(travel_of).or(sum.last);
+        }
+        section.sum.blocks >= 3 && not_closed::is_closed(&sum)
+    }
+
+    /// A straight block that closes the contour.
+    fn closing_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
+        let Some((at, _)) = self.block_at(range) else { return Vec::new() };
+        let Some(section) = self.section_of(at) else { return Vec::new() };
+        let [x, y] = not_closed::gap(&section.sum).map(|um| um.round() as i64);
+        let largest = self.limits.largest();
+        if x.abs().max(y.abs()) > largest || (x, y) == (0, 0) {
+            return Vec::new();
+        }
+        let block = line_block(Node { x: 0, y: 0 }, Node { x, y });
+        let own = self.text.bytes().get(range.clone()).unwrap_or_default();
+        let layout = if own.contains(&b' ') { Layout::Aligned } else { Layout::Compact };
+        let mut text = missing_end::line_end_of(&self.text).as_bytes().to_vec();
+        if let Some(number) = self.number_behind(at) {
+            text.extend_from_slice(format!("N{number} ").as_bytes());
+        }
+        push_fields(&mut text, layout, &block, None);
+        let behind = self.text.line_range(self.text.line_of(range.start)).end;
+        let Ok(text) = String::from_utf8(text) else { return Vec::new() };
+        let length = (x as f64).hypot(y as f64) / 1000.0;
+        let edit = vec![TextEdit { range: behind..behind, text }];
+        vec![crate::finding::Fix { kind: FixKind::Close { length }, preferred: true, in_fix_all: false, edit }]
+    }
+
+    /// The number that a block behind another one has, where the two before it are numbered.
+    fn number_behind(&self, at: At) -> Option<u32> {
+        let own = self.entry(at)?.number()?;
+        let before = (0..=at.run).rev().find_map(|run| {
+            let of = self.runs.get(run)?;
+            let end = if run == at.run { at.entry } else { of.entries.len() };
+            of.entries.get(..end)?.iter().rev().find(|entry| entry.block().is_some())
+        });
+        own.checked_add(own.checked_sub(before?.number()?).filter(|step| *step > 0)?)
+    }
+
+    fn number_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
+        let (places, blocks) = self.numbered(self.view.end);
+        let found = block_number::look(&blocks);
+        let Some((index, _, meant)) =
+            found.into_iter().find(|(index, ..)| places.get(*index).is_some_and(|at| self.range_of(*at, &self.view.starts) == *range))
+        else {
+            return Vec::new();
+        };
+        let mut fixes = Vec::new();
+        if let Some(meant) = meant
+            && let Some(edit) = places.get(index).map(|at| self.number_edit(*at, meant))
+        {
+            fixes.push(crate::finding::Fix {
+                kind: FixKind::SetNumber { number: meant },
+                preferred: true,
+                in_fix_all: true,
+                edit: vec![edit],
+            });
+        }
+        let numbers = || blocks.iter().filter_map(|block| block.number);
+        if let (Some(first), Some(second)) = (numbers().next(), numbers().nth(1)) {
+            let step = second.saturating_sub(first).max(1);
+            let edit = places.iter().enumerate().filter_map(|(index, at)| {
+                let number = first.saturating_add(step.saturating_mul(u32::try_from(index).ok()?));
+                (self.entry(*at)?.number() != Some(number)).then(|| self.number_edit(*at, number))
+            });
+            let edit: Vec<TextEdit> = edit.collect();
+            fixes.push(crate::finding::Fix {
+                kind: FixKind::Renumber { first, step },
+                preferred: fixes.is_empty(),
+                in_fix_all: false,
+                edit,
+            });
+        }
+        fixes
+    }
+
+    /// Writes the number of a block or word, in the place of the one that it has.
+    fn number_edit(&self, at: At, number: u32) -> TextEdit {
+        let range = self.range_of(at, &self.view.starts);
+        let has_number = self.entry(at).is_some_and(|entry| entry.number().is_some());
+        let line = self.text.line_range(self.text.line_of(range.start));
+        let before = self.text.bytes().get(line.start..range.start).unwrap_or_default();
+        let digits_end = before.iter().rposition(u8::is_ascii_digit).map_or(0, |last| last + 1);
+        let digits_start = before[..digits_end].iter().rposition(|byte| !byte.is_ascii_digit()).map_or(0, |last| last + 1);
+        if has_number && digits_end > 0 {
+            // Padding is kept as wide as it was.
+            let width = digits_end - digits_start;
+            let padded = before.get(digits_start) == Some(&b'0');
+            let text = if padded { format!("{number:0width$}") } else { number.to_string() };
+            return TextEdit { range: line.start + digits_start..line.start + digits_end, text };
+        }
+        TextEdit { range: range.start..range.start, text: format!("N{number} ") }
+    }
+
+    fn letter_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
+        match self.text.bytes().get(range.clone()) {
+            Some(b"O" | b"o") => {
+                let edit = vec![TextEdit { range: range.clone(), text: "0".into() }];
+                vec![crate::finding::Fix { kind: FixKind::ZeroForO, preferred: true, in_fix_all: true, edit }]
+            }
+            _ => Vec::new(),
+        }
+    }
+}
