@@ -2,7 +2,7 @@
 //!
 //! Every figure is printed beside its goal; nothing fails on a slow machine. The clock runs from before the message is
 //! written to after the answer has been read and parsed. `-- --quick` makes fewer rounds; `-- NAME …` runs only the sessions
-//! whose names hold one of these: "start", "5 MB", "50 MB", "program", "drawing", "generate".
+//! whose names hold one of these: "start", "5 MB", "50 MB", "program", "3B", "ISO", "drawing", "generate".
 
 mod generated;
 #[allow(dead_code)]
@@ -41,8 +41,10 @@ fn main() {
     for (name, text) in large.into_iter().filter(|(name, _)| is_chosen(name) && !(quick && names.is_empty())) {
         large_session(name, &text(), rounds / 4);
     }
-    if is_chosen("program") {
-        program_session(rounds);
+    for program in [THREE_B, ISO] {
+        if is_chosen(program.session) {
+            program_session(&program, rounds);
+        }
     }
     if is_chosen("drawing") {
         drawing_session(rounds);
@@ -181,24 +183,82 @@ fn language_rows(client: &mut Client, name: &str, uri: &str, line: usize, lines:
     }
 }
 
-/// What an editor asks about a program of 200,000 blocks.
-fn program_session(rounds: usize) {
-    let (name, uri) = ("5 MB 3B", "file:///bench.3b");
-    let text = generated::three_b(200_000);
+/// A program of 200,000 blocks.
+struct Program {
+    session: &'static str,
+    name: &'static str,
+    uri: &'static str,
+    language: &'static str,
+    text: fn(usize) -> String,
+    /// The letters before a number of the block in the middle: a digit in front of the number comes and goes.
+    edited: &'static str,
+    /// In this layout every line of it is another one.
+    layout: &'static str,
+    refactorings: &'static [&'static str],
+}
+
+const THREE_B: Program = Program {
+    session: "program 3B",
+    name: "5 MB 3B",
+    uri: "file:///bench.3b",
+    language: "3b",
+    text: generated::three_b,
+    edited: "B",
+    layout: "checking",
+    refactorings: &["reverse", "rotate.left", "merge"],
+};
+
+const ISO: Program = Program {
+    session: "program ISO",
+    name: "5 MB ISO",
+    uri: "file:///bench.iso",
+    language: "wire-iso",
+    text: generated::iso,
+    edited: "X",
+    layout: "compact",
+    refactorings: &[],
+};
+
+/// What an editor asks about it.
+fn program_session(program: &Program, rounds: usize) {
+    let &Program { name, uri, edited, layout, .. } = program;
+    let text = (program.text)(200_000);
     let mut all = capabilities();
     all["textDocument"] = json!({ "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } });
     let mut client = Client::start_with(all, json!({}));
-    let (found, time) = timed(|| client.open_text(uri, "3b", &text));
+    let (found, time) = timed(|| client.open_text(uri, program.language, &text));
     row(&format!("{name}: open, {} findings", found.len()), vec![time], "150 ms");
-    let line = text.lines().count() / 2;
+    let half = text.lines().count() / 2;
+    let (line, character) = text
+        .lines()
+        .enumerate()
+        .skip(half)
+        .find_map(|(line, text)| Some((line, text.find(edited)? + edited.len())))
+        .expect("a block in the second half");
+    let mut version = 1;
+    let mut edit = |client: &mut Client, digit: &str| {
+        version += 1;
+        let comes = version % 2 == 0;
+        let end = character + usize::from(!comes);
+        let range = json!({ "start": { "line": line, "character": character }, "end": { "line": line, "character": end } });
+        let changes = json!([{ "range": range, "text": if comes { digit } else { "" } }]);
+        timed(|| {
+            client
+                .notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
+            client.diagnostics(uri, version)
+        })
+        .1
+    };
+    let edits = (0..rounds).map(|round| edit(&mut client, ["1", "2", "3", "4", "5", "6", "7", "8", "9"][round / 2 % 9])).collect();
+    row(&format!("{name}: one character, edit to diagnostics"), edits, "p50 1 ms");
     language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
     let whole = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let format = |client: &mut Client| timed(|| client.request("textDocument/formatting", whole.clone())).1;
     row(&format!("{name}: formatting, nothing to change"), (0..rounds / 20).map(|_| format(&mut client)).collect(), "200 ms");
-    client.notify("workspace/didChangeConfiguration", json!({ "settings": { "wedm": { "program": { "layout": "checking" } } } }));
+    client.notify("workspace/didChangeConfiguration", json!({ "settings": { "wedm": { "program": { "layout": layout } } } }));
     row(&format!("{name}: formatting every line"), (0..rounds / 20).map(|_| format(&mut client)).collect(), "200 ms");
     let place = json!({ "line": line, "character": 0 });
-    for kind in ["reverse", "rotate.left", "merge"] {
+    for kind in program.refactorings {
         let context = json!({ "diagnostics": [], "only": [format!("refactor.rewrite.{kind}")] });
         let params = json!({ "textDocument": { "uri": uri }, "range": { "start": place, "end": place }, "context": context });
         let (_, time) = timed(|| client.request("textDocument/codeAction", params));

@@ -5,6 +5,7 @@
 
 pub mod convert;
 mod document;
+mod edits;
 mod format;
 pub mod grid;
 pub mod iso;

@@ -3,8 +3,10 @@
 //! No number is rewritten: whether it has a decimal point, and how many digits, means something to a control.
 
 use super::word::{Token, words};
+use crate::program::edits::joined;
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Lines that are looked at to find out whether words are parted by spaces.
@@ -16,24 +18,37 @@ const LOOKED_AT: usize = 1000;
 /// Lines with what cannot be read, with variables, and with comments in another code page stay byte for byte.
 pub fn format(text: &SourceText, layout: Option<Layout>, lines: Range<usize>) -> Vec<TextEdit> {
     let parted = layout.map_or_else(|| is_parted(text), |layout| layout != Layout::Compact);
+    let lines = lines.start..lines.end.min(text.line_count());
+    let formed = |line: usize| {
+        let range = text.line_range(line);
+        formed(&text.bytes()[range.clone()], parted).map(|text| (line, TextEdit { range, text }))
+    };
+    let all = |lines: Range<usize>| lines.filter_map(formed).collect::<Vec<_>>();
+    let formed: Vec<Vec<(usize, TextEdit)>> = if lines.len() > 2 * AT_ONCE {
+        let firsts: Vec<usize> = lines.clone().step_by(AT_ONCE).collect();
+        firsts.into_par_iter().map(|first| all(first..(first + AT_ONCE).min(lines.end))).collect()
+    } else {
+        vec![all(lines)]
+    };
     let mut edits: Vec<TextEdit> = Vec::new();
     let mut last = None;
-    for line in lines.start..lines.end.min(text.line_count()) {
-        let range = text.line_range(line);
-        let Some(new) = formed(&text.bytes()[range.clone()], parted) else { continue };
+    for (line, next) in formed.into_iter().flatten() {
         match edits.last_mut().filter(|_| last.is_some() && last == line.checked_sub(1)) {
             // Lines that follow each other become one edit.
             Some(edit) => {
-                edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..range.start]).unwrap_or("\n"));
-                edit.text.push_str(&new);
-                edit.range.end = range.end;
+                edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..next.range.start]).unwrap_or("\n"));
+                edit.text.push_str(&next.text);
+                edit.range.end = next.range.end;
             }
-            None => edits.push(TextEdit { range, text: new }),
+            None => edits.push(next),
         }
         last = Some(line);
     }
-    edits
+    joined(edits, text)
 }
+
+/// Lines that are written together.
+const AT_ONCE: usize = 2048;
 
 /// True where words are parted by spaces in most lines.
 pub(super) fn is_parted(text: &SourceText) -> bool {
@@ -79,6 +94,8 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
         }
         if is_comment {
             out.push_str(text);
+        } else if text.is_ascii() {
+            out.extend(text.bytes().filter(|byte| !matches!(byte, b' ' | b'\t')).map(|byte| char::from(byte.to_ascii_uppercase())));
         } else {
             out.extend(text.chars().filter(|character| !matches!(character, ' ' | '\t')).map(|character| character.to_ascii_uppercase()));
         }
@@ -89,9 +106,12 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
     if !is_blank(line.get(covered..)?) || out.as_bytes() == line {
         return None;
     }
-    let says = |tokens: Vec<Token>, line: &[u8]| tokens.into_iter().map(|token| meaning(token, line)).collect::<Vec<_>>();
     let again = tokens_of(out.as_bytes());
-    (says(tokens, line) == says(again, out.as_bytes())).then_some(out)
+    let is_same = |(old, new): (&Token, &Token)| match (old, new) {
+        (Token::Word { letter, number, .. }, Token::Word { letter: again, number: its, .. }) => (letter, number) == (again, its),
+        _ => meaning(old.clone(), line) == meaning(new.clone(), out.as_bytes()),
+    };
+    (tokens.len() == again.len() && tokens.iter().zip(&again).all(is_same)).then_some(out)
 }
 
 fn tokens_of(line: &[u8]) -> Vec<Token> {

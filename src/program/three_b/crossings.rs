@@ -10,6 +10,7 @@ use super::run::Move;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use std::cell::Cell;
 use std::sync::{Arc, OnceLock};
 
 /// The blocks of a contour in one run.
@@ -148,7 +149,7 @@ pub(in crate::program) fn search(
         let own = prepared(stretch).pieces.get(index - firsts[stretch])?;
         Some(own.moved(Vector::new(x, y)))
     };
-    let (crossings, is_all) = Way { piece: &piece, count, margin: margin(arcs) }.crossings(near);
+    let (crossings, is_all) = Way { piece: &piece, count, margin: margin(arcs), steps: Cell::new(0) }.crossings(near);
     Found { crossings, is_crowded: is_crowded || !is_all, pairs: pairs.len() }
 }
 

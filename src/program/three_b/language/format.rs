@@ -4,7 +4,8 @@
 //! new form would say anything else stay byte for byte as they are.
 
 use super::pieces::{Field, Piece, pieces};
-use crate::geometry::Point;
+use crate::geometry::{Point, Vector};
+use crate::program::edits::joined;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::{point_of, snap as node_of};
@@ -12,6 +13,8 @@ use crate::program::three_b::layout::{push_block_number, push_end_point, push_fi
 use crate::program::three_b::parse::{Item, StatedPoint, Word, Words, read_line};
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
+use rayon::prelude::*;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// How far a stated end point may lie from the block's own and still be it: 2 µm, and 1 µm for each arc since the last one.
@@ -26,55 +29,151 @@ const LOOKED_AT: usize = 1000;
 /// are left out of the other two together; an end point that is not the block's own is a fault and stays in every layout. Each block
 /// gets a line of its own. Formatting twice is formatting once.
 pub fn format(text: &SourceText, layout: Option<Layout>, words: &Words<'_>, lines: Range<usize>) -> Vec<TextEdit> {
-    let survey = survey(text, words);
-    let layout = layout.unwrap_or(survey.layout);
-    let mut walk = Walk::new(words, layout, survey.numbers_count_blocks);
+    let layout = layout.unwrap_or_else(|| layout_of(text, words));
+    // The numbers of the checking layout hang on all blocks, the rest on those before.
+    let end = if layout == Layout::Checking { text.line_count() } else { lines.end.min(text.line_count()) };
+    let read = |first: usize| Chunk::read(text, words, first..(first + AT_ONCE).min(end));
+    let firsts: Vec<usize> = (0..end).step_by(AT_ONCE).collect();
+    let is_long = firsts.len() > 2;
+    let mut chunks: Vec<Chunk> = if is_long { firsts.into_par_iter().map(read).collect() } else { firsts.into_iter().map(read).collect() };
+    let numbers_count_blocks = numbers_count_blocks(&chunks);
+    let mut walk = Walk::new(layout);
+    chunks.iter_mut().for_each(|chunk| walk.go_through(chunk));
+    let form = |chunk: &Chunk| chunk.form(text, words, layout, numbers_count_blocks, &lines);
+    let formed: Vec<Edits> = if is_long { chunks.par_iter().map(form).collect() } else { chunks.iter().map(form).collect() };
     let mut edits = Edits::default();
-    for line in 0..lines.end.min(text.line_count()) {
-        let range = text.line_range(line);
-        let bytes = &text.bytes()[range.clone()];
-        walk.read(bytes, line == 0);
-        if lines.contains(&line)
-            && let Some(formed) = walk.form(bytes, line_end(text, line))
-        {
-            edits.replace(text, line, range, &formed);
-        }
-        walk.pass();
-    }
-    edits.joined(text)
+    formed.into_iter().for_each(|next| edits.append(text, next));
+    joined(edits.list, text)
 }
 
-/// What a text shows of its layout.
-struct Survey {
-    layout: Layout,
-    /// Every block that has a number has its own ordinal.
-    numbers_count_blocks: bool,
-}
+/// Lines that are read and written together.
+const AT_ONCE: usize = 2048;
 
-fn survey(text: &SourceText, words: &Words<'_>) -> Survey {
-    let (mut ordinal, mut numbers_count_blocks) = (0_u32, true);
+/// The layout in which most of the first blocks stand.
+fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
     // Compact, aligned, checking.
     let mut votes = [0_usize; 3];
     for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let bytes = &text.bytes()[range];
+        let bytes = &text.bytes()[text.line_range(line)];
         read_line(bytes, 0, words, |item| {
-            let Item::Block { range, number, stated_end, .. } = item else { return };
-            ordinal = ordinal.saturating_add(1);
-            numbers_count_blocks &= number.is_none_or(|number| number == ordinal);
-            if ordinal as usize <= LOOKED_AT {
-                let spaced = bytes.get(range).is_some_and(|block| block.contains(&b' '));
-                votes[if stated_end.is_some() { 2 } else { usize::from(spaced) }] += 1;
-            }
+            let Item::Block { range, stated_end, .. } = item else { return };
+            let spaced = bytes.get(range).is_some_and(|block| block.contains(&b' '));
+            votes[if stated_end.is_some() { 2 } else { usize::from(spaced) }] += 1;
         });
+        if votes.iter().sum::<usize>() >= LOOKED_AT {
+            break;
+        }
     }
     let most = votes.iter().copied().max().unwrap_or(0);
-    let layout = match votes {
+    match votes {
         [compact, ..] if compact == most => Layout::Compact,
         [_, aligned, _] if aligned == most => Layout::Aligned,
         _ => Layout::Checking,
-    };
-    Survey { layout, numbers_count_blocks }
+    }
+}
+
+/// True where every block that has a number has its own ordinal.
+fn numbers_count_blocks(chunks: &[Chunk]) -> bool {
+    let numbers = chunks.iter().flat_map(|chunk| &chunk.items).filter_map(|item| match item {
+        Item::Block { number, .. } => Some(*number),
+        _ => None,
+    });
+    numbers.zip(1_u32..).all(|(number, ordinal)| number.is_none_or(|number| number == ordinal))
+}
+
+/// Some lines as the reader finds them, and what comes of them on the way through the program.
+struct Chunk {
+    first_line: usize,
+    lines: Vec<Line>,
+    /// Blocks, words and headers of all lines, without faults and other text.
+    items: Vec<Item>,
+    /// Where the blocks among them lead.
+    ways: Vec<Option<Way>>,
+    /// What their stated end points are worth, one for each item.
+    stated: Vec<Stated>,
+    /// Blocks before these lines.
+    ordinal: u64,
+    /// The end word has come before.
+    is_over: bool,
+}
+
+struct Line {
+    /// Behind its last item.
+    end: usize,
+    is_sound: bool,
+}
+
+/// Where a block leads, µm.
+#[derive(Clone, Copy)]
+struct Way {
+    by: Vector,
+    is_arc: bool,
+}
+
+impl Chunk {
+    fn read(text: &SourceText, words: &Words<'_>, lines: Range<usize>) -> Chunk {
+        let mut chunk = Chunk {
+            first_line: lines.start,
+            lines: Vec::with_capacity(lines.len()),
+            items: Vec::with_capacity(lines.len()),
+            ways: Vec::with_capacity(lines.len()),
+            stated: Vec::with_capacity(lines.len()),
+            ordinal: 0,
+            is_over: false,
+        };
+        for line in lines {
+            // The reader skips a byte order mark at offset 0 only.
+            let shift = usize::from(line > 0);
+            let mut is_sound = true;
+            read_line(&text.bytes()[text.line_range(line)], shift, words, |mut item| match &mut item {
+                Item::Fault(_) | Item::Text { .. } => is_sound = false,
+                Item::Block { range, .. } | Item::Word { range, .. } | Item::StartPoint { range, .. } => {
+                    *range = range.start - shift..range.end - shift;
+                    chunk.ways.push(way_of(&item));
+                    chunk.items.push(item);
+                }
+            });
+            chunk.lines.push(Line { end: chunk.items.len(), is_sound });
+        }
+        chunk
+    }
+
+    /// The edits of those of its lines that are asked for.
+    fn form(&self, text: &SourceText, words: &Words<'_>, layout: Layout, numbers_count_blocks: bool, lines: &Range<usize>) -> Edits {
+        let mut edits = Edits::default();
+        let (mut ordinal, mut is_over, mut first) = (self.ordinal, self.is_over, 0);
+        for (line, Line { end, is_sound }) in (self.first_line..).zip(&self.lines) {
+            let (items, stated) = (&self.items[first..*end], &self.stated[first..*end]);
+            if lines.contains(&line) {
+                let range = text.line_range(line);
+                let bytes = &text.bytes()[range.clone()];
+                let pieces = Vec::new();
+                let mut writer =
+                    Writer { words, layout, numbers_count_blocks, ordinal, is_over, items, stated, pieces, is_sound: *is_sound };
+                if let Some(formed) = writer.form(bytes, line_end(text, line)) {
+                    edits.replace(text, line, range, &formed);
+                }
+            }
+            ordinal += count_blocks(items);
+            is_over |= has_end(items);
+            first = *end;
+        }
+        edits
+    }
+}
+
+fn way_of(item: &Item) -> Option<Way> {
+    let Item::Block { block, .. } = item else { return None };
+    let segment = decode(block, Point::origin()).ok()?;
+    Some(Way { by: segment.end().coords, is_arc: segment.as_arc().is_some() })
+}
+
+fn count_blocks(items: &[Item]) -> u64 {
+    items.iter().filter(|item| matches!(item, Item::Block { .. })).count() as u64
+}
+
+fn has_end(items: &[Item]) -> bool {
+    items.iter().any(|item| matches!(item, Item::Word { word: Word::End, .. }))
 }
 
 /// The line end of a line; of the one before it where it has none.
@@ -95,83 +194,63 @@ struct Formed {
 }
 
 /// The way through a program, line by line.
-struct Walk<'a> {
+struct Walk {
+    layout: Layout,
+    /// Blocks so far.
+    ordinal: u64,
+    stand: Stand,
+    /// The end word has come: nothing behind it is formatted.
+    is_over: bool,
+}
+
+impl Walk {
+    fn new(layout: Layout) -> Walk {
+        Walk { layout, ordinal: 0, stand: Stand { at: Point::origin(), trust: Trust::Known, arcs: 0.0 }, is_over: false }
+    }
+
+    /// Follows the machine through some lines.
+    fn go_through(&mut self, chunk: &mut Chunk) {
+        (chunk.ordinal, chunk.is_over) = (self.ordinal, self.is_over);
+        let mut first = 0;
+        for Line { end, is_sound } in &chunk.lines {
+            if !is_sound {
+                self.stand.trust = Trust::Lost;
+            }
+            for (item, way) in chunk.items[first..*end].iter().zip(&chunk.ways[first..*end]) {
+                let stand = &mut self.stand;
+                let mut stated = Stated::Absent(None);
+                match item {
+                    Item::Block { stated_end, .. } => stated = stand.go_on(*stated_end, *way, self.layout),
+                    Item::Word { word: Word::Pause, .. } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
+                    Item::StartPoint { at: [x, y], .. } => {
+                        *stand = Stand { at: Point::new(x * 1000.0, y * 1000.0), trust: Trust::Known, arcs: 0.0 };
+                    }
+                    Item::Word { .. } | Item::Text { .. } | Item::Fault(_) => {}
+                }
+                chunk.stated.push(stated);
+            }
+            first = *end;
+        }
+        self.ordinal += count_blocks(&chunk.items);
+        self.is_over |= has_end(&chunk.items);
+    }
+}
+
+/// Writes one line anew.
+struct Writer<'a> {
     words: &'a Words<'a>,
     layout: Layout,
     numbers_count_blocks: bool,
     /// Blocks before this line.
     ordinal: u64,
-    stand: Stand,
-    /// The end word has come: nothing behind it is formatted.
     is_over: bool,
-    items: Vec<Item>,
+    items: &'a [Item],
+    stated: &'a [Stated],
     pieces: Vec<Piece>,
-    /// What the stated end points of the line's blocks are worth, one for each item, and where the machine stands behind the line.
-    stated: Vec<Stated>,
-    behind: Stand,
     is_sound: bool,
 }
 
-impl<'a> Walk<'a> {
-    fn new(words: &'a Words<'a>, layout: Layout, numbers_count_blocks: bool) -> Walk<'a> {
-        let stand = Stand { at: Point::origin(), trust: Trust::Known, arcs: 0.0 };
-        Walk {
-            words,
-            layout,
-            numbers_count_blocks,
-            ordinal: 0,
-            stand,
-            stated: Vec::new(),
-            behind: stand,
-            is_over: false,
-            items: Vec::new(),
-            pieces: Vec::new(),
-            is_sound: true,
-        }
-    }
-
-    fn read(&mut self, line: &[u8], is_first: bool) {
-        let mut items = std::mem::take(&mut self.items);
-        items.clear();
-        self.is_sound = true;
-        read_line(line, usize::from(!is_first), self.words, |item| match item {
-            Item::Fault(_) | Item::Text { .. } => self.is_sound = false,
-            item => items.push(item),
-        });
-        // The reader skips a byte order mark at offset 0 only.
-        let shift = usize::from(!is_first);
-        for item in &mut items {
-            if let Item::Block { range, .. } | Item::Word { range, .. } | Item::StartPoint { range, .. } = item {
-                *range = range.start - shift..range.end - shift;
-            }
-        }
-        self.items = items;
-        self.go_on();
-    }
-
-    /// Follows the machine through the line.
-    fn go_on(&mut self) {
-        let mut stand = self.stand;
-        if !self.is_sound {
-            stand.trust = Trust::Lost;
-        }
-        let mut found = std::mem::take(&mut self.stated);
-        found.clear();
-        for item in &self.items {
-            let mut stated = Stated::Absent(None);
-            match item {
-                Item::Block { block, stated_end, .. } => stated = self.stated(*stated_end, block, &mut stand),
-                Item::Word { word: Word::Pause, .. } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
-                Item::StartPoint { at: [x, y], .. } => {
-                    stand = Stand { at: Point::new(x * 1000.0, y * 1000.0), trust: Trust::Known, arcs: 0.0 };
-                }
-                Item::Word { .. } | Item::Text { .. } | Item::Fault(_) => {}
-            }
-            found.push(stated);
-        }
-        (self.stated, self.behind) = (found, stand);
-    }
-
+impl Writer<'_> {
     /// The line in its new form, `None` where it stays as it is.
     fn form(&mut self, line: &[u8], line_end: &str) -> Option<Formed> {
         self.pieces = pieces(line, self.words);
@@ -194,7 +273,7 @@ impl<'a> Walk<'a> {
         }
         let mut head = Vec::with_capacity(64);
         let mut last_block = None;
-        for (index, (item, &stated)) in self.items.iter().zip(&self.stated).enumerate() {
+        for (index, (item, &stated)) in self.items.iter().zip(self.stated).enumerate() {
             if index > 0 {
                 head.extend_from_slice(line_end.as_bytes());
             }
@@ -233,7 +312,7 @@ impl<'a> Walk<'a> {
     }
 
     fn blocks_before(&self, index: usize) -> u64 {
-        self.items.iter().take(index).filter(|item| matches!(item, Item::Block { .. })).count() as u64
+        count_blocks(&self.items[..index])
     }
 
     fn push_number(&self, head: &mut Vec<u8>, number: u32) -> Option<()> {
@@ -286,46 +365,13 @@ impl<'a> Walk<'a> {
         piece.filter(|piece| piece.field == Field::Coordinates).and_then(|piece| line.get(piece.range.clone())).unwrap_or_default()
     }
 
-    /// What a block's stated end point is worth; moves on to the block's end.
-    ///
-    /// Where stated points stay in the text, what follows is held against them; where they go, against the blocks alone, so that
-    /// formatting again finds the same.
-    fn stated(&self, stated: Option<StatedPoint>, block: &Block, stand: &mut Stand) -> Stated {
-        let stated = stated.and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
-        let told = if self.layout == Layout::Checking { stated } else { None };
-        match decode(block, stand.at) {
-            Ok(segment) => {
-                stand.arcs += f64::from(u8::from(segment.as_arc().is_some()));
-                stand.at = segment.end();
-            }
-            // The block means nothing: from here on only a stated point says where the machine is.
-            Err(_) => stand.trust = Trust::Lost,
-        }
-        if let Some(node) = told
-            && (stand.trust != Trust::Known || stand.is_near(node))
-        {
-            *stand = Stand { at: point_of(node), trust: Trust::Known, arcs: 0.0 };
-            return Stated::Right(node);
-        }
-        match (stated, stand.trust) {
-            (Some(node), Trust::Known | Trust::UnlessStated) if stand.is_near(node) => Stated::Right(node),
-            (Some(_), _) => Stated::Wrong,
-            (None, Trust::Lost) => Stated::Absent(None),
-            (None, _) => Stated::Absent(node_of(stand.at)),
-        }
-    }
-
-    /// Takes the line's blocks and words as gone through.
-    fn pass(&mut self) {
-        self.stand = self.behind;
-        self.ordinal += self.blocks_before(self.items.len());
-        self.is_over |= self.items.iter().any(|item| matches!(item, Item::Word { word: Word::End, .. }));
-    }
-
     /// Reads the new form and compares: the same blocks, numbers that stand, words, in the same order, and no fault.
     fn reads_the_same(&self, line: &[u8], formed: &Formed) -> bool {
         let mut again: Vec<Item> = Vec::with_capacity(self.items.len());
-        let text = [formed.head.as_bytes(), line.get(formed.kept.clone()).unwrap_or_default()].concat();
+        let text = match line.get(formed.kept.clone()) {
+            Some(kept) if !kept.is_empty() => Cow::Owned([formed.head.as_bytes(), kept].concat()),
+            _ => Cow::Borrowed(formed.head.as_bytes()),
+        };
         for part in text.split(|byte| matches!(byte, b'\n' | b'\r')) {
             read_line(part, 1, self.words, |item| again.push(item));
         }
@@ -359,6 +405,35 @@ struct Stand {
 }
 
 impl Stand {
+    /// Moves on to a block's end, and tells what its stated end point is worth.
+    ///
+    /// Where stated points stay in the text, what follows is held against them; where they go, against the blocks alone, so that
+    /// formatting again finds the same.
+    fn go_on(&mut self, stated: Option<StatedPoint>, way: Option<Way>, layout: Layout) -> Stated {
+        let stated = stated.and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
+        let told = if layout == Layout::Checking { stated } else { None };
+        match way {
+            Some(Way { by, is_arc }) => {
+                self.arcs += f64::from(u8::from(is_arc));
+                self.at += by;
+            }
+            // The block means nothing: from here on only a stated point says where the machine is.
+            None => self.trust = Trust::Lost,
+        }
+        if let Some(node) = told
+            && (self.trust != Trust::Known || self.is_near(node))
+        {
+            *self = Stand { at: point_of(node), trust: Trust::Known, arcs: 0.0 };
+            return Stated::Right(node);
+        }
+        match (stated, self.trust) {
+            (Some(node), Trust::Known | Trust::UnlessStated) if self.is_near(node) => Stated::Right(node),
+            (Some(_), _) => Stated::Wrong,
+            (None, Trust::Lost) => Stated::Absent(None),
+            (None, _) => Stated::Absent(node_of(self.at)),
+        }
+    }
+
     fn is_near(&self, node: Node) -> bool {
         (point_of(node) - self.at).norm() <= STATED_TOLERANCE + self.arcs
     }
@@ -383,17 +458,12 @@ enum Stated {
     Absent(Option<Node>),
 }
 
-/// So many edits of one text are many.
-const MANY: usize = 2_000;
-
-/// Bytes between two of many edits that are little.
-const LITTLE: usize = 64;
-
 /// Edits in the making: lines that follow each other become one.
 #[derive(Default)]
 struct Edits {
     list: Vec<TextEdit>,
-    /// The last edit reaches to the end of this line.
+    /// The first edit begins with this line, and the last one reaches to the end of this one.
+    first_line: Option<usize>,
     last_line: Option<usize>,
 }
 
@@ -414,40 +484,41 @@ impl Edits {
             self.last_line = None;
             return;
         }
-        let new = [&formed.head, kept_text].concat();
         let previous = line.checked_sub(1);
         match self.list.last_mut().filter(|_| previous.is_some() && self.last_line == previous) {
             Some(edit) => {
                 edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..range.start]).unwrap_or("\n"));
-                edit.text.push_str(&new);
+                edit.text.push_str(&formed.head);
+                edit.text.push_str(kept_text);
                 edit.range.end = range.end;
             }
-            None => self.list.push(TextEdit { range: range.start + formed.from..range.end, text: new }),
+            None => {
+                if self.list.is_empty() {
+                    self.first_line = Some(line);
+                }
+                self.list.push(TextEdit { range: range.start + formed.from..range.end, text: [&formed.head, kept_text].concat() });
+            }
         }
         self.last_line = Some(line);
     }
 
-    /// The edits. Where nearly all of a long text changes, those become one that are parted by little: tens of thousands of edits cost
-    /// an editor more than the text between them.
-    fn joined(self, text: &SourceText) -> Vec<TextEdit> {
-        if self.list.len() <= MANY {
-            return self.list;
+    /// Takes the edits of the lines behind.
+    fn append(&mut self, text: &SourceText, mut next: Edits) {
+        if next.list.is_empty() {
+            return;
         }
-        let mut joined: Vec<TextEdit> = Vec::new();
-        for edit in self.list {
-            let between = |last: &TextEdit| std::str::from_utf8(text.bytes().get(last.range.end..edit.range.start)?).ok();
-            match joined.last_mut() {
-                Some(last) if edit.range.start - last.range.end <= LITTLE && between(last).is_some() => {
-                    let between = between(last).unwrap_or_default();
-                    last.text.reserve(between.len() + edit.text.len());
-                    last.text.push_str(between);
-                    last.text.push_str(&edit.text);
-                    last.range.end = edit.range.end;
-                }
-                _ => joined.push(edit),
-            }
+        let follows = self.last_line.is_some() && self.last_line.map(|last| last + 1) == next.first_line;
+        if self.list.is_empty() {
+            self.first_line = next.first_line;
         }
-        joined
+        if let Some(edit) = self.list.last_mut().filter(|_| follows) {
+            let first = next.list.remove(0);
+            edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..first.range.start]).unwrap_or("\n"));
+            edit.text.push_str(&first.text);
+            edit.range.end = first.range.end;
+        }
+        self.list.append(&mut next.list);
+        self.last_line = next.last_line;
     }
 
     fn push(&mut self, range: Range<usize>, text: String) {

@@ -6,6 +6,7 @@
 //! [`margin`] is no more than a touch.
 
 use crate::geometry::{Bounds, Point, Segment, Vector, meetings, positive_angle};
+use std::cell::Cell;
 
 /// Two pieces, by their index, and where they cross.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,10 @@ const MOST: usize = 50;
 
 /// Pairs of pieces of one contour that are looked at: where much lies on one place all of them are near each other.
 pub(in super::super) const MOST_PAIRS: usize = 1_000;
+
+/// Pieces of one contour that are gone through to follow the way off places where it comes together with itself: where it lies on itself
+/// for long, its branches never part.
+const MOST_STEPS: usize = 1_000_000;
 
 /// Pieces in a row that lie along another one, for which its crossing is still that of the first.
 const MOST_ALONG: usize = 8;
@@ -44,11 +49,13 @@ pub(in super::super) struct Way<'a> {
     pub piece: &'a dyn Fn(usize) -> Option<Segment>,
     pub count: usize,
     pub margin: f64,
+    /// Pieces that have been gone through.
+    pub steps: Cell<usize>,
 }
 
 /// Where a way that is held as a whole crosses itself.
 pub(in super::super) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
-    let way = Way { piece: &|index| pieces.get(index).copied(), count: pieces.len(), margin: margin(arcs) };
+    let way = Way { piece: &|index| pieces.get(index).copied(), count: pieces.len(), margin: margin(arcs), steps: Cell::new(0) };
     let boxes: Vec<Bounds> = pieces.iter().map(Segment::bounds).collect();
     let mut near = Vec::new();
     near_each_other(pieces, &boxes, &mut |first, second| near.push((first, second)));
@@ -82,6 +89,15 @@ pub(in super::super) fn come_near(a: &Segment, box_of_a: &Bounds, b: &Segment, b
 }
 
 impl Way<'_> {
+    fn at(&self, index: usize) -> Option<Segment> {
+        self.steps.set(self.steps.get() + 1);
+        (self.piece)(index)
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.steps.get() > MOST_STEPS
+    }
+
     /// The crossings among pairs of pieces that come near each other, in the order of the way; and whether all pairs were looked at.
     pub fn crossings(&self, mut near: Vec<(usize, usize)>) -> (Vec<Crossing>, bool) {
         near.sort_unstable_by_key(|&(first, second)| (second, first));
@@ -89,15 +105,15 @@ impl Way<'_> {
         let is_all = near.len() <= MOST_PAIRS;
         let mut found: Vec<Crossing> = Vec::new();
         for (first, second) in near.into_iter().take(MOST_PAIRS) {
-            if found.len() == MOST {
+            if found.len() == MOST || self.is_exhausted() {
                 break;
             }
             // At a joint of two blocks one crossing is met by each of them, and at both ends of a stretch that the two share.
             let is_known = |at: Point| {
                 let same = |known: &&Crossing| known.first.abs_diff(first) <= 1 && second - known.second <= MOST_ALONG;
-                let lies_on = |index: usize, at: Point| (self.piece)(index).is_some_and(|piece| piece.distance_to(at) <= self.margin);
+                let lies_on = |index: usize, at: Point| self.at(index).is_some_and(|piece| piece.distance_to(at) <= self.margin);
                 let runs_along =
-                    |index: usize| (self.piece)(index).is_some_and(|piece| lies_on(first, piece.start()) && lies_on(first, piece.end()));
+                    |index: usize| self.at(index).is_some_and(|piece| lies_on(first, piece.start()) && lies_on(first, piece.end()));
                 let is_one = |known: &Crossing| {
                     if second - known.second > 1 {
                         return (known.second + 1..second).all(runs_along);
@@ -111,12 +127,13 @@ impl Way<'_> {
             let at = self.common(first, second).into_iter().find(|&at| !is_known(at) && self.crosses(first, second, at));
             found.extend(at.map(|at| Crossing { first, second, at }));
         }
+        let is_all = is_all && !self.is_exhausted();
         (found, is_all)
     }
 
     /// The places that two pieces have in common.
     fn common(&self, first: usize, second: usize) -> Vec<Point> {
-        let (Some(a), Some(b)) = ((self.piece)(first), (self.piece)(second)) else { return Vec::new() };
+        let (Some(a), Some(b)) = (self.at(first), self.at(second)) else { return Vec::new() };
         let mut places = meetings(&a, &b);
         places.extend([b.start(), b.end()].into_iter().filter(|&end| a.distance_to(end) <= ON));
         places.extend([a.start(), a.end()].into_iter().filter(|&end| b.distance_to(end) <= ON));
@@ -146,7 +163,7 @@ impl Way<'_> {
     /// Lead-in and lead-out end on the contour, and may come to it from different sides.
     fn is_where_leads_end(&self, first: usize, second: usize, at: Point) -> bool {
         let near = |end: Option<Point>| end.is_some_and(|end| (end - at).norm() <= 2.0 * self.margin);
-        let piece = |index: usize| (self.piece)(index);
+        let piece = |index: usize| self.at(index);
         let back = |count: usize| self.count.checked_sub(count).and_then(piece);
         first <= 2
             && second + 3 >= self.count
@@ -156,12 +173,15 @@ impl Way<'_> {
 
     /// Whether the way from `at` in one piece to `at` in another is shorter than `length`.
     fn is_shorter(&self, (first, second): (usize, usize), at: Point, length: f64) -> bool {
-        let length_of = |index: usize| (self.piece)(index).map_or(0.0, |piece| piece.length());
-        let share = |index: usize| (self.piece)(index).map_or(0.0, |piece| piece.share_of(at).clamp(0.0, 1.0));
+        let length_of = |index: usize| self.at(index).map_or(0.0, |piece| piece.length());
+        let share = |index: usize| self.at(index).map_or(0.0, |piece| piece.share_of(at).clamp(0.0, 1.0));
         let mut sum = length_of(first) * (1.0 - share(first)) + length_of(second) * share(second);
         for index in first + 1..second {
             if sum >= length {
                 return false;
+            }
+            if self.is_exhausted() {
+                return true;
             }
             sum += length_of(index);
         }
@@ -174,7 +194,7 @@ impl Way<'_> {
     }
 
     fn along(&self, mut index: usize, at: Point, reach: f64, is_forward: bool) -> Option<Point> {
-        let mut piece = (self.piece)(index)?;
+        let mut piece = self.at(index)?;
         let mut share = piece.share_of(at).clamp(0.0, 1.0);
         let mut left = reach;
         loop {
@@ -184,9 +204,12 @@ impl Way<'_> {
                 let by = left / length;
                 return Some(piece.point_at(if is_forward { share + by } else { share - by }));
             }
+            if self.is_exhausted() {
+                return None;
+            }
             left -= rest;
             let next = if is_forward { index.checked_add(1).filter(|next| *next < self.count) } else { index.checked_sub(1) };
-            match next.and_then(|next| Some((next, (self.piece)(next)?))) {
+            match next.and_then(|next| Some((next, self.at(next)?))) {
                 Some((next, found)) => {
                     (index, piece) = (next, found);
                     share = if is_forward { 0.0 } else { 1.0 };

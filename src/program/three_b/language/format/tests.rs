@@ -126,3 +126,33 @@ proptest! {
         }
     }
 }
+
+/// What is read and written in pieces is what is written in one: each line hangs on those before only by numbers and end points.
+#[test]
+fn a_long_program_is_written_like_a_short_one() {
+    let lines = |from: usize, count: usize, expected: bool| -> String {
+        let line = |nth: usize| match (nth % 3, expected) {
+            (0, false) => "B9900B0B9900GXL1\n".to_owned(),
+            (1, false) => "B9900B0B39600GYNR1\n".to_owned(),
+            (_, false) => "B9900B0B9900GXL3\n".to_owned(),
+            (0, true) => format!("N{:5}: B   9900 B      0 B   9900 GX L1  ;      9.900 ,      0.000\n", nth + 1),
+            (1, true) => format!("N{:5}: B   9900 B      0 B  39600 GY NR1 ;      9.900 ,      0.000\n", nth + 1),
+            (_, true) => format!("N{:5}: B   9900 B      0 B   9900 GX L3  ;      0.000 ,      0.000\n", nth + 1),
+        };
+        (from..from + count).map(line).collect()
+    };
+    let damaged = "B99x\n";
+    for (before, behind) in [(3 * AT_ONCE, 0), (AT_ONCE, 2 * AT_ONCE), (2 * AT_ONCE - 2, 30)] {
+        let text = format!("{}{damaged}; way\nDD\n{}", lines(0, before, false), lines(before, behind, false));
+        let expected = format!("{}{damaged}; way\nDD\n{}", lines(0, before, true), lines(before, behind, false));
+        let once = formatted(text.as_bytes(), Some(Layout::Checking));
+        let once = String::from_utf8(once).expect("UTF-8");
+        for (nth, (line, expected)) in once.lines().zip(expected.lines()).enumerate() {
+            assert_eq!(line, expected, "line {nth} of {before} before and {behind} behind");
+        }
+        assert_eq!(once.len(), expected.len());
+        let source = SourceText::new(text.into_bytes());
+        let edits = format(&source, Some(Layout::Checking), &Words::default(), 0..source.line_count());
+        assert_eq!(edits.len(), 1, "lines that follow each other are one edit");
+    }
+}

@@ -1,0 +1,55 @@
+//! Edits of a program's text, as an editor takes them best. What they say is not known here.
+
+use crate::text::{SourceText, TextEdit};
+
+/// So many edits of one text are many.
+const MANY: usize = 2_000;
+
+/// Bytes between two of many edits that are little.
+const LITTLE: usize = 64;
+
+/// Sorted and disjoint edits. Where nearly all of a long text changes, those become one that are parted by little: tens of thousands of
+/// edits cost an editor more than the text between them.
+pub(in crate::program) fn joined(edits: Vec<TextEdit>, text: &SourceText) -> Vec<TextEdit> {
+    if edits.len() <= MANY {
+        return edits;
+    }
+    let mut joined: Vec<TextEdit> = Vec::new();
+    for edit in edits {
+        let between = |last: &TextEdit| std::str::from_utf8(text.bytes().get(last.range.end..edit.range.start)?).ok();
+        match joined.last_mut() {
+            Some(last) if edit.range.start - last.range.end <= LITTLE && between(last).is_some() => {
+                let between = between(last).unwrap_or_default();
+                last.text.reserve(between.len() + edit.text.len());
+                last.text.push_str(between);
+                last.text.push_str(&edit.text);
+                last.range.end = edit.range.end;
+            }
+            _ => joined.push(edit),
+        }
+    }
+    joined
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(count: usize, apart: usize, expected: usize) {
+        let line = format!("x{}\n", ".".repeat(apart));
+        let text = SourceText::new(line.repeat(count).into_bytes());
+        let edit = |nth: usize| TextEdit { range: nth * line.len()..nth * line.len() + 1, text: "yy".into() };
+        let edits = joined((0..count).map(edit).collect(), &text);
+        assert_eq!(edits.len(), expected, "{count} edits, {apart} bytes apart");
+        let mut result = text.as_str_lossy().into_owned();
+        edits.iter().rev().for_each(|edit| result.replace_range(edit.range.clone(), &edit.text));
+        assert_eq!(result, line.replace('x', "yy").repeat(count));
+    }
+
+    #[test]
+    fn many_edits_with_little_between_become_one() {
+        check(MANY, 10, MANY);
+        check(MANY + 1, 10, 1);
+        check(MANY + 1, LITTLE, MANY + 1);
+    }
+}
