@@ -268,7 +268,9 @@ impl Document {
         // What a block holds counts where the block is drawn.
         let mut used = self.table.used.iter();
         let mut is_drawn = false;
-        for (index, item) in self.table.items.iter().enumerate() {
+        // Of most drawings everything is cut: then no item is looked at, however many there are.
+        let items = if count.is_empty() { &[][..] } else { &self.table.items[..] };
+        for (index, item) in items.iter().enumerate() {
             if item.became == Became::Block {
                 is_drawn = used.next().copied().unwrap_or(false);
             }

@@ -288,6 +288,7 @@ REFUSALS = [
     ("wedm/picture", {"uri": CAD, "options": {"nosuch": 1}}, -32602, "nosuch"),
     ("wedm/simulate", {"uri": CAD}, -32803, "is a drawing, expected a program"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": "fast"}, -32602, "fast"),
+    ("wedm/simulate", {"uri": PROGRAM, "feed": -1}, -32602, "feed is -1, expected mm/min above 0"),
     ("wedm/settings", {"uri": 7}, -32602, "expected a string"),
     ("wedm/locate", {"uri": DXF}, -32602, "either position or handle"),
     ("wedm/locate", {"uri": DXF, "handle": "2A", "segment": 99}, -32602, "99"),
