@@ -5,13 +5,14 @@ use super::crossings::Crossings;
 use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
-use super::stretch::{Hears, Run, Stretch};
+use super::stretch::{Hears, Pathless, Run, Stretch};
 use super::word::Number;
 use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::{SourceText, TextEdit};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -634,16 +635,33 @@ fn summed(stretches: &[Stretch]) -> Evidence {
 fn run_lines(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Vec<Stretch> {
     let mut machine = before;
     let pieces = (lines.len() / STRETCH).max(1);
-    let run = (0..pieces).map(|piece| {
-        let at = |piece: usize| lines.start + lines.len() * piece / pieces;
-        let stretch = run_stretch(text, at(piece)..at(piece + 1), machine, reading);
-        machine = stretch.after;
-        stretch
-    });
-    run.collect()
+    let at = |piece: usize| lines.start + lines.len() * piece / pieces;
+    let mut stretches = Vec::with_capacity(pieces);
+    for first in (0..pieces).step_by(AT_ONCE) {
+        // What a line does hangs on those before, how the moves lie on themselves does not.
+        let some = (first..pieces.min(first + AT_ONCE)).map(|piece| {
+            let run = run_pathless(text, at(piece)..at(piece + 1), machine, reading);
+            machine = run.after();
+            run
+        });
+        let some: Vec<Pathless> = some.collect();
+        if some.len() > 1 {
+            stretches.par_extend(some.into_par_iter().map(Pathless::with_paths));
+        } else {
+            stretches.extend(some.into_iter().map(Pathless::with_paths));
+        }
+    }
+    stretches
 }
 
+/// Stretches whose paths are found side by side.
+const AT_ONCE: usize = 256;
+
 fn run_stretch(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Stretch {
+    run_pathless(text, lines, before, reading).with_paths()
+}
+
+fn run_pathless(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Pathless {
     let start = text.line_start(lines.start);
     let bytes = text.bytes();
     let lines = lines.map(|line| {

@@ -201,33 +201,52 @@ pub type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
 
 /// The moves of a run as they are made.
 #[derive(Default)]
-struct Ways {
-    start: Option<Place>,
-    mark: u64,
-    ways: Vec<Segment>,
-}
+struct Ways(Vec<Move>);
 
 impl Ways {
-    fn push(&mut self, step: &Move, reading: &Reading) {
-        let start = *self.start.get_or_insert(step.from);
-        self.ways.push(step.seen_from(start).segment(reading));
-        let along = step.at_origin();
-        let bend = match along.bend {
-            Bend::Center { .. } => along.center(reading.rule(along.incremental)).unwrap_or_default(),
-            Bend::Radius(radius) => [radius, i64::MIN],
-            Bend::Nothing => [0, i64::MAX],
-        };
-        let fields = [along.to[0], along.to[1], bend[0], bend[1], along.motion as i64];
-        let mix = |mark: u64, field: i64| (mark ^ field as u64).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
-        self.mark = fields.into_iter().fold(self.mark.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1), mix);
+    fn path(self, reading: &Reading) -> Path {
+        let start = self.0.first().map_or([0, 0], |step| step.from);
+        let ways: Vec<Segment> = self.0.iter().map(|step| step.seen_from(start).segment(reading)).collect();
+        let boxes: Vec<Bounds> = ways.iter().map(Segment::bounds).collect();
+        let mut near = Vec::new();
+        near_each_other(&ways, &boxes, &mut |first, second| near.push((first as u32, second as u32)));
+        let bounds = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
+        Path { mark: self.mark(reading), bounds, near: near.into() }
     }
 
-    fn path(self) -> Path {
-        let boxes: Vec<Bounds> = self.ways.iter().map(Segment::bounds).collect();
-        let mut near = Vec::new();
-        near_each_other(&self.ways, &boxes, &mut |first, second| near.push((first as u32, second as u32)));
-        let bounds = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
-        Path { mark: self.mark, bounds, near: near.into() }
+    fn mark(&self, reading: &Reading) -> u64 {
+        let mix = |mark: u64, field: i64| (mark ^ field as u64).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
+        let with = |mark: u64, step: &Move| {
+            let along = step.at_origin();
+            let bend = match along.bend {
+                Bend::Center { .. } => along.center(reading.rule(along.incremental)).unwrap_or_default(),
+                Bend::Radius(radius) => [radius, i64::MIN],
+                Bend::Nothing => [0, i64::MAX],
+            };
+            let fields = [along.to[0], along.to[1], bend[0], bend[1], along.motion as i64];
+            fields.into_iter().fold(mark.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1), mix)
+        };
+        self.0.iter().fold(0, with)
+    }
+}
+
+/// Lines that have been run, whose paths are yet to be found.
+pub struct Pathless {
+    stretch: Stretch,
+    ways: Vec<Ways>,
+}
+
+impl Pathless {
+    /// What is in force behind it.
+    pub fn after(&self) -> Machine {
+        self.stretch.after
+    }
+
+    /// How each run lies on itself: what takes time, and hangs on nothing but the moves.
+    pub fn with_paths(self) -> Stretch {
+        let Pathless { mut stretch, ways } = self;
+        stretch.paths = ways.into_iter().map(|ways| ways.path(&stretch.reading)).collect();
+        stretch
     }
 }
 
@@ -289,16 +308,15 @@ pub struct Stretch {
 
 impl Stretch {
     /// Runs `lines`, each with the byte at which it begins, counted from `start`.
-    pub fn run<'a>(lines: impl Iterator<Item = (usize, &'a [u8])>, start: usize, before: Machine, reading: Reading) -> Stretch {
+    pub fn run<'a>(lines: impl Iterator<Item = (usize, &'a [u8])>, start: usize, before: Machine, reading: Reading) -> Pathless {
         let mut ways: Vec<Ways> = Vec::new();
-        let mut stretch = Stretch::run_with(lines, start, before, reading, &mut |run, step, _| {
+        let stretch = Stretch::run_with(lines, start, before, reading, &mut |run, step, _| {
             if ways.len() <= run {
                 ways.resize_with(run + 1, Ways::default);
             }
-            ways[run].push(step, &reading);
+            ways[run].0.push(*step);
         });
-        stretch.paths = ways.into_iter().map(Ways::path).collect();
-        stretch
+        Pathless { stretch, ways }
     }
 
     /// The same without paths; `each` hears of every move of a run.
