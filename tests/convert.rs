@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::Command;
 use wedm::drawing::{Drawing, EntityId, Geometry};
 use wedm::dxf;
+use wedm::finding::Rule;
 use wedm::geometry::{Arc, Point, Segment, direction};
 use wedm::program::{Document, Format, Language, convert};
 use wedm::settings::{Effective, Layout, from_toml};
@@ -151,7 +152,12 @@ proptest! {
         for via in &route {
             let (language, format, settings) = way_to_write(via);
             let text = written(format, &paths, unit_mm, &settings);
-            let cuts = convert::cuts(&read(language, &text, &settings));
+            let program = read(language, &text, &settings);
+            // A lone arc may fit two readings of I and J; that is said, and which one is meant nobody can tell.
+            if program.findings(&settings, 500).0.iter().any(|finding| finding.rule == Rule::AmbiguousCenter) {
+                return Ok(());
+            }
+            let cuts = convert::cuts(&program);
             prop_assert_eq!(cuts.cuts.len(), 1, "{}\n{}", via, text);
             prop_assert!(cuts.cuts[0].closed, "{via}\n{text}");
             paths = cuts.paths();
