@@ -165,7 +165,7 @@ impl Document {
         let model = self.table.lines_of(item, lines.count());
         let tags: Vec<Tag> = own_tags(lines, model.clone()).collect();
         let mirrored = is_mirrored(lines, &tags);
-        let at = self.text.line_start(model.end);
+        let at = self.text.line_start(end_of_tags(lines, &model));
         for geometry in added {
             let handle = match last(&tags, 5) {
                 None => None,
@@ -436,4 +436,14 @@ fn last(tags: &[Tag], code: i16) -> Option<Tag> {
 fn is_mirrored(lines: Lines, tags: &[Tag]) -> bool {
     let z = last(tags, 230).map(|tag| number::number(lines.content(tag.value_line())));
     matches!(z, Some(Number::Exact(z) | Number::Blemished(z, _)) if z < 0.0)
+}
+
+/// The line behind the last tag of a record: empty lines at the end of the text are none of its tags, but one may be a value.
+fn end_of_tags(lines: Lines, record: &Range<usize>) -> usize {
+    if record.end < lines.count() {
+        return record.end;
+    }
+    let is_said = |line: &usize| !lines.trimmed(*line).is_empty();
+    let said = record.clone().rev().find(is_said).map_or(record.start, |line| line + 1);
+    (said + (said - record.start) % 2).min(record.end)
 }

@@ -160,6 +160,19 @@ fn what_is_new_looks_like_what_stands_beside_it() {
 }
 
 #[test]
+fn what_is_new_stands_before_empty_lines_at_the_end_of_a_text_that_breaks_off() {
+    let arc = "0\nSECTION\n2\nENTITIES\n0\nARC\n8\nDIE\n10\n1\n20\n2\n40\n3\n50\n30\n51\n90";
+    for (end, kept) in [("\n", "\n"), ("\n\n", "\n")] {
+        let document = Document::read(format!("{arc}{end}").into());
+        let after = document.drawing().order()[0];
+        let geometry = Geometry::Line { start: Point::new(1.0, 5.0), end: Point::new(3.5, 3.5) };
+        let text = edited(&document, &DrawingEdit { changes: vec![Change::AddEntity { after, geometry }] });
+        assert!(String::from_utf8_lossy(&text).starts_with(&format!("{arc}{kept}0\nLINE\n")), "{end:?}");
+        assert_eq!(Document::read(text).drawing().len(), 2, "{end:?}");
+    }
+}
+
+#[test]
 fn only_the_numbers_that_change_are_touched() {
     let text = "  0\r\nSECTION\r\n  2\r\nENTITIES\r\n  0\r\nLWPOLYLINE\r\n  5\r\nA\r\n 90\r\n        2\r\n 10\r\n 1.50\r\n 20\r\n2.0 \r\n 10\r\n3.0\r\n 20\r\n4.0\r\n  0\r\nENDSEC\r\n  0\r\nEOF\r\n";
     let document = Document::read(text.into());
