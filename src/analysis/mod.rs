@@ -257,7 +257,8 @@ impl Analysis {
             let ordered = self.in_machining_order(drawing);
             ordered.iter().copied().zip(self.roles(drawing, ordered)).collect()
         });
-        let everywhere = self.role_everywhere();
+        // Where nothing states a role and none depends on nesting.
+        let everywhere = self.settings.side.role().filter(|_| self.stated == 0);
         let role_of = |analysis: &Analysis, key: ContourKey| match &nested {
             Some(roles) => roles.get(&key).copied().unwrap_or(Role::Both),
             None if everywhere.is_some() => everywhere.unwrap_or(Role::Both),
@@ -700,34 +701,19 @@ impl Analysis {
         })
     }
 
-    /// The role that every contour has, where nothing states one and it does not depend on nesting.
-    fn role_everywhere(&self) -> Option<Role> {
-        match self.settings.side {
-            _ if self.stated > 0 => None,
-            SideSetting::Auto => None,
-            SideSetting::Opening => Some(Role::Opening),
-            SideSetting::Punch => Some(Role::Punch),
-            SideSetting::Both => Some(Role::Both),
-        }
-    }
-
     /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting.
     fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
-        let depths = match self.settings.side {
-            SideSetting::Auto => {
+        let everywhere = self.settings.side.role();
+        let depths = match everywhere {
+            Some(_) => Vec::new(),
+            None => {
                 let contours: Vec<_> = keys.iter().filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index))).collect();
                 nesting_depths(drawing, &contours)
             }
-            _ => Vec::new(),
         };
+        let nested = |position: usize| if depths.get(position).is_some_and(|depth| depth % 2 == 1) { Role::Opening } else { Role::Punch };
         let role = |(position, key): (usize, &ContourKey)| {
-            self.known.get(key).and_then(|known| known.stated).unwrap_or(match self.settings.side {
-                SideSetting::Opening => Role::Opening,
-                SideSetting::Punch => Role::Punch,
-                SideSetting::Both => Role::Both,
-                SideSetting::Auto if depths.get(position).is_some_and(|depth| depth % 2 == 1) => Role::Opening,
-                SideSetting::Auto => Role::Punch,
-            })
+            self.known.get(key).and_then(|known| known.stated).or(everywhere).unwrap_or_else(|| nested(position))
         };
         keys.iter().enumerate().map(role).collect()
     }

@@ -277,7 +277,7 @@ impl Document {
         if vertex.bulge == 0.0 {
             return Ok(());
         }
-        let place = tags.iter().rposition(|tag| matches!(tag.code, 10 | 20 | 30 | 40 | 41)).and_then(|index| tags.get(index));
+        let place = tags.iter().rfind(|tag| of_point(tag));
         let Some(&before) = place.filter(|_| vertex.bulge.is_finite()) else { return Err(format!("{name} cannot take the bulge")) };
         let code_line = lines.range(before.line);
         let line_end = &self.text.bytes()[code_line.end..self.text.line_start(before.line + 1)];
@@ -343,7 +343,8 @@ impl Document {
         } else {
             coordinates(&mut text);
             bulge(&mut text);
-            let of_vertex = tags.iter().rfind(|tag| matches!(tag.code, 10 | 20 | 40 | 41 | 42 | 91));
+            // Behind the place of a bulge, where there is none yet: see `set_vertex`.
+            let of_vertex = tags.iter().rfind(|tag| of_point(tag) || matches!(tag.code, 42 | 91));
             of_vertex.map_or(model.end, |tag| tag.line + 2)
         };
         let at = self.text.line_start(if behind { end } else { model.start });
@@ -423,13 +424,18 @@ impl Document {
     }
 }
 
-/// The tag that counts: the last one of its code.
 fn in_space(name: &str) -> String {
     format!("{name} is a 3D polyline and cannot take the bulge")
 }
 
+/// The tag that counts: the last one of its code.
 fn last(tags: &[Tag], code: i16) -> Option<Tag> {
     tags.iter().rfind(|tag| tag.code == code).copied()
+}
+
+/// The point of a vertex and its widths: what a bulge stands behind.
+fn of_point(tag: &Tag) -> bool {
+    matches!(tag.code, 10 | 20 | 30 | 40 | 41)
 }
 
 /// True where the extrusion is (0, 0, -1): the only one but (0, 0, 1) that an entity with geometry can have.

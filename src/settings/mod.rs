@@ -33,6 +33,18 @@ pub enum SideSetting {
     Punch,
 }
 
+impl SideSetting {
+    /// The role of every contour that states none; nothing where it depends on nesting.
+    pub fn role(self) -> Option<Role> {
+        match self {
+            SideSetting::Auto => None,
+            SideSetting::Both => Some(Role::Both),
+            SideSetting::Opening => Some(Role::Opening),
+            SideSetting::Punch => Some(Role::Punch),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum UnitSetting {

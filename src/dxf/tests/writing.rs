@@ -173,6 +173,25 @@ fn what_is_new_stands_before_empty_lines_at_the_end_of_a_text_that_breaks_off() 
 }
 
 #[test]
+fn a_vertex_behind_the_last_one_comes_behind_the_bulge_that_the_last_one_gets() {
+    for z in ["", "30\n7\n"] {
+        let text = format!("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n10\n1\n20\n2\n{z}0\nENDSEC\n0\nEOF\n");
+        let document = Document::read(text.into());
+        let entity = document.drawing().order()[0];
+        let last = Vertex { point: Point::new(1.0, 2.0), bulge: 0.5 };
+        let new = Vertex { point: Point::new(3.0, 4.0), bulge: 0.0 };
+        let edit = DrawingEdit {
+            changes: vec![Change::SetVertex { entity, index: 1, vertex: last }, Change::InsertVertex { entity, index: 2, vertex: new }],
+        };
+        let after = Document::read(edited(&document, &edit));
+        let mut wanted = Drawing::clone(document.drawing());
+        wanted.apply(&edit).unwrap();
+        let geometry = |drawing: &Drawing| drawing.get(drawing.order()[0]).unwrap().geometry.clone();
+        assert_eq!(geometry(after.drawing()), geometry(&wanted), "{z:?}");
+    }
+}
+
+#[test]
 fn only_the_numbers_that_change_are_touched() {
     let text = "  0\r\nSECTION\r\n  2\r\nENTITIES\r\n  0\r\nLWPOLYLINE\r\n  5\r\nA\r\n 90\r\n        2\r\n 10\r\n 1.50\r\n 20\r\n2.0 \r\n 10\r\n3.0\r\n 20\r\n4.0\r\n  0\r\nENDSEC\r\n  0\r\nEOF\r\n";
     let document = Document::read(text.into());
