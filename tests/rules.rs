@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::document::{Document, Source};
-use wedm::drawing::{Change, Drawing, DrawingEdit, Entity, Geometry, Role, Unit, Vertex};
+use wedm::drawing::{Change, Drawing, DrawingEdit, Entity, Geometry, Kind, Role, Unit, Vertex};
 use wedm::finding::{Detail, Finding, Rule, Severity};
 use wedm::geometry::{Point, Segment, positive_angle};
 use wedm::settings::{Effective, Settings};
+use wedm::toolpath::plan;
 
 /// A contour by its vertices.
 #[derive(Clone, Debug)]
@@ -25,7 +26,7 @@ fn open(vertices: &[(f64, f64, f64)]) -> Shape {
 }
 
 fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
-    Entity { handle: "A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::Line, geometry }
+    Entity { handle: "A".into(), layer: "0".into(), role, kind: Kind::Line, geometry }
 }
 
 impl Shape {
@@ -197,6 +198,29 @@ fn segments_too_short_to_cut() {
     vertices.insert(3, (10.0, 9.998, 0.0));
     check(&closed(&vertices), None, Rule::ShortSegment, 2, true);
     check(&open(&[(0.0, 0.0, 0.0), (0.003, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::ShortSegment, 1, false);
+}
+
+#[test]
+fn what_has_no_length_is_a_point_that_is_not_cut() {
+    let dot = open(&[(20.0, 20.0, 0.0), (20.0, 20.0, 0.0)]);
+    check(&dot, None, Rule::ShortSegment, 1, true);
+    check(&dot, None, Rule::OpenContour, 0, true);
+    let mut vertices = SQUARE.to_vec();
+    vertices.insert(1, (10.0, 0.0, 0.0));
+    check(&closed(&vertices), None, Rule::ShortSegment, 1, true);
+    // Two on each other are cut no times, and a contour beside them is cut as if they were not there.
+    for mut drawing in drawings(&closed(&SQUARE), Some(Role::Punch)) {
+        let alone = plan(&drawing, Analysis::new(&drawing, settings()).outlines(&drawing), &settings(), None).unwrap();
+        for handle in ["dot", "dot too"] {
+            let geometry = Geometry::Line { start: Point::new(20.0, 20.0), end: Point::new(20.0, 20.0) };
+            drawing.push(Entity { handle: handle.into(), layer: "0".into(), role: None, kind: Kind::Line, geometry });
+        }
+        let (analysis, findings) = analysed(&drawing);
+        assert_eq!((count(&findings, Rule::ShortSegment), count(&findings, Rule::DuplicateEntity)), (2, 0), "{findings:#?}");
+        assert!(findings.iter().all(|finding| finding.severity > Severity::Error), "{findings:#?}");
+        let paths = plan(&drawing, analysis.outlines(&drawing), &settings(), None).unwrap();
+        assert_eq!(paths, alone);
+    }
 }
 
 #[test]

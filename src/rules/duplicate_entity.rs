@@ -2,6 +2,7 @@
 //!
 //! The wire would cut the same way twice, or the chaining would branch there. Fix: delete the later one.
 
+use super::short_segment::is_point;
 use super::wall::Wall;
 use super::{PairRule, Sight};
 use crate::drawing::{Change, DrawingEdit, Geometry};
@@ -23,6 +24,10 @@ pub const RULE: PairRule = PairRule {
 fn look(one: &Wall, other: &Wall, _same_contour: bool) -> Option<Sight> {
     let (a, b) = (one.segment, other.segment);
     if a.entity == b.entity || a.segment != 0 {
+        return None;
+    }
+    // A point is cut no times.
+    if [a, b].into_iter().all(|point| is_point(&one.outlook, &point)) {
         return None;
     }
     let (first, second) = (&one.outlook.drawing.get(a.entity)?.geometry, &other.outlook.drawing.get(b.entity)?.geometry);

@@ -22,15 +22,16 @@ pub(super) fn outline_of(drawing: &Drawing, outlines: &[Outline], handle: &str) 
 }
 
 /// Indices of the outlines to cut, in machining order: all, or those that hold one of `handles`. What lies within a contour that
-/// comes earlier is brought before it, because the part drops when the contour round it is cut.
-pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>) -> Result<Vec<usize>, Refusal> {
+/// comes earlier is brought before it, because the part drops when the contour round it is cut. What is nowhere longer than
+/// `zero_length` (drawing units) is left out.
+pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>, zero_length: f64) -> Result<Vec<usize>, Refusal> {
     let mut chosen: Vec<usize> = match handles {
         None => (0..outlines.len()).collect(),
         Some(handles) => handles.iter().map(|handle| outline_of(drawing, outlines, handle)).collect::<Result<_, _>>()?,
     };
     chosen.sort_unstable();
     chosen.dedup();
-    chosen.retain(|&index| !outlines[index].contour.is_empty());
+    chosen.retain(|&index| outlines[index].contour.has_length(drawing, zero_length));
     if chosen.is_empty() {
         return Err(Refusal::Sentence("there is no contour to cut".into()));
     }
@@ -131,7 +132,7 @@ mod tests {
             drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::Circle, geometry });
         }
         let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
-        assert_eq!(chosen(&drawing, &outlines, None), Ok(expected.to_vec()), "{circles:?}");
+        assert_eq!(chosen(&drawing, &outlines, None, 1e-9), Ok(expected.to_vec()), "{circles:?}");
     }
 
     #[test]
