@@ -142,6 +142,38 @@ fn corners_are_sharp_where_the_wire_runs_inside() {
     check(&step, Some(Role::Punch), Rule::SharpCorner, 1, true);
 }
 
+/// The arc that rounds so flat a corner is shorter than what a control can follow: it would be a new finding, whose fix makes the
+/// corner again.
+#[test]
+fn a_corner_too_flat_for_a_fillet_has_none() {
+    let bend = |degrees: f64| closed(&[(0.0, 0.0, 0.0), (5.0, 0.0, 0.0), (10.0, 5.0 * degrees.to_radians().tan(), 0.0), (5.0, 9.0, 0.0)]);
+    for (degrees, has_fix) in [(2.5, false), (3.5, true)] {
+        let drawing = bend(degrees).as_polyline(Some(Role::Opening));
+        let (analysis, findings) = analysed(&drawing);
+        let is_flat = |finding: &&Finding| matches!(finding.detail, Detail::SharpCorner { turn, .. } if turn.abs() < 0.1);
+        let flat = findings.iter().find(is_flat).expect("the flat corner");
+        assert_eq!(!analysis.fixes(&drawing, flat).is_empty(), has_fix, "{degrees}");
+    }
+}
+
+/// A line that lies there twice: the fix of the arc beside it would move one of the two, and the contour would fall apart.
+#[test]
+fn an_arc_is_not_made_larger_beside_a_line_that_lies_there_twice() {
+    let fillet = closed(&[(0.0, 0.0, 0.0), (9.95, 0.0, (PI / 8.0).tan()), (10.0, 0.05, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    let mut drawing = fillet.as_chain(Some(Role::Opening));
+    let line = drawing.entities().nth(2).expect("the line behind the arc").1.clone();
+    drawing.push(line);
+    let (analysis, findings) = analysed(&drawing);
+    assert_eq!((count(&findings, Rule::SmallRadius), count(&findings, Rule::DuplicateEntity)), (1, 1), "{findings:#?}");
+    for fix in analysis.fixes(&drawing, &findings[0]) {
+        let mut edited = drawing.clone();
+        edited.apply(&fix.edit).unwrap();
+        assert_eq!(count(&analysed(&edited).1, Rule::OpenContour), 0, "{fix:#?}");
+    }
+    let findings = analysed(&all_fixed(drawing)).1;
+    assert_eq!(findings.iter().filter(|finding| finding.rule != Rule::SharpCorner).count(), 0, "{findings:#?}");
+}
+
 #[test]
 fn joints_that_are_nearly_tangent() {
     // Fillets of a quarter turn whose bulge is a little off, and a line with a bend of half a degree.
