@@ -138,7 +138,7 @@ fn one_fault_is_one_finding_and_harms_no_neighbour() {
         ("0 ARC 10 1 20 2 40 -5 50 0 51 1", r#"error at "-5": group code 40 (radius) of ARC is "-5", expected a number above 0"#),
         ("0 LWPOLYLINE 90 2 70 1 10 1 10 2 20 3", r#"error at "1": vertex 1 lacks group code 20 (y)"#),
         ("0 LWPOLYLINE 90 1 70 1 10 1 20 3", r#"warning at "LWPOLYLINE": LWPOLYLINE has 1 vertices, expected at least 2"#),
-        ("0 SPLINE 71 3 40 0 10 1 20 1", r#"warning at "SPLINE": SPLINE has 1 control points, expected at least 4: it is not drawn"#),
+        ("0 SPLINE 71 3 40 0 10 1 20 1", r#"error at "SPLINE": SPLINE has 1 control points, expected at least 4: it is not drawn"#),
         ("0 SPLINE 71 3 10 1 20 1 30 0 10 2 20 2 30 1", r#"information at "SPLINE": 1 SPLINE: its points differ in z"#),
         ("0 ELLIPSE 10 1 20 1 11 0 21 0 40 0.5", r#"error at "ELLIPSE": ELLIPSE has no width or no length: it is not drawn"#),
         (
