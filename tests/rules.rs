@@ -174,6 +174,50 @@ fn an_arc_is_not_made_larger_beside_a_line_that_lies_there_twice() {
     assert_eq!(findings.iter().filter(|finding| finding.rule != Rule::SharpCorner).count(), 0, "{findings:#?}");
 }
 
+/// Two closed outlines in one place begin where they like, and have their vertices where they like.
+#[test]
+fn closed_outlines_that_lie_on_each_other_are_doubles() {
+    let polyline = |vertices: &[(f64, f64, f64)]| closed(vertices).geometry();
+    let l: Vec<(f64, f64, f64)> =
+        vec![(0.0, 0.0, 0.0), (8.0, 0.0, 0.3), (8.0, 4.0, 0.0), (3.0, 4.0, 0.0), (3.0, 9.0, 0.0), (0.0, 9.0, 0.0)];
+    let with = |at: usize, vertex: (f64, f64, f64)| {
+        let mut more = l.clone();
+        more.insert(at, vertex);
+        polyline(&more)
+    };
+    let circle = Geometry::Circle { center: Point::new(5.0, 5.0), radius: 3.0 };
+    let moved = |by: f64| polyline(&l.iter().map(|&(x, y, bulge)| (x + by, y, bulge)).collect::<Vec<_>>());
+    for (name, one, other, expected) in [
+        ("begun elsewhere", polyline(&l), closed(&l).begun_elsewhere().geometry(), true),
+        ("the other way round", polyline(&l), closed(&l).reversed().geometry(), true),
+        ("the other way round from elsewhere", polyline(&l), closed(&l).reversed().begun_elsewhere().geometry(), true),
+        ("one vertex more", polyline(&l), with(3, (5.0, 4.0, 0.0)), true),
+        ("a vertex more at the begin", with(0, (0.0, 2.0, 0.0)), polyline(&l), true),
+        ("a vertex twice", polyline(&l), with(4, (3.0, 4.0, 0.0)), true),
+        ("one corner more", polyline(&l), with(3, (5.0, 4.01, 0.0)), false),
+        ("a circle and its two halves", circle.clone(), polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 1.0)]), true),
+        ("a circle and its two halves backwards", polyline(&[(5.0, 8.0, -1.0), (5.0, 2.0, -1.0)]), circle.clone(), true),
+        ("a circle and half of another", circle, polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 0.9)]), false),
+        ("beside each other by less than a place", polyline(&l), moved(0.004), true),
+        ("beside each other by more than a place", polyline(&l), moved(0.006), false),
+    ] {
+        for swapped in [false, true] {
+            let mut drawing = Drawing::new(None);
+            for geometry in if swapped { [&other, &one] } else { [&one, &other] } {
+                drawing.push(entity(geometry.clone(), Some(Role::Opening)));
+            }
+            let (analysis, findings) = analysed(&drawing);
+            let double = findings.iter().find(|finding| finding.rule == Rule::DuplicateEntity);
+            assert_eq!(double.is_some(), expected, "{name}, swapped {swapped}: {findings:#?}");
+            if let Some(double) = double {
+                assert_eq!((count(&findings, Rule::DuplicateEntity), count(&findings, Rule::Overlap)), (1, 0), "{name}: {findings:#?}");
+                drawing.apply(&analysis.fixes(&drawing, double).first().expect("a fix").edit).unwrap();
+                assert_eq!(drawing.len(), 1, "{name}");
+            }
+        }
+    }
+}
+
 #[test]
 fn joints_that_are_nearly_tangent() {
     // Fillets of a quarter turn whose bulge is a little off, and a line with a bend of half a degree.

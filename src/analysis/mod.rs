@@ -682,6 +682,15 @@ impl Analysis {
                 runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
             }
         }
+        // Two closed outlines that lie on each other begin where they like: what holds of both is kept where one of them begins.
+        let is_ring = geometry.is_closed() && known.index.run_count() > 1;
+        let beside = if is_ring { self.pairs.beside(key, known.index.run_count()) } else { FxHashSet::default() };
+        let beginnings: Vec<RunId> = beside.into_iter().filter_map(|other| self.beginning_of(drawing, other)).collect();
+        for &(other, run) in &beginnings {
+            if let Some(bounds) = self.known.get(&other).map(|known| known.index.bounds_of_run(run as usize)) {
+                self.pairs.forget_run((other, run), &bounds);
+            }
+        }
         let mut forgotten = FxHashSet::default();
         for &run in &runs {
             if run < known.index.run_count() && forgotten.insert(run) {
@@ -700,9 +709,16 @@ impl Analysis {
         let runs: BTreeSet<RunId> = runs.collect();
         self.enter_known(key, known);
         self.listen_to(drawing, key);
-        let runs: Vec<RunId> = runs.into_iter().collect();
+        let runs: Vec<RunId> = runs.into_iter().chain(beginnings).collect();
         self.look_at_pairs(drawing, &runs);
         true
+    }
+
+    /// The run with the first segment of a contour that is one closed entity.
+    fn beginning_of(&self, drawing: &Drawing, key: ContourKey) -> Option<RunId> {
+        let first = self.chains.first_of(key).filter(|&first| drawing.get(first).is_some_and(|entity| entity.geometry.is_closed()))?;
+        let (_, index) = self.chains.index_of(first, 0)?;
+        Some((key, (index / RUN) as u32))
     }
 
     /// Keys of all contours in machining order: that of the first entity of each.
