@@ -77,3 +77,61 @@ fn group_codes_behind_more_padding_than_a_column_can_be_wide_are_repaired() {
     assert!(!edits.is_empty() && edits.iter().map(|edit| edit.text.len()).sum::<usize>() < 2 * WIDE);
     assert!(rules(document).contains(&"sharp-corner"));
 }
+
+/// Entities in a drawing in mm.
+fn drawing(entities: impl Iterator<Item = String>) -> Document {
+    let entities: String = entities.collect();
+    dxf(&format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"))
+}
+
+fn said(document: &mut Document) -> Vec<(&'static str, String)> {
+    let (findings, _) = document.findings(usize::MAX);
+    let mut said: Vec<(&str, String)> =
+        findings.iter().map(|finding| (finding.rule.name(), wedm::message::en::sentence(finding, 1.0))).collect();
+    said.sort();
+    said.dedup();
+    said
+}
+
+#[test]
+fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was_not_is_said() {
+    let lines = |count: usize| {
+        let line = |number: usize| format!("0\nLINE\n10\n{number}\n20\n0\n11\n{number}\n21\n7000\n");
+        let mut document = drawing((0..count).map(line));
+        said(&mut document).into_iter().filter(|(rule, _)| *rule == "overlap").map(|(_, sentence)| sentence).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(500), [""; 0]);
+    let [sentence] = &lines(7000)[..] else { panic!("one finding is expected") };
+    assert!(sentence.contains("not compared"), "{sentence}");
+}
+
+#[test]
+fn a_curve_that_takes_arcs_beyond_all_measure_is_named_and_not_drawn() {
+    let spline = |count: usize, size: usize| {
+        let knots = (0..count + 4).map(|knot| format!("40\n{}\n", knot.clamp(3, count) - 3));
+        let points = (0..count).map(|point| format!("10\n{}\n20\n{}\n", point * 7919 % 101 * size, point * 104_729 % 97 * size));
+        let points: String = knots.chain(points).collect();
+        format!("0\nSPLINE\n70\n8\n71\n3\n72\n{}\n73\n{count}\n{points}", count + 4)
+    };
+    let mut near = drawing([spline(200, 1)].into_iter());
+    assert!(said(&mut near).iter().all(|(rule, _)| *rule != "syntax") && near.drawing().unwrap().entities().count() == 1);
+    let mut far = drawing([spline(200, 10_000_000)].into_iter());
+    let far = (said(&mut far), far.drawing().unwrap().entities().count());
+    assert!(matches!(&far.0[..], [("syntax", sentence)] if sentence.contains("arcs")) && far.1 == 0, "{far:?}");
+}
+
+#[test]
+fn lines_that_come_together_in_heaps_are_chained_each_once() {
+    // Ends on both sides of a border between cells of the plane, so that each heap looks into the other.
+    let near = |number: usize| (0.0001 * (number % 13) as f64 - 0.0006, 0.0001 * (number % 7) as f64 - 0.0003);
+    let line = |number: usize| {
+        let (angle, (x, y)) = (number as f64, near(number));
+        format!("0\nLINE\n10\n{}\n20\n{}\n11\n{x}\n21\n{y}\n", 50.0 * angle.cos(), 50.0 * angle.sin())
+    };
+    let document = drawing((0..2400).map(line));
+    let snapshot = document.snapshot().unwrap();
+    let mut pieces: Vec<u32> = snapshot.outlines.iter().flat_map(|outline| &outline.contour.pieces).map(|piece| piece.entity.0).collect();
+    pieces.sort_unstable();
+    assert_eq!(pieces, (0..2400).collect::<Vec<u32>>());
+    assert!(snapshot.outlines.len() <= 1250, "{} contours", snapshot.outlines.len());
+}

@@ -9,8 +9,10 @@ use rustc_hash::FxHashSet;
 /// The rules whose safe repairs "fix all" makes, the first of them that has any.
 const SAFE: [Rule; 5] = [Rule::DuplicateEntity, Rule::Overlap, Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
-/// Edits that are tried before a rule is given up: each costs a look at the drawing.
+/// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one so many that about as many
+/// segments are looked at, and at least two.
 const TRIES: usize = 24;
+const SEGMENTS: usize = 4_000_000;
 
 /// Whether the edit of one fix can be made where the drawing comes from; of all fixes where there is none to ask.
 pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
@@ -74,7 +76,8 @@ impl Analysis {
     fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit]) -> Option<DrawingEdit> {
         let mut best: Option<(DrawingEdit, Tally)> = None;
         let mut waiting: Vec<&[DrawingEdit]> = [edits].into_iter().filter(|edits| !edits.is_empty()).collect();
-        for _ in 0..TRIES {
+        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
+        for _ in 0..(SEGMENTS / segments.max(1)).clamp(2, TRIES) {
             let Some(some) = waiting.pop() else { break };
             let (taken, before) = best.as_ref().map_or((&[][..], before), |(edit, tally)| (&edit.changes, tally));
             let changes = taken.iter().chain(some.iter().flat_map(|edit| &edit.changes)).cloned().collect();
