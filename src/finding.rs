@@ -523,6 +523,8 @@ pub enum FixKind {
     DeleteDouble,
     /// A segment too short to cut goes, its neighbours meet.
     Merge,
+    /// An entity without length goes.
+    DeletePoint,
     /// An arc is changed so that it leaves its neighbour without a kink.
     MakeTangent {
         moved: f64,

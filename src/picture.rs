@@ -240,7 +240,7 @@ impl Picture<'_> {
     fn asides(&self, sheet: &mut String, frame: &Frame) {
         for (_, entity) in self.drawing.entities().filter(|(id, _)| !self.cut.contains(id)) {
             if let Geometry::Text { at, text } = &entity.geometry {
-                if !self.paths.iter().any(|path| (path.thread_hole - at).norm() * frame.scale < 1.0) {
+                if !text.is_empty() && !self.paths.iter().any(|path| (path.thread_hole - at).norm() * frame.scale < 1.0) {
                     marks::text(sheet, frame, *at, text);
                 }
                 continue;

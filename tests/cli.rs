@@ -257,6 +257,11 @@ fn the_radius_list_names_vertex_radius_and_verdict() {
     assert_eq!(segments[1]["kind"], "arc");
     assert_eq!(json["diagnostics"].as_array().unwrap().len(), 1);
     assert_eq!(desk.run("inspect inch.dxf --output json").json()["unitsToMm"], 25.4);
+    // What is there and not cut is listed: an arc that is a point.
+    let tags = "0\nSECTION\n2\nENTITIES\n0\nARC\n5\nA\n10\n1\n20\n2\n40\n0\n50\n90\n51\n90\n0\nENDSEC\n0\nEOF\n";
+    desk.write("point.dxf", tags);
+    let listed = desk.run("inspect point.dxf --output json").json()["entities"][0].clone();
+    assert_eq!((&listed["type"], &listed["cut"], &listed["segments"][0]["radius"]), (&"ARC".into(), &false.into(), &0.0.into()));
 }
 
 #[test]

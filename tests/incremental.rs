@@ -128,6 +128,33 @@ fn mixed_outline(backwards: bool) -> (Drawing, EntityId) {
     (drawing, polyline)
 }
 
+/// Two outlines of many runs that lie on each other and begin in different places, edited far from both beginnings.
+#[test]
+fn outlines_that_come_to_lie_on_each_other_are_told_as_if_afresh() {
+    const COUNT: usize = 300;
+    let vertex = |at: usize| {
+        let (angle, radius) = (at as f64 * std::f64::consts::TAU / COUNT as f64, if at.is_multiple_of(2) { 100.0 } else { 101.0 });
+        Vertex::new(radius * angle.cos(), radius * angle.sin(), 0.0)
+    };
+    let ring = |from: usize| (0..COUNT).map(|at| vertex((from + at) % COUNT)).collect::<Vec<_>>();
+    let settings = Arc::new(Effective::of(&Settings::default()));
+    for edited in 0..2 {
+        let mut drawing = Drawing::new(None);
+        let ids = [0, 150].map(|from| drawing.push(entity(Geometry::Polyline { closed: true, vertices: ring(from) }, None)));
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        let home = ring([0, 150][edited])[230];
+        let away = Vertex { point: home.point * 0.9, bulge: 0.0 };
+        for (to, doubles) in [(away, 0), (home, 1)] {
+            let touched = drawing.splice(ids[edited], 230, 1, &[to]).unwrap();
+            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            let told = analysis.findings(&drawing, usize::MAX).0;
+            let fresh = Analysis::new(&drawing, settings.clone()).findings(&drawing, usize::MAX).0;
+            assert_eq!(told, fresh, "polyline {edited}");
+            assert_eq!(told.iter().filter(|finding| finding.rule == wedm::finding::Rule::DuplicateEntity).count(), doubles);
+        }
+    }
+}
+
 /// What local rules saw behind a splice has other indices now: in the pieces behind, and in a piece that is travelled backwards in
 /// what lies before it in the entity.
 #[test]

@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::document::{Document, Source};
-use wedm::drawing::{Change, Drawing, DrawingEdit, Entity, Geometry, Role, Unit, Vertex};
+use wedm::drawing::{Change, Drawing, DrawingEdit, Entity, Geometry, Kind, Role, Unit, Vertex};
 use wedm::finding::{Detail, Finding, Rule, Severity};
 use wedm::geometry::{Point, Segment, positive_angle};
 use wedm::settings::{Effective, Settings};
+use wedm::toolpath::plan;
 
 /// A contour by its vertices.
 #[derive(Clone, Debug)]
@@ -25,7 +26,7 @@ fn open(vertices: &[(f64, f64, f64)]) -> Shape {
 }
 
 fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
-    Entity { handle: "A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::Line, geometry }
+    Entity { handle: "A".into(), layer: "0".into(), role, kind: Kind::Line, geometry }
 }
 
 impl Shape {
@@ -141,6 +142,82 @@ fn corners_are_sharp_where_the_wire_runs_inside() {
     check(&step, Some(Role::Punch), Rule::SharpCorner, 1, true);
 }
 
+/// The arc that rounds so flat a corner is shorter than what a control can follow: it would be a new finding, whose fix makes the
+/// corner again.
+#[test]
+fn a_corner_too_flat_for_a_fillet_has_none() {
+    let bend = |degrees: f64| closed(&[(0.0, 0.0, 0.0), (5.0, 0.0, 0.0), (10.0, 5.0 * degrees.to_radians().tan(), 0.0), (5.0, 9.0, 0.0)]);
+    for (degrees, has_fix) in [(2.5, false), (3.5, true)] {
+        let drawing = bend(degrees).as_polyline(Some(Role::Opening));
+        let (analysis, findings) = analysed(&drawing);
+        let is_flat = |finding: &&Finding| matches!(finding.detail, Detail::SharpCorner { turn, .. } if turn.abs() < 0.1);
+        let flat = findings.iter().find(is_flat).expect("the flat corner");
+        assert_eq!(!analysis.fixes(&drawing, flat).is_empty(), has_fix, "{degrees}");
+    }
+}
+
+/// A line that lies there twice: the fix of the arc beside it would move one of the two, and the contour would fall apart.
+#[test]
+fn an_arc_is_not_made_larger_beside_a_line_that_lies_there_twice() {
+    let fillet = closed(&[(0.0, 0.0, 0.0), (9.95, 0.0, (PI / 8.0).tan()), (10.0, 0.05, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    let mut drawing = fillet.as_chain(Some(Role::Opening));
+    let line = drawing.entities().nth(2).expect("the line behind the arc").1.clone();
+    drawing.push(line);
+    let (analysis, findings) = analysed(&drawing);
+    assert_eq!((count(&findings, Rule::SmallRadius), count(&findings, Rule::DuplicateEntity)), (1, 1), "{findings:#?}");
+    for fix in analysis.fixes(&drawing, &findings[0]) {
+        let mut edited = drawing.clone();
+        edited.apply(&fix.edit).unwrap();
+        assert_eq!(count(&analysed(&edited).1, Rule::OpenContour), 0, "{fix:#?}");
+    }
+    let findings = analysed(&all_fixed(drawing)).1;
+    assert_eq!(findings.iter().filter(|finding| finding.rule != Rule::SharpCorner).count(), 0, "{findings:#?}");
+}
+
+/// Two closed outlines in one place begin where they like, and have their vertices where they like.
+#[test]
+fn closed_outlines_that_lie_on_each_other_are_doubles() {
+    let polyline = |vertices: &[(f64, f64, f64)]| closed(vertices).geometry();
+    let l: Vec<(f64, f64, f64)> =
+        vec![(0.0, 0.0, 0.0), (8.0, 0.0, 0.3), (8.0, 4.0, 0.0), (3.0, 4.0, 0.0), (3.0, 9.0, 0.0), (0.0, 9.0, 0.0)];
+    let with = |at: usize, vertex: (f64, f64, f64)| {
+        let mut more = l.clone();
+        more.insert(at, vertex);
+        polyline(&more)
+    };
+    let circle = Geometry::Circle { center: Point::new(5.0, 5.0), radius: 3.0 };
+    let moved = |by: f64| polyline(&l.iter().map(|&(x, y, bulge)| (x + by, y, bulge)).collect::<Vec<_>>());
+    for (name, one, other, expected) in [
+        ("begun elsewhere", polyline(&l), closed(&l).begun_elsewhere().geometry(), true),
+        ("the other way round", polyline(&l), closed(&l).reversed().geometry(), true),
+        ("the other way round from elsewhere", polyline(&l), closed(&l).reversed().begun_elsewhere().geometry(), true),
+        ("one vertex more", polyline(&l), with(3, (5.0, 4.0, 0.0)), true),
+        ("a vertex more at the begin", with(0, (0.0, 2.0, 0.0)), polyline(&l), true),
+        ("a vertex twice", polyline(&l), with(4, (3.0, 4.0, 0.0)), true),
+        ("one corner more", polyline(&l), with(3, (5.0, 4.01, 0.0)), false),
+        ("a circle and its two halves", circle.clone(), polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 1.0)]), true),
+        ("a circle and its two halves backwards", polyline(&[(5.0, 8.0, -1.0), (5.0, 2.0, -1.0)]), circle.clone(), true),
+        ("a circle and half of another", circle, polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 0.9)]), false),
+        ("beside each other by less than a place", polyline(&l), moved(0.004), true),
+        ("beside each other by more than a place", polyline(&l), moved(0.006), false),
+    ] {
+        for swapped in [false, true] {
+            let mut drawing = Drawing::new(None);
+            for geometry in if swapped { [&other, &one] } else { [&one, &other] } {
+                drawing.push(entity(geometry.clone(), Some(Role::Opening)));
+            }
+            let (analysis, findings) = analysed(&drawing);
+            let double = findings.iter().find(|finding| finding.rule == Rule::DuplicateEntity);
+            assert_eq!(double.is_some(), expected, "{name}, swapped {swapped}: {findings:#?}");
+            if let Some(double) = double {
+                assert_eq!((count(&findings, Rule::DuplicateEntity), count(&findings, Rule::Overlap)), (1, 0), "{name}: {findings:#?}");
+                drawing.apply(&analysis.fixes(&drawing, double).first().expect("a fix").edit).unwrap();
+                assert_eq!(drawing.len(), 1, "{name}");
+            }
+        }
+    }
+}
+
 #[test]
 fn joints_that_are_nearly_tangent() {
     // Fillets of a quarter turn whose bulge is a little off, and a line with a bend of half a degree.
@@ -197,6 +274,29 @@ fn segments_too_short_to_cut() {
     vertices.insert(3, (10.0, 9.998, 0.0));
     check(&closed(&vertices), None, Rule::ShortSegment, 2, true);
     check(&open(&[(0.0, 0.0, 0.0), (0.003, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::ShortSegment, 1, false);
+}
+
+#[test]
+fn what_has_no_length_is_a_point_that_is_not_cut() {
+    let dot = open(&[(20.0, 20.0, 0.0), (20.0, 20.0, 0.0)]);
+    check(&dot, None, Rule::ShortSegment, 1, true);
+    check(&dot, None, Rule::OpenContour, 0, true);
+    let mut vertices = SQUARE.to_vec();
+    vertices.insert(1, (10.0, 0.0, 0.0));
+    check(&closed(&vertices), None, Rule::ShortSegment, 1, true);
+    // Two on each other are cut no times, and a contour beside them is cut as if they were not there.
+    for mut drawing in drawings(&closed(&SQUARE), Some(Role::Punch)) {
+        let alone = plan(&drawing, Analysis::new(&drawing, settings()).outlines(&drawing), &settings(), None).unwrap();
+        for handle in ["dot", "dot too"] {
+            let geometry = Geometry::Line { start: Point::new(20.0, 20.0), end: Point::new(20.0, 20.0) };
+            drawing.push(Entity { handle: handle.into(), layer: "0".into(), role: None, kind: Kind::Line, geometry });
+        }
+        let (analysis, findings) = analysed(&drawing);
+        assert_eq!((count(&findings, Rule::ShortSegment), count(&findings, Rule::DuplicateEntity)), (2, 0), "{findings:#?}");
+        assert!(findings.iter().all(|finding| finding.severity > Severity::Error), "{findings:#?}");
+        let paths = plan(&drawing, analysis.outlines(&drawing), &settings(), None).unwrap();
+        assert_eq!(paths, alone);
+    }
 }
 
 #[test]

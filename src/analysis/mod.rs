@@ -408,6 +408,7 @@ impl Analysis {
         }
         let Some((key, index)) = self.chains.index_of(*entity, *segment) else { return Vec::new() };
         let mut fixes = Vec::new();
+        let before = self.tallied(drawing);
         let found = self.attempt(drawing, key, index).and_then(|(travel, attempt)| Some((travel, attempt.outcome.ok()?)));
         let mut is_notch = false;
         if let Some((travel, replacement)) = found {
@@ -421,6 +422,7 @@ impl Analysis {
             let in_fix_all = replacement.moved <= self.limits.correction;
             if let Some(edit) = small_radius::drawing_edit(drawing, &[(travel, replacement)])
                 && self.betters(drawing, &edit)
+                && self.enlarges(drawing, &before, &edit)
             {
                 fixes.push(Fix { kind, preferred: true, in_fix_all, edit });
             }
@@ -429,6 +431,7 @@ impl Analysis {
         if let Some(place) = place.filter(|_| !is_notch)
             && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
             && self.betters(drawing, &edit)
+            && self.enlarges(drawing, &before, &edit)
         {
             let kind = FixKind::KeepEndPoints { radius: self.limits.fix_radius, kink };
             fixes.push(Fix { kind, preferred: false, in_fix_all: false, edit });
@@ -464,8 +467,8 @@ impl Analysis {
 
     /// One edit that makes every safe fix; `None` where there is none.
     ///
-    /// Arcs first; where there are none to be mended, what the other rules can mend safely, one rule at a time: call again
-    /// until nothing is left.
+    /// Doubles first, then arcs; where there are none to be mended, what the other rules can mend safely, one rule at a time: call
+    /// again until nothing is left.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
         self.fix_all_of(drawing, None)
     }
@@ -476,7 +479,8 @@ impl Analysis {
     }
 
     fn fix_all_of(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
-        self.fix_all_arcs(drawing, can).or_else(|| self.fix_all_else(drawing, can))
+        let doubles = self.fix_all_else(drawing, &repair::FIRST, can);
+        doubles.or_else(|| self.fix_all_arcs(drawing, can)).or_else(|| self.fix_all_else(drawing, &repair::THEN, can))
     }
 
     fn fix_all_arcs(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
@@ -507,8 +511,28 @@ impl Analysis {
         if replacements.is_empty() {
             return None;
         }
-        let edit = small_radius::drawing_edit(drawing, &replacements)?;
-        self.betters(drawing, &edit).then_some(edit)
+        self.most_arcs(drawing, &replacements)
+    }
+
+    /// As many of the replacements as one edit as go together without spoiling anything: where all of them do not, each half is
+    /// tried beside what has been taken so far, then the halves of that half.
+    fn most_arcs(&self, drawing: &Drawing, replacements: &[(Travel, Replacement)]) -> Option<DrawingEdit> {
+        let before = self.tallied(drawing);
+        let mut taken: Vec<(Travel, Replacement)> = Vec::new();
+        let mut best = None;
+        let mut waiting = vec![replacements];
+        for _ in 0..self.tries() {
+            let Some(some) = waiting.pop() else { break };
+            let together: Vec<_> = taken.iter().chain(some).cloned().collect();
+            let edit = small_radius::drawing_edit(drawing, &together);
+            if let Some(edit) = edit.filter(|edit| self.betters(drawing, edit) && self.enlarges(drawing, &before, edit)) {
+                (taken, best) = (together, Some(edit));
+            } else if some.len() > 1 {
+                let (first, second) = some.split_at(some.len() / 2);
+                waiting.extend([second, first]);
+            }
+        }
+        best
     }
 
     /// Contours that have tight arcs, in machining order, with the wire side of each.
@@ -658,6 +682,15 @@ impl Analysis {
                 runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
             }
         }
+        // Two closed outlines that lie on each other begin where they like: what holds of both is kept where one of them begins.
+        let is_ring = geometry.is_closed() && known.index.run_count() > 1;
+        let beside = if is_ring { self.pairs.beside(key, known.index.run_count()) } else { FxHashSet::default() };
+        let beginnings: Vec<RunId> = beside.into_iter().filter_map(|other| self.beginning_of(drawing, other)).collect();
+        for &(other, run) in &beginnings {
+            if let Some(bounds) = self.known.get(&other).map(|known| known.index.bounds_of_run(run as usize)) {
+                self.pairs.forget_run((other, run), &bounds);
+            }
+        }
         let mut forgotten = FxHashSet::default();
         for &run in &runs {
             if run < known.index.run_count() && forgotten.insert(run) {
@@ -676,9 +709,16 @@ impl Analysis {
         let runs: BTreeSet<RunId> = runs.collect();
         self.enter_known(key, known);
         self.listen_to(drawing, key);
-        let runs: Vec<RunId> = runs.into_iter().collect();
+        let runs: Vec<RunId> = runs.into_iter().chain(beginnings).collect();
         self.look_at_pairs(drawing, &runs);
         true
+    }
+
+    /// The run with the first segment of a contour that is one closed entity.
+    fn beginning_of(&self, drawing: &Drawing, key: ContourKey) -> Option<RunId> {
+        let first = self.chains.first_of(key).filter(|&first| drawing.get(first).is_some_and(|entity| entity.geometry.is_closed()))?;
+        let (_, index) = self.chains.index_of(first, 0)?;
+        Some((key, (index / RUN) as u32))
     }
 
     /// Keys of all contours in machining order: that of the first entity of each.

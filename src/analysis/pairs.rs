@@ -97,6 +97,12 @@ impl Pairs {
         }
     }
 
+    /// Contours of which something has been seen beside this one.
+    pub fn beside(&self, key: ContourKey, runs: usize) -> FxHashSet<ContourKey> {
+        let partners = (0..runs).filter_map(|run| self.partners.get(&(key, run as u32)));
+        partners.flatten().map(|other| other.0).filter(|other| *other != key).collect()
+    }
+
     /// Something has come or gone within these bounds.
     fn disturb(&mut self, bounds: &Bounds) {
         if self.partners.is_empty() {

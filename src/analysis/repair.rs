@@ -6,8 +6,11 @@ use crate::drawing::{Change, Drawing, DrawingEdit, EntityId};
 use crate::finding::{Fix, Rule};
 use rustc_hash::FxHashSet;
 
-/// The rules whose safe repairs "fix all" makes, the first of them that has any.
-const SAFE: [Rule; 5] = [Rule::DuplicateEntity, Rule::Overlap, Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
+/// Rules whose safe repairs "fix all" makes before it makes arcs larger: a line that lies there twice would be moved once.
+pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
+
+/// And behind that, the first of them that has any.
+pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one so many that about as many
 /// segments are looked at, and at least two.
@@ -40,16 +43,36 @@ impl Analysis {
             || after.unseen < before.unseen;
         let is_no_worse = match rule {
             Rule::OpenContour => after.is_no_worse_once_closed(before),
-            _ => after.is_no_worse_than(before),
+            _ => after.is_no_worse_than(before, rule),
         };
         (is_less && is_no_worse).then_some(after)
     }
 
-    /// One edit that makes the safe repairs of one rule, as many as do not collide.
-    pub(super) fn fix_all_else(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
+    /// How many edits are tried.
+    pub(super) fn tries(&self) -> usize {
+        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
+        (SEGMENTS / segments.max(1)).clamp(2, TRIES)
+    }
+
+    /// What there is to be said of the drawing as it is.
+    pub(super) fn tallied(&self, drawing: &Drawing) -> Tally {
+        self.clone().tally(drawing)
+    }
+
+    /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no open end, overlap, crossing or
+    /// crumb that was not there. A line that lies there twice is moved once: then the contour falls apart.
+    pub(super) fn enlarges(&self, drawing: &Drawing, before: &Tally, edit: &DrawingEdit) -> bool {
+        let mut edited = drawing.clone();
+        let Ok(delta) = edited.apply(edit) else { return false };
+        let after = self.updated(&edited, &delta).tally(&edited);
+        after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius) && after.spoils_nothing(before)
+    }
+
+    /// One edit that makes the safe repairs of one of the rules, as many as do not collide.
+    pub(super) fn fix_all_else(&self, drawing: &Drawing, rules: &[Rule], can: Can<'_>) -> Option<DrawingEdit> {
         let mut analysis = self.clone();
         let before = analysis.tally(drawing);
-        let rules: Vec<Rule> = SAFE.into_iter().filter(|rule| before.of(*rule) > 0).collect();
+        let rules: Vec<Rule> = rules.iter().copied().filter(|rule| before.of(*rule) > 0).collect();
         if rules.is_empty() {
             return None;
         }
@@ -76,8 +99,7 @@ impl Analysis {
     fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit]) -> Option<DrawingEdit> {
         let mut best: Option<(DrawingEdit, Tally)> = None;
         let mut waiting: Vec<&[DrawingEdit]> = [edits].into_iter().filter(|edits| !edits.is_empty()).collect();
-        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
-        for _ in 0..(SEGMENTS / segments.max(1)).clamp(2, TRIES) {
+        for _ in 0..self.tries() {
             let Some(some) = waiting.pop() else { break };
             let (taken, before) = best.as_ref().map_or((&[][..], before), |(edit, tally)| (&edit.changes, tally));
             let changes = taken.iter().chain(some.iter().flat_map(|edit| &edit.changes)).cloned().collect();

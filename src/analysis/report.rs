@@ -25,14 +25,39 @@ pub struct Tally {
     pub unseen: usize,
 }
 
+/// Rules that have more to say where a contour becomes plainer: corners that were hidden in a short segment or beside a gap.
+const CORNERS: [Rule; 3] = [Rule::SharpCorner, Rule::NearTangent, Rule::ArcAsChords];
+
+/// Rules that say nothing beside a tight arc.
+const SLOTS: [Rule; 3] = [Rule::NarrowSlot, Rule::LostPocket, Rule::OffsetCollapse];
+
+/// What a line that closes a contour may run into.
+const LINES_IN_THE_WAY: [Rule; 5] = [Rule::DuplicateEntity, Rule::Overlap, Rule::SelfIntersection, Rule::ShortSegment, Rule::OpenContour];
+
 impl Tally {
     pub fn of(&self, rule: Rule) -> usize {
         self.of_rule.get(&rule).copied().unwrap_or(0)
     }
 
-    /// True when nothing got worse since `before`: no more errors, and no more errors and warnings together.
-    pub fn is_no_worse_than(&self, before: &Tally) -> bool {
-        self.errors <= before.errors && self.errors + self.warnings <= before.errors + before.warnings
+    /// True when nothing got worse since `before`: no more errors, no more errors and warnings together, and no rule that speaks of
+    /// damage, but for `mended`, has more to say.
+    pub fn is_no_worse_than(&self, before: &Tally, mended: Rule) -> bool {
+        self.errors <= before.errors
+            && self.errors + self.warnings <= before.errors + before.warnings
+            && self.brings_nothing_new(before, |rule| rule == mended || CORNERS.contains(&rule))
+    }
+
+    /// True when there are no more errors, and nothing new but kinks and slots, which may have been beside a tight arc all the time.
+    pub fn spoils_nothing(&self, before: &Tally) -> bool {
+        self.errors <= before.errors && self.brings_nothing_new(before, |rule| CORNERS.contains(&rule) || SLOTS.contains(&rule))
+    }
+
+    /// Where pairs have come into sight that nobody had looked at, more findings do not mean more faults.
+    fn brings_nothing_new(&self, before: &Tally, is_spared: impl Fn(Rule) -> bool) -> bool {
+        // Where a contour comes to be closed, an end that does not quite meet is what is left of the opening.
+        let is_closed = self.of(Rule::OpenContour) < before.of(Rule::OpenContour);
+        let is_spared = |rule| is_spared(rule) || (rule == Rule::Gap && is_closed);
+        self.unseen < before.unseen || self.of_rule.iter().all(|(&rule, &count)| is_spared(rule) || count <= before.of(rule))
     }
 
     /// True when closing a contour has brought nothing new to light but corners. The wire has a side on it now: what was one hint
@@ -40,6 +65,7 @@ impl Tally {
     pub fn is_no_worse_once_closed(&self, before: &Tally) -> bool {
         let corners = self.of(Rule::SharpCorner).saturating_sub(before.of(Rule::SharpCorner));
         self.errors + self.warnings <= before.errors + before.warnings + corners
+            && self.brings_nothing_new(before, |rule| !LINES_IN_THE_WAY.contains(&rule))
     }
 }
 

@@ -32,7 +32,7 @@ pub struct Arguments {
     /// Write the program there [default: stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// Only the contours that hold this entity; may be given several times
+    /// Only the contour that holds this entity; may be given several times, in the order of the cuts
     #[arg(long, value_name = "HANDLE")]
     handle: Vec<String>,
     /// Write it although the drawing has errors

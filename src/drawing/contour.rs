@@ -81,6 +81,11 @@ impl Contour {
         self.pieces.is_empty()
     }
 
+    /// False where there is nothing to cut: no segment is longer than `zero_length` (drawing units).
+    pub fn has_length(&self, drawing: &Drawing, zero_length: f64) -> bool {
+        self.segments(drawing).any(|segment| segment.geometry.length() > zero_length)
+    }
+
     /// Segment `index` in the direction of travel, `None` past the end.
     pub fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
         let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.range().end <= index))?;

@@ -59,7 +59,7 @@ pub enum Geometry {
         center: Point,
         radius: f64,
     },
-    /// "O" marks a starting point.
+    /// "O" marks a starting point; without a word it is a point that is not cut.
     Text {
         at: Point,
         text: String,
@@ -67,6 +67,11 @@ pub enum Geometry {
 }
 
 impl Geometry {
+    /// What there is to see of an arc without a radius: nothing that is cut.
+    pub fn point(at: Point) -> Geometry {
+        Geometry::Text { at, text: String::new() }
+    }
+
     /// Number of segments: 0 for text and for a polyline of less than two vertices.
     pub fn segment_count(&self) -> usize {
         match self {
@@ -166,4 +171,14 @@ pub struct Entity {
     pub role: Option<Role>,
     pub kind: Kind,
     pub geometry: Geometry,
+}
+
+impl Entity {
+    /// The place of an arc whose radius is 0: it is drawn and has no segment.
+    pub fn point_of_arc(&self) -> Option<Point> {
+        match (self.kind, &self.geometry) {
+            (Kind::Arc, Geometry::Text { at, .. }) => Some(*at),
+            _ => None,
+        }
+    }
 }

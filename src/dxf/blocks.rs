@@ -2,7 +2,7 @@
 //!
 //! Work is bounded before it begins: the size of a block is counted once, without drawing it.
 
-use super::entity::{Look, Outcome, Paint, TILTED};
+use super::entity::{Look, Outcome, PAPER_SPACE, Paint, TILTED};
 use super::insert::{Insert, block_key};
 use super::layer_table::LayerStates;
 use super::lexer::Lexer;
@@ -24,6 +24,8 @@ const DEEPEST: usize = 64;
 /// Why a part of a block is not drawn where it is put.
 const BEYOND_MEASURE: &str = "as a part of a block it comes to no length, numbers beyond all measure, or too many arcs";
 const REFERS_TO_A_FILE: i64 = 4 | 8;
+/// What the modelspace holds stands in the section ENTITIES.
+const IN_THE_BLOCK_OF_THE_MODELSPACE: &str = "it stands in the block of the modelspace instead of the section ENTITIES";
 
 #[derive(Clone, Debug)]
 enum Content {
@@ -37,7 +39,21 @@ struct Block {
     name: String,
     base: Vector3,
     is_file: bool,
+    /// The block of a layout or of the modelspace, which nothing refers to, and why what it holds is not cut.
+    layout: Option<&'static str>,
     contents: Vec<Content>,
+}
+
+/// Why nothing is cut of the block of a layout; `None` for any other. Their names begin with $ before release 2000, with * since, and
+/// those of further layouts end in a number.
+fn layout(name: &[u8]) -> Option<&'static str> {
+    let (sign, rest) = name.split_first()?;
+    let begins_with = |space: &[u8]| rest.get(..space.len()).is_some_and(|start| start.eq_ignore_ascii_case(space));
+    match sign {
+        b'*' | b'$' if begins_with(b"Paper_Space") => Some(PAPER_SPACE),
+        b'*' | b'$' if begins_with(b"Model_Space") => Some(IN_THE_BLOCK_OF_THE_MODELSPACE),
+        _ => None,
+    }
 }
 
 /// What a block comes to: copies and segments, and blocks below it.
@@ -83,14 +99,16 @@ pub(super) struct Blocks {
 impl Blocks {
     /// The same blocks, nothing drawn and nothing known of them: what was found out before they were whole may not hold.
     pub(super) fn unasked(self) -> Blocks {
-        let count = self.blocks.len();
-        Blocks { blocks: self.blocks, by_name: self.by_name, sizes: vec![None; count], used: vec![false; count], ..Blocks::default() }
+        let sizes = vec![None; self.blocks.len()];
+        let used = self.blocks.iter().map(|block| block.layout.is_some()).collect();
+        Blocks { blocks: self.blocks, by_name: self.by_name, sizes, used, ..Blocks::default() }
     }
 
     /// Begins the block whose record starts at `line` and ends before the lexer's place. A name that is taken stays with
-    /// the block that had it first.
-    pub(super) fn begin(&mut self, lexer: &Lexer, line: usize) {
-        let mut block = Block { name: String::new(), base: Vector3::zeros(), is_file: false, contents: Vec::new() };
+    /// the block that had it first: then the line of the name is given back.
+    pub(super) fn begin(&mut self, lexer: &Lexer, line: usize) -> Option<usize> {
+        let mut block = Block { name: String::new(), base: Vector3::zeros(), is_file: false, layout: None, contents: Vec::new() };
+        let mut name_line = line + 1;
         let number = |line: usize| match number::number(lexer.lines.content(line)) {
             Number::Exact(value) | Number::Blemished(value, _) => value,
             Number::Bad => 0.0,
@@ -98,7 +116,7 @@ impl Blocks {
         let mut name: &[u8] = b"";
         for tag in place::own_tags(lexer.lines, line..lexer.at()) {
             match tag.code {
-                2 => name = lexer.lines.trimmed(tag.value_line()),
+                2 => (name, name_line) = (lexer.lines.trimmed(tag.value_line()), tag.value_line()),
                 10 => block.base.x = number(tag.value_line()),
                 20 => block.base.y = number(tag.value_line()),
                 30 => block.base.z = number(tag.value_line()),
@@ -107,10 +125,18 @@ impl Blocks {
             }
         }
         block.name = String::from_utf8_lossy(name).into_owned();
-        self.by_name.entry(block_key(name)).or_insert(self.blocks.len());
+        block.layout = layout(name);
+        let first = *self.by_name.entry(block_key(name)).or_insert(self.blocks.len());
+        let is_doubled = first < self.blocks.len();
+        self.used.push(block.layout.is_some());
         self.blocks.push(block);
         self.sizes.push(None);
-        self.used.push(false);
+        is_doubled.then_some(name_line)
+    }
+
+    /// While the block of a layout or of the modelspace is read, why what it holds is not cut.
+    pub(super) fn in_layout(&self) -> Option<&'static str> {
+        self.blocks.last()?.layout
     }
 
     /// Adds what was read to the block that was begun last.

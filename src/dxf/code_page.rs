@@ -2,6 +2,7 @@
 //!
 //! Text from an editor is Unicode already: there no code page holds.
 
+use super::johab;
 use encoding_rs::Encoding;
 use memchr::memmem;
 
@@ -16,6 +17,8 @@ const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø�
 const DOS_852: &str = "ÇüéâäůćçłëŐőîŹÄĆÉĹĺôöĽľŚśÖÜŤťŁ×čáíóúĄąŽžĘę¬źČş«»░▒▓│┤ÁÂĚŞ╣║╗╝Żż┐└┴┬├─┼Ăă╚╔╩╦╠═╬¤đĐĎËďŇÍÎě┘┌█▄ŢŮ▀ÓßÔŃńňŠšŔÚŕŰýÝţ´\u{ad}˝˛ˇ˘§÷¸°¨˙űŘř■\u{a0}";
 
 /// How texts of a file are to be read where they are no UTF-8, or, where `first` is set, before it is asked whether they are.
+///
+/// A file that names no page that is known is read as one of Western Europe, as other programs read it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CodePage {
     encoding: Page,
@@ -27,26 +30,27 @@ pub(super) struct CodePage {
 enum Page {
     OfTheWeb(&'static Encoding),
     OfDos(&'static str),
+    Johab,
 }
 
 impl CodePage {
-    /// The code page that the header names; `None` where it names none that is known, and since release 2007, which is UTF-8.
-    pub(super) fn of_file(bytes: &[u8]) -> Option<CodePage> {
+    /// The code page that the header names. Since release 2007 files are UTF-8; what is none there, some program has written in
+    /// the page that it names all the same.
+    pub(super) fn of_file(bytes: &[u8]) -> CodePage {
         let head = &bytes[..bytes.len().min(HEADER)];
         let version = variable(head, b"$ACADVER").unwrap_or_default();
-        if version.starts_with(b"AC10") && version >= b"AC1021".as_slice() {
-            return None;
-        }
-        let name = String::from_utf8_lossy(variable(head, b"$DWGCODEPAGE")?).to_ascii_uppercase();
+        let is_utf_8 = version.starts_with(b"AC10") && version >= b"AC1021".as_slice();
+        let name = String::from_utf8_lossy(variable(head, b"$DWGCODEPAGE").unwrap_or_default()).to_ascii_uppercase();
         let number = ["ANSI", "DOS", "ISO", "_"].iter().fold(&*name, |name, prefix| name.trim_start_matches(prefix));
-        let first = matches!(number, "932" | "936" | "GB2312" | "949" | "KSC5601" | "950" | "BIG5");
+        let first = matches!(number, "932" | "936" | "GB2312" | "949" | "KSC5601" | "950" | "BIG5" | "1361" | "JOHAB");
         let encoding = match number {
             "437" => Page::OfDos(DOS_437),
             "850" => Page::OfDos(DOS_850),
             "852" => Page::OfDos(DOS_852),
-            _ => Page::OfTheWeb(of_the_web(number)?),
+            "1361" | "JOHAB" => Page::Johab,
+            _ => Page::OfTheWeb(of_the_web(number).or_else(|| Encoding::for_label(name.as_bytes())).unwrap_or(encoding_rs::WINDOWS_1252)),
         };
-        Some(CodePage { encoding, first })
+        CodePage { encoding, first: first && !is_utf_8 }
     }
 
     /// The bytes as UTF-8.
@@ -56,6 +60,7 @@ impl CodePage {
         }
         match self.encoding {
             Page::OfTheWeb(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned().into_bytes(),
+            Page::Johab => johab::decoded(bytes).into_bytes(),
             Page::OfDos(upper) => {
                 let character = |&byte: &u8| match byte.checked_sub(128) {
                     None => char::from(byte),
@@ -92,11 +97,17 @@ fn of_the_web(number: &str) -> Option<&'static Encoding> {
     })
 }
 
-/// The value of a header variable: what stands two lines below its name.
+/// The value of a header variable: what stands two lines below its name, comments left out.
 fn variable<'a>(head: &'a [u8], name: &[u8]) -> Option<&'a [u8]> {
     let at = memmem::find(head, name)?;
     let mut lines = head[at..].split(|&byte| byte == b'\n' || byte == b'\r').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
-    lines.nth(2)
+    lines.next();
+    loop {
+        let (code, value) = (lines.next()?, lines.next()?);
+        if code != b"999" {
+            return Some(value);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -107,20 +118,36 @@ mod tests {
     fn names_in_the_file_s_own_code_page() {
         let file = |version: &str, page: &str| format!("  9\r\n$ACADVER\r\n  1\r\n{version}\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\n{page}\r\n");
         for (version, page, bytes, expected) in [
-            ("AC1015", "ANSI_1252", &b"m\xe4rks"[..], Some("märks")),
-            ("AC1015", "ANSI_1252", "märks".as_bytes(), Some("märks")),
-            ("AC1009", "ansi_936", b"\xc4\xa3", Some("模")),
-            ("AC1015", "ANSI_932", b"\x8b\xe0\x8c^", Some("金型")),
-            ("AC1015", "dos866", b"\x84", Some("Д")),
-            ("AC1009", "dos850", b"Au\xe1en\xb5", Some("AußenÁ")),
-            ("AC1009", "DOS437", b"\x84\xe3", Some("äπ")),
-            ("AC1009", "dos852", b"\xfdez\xff", Some("řez\u{a0}")),
-            ("AC1012", "ISO8859-2", b"\xf8", Some("ř")),
-            ("AC1021", "ANSI_1252", b"m\xe4rks", None),
-            ("AC1015", "ANSI_9999", b"m\xe4rks", None),
+            ("AC1015", "ANSI_1252", &b"m\xe4rks"[..], "märks"),
+            ("AC1015", "ANSI_1252", "märks".as_bytes(), "märks"),
+            ("AC1009", "ansi_936", b"\xc4\xa3", "模"),
+            ("AC1015", "ANSI_932", b"\x8b\xe0\x8c^", "金型"),
+            ("AC1015", "ANSI_1361", b"\x94\x61\xb7\xa1", "다이"),
+            ("AC1015", "dos866", b"\x84", "Д"),
+            ("AC1009", "dos850", b"Au\xe1en\xb5", "AußenÁ"),
+            ("AC1009", "DOS437", b"\x84\xe3", "äπ"),
+            ("AC1009", "dos852", b"\xfdez\xff", "řez\u{a0}"),
+            ("AC1012", "ISO8859-2", b"\xf8", "ř"),
+            ("AC1012", "macintosh", b"\x8a", "ä"),
+            ("AC1012", "KOI8-R", b"\xed", "М"),
+            // UTF-8, whatever stands in the header; what is none is in the page of the header.
+            ("AC1021", "ANSI_936", "模".as_bytes(), "模"),
+            ("AC1021", "ANSI_1252", b"m\xe4rks", "märks"),
+            ("AC1015", "ANSI_9999", b"m\xe4rks", "märks"),
         ] {
             let page = CodePage::of_file(file(version, page).as_bytes());
-            assert_eq!(page.map(|page| page.unicode(bytes)), expected.map(|text| text.as_bytes().to_vec()), "{version} {expected:?}");
+            assert_eq!(String::from_utf8(page.unicode(bytes)).unwrap(), expected, "{version}");
+        }
+    }
+
+    #[test]
+    fn a_header_may_name_none_or_have_comments_in_it() {
+        for (header, bytes, expected) in [
+            ("", &b"m\xe4rks"[..], "märks"),
+            ("9\n$DWGCODEPAGE\n999\n3\n3\nANSI_1251\n", b"\xcc", "М"),
+            ("9\n$DWGCODEPAGE\n999\n", b"\xcc", "Ì"),
+        ] {
+            assert_eq!(String::from_utf8(CodePage::of_file(header.as_bytes()).unicode(bytes)).unwrap(), expected, "{header}");
         }
     }
 }

@@ -148,23 +148,32 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
         }
         lies = Lies::Aslant(Box::new(plane), NOT_PLANE);
     }
-    let spline = if controls.points.is_empty() {
+    let is_through = controls.points.is_empty();
+    let lacks_knots = !is_through && knots.is_empty();
+    let spline = if is_through {
         let points = through.points;
         let [first, last] = tangents.map(|[x, y, _]| Some(Vector::new(x?, y?)));
         let closed = if flags & CLOSED != 0 { Spline::round(&points) } else { None };
         closed.or_else(|| Spline::through(&points, first, last)).ok_or_else(|| "has less than two different points".to_owned())
     } else {
         let degree = degree.unwrap_or(3);
-        usize::try_from(degree)
-            .map_err(|_| format!("has the degree {degree}"))
-            .and_then(|degree| Spline::new(degree, knots, controls.points, weights))
+        usize::try_from(degree).map_err(|_| format!("has the degree {degree}")).and_then(|degree| match lacks_knots {
+            true => Spline::clamped(degree, controls.points, weights),
+            false => Spline::new(degree, knots, controls.points, weights),
+        })
     };
+    let name = lexer.lines.trimmed_range(start.value_line());
+    if lacks_knots && spline.is_ok() {
+        oddity(findings, name.clone(), "SPLINE has no knots (group code 40): even ones are taken".to_owned());
+    }
     match spline {
         Ok(spline) => common.finish(lexer, layers, Kind::Spline, (Shape::Spline(Box::new(spline)), lies), None, findings),
         // What is not cut anyway is told once.
         Err(_) if matches!(lies, Lies::Aslant(..)) => Outcome::Unsupported("SPLINE".into(), NOT_PLANE),
         Err(why) => {
-            oddity(findings, lexer.lines.trimmed_range(start.value_line()), format!("SPLINE {why}: it is not drawn"));
+            // One through less than two points has no length; of any other a part of the outline is missing.
+            let say = if is_through { oddity } else { damage };
+            say(findings, name, format!("SPLINE {why}: it is not drawn"));
             Outcome::Damaged
         }
     }

@@ -13,7 +13,7 @@ use super::strings::words_of_mtext;
 use super::{curve, insert, plain};
 use crate::drawing::{Color, Geometry, Handle, Kind, Vertex};
 use crate::finding::Finding;
-use crate::geometry::Point;
+use crate::geometry::{Point, radians};
 use std::sync::Arc;
 
 /// What was read of one entity of the modelspace.
@@ -409,10 +409,6 @@ fn radius_of(value: f64, kind: &str, start: Tag, lexer: &Lexer, findings: &mut V
         return Some(value);
     }
     let radius_line = value_line_of(start, lexer, 40);
-    if value == 0.0 {
-        oddity(findings, lexer.lines.trimmed_range(radius_line), format!("{kind} has the radius 0: it is a point, and is not cut"));
-        return None;
-    }
     let found = quoted(lexer.lines.trimmed(radius_line));
     let sentence = format!("group code 40 (radius) of {kind} is {found}, expected a number above 0");
     damage(findings, lexer.lines.trimmed_range(radius_line), sentence);
@@ -423,17 +419,22 @@ fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Fi
     let mut numbers = Numbers::new([10, 20, 40, 50, 51, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
     let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
-    let Some(radius) = radius_of(radius, "ARC", start, lexer, findings) else { return Outcome::Damaged };
-    let (from, to) = (from.to_radians(), to.to_radians());
+    // A point begins and ends in the same direction: what a fillet of no radius leaves behind. Else the radius is damaged.
+    let is_point = radius == 0.0 && (to - from) % 360.0 == 0.0;
+    if is_point {
+        let place = lexer.lines.trimmed_range(value_line_of(start, lexer, 40));
+        oddity(findings, place, "ARC has the radius 0: it is a point, and is not cut".into());
+    } else if radius_of(radius, "ARC", start, lexer, findings).is_none() {
+        return Outcome::Damaged;
+    }
+    let (from, to) = (radians(from), radians(to));
     let Some(lies) = common.lies(numbers.values[5].unwrap_or(0.0)) else { return Outcome::Unsupported("ARC".into(), TILTED) };
-    let geometry = match common.plane() {
+    let (center, (start_angle, end_angle)) = match common.plane() {
         _ if common.paper_space => return Outcome::Unsupported("ARC".into(), PAPER_SPACE),
-        Plane::Normal | Plane::Tilted => Geometry::Arc { center: Point::new(x, y), radius, start_angle: from, end_angle: to },
-        Plane::Mirrored => {
-            let (start_angle, end_angle) = mirrored_angles(from, to);
-            Geometry::Arc { center: Point::new(0.0 - x, y), radius, start_angle, end_angle }
-        }
+        Plane::Normal | Plane::Tilted => (Point::new(x, y), (from, to)),
+        Plane::Mirrored => (Point::new(0.0 - x, y), mirrored_angles(from, to)),
     };
+    let geometry = if is_point { Geometry::point(center) } else { Geometry::Arc { center, radius, start_angle, end_angle } };
     common.finish(lexer, layers, Kind::Arc, (Shape::Plain(geometry), lies), None, findings)
 }
 

@@ -17,6 +17,7 @@ mod entity;
 mod fault;
 mod foreign;
 mod insert;
+mod johab;
 pub mod language;
 mod layer_table;
 mod layers;
@@ -81,7 +82,7 @@ impl Document {
             () if is_dxb => dxb::to_text(&bytes),
             () => (bytes, None),
         };
-        let layers = Layers::in_code_page(CodePage::of_file(&bytes));
+        let layers = Layers::in_code_page(Some(CodePage::of_file(&bytes)));
         let mut document = Document { layers: Box::new(layers), is_binary, ..Document::default() };
         document.take(bytes);
         if let Some(sentence) = fault {
@@ -211,7 +212,10 @@ impl Document {
                 Said::Block => {
                     item.became = Became::Block;
                     reading.early |= reading.known.is_none() && reading.refers;
-                    reading.blocks.begin(&lexer, line);
+                    if let Some(name_line) = reading.blocks.begin(&lexer, line) {
+                        let sentence = "a block of this name stands before this one: that one is drawn".to_owned();
+                        fault::oddity(findings, lines.trimmed_range(name_line), sentence);
+                    }
                 }
                 Said::Structure { entities, unit: stated } => {
                     item.became = Became::Structure { entities, unit: stated };
@@ -231,6 +235,14 @@ impl Document {
                     match outcome {
                         Outcome::Damaged => item.became = Became::Damaged,
                         Outcome::Unsupported(kind, why) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
+                        outcome if context == Context::Blocks && reading.blocks.in_layout().is_some() => {
+                            let kind = match &outcome {
+                                Outcome::Entity(read) => read.kind.name(),
+                                _ => "INSERT",
+                            };
+                            let why = reading.blocks.in_layout().unwrap_or_default();
+                            item.became = Became::Unsupported(table.kinds.index(kind.into(), why));
+                        }
                         outcome if context == Context::Blocks => {
                             reading.early |= reading.known.is_none() && reading.refers;
                             reading.blocks.add(outcome);

@@ -9,7 +9,7 @@ use super::number;
 use super::shape::Shape;
 use super::space::Lies;
 use crate::drawing::{Color, Geometry, Handle, Kind};
-use crate::geometry::Point;
+use crate::geometry::{Point, radians};
 
 /// Numbers by their place in the record: x, y, z; the second x, y, z; radius; first and last angle.
 const CODES: [i16; 9] = [10, 20, 30, 11, 21, 31, 40, 50, 51];
@@ -57,7 +57,7 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
         Kind::Line => Geometry::Line { start: center, end: Point::new(end_x?, end_y?) },
         _ if radius? <= 0.0 => return None,
         Kind::Circle => Geometry::Circle { center, radius: radius? },
-        _ => Geometry::Arc { center, radius: radius?, start_angle: from?.to_radians(), end_angle: to?.to_radians() },
+        _ => Geometry::Arc { center, radius: radius?, start_angle: radians(from?), end_angle: radians(to?) },
     };
     let read = Read {
         handle,

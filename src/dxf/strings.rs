@@ -1,8 +1,9 @@
 //! Text values: their escapes, and the words of an MTEXT without its formatting.
 
+use super::johab;
 use encoding_rs::Encoding;
 
-/// The code pages of `\M+1` to `\M+5` (DXF reference, "MIF"). Johab, the fourth, is not known here.
+/// The code pages of `\M+1` to `\M+5` (DXF reference, "MIF"); the fourth, without an encoding here, is Johab.
 const MULTIBYTE: [Option<&Encoding>; 5] =
     [Some(encoding_rs::SHIFT_JIS), Some(encoding_rs::BIG5), Some(encoding_rs::EUC_KR), None, Some(encoding_rs::GBK)];
 
@@ -25,15 +26,23 @@ pub(super) fn decoded(bytes: &[u8]) -> String {
 
 /// The character of an escape at the beginning of `text`, and the length of the escape.
 fn unicode(text: &str) -> Option<(char, usize)> {
-    let number = u32::from_str_radix(text.strip_prefix("\\U+")?.get(..4)?, 16).ok()?;
-    Some((char::from_u32(number)?, 7))
+    const LENGTH: usize = "\\U+XXXX".len();
+    let number = |text: &str| u16::from_str_radix(text.strip_prefix("\\U+")?.get(..4)?, 16).ok();
+    let first = number(text)?;
+    // What is beyond the first 65,536 characters is written as two.
+    let second = text.get(LENGTH..).and_then(number);
+    let mut characters = char::decode_utf16([first].into_iter().chain(second));
+    let character = characters.next()?.ok()?;
+    Some((character, LENGTH * character.len_utf16()))
 }
 
 fn multibyte(text: &str) -> Option<(char, usize)> {
     let digits = text.strip_prefix("\\M+")?.get(..5)?;
     let page = digits.get(..1)?.parse::<usize>().ok()?.checked_sub(1)?;
     let code = u16::from_str_radix(digits.get(1..)?, 16).ok()?.to_be_bytes();
-    let encoding = (*MULTIBYTE.get(page)?)?;
+    let Some(encoding) = *MULTIBYTE.get(page)? else {
+        return Some((johab::character(code[0], code[1])?, 8));
+    };
     // A code of one byte is written with a first byte of 0.
     let code = if code[0] == 0 { &code[1..] } else { &code };
     let (character, bad) = encoding.decode_without_bom_handling(code);
@@ -75,6 +84,9 @@ mod tests {
             (&b"m\\U+00E4rks"[..], "märks"),
             (b"\\U+5200\\U+5177", "刀具"),
             (b"\\U+12", "\\U+12"),
+            (b"a\\U+D83D\\U+DE00b\\U+00E4", "a😀bä"),
+            (b"\\U+D83Db\\U+DE00\\U+D83D", "\\U+D83Db\\U+DE00\\U+D83D"),
+            (b"\\M+49461\\M+4B7A1", "다이"),
             (b"\\M+18BE0\\M+5C4A3x", "金模x"),
             (b"\\M+9B0BC\\M+1ZZZZ\\", "\\M+9B0BC\\M+1ZZZZ\\"),
             (b"\\U+\xc3\xa4\xc3\xa4", "\\U+ää"),

@@ -52,6 +52,9 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
                 EntityType::Arc(entities::Arc::new(in_space(*center), *radius, start, end))
             }
             Geometry::Circle { center, radius } => EntityType::Circle(entities::Circle::new(in_space(*center), *radius)),
+            Geometry::Text { at, .. } if entity.point_of_arc().is_some() => {
+                EntityType::Arc(entities::Arc::new(in_space(*at), 0.0, 0.0, 0.0))
+            }
             Geometry::Text { at, text } => {
                 EntityType::Text(entities::Text { location: in_space(*at), value: text.clone(), text_height, ..entities::Text::default() })
             }

@@ -127,10 +127,10 @@ impl Arc {
         } else {
             (self.start_angle + self.sweep, self.start_angle)
         };
-        let first = (low / FRAC_PI_2).ceil() as i64;
-        let last = (high / FRAC_PI_2).floor() as i64;
-        for quarter in first..=last.min(first + 4) {
-            let (x, y) = match quarter.rem_euclid(4) {
+        let first = (low / FRAC_PI_2).ceil();
+        let last = (high / FRAC_PI_2).floor();
+        for quarter in (0..4).map(|more| first + f64::from(more)).take_while(|&quarter| quarter <= last) {
+            let (x, y) = match quarter.rem_euclid(4.0) as u8 {
                 0 => (1.0, 0.0),
                 1 => (0.0, 1.0),
                 2 => (-1.0, 0.0),

@@ -46,6 +46,11 @@ pub fn direction(angle: f64) -> Vector {
     Vector::new(cos, sin)
 }
 
+/// `degrees` in radians. What is beyond a turn is taken off first, which is exact: radians of a great number are not.
+pub fn radians(degrees: f64) -> f64 {
+    if degrees.abs() > 360.0 { (degrees % 360.0).to_radians() } else { degrees.to_radians() }
+}
+
 /// Signed angle from `a` to `b` in (−π, π], positive counter-clockwise; 0 when either is zero.
 pub fn turn(a: Vector, b: Vector) -> f64 {
     cross(a, b).atan2(a.dot(&b))

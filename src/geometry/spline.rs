@@ -49,6 +49,13 @@ impl Spline {
         Ok(Spline { degree, knots, points, weights })
     }
 
+    /// The spline with even knots that begins at the first point and ends at the last one. Errors as in [`Spline::new`].
+    pub fn clamped(degree: usize, points: Vec<Point>, weights: Vec<f64>) -> Result<Spline, String> {
+        let last = points.len().saturating_sub(degree);
+        let knots = (0..points.len() + degree.min(MAX_DEGREE) + 1).map(|knot| knot.saturating_sub(degree).min(last) as f64).collect();
+        Spline::new(degree, knots, points, weights)
+    }
+
     /// The cubic spline through `points` with continuous curvature, its parameter the length of the chords. An end
     /// with a tangent leaves in that direction, one without is straight at its end. `None` for less than two different points.
     pub fn through(points: &[Point], start: Option<Vector>, end: Option<Vector>) -> Option<Spline> {

@@ -39,6 +39,7 @@ pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
         Detail::Crowded { count } => format!(
             "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them"
         ),
+        Detail::ShortSegment { length: 0.0 } => "segment has no length: it is a point, and is not cut".into(),
         Detail::ShortSegment { length } => format!("segment is only {} mm long: controllers stumble over it", mm(length * unit_mm)),
         Detail::NearTangent { turn } => {
             format!("contour kinks by {:.2}° where it looks tangent: the wire leaves a mark", turn.abs().to_degrees())
@@ -111,6 +112,7 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::Close { length } => format!("Close the contour with a line of {} mm", mm(length * unit_mm)),
         FixKind::Snap { distance } => format!("Snap the ends together (moves them by {} mm)", mm(distance * unit_mm)),
         FixKind::DeleteDouble => "Delete the double".into(),
+        FixKind::DeletePoint => "Delete what has no length".into(),
         FixKind::Merge => "Remove the short segment, its neighbours meet".into(),
         FixKind::MakeTangent { moved } => format!("Make the segments tangent (moves the contour by {} mm)", mm(moved * unit_mm)),
         FixKind::SetJ { j } => format!("Set J to {j}"),

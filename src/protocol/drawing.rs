@@ -2,6 +2,7 @@
 
 use super::number::Number;
 use crate::drawing::{self as core, Role, Unit};
+use crate::geometry::radians;
 use schemars::JsonSchema;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -254,7 +255,7 @@ impl Entity {
             }
             Geometry::Line { start, end } => (core::Kind::Line, core::Geometry::Line { start: start.into(), end: end.into() }),
             Geometry::Arc { center, radius, start_angle, end_angle } => {
-                let (start_angle, end_angle) = (start_angle.to_radians(), end_angle.to_radians());
+                let (start_angle, end_angle) = (radians(start_angle), radians(end_angle));
                 (core::Kind::Arc, core::Geometry::Arc { center: center.into(), radius, start_angle, end_angle })
             }
             Geometry::Circle { center, radius } => (core::Kind::Circle, core::Geometry::Circle { center: center.into(), radius }),

@@ -2,8 +2,8 @@
 
 use super::segment::SegmentShape;
 use crate::document::Document;
-use crate::drawing::{Drawing, EntityId};
-use crate::finding::{Finding, Place, Severity};
+use crate::drawing::{Drawing, Entity, EntityId};
+use crate::finding::{Finding, Place, Rule, Severity};
 use rustc_hash::FxHashMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ pub struct InspectedEntity {
     pub r#type: String,
     pub layer: String,
     pub closed: bool,
-    /// False where it is no part of a contour: its layer is frozen or switched off, or its role is `ignore`.
+    /// False where it is no part of a contour: its layer is frozen or switched off, its role is `ignore`, or it is a point.
     pub cut: bool,
     pub segments: Vec<InspectedSegment>,
 }
@@ -69,7 +69,10 @@ impl Inspection {
                 }
             }
         }
-        let segments_of = |id: EntityId, entity: &crate::drawing::Entity| -> Vec<InspectedSegment> {
+        let segments_of = |id: EntityId, entity: &Entity| -> Vec<InspectedSegment> {
+            if let Some(at) = entity.point_of_arc() {
+                return vec![InspectedSegment { index: 0, shape: SegmentShape::point(at.into()), verdict: Rule::Syntax.name().into() }];
+            }
             let segments = entity.geometry.segments().enumerate().filter(|(_, segment)| segment.length() > zero_length);
             let inspected = segments.map(|(index, segment)| InspectedSegment {
                 index,
@@ -79,7 +82,7 @@ impl Inspection {
             inspected.collect()
         };
         let asked_for = drawing.entities().filter(|(_, entity)| handle.is_none_or(|handle| *entity.handle == *handle));
-        let with_geometry = asked_for.filter(|(_, entity)| entity.geometry.segment_count() > 0);
+        let with_geometry = asked_for.filter(|(_, entity)| entity.geometry.segment_count() > 0 || entity.point_of_arc().is_some());
         let entities = with_geometry.map(|(id, entity)| InspectedEntity {
             handle: entity.handle.to_string(),
             r#type: entity.kind.name().into(),

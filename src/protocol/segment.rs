@@ -32,6 +32,22 @@ pub struct SegmentShape {
     pub bulge: Option<f64>,
 }
 
+impl SegmentShape {
+    /// An arc whose radius is 0.
+    pub(super) fn point(at: Point) -> SegmentShape {
+        SegmentShape {
+            kind: SegmentKind::Arc,
+            start: at,
+            end: at,
+            length: 0.0,
+            center: Some(at),
+            radius: Some(0.0),
+            sweep: Some(0.0),
+            bulge: None,
+        }
+    }
+}
+
 impl From<&Segment> for SegmentShape {
     fn from(segment: &Segment) -> SegmentShape {
         let arc = segment.as_arc();

@@ -2,11 +2,12 @@
 //!
 //! The wire would cut the same way twice, or the chaining would branch there. Fix: delete the later one.
 
+use super::short_segment::is_point;
 use super::wall::Wall;
 use super::{PairRule, Sight};
 use crate::drawing::{Change, DrawingEdit, Geometry};
 use crate::finding::{Detail, Fix, FixKind, Rule};
-use crate::geometry::Segment;
+use crate::geometry::{Point, Segment};
 
 pub const RULE: PairRule = PairRule {
     rule: Rule::DuplicateEntity,
@@ -19,20 +20,24 @@ pub const RULE: PairRule = PairRule {
     warning_when_side_unknown: false,
 };
 
-/// Seen at the first segment of each of the two entities, once for a pair of entities.
+/// Seen at the first segment of each of the two entities, once for a pair of entities. Closed ones may begin anywhere and have their
+/// vertices elsewhere: they are seen at the first segment of the earlier one and that of the other which it begins on.
 fn look(one: &Wall, other: &Wall, _same_contour: bool) -> Option<Sight> {
     let (a, b) = (one.segment, other.segment);
     if a.entity == b.entity || a.segment != 0 {
         return None;
     }
-    let (first, second) = (&one.outlook.drawing.get(a.entity)?.geometry, &other.outlook.drawing.get(b.entity)?.geometry);
-    let (count, tolerance) = (first.segment_count(), one.outlook.limits.tolerances.same_place);
-    if count != second.segment_count() {
+    // A point is cut no times.
+    if [a, b].into_iter().all(|point| is_point(&one.outlook, &point)) {
         return None;
     }
-    let forward = b.segment == 0 && (0..count).all(|k| same(first, k, second, k, false, tolerance));
-    let backward = b.segment + 1 == count && (0..count).all(|k| same(first, k, second, count - 1 - k, true, tolerance));
-    (forward || backward).then(Sight::default)
+    let (first, second) = (&one.outlook.drawing.get(a.entity)?.geometry, &other.outlook.drawing.get(b.entity)?.geometry);
+    let (count, tolerance) = (first.segment_count(), one.outlook.limits.tolerances.same_place);
+    let alike = count == second.segment_count();
+    let forward = || b.segment == 0 && (0..count).all(|k| same(first, k, second, k, false, tolerance));
+    let backward = || b.segment + 1 == count && (0..count).all(|k| same(first, k, second, count - 1 - k, true, tolerance));
+    let rings = || first.is_closed() && second.is_closed() && are_one_ring(first, second, b.segment, tolerance);
+    (alike && (forward() || backward()) || rings()).then(Sight::default)
 }
 
 fn same(one: &Geometry, k: usize, other: &Geometry, l: usize, turned: bool, tolerance: f64) -> bool {
@@ -41,6 +46,80 @@ fn same(one: &Geometry, k: usize, other: &Geometry, l: usize, turned: bool, tole
     let close = |s: f64| (a.point_at(s) - b.point_at(s)).norm() <= tolerance;
     let kinds = matches!((a, b), (Segment::Line(_), Segment::Line(_)) | (Segment::Arc(_), Segment::Arc(_)));
     kinds && [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().all(close)
+}
+
+/// True when the first of two closed outlines begins on segment `at` of the other, and each lies on the other all along.
+fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64) -> bool {
+    let (Some(begin), Some(under)) = (first.segment(0), second.segment(at)) else { return false };
+    let start = begin.start();
+    let share = under.share_of(start).clamp(0.0, 1.0);
+    let is_on = |segment: &Segment, point: Point| segment.distance_to(point) <= tolerance;
+    // A point that two segments meet in belongs to the one that begins there.
+    let is_alone = second.segment_count() == 1;
+    if !is_on(&under, start) || (!is_alone && (under.end() - start).norm() <= tolerance && share > 0.5) {
+        return false;
+    }
+    // A little further on, the one still lies beside the start of the other: most outlines that meet in a point are told apart here.
+    let Some(before) = second.segment((at + second.segment_count() - 1) % second.segment_count().max(1)) else { return false };
+    let step = [&begin, &under, &before].into_iter().map(Segment::length).fold(f64::INFINITY, f64::min) / 2.0;
+    let further = begin.point_at((step / begin.length()).min(1.0));
+    if !is_on(&under, further) && !is_on(&before, further) {
+        return false;
+    }
+    let (one, other) = (Ring::of(first), Ring::of(second));
+    let begins_at = other.distance_of(at, share);
+    let stretch = other.length() / one.length();
+    let lies_on = |ring: &Ring, point: Point, along: f64| ring.at(along).is_some_and(|met| (met - point).norm() <= tolerance);
+    [1.0, -1.0].into_iter().any(|direction| {
+        one.samples().all(|(point, along)| lies_on(&other, point, begins_at + direction * along * stretch))
+            && other.samples().all(|(point, along)| lies_on(&one, point, direction * (along - begins_at) / stretch))
+    })
+}
+
+/// A closed outline by the distance along it.
+struct Ring {
+    segments: Vec<Segment>,
+    /// The distance at which each segment ends.
+    ends: Vec<f64>,
+}
+
+impl Ring {
+    fn of(geometry: &Geometry) -> Ring {
+        let segments: Vec<Segment> = geometry.segments().collect();
+        let add = |sum: &mut f64, segment: &Segment| {
+            *sum += segment.length();
+            Some(*sum)
+        };
+        let ends = segments.iter().scan(0.0, add).collect();
+        Ring { segments, ends }
+    }
+
+    fn length(&self) -> f64 {
+        self.ends.last().copied().unwrap_or(0.0)
+    }
+
+    /// How far along a share of one segment lies.
+    fn distance_of(&self, index: usize, share: f64) -> f64 {
+        let end = self.ends.get(index).copied().unwrap_or(0.0);
+        end - self.segments.get(index).map_or(0.0, Segment::length) * (1.0 - share)
+    }
+
+    fn at(&self, along: f64) -> Option<Point> {
+        let along = along.rem_euclid(self.length());
+        let index = self.ends.partition_point(|&end| end < along).min(self.segments.len().checked_sub(1)?);
+        let segment = self.segments.get(index)?;
+        let length = segment.length();
+        let share = if length > 0.0 { 1.0 - (self.ends.get(index)? - along) / length } else { 0.0 };
+        Some(segment.point_at(share.clamp(0.0, 1.0)))
+    }
+
+    /// Each vertex, and three points between it and the next one, with their distance along.
+    fn samples(&self) -> impl Iterator<Item = (Point, f64)> {
+        self.segments
+            .iter()
+            .enumerate()
+            .flat_map(|(index, segment)| [0.0, 0.25, 0.5, 0.75].map(|share| (segment.point_at(share), self.distance_of(index, share))))
+    }
 }
 
 fn fixes(one: &Wall, other: &Wall) -> Vec<Fix> {

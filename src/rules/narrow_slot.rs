@@ -72,7 +72,8 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
                     .then(|| (corner.side(toward), wall_side(b, foot, -toward)))
             });
         }
-        for met in other.corners() {
+        // Between the two ends of an open contour lies the opening of it: `open-contour` says it.
+        for met in other.corners().filter(|met| !(same_contour && corner.is_free_end() && met.is_free_end())) {
             consider(corner.at, met.at, &|toward| {
                 (corner.is_nearest(toward) && met.is_nearest(-toward)).then(|| (corner.side(toward), met.side(-toward)))
             });

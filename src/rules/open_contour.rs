@@ -15,7 +15,8 @@ const SHARE: f64 = 0.05;
 const JOINS: f64 = 100.0;
 
 fn holds(outlook: &Outlook) -> bool {
-    !outlook.contour.closed && !outlook.contour.is_empty()
+    // What has no length is told of by `short-segment`.
+    !outlook.contour.closed && outlook.contour.has_length(outlook.drawing, outlook.limits.tolerances.zero_length)
 }
 
 /// Where the contour itself is the wire's path, it may well be open.

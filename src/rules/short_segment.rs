@@ -1,7 +1,7 @@
 //! `short-segment`: a segment shorter than 0.005 mm.
 //!
 //! Controllers compute corners and compensation between neighbours: over a segment of a few microns they jerk, stop, or turn
-//! the offset the wrong way. Fix: the segment goes, its neighbours meet.
+//! the offset the wrong way. Fix: the segment goes, its neighbours meet. What has no length at all just goes.
 
 use super::ends::joined;
 use super::{Fact, LocalRule, Outlook};
@@ -30,11 +30,16 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
 }
 
 fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
-    Some(Detail::ShortSegment { length: outlook.segment(fact.index as isize)?.geometry.length() })
+    let length = outlook.segment(fact.index as isize)?.geometry.length();
+    Some(Detail::ShortSegment { length: if length > outlook.limits.tolerances.zero_length { length } else { 0.0 } })
 }
 
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     let Some(place) = outlook.segment(fact.index as isize) else { return Vec::new() };
+    if is_point(outlook, &place) {
+        let edit = DrawingEdit { changes: vec![Change::RemoveEntity { entity: place.entity }] };
+        return vec![Fix { kind: FixKind::DeletePoint, preferred: true, in_fix_all: true, edit }];
+    }
     let changes = match outlook.drawing.get(place.entity).map(|entity| &entity.geometry) {
         Some(Geometry::Polyline { closed, vertices }) => in_polyline(&place, *closed, vertices),
         Some(Geometry::Line { .. } | Geometry::Arc { .. }) => in_chain(outlook, fact.index as isize, &place),
@@ -42,6 +47,12 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     };
     let fix = |changes| Fix { kind: FixKind::Merge, preferred: true, in_fix_all: true, edit: DrawingEdit { changes } };
     changes.map(fix).into_iter().collect()
+}
+
+/// True where the entity of a segment has no other and no length: nothing changes when it goes.
+pub(super) fn is_point(outlook: &Outlook, place: &ContourSegment) -> bool {
+    let is_alone = outlook.drawing.get(place.entity).is_some_and(|entity| entity.geometry.segment_count() == 1);
+    is_alone && place.geometry.length() <= outlook.limits.tolerances.zero_length
 }
 
 /// The segment's start vertex goes and its end becomes that of what came before. The ends of an open polyline stay.

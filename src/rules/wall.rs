@@ -107,6 +107,11 @@ pub fn parts_for_good(one: &Wall, other: &Wall) -> bool {
 }
 
 impl Corner {
+    /// True at an end of an open contour.
+    pub fn is_free_end(&self) -> bool {
+        self.incoming.is_none() || self.outgoing.is_none()
+    }
+
     /// True when no step along the contour brings the vertex nearer to what lies in `direction` (a unit vector) of it.
     pub fn is_nearest(&self, direction: Vector) -> bool {
         const ROUNDING: f64 = 1e-6;

@@ -87,12 +87,18 @@ pub fn plan_while(
     handles: Option<&[String]>,
     goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<WirePath>, Refusal> {
-    let chosen = order::chosen(drawing, outlines, handles)?;
-    let join = settings.tolerances.join / settings.unit_of(drawing).mm;
+    let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
+    let chosen = order::chosen(drawing, outlines, handles, tolerances.zero_length)?;
     if settings.compensation == Compensation::None
         && chosen.len() > 1
-        && let Some(path) =
-            drawn::one_path(drawing, outlines, &chosen, [settings.thread.as_ref(), settings.entry.as_ref()], settings.direction, join)
+        && let Some(path) = drawn::one_path(
+            drawing,
+            outlines,
+            &chosen,
+            [settings.thread.as_ref(), settings.entry.as_ref()],
+            settings.direction,
+            tolerances.join,
+        )
     {
         return Ok([path].into());
     }

@@ -5,6 +5,7 @@ use super::corners::{Element, between};
 use crate::drawing::{Contour, Drawing, Outline, winding};
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use crate::settings::Direction;
+use rustc_hash::FxHashSet;
 
 /// The handle of a contour's first entity, which names the contour to the user.
 pub(super) fn name<'a>(drawing: &'a Drawing, outline: &Outline) -> &'a str {
@@ -21,16 +22,18 @@ pub(super) fn outline_of(drawing: &Drawing, outlines: &[Outline], handle: &str) 
     found.ok_or_else(|| Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut")))
 }
 
-/// Indices of the outlines to cut, in machining order: all, or those that hold one of `handles`. What lies within a contour that
-/// comes earlier is brought before it, because the part drops when the contour round it is cut.
-pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>) -> Result<Vec<usize>, Refusal> {
+/// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select
+/// them. What lies within a contour that
+/// comes earlier is brought before it, because the part drops when the contour round it is cut. What is nowhere longer than
+/// `zero_length` (drawing units) is left out.
+pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>, zero_length: f64) -> Result<Vec<usize>, Refusal> {
     let mut chosen: Vec<usize> = match handles {
         None => (0..outlines.len()).collect(),
         Some(handles) => handles.iter().map(|handle| outline_of(drawing, outlines, handle)).collect::<Result<_, _>>()?,
     };
-    chosen.sort_unstable();
-    chosen.dedup();
-    chosen.retain(|&index| !outlines[index].contour.is_empty());
+    let mut known = FxHashSet::default();
+    chosen.retain(|&index| known.insert(index));
+    chosen.retain(|&index| outlines[index].contour.has_length(drawing, zero_length));
     if chosen.is_empty() {
         return Err(Refusal::Sentence("there is no contour to cut".into()));
     }
@@ -131,7 +134,7 @@ mod tests {
             drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::Circle, geometry });
         }
         let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
-        assert_eq!(chosen(&drawing, &outlines, None), Ok(expected.to_vec()), "{circles:?}");
+        assert_eq!(chosen(&drawing, &outlines, None, 1e-9), Ok(expected.to_vec()), "{circles:?}");
     }
 
     #[test]

@@ -40,6 +40,26 @@ fn at(x: f64, y: f64) -> Option<PointSetting> {
     Some(PointSetting::One([x, y]))
 }
 
+/// Contours come as they are drawn, or as they are selected; what lies within another before it.
+#[test]
+fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
+    let square = |x: f64, y: f64, side: f64| [[x, y, 0.0], [x + side, y, 0.0], [x + side, y + side, 0.0], [x, y + side, 0.0]];
+    let (plate, left, right) = (square(0.0, 0.0, 40.0), square(5.0, 5.0, 5.0), square(20.0, 5.0, 5.0));
+    let opening = Some(Role::Opening);
+    let (drawing, outlines) = drawing(&[(&plate, opening), (&left, opening), (&right, opening)]);
+    for (handles, expected) in [
+        (None, vec![1, 2, 0]),
+        (Some(vec!["2C", "2B"]), vec![2, 1]),
+        (Some(vec!["2C", "2B", "2C"]), vec![2, 1]),
+        (Some(vec!["2C", "2A", "2B"]), vec![2, 1, 0]),
+        (Some(vec!["2A", "2C"]), vec![2, 0]),
+    ] {
+        let handles = handles.map(|handles| handles.into_iter().map(String::from).collect::<Vec<_>>());
+        let chosen = super::order::chosen(&drawing, &outlines, handles.as_deref(), 1e-9);
+        assert_eq!(chosen, Ok(expected), "{handles:?}");
+    }
+}
+
 /// Each piece as `kind x y` of its end, in mm to the µm.
 fn shown(path: &WirePath) -> String {
     let start = path.segments.first().map_or(path.thread_hole, |segment| segment.geometry.start());

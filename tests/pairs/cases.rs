@@ -177,6 +177,9 @@ fn walls_leave_too_little_room() {
     // An opening with a slot of 0.15 in its upper side, and one with a tongue of 0.15.
     let slot = ring(&[[0., 0.], [6., 0.], [6., 4.], [3.15, 4.], [3.15, 7.], [3., 7.], [3., 4.], [0., 4.]]);
     let tongue = ring(&[[0., 0.], [6., 0.], [6., 4.], [3.15, 4.], [3.15, 1.], [3., 1.], [3., 4.], [0., 4.]]);
+    // The opening of an open contour is no slot; what lies across it is.
+    check_slots("an outline that is not quite closed", &[open(&[[0., 0.], [4., 0.], [4., 4.], [0., 4.], [0., 0.05]])], Opening, &[]);
+    check_slots("ends of two contours", &[open(&[[0., 0.], [4., 0.]]), open(&[[4.05, 0.], [9., 0.]])], Opening, &[(0.05, warning)]);
     check_slots("slot", std::slice::from_ref(&slot), Opening, &[(0.15, error)]);
     check_slots("slot", std::slice::from_ref(&slot), Punch, &[]);
     check_slots("slot", std::slice::from_ref(&slot), Both, &[(0.15, warning)]);

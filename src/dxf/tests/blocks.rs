@@ -42,6 +42,29 @@ fn where_the_parts_come_to_lie() {
 }
 
 #[test]
+fn what_blocks_do_not_give_to_the_drawing_is_named() {
+    let circle = |radius: u8| format!("0 CIRCLE 8 0 10 0 20 0 40 {radius}");
+    let named = |why: &str| format!(r#"information at "CIRCLE": 1 CIRCLE: {why}"#);
+    let in_modelspace = named("it stands in the block of the modelspace instead of the section ENTITIES");
+    for (name, expected) in [
+        ("*Model_Space", vec![in_modelspace.as_str()]),
+        ("$MODEL_SPACE", vec![&in_modelspace]),
+        ("*Paper_Space3", vec![&named("it lies in paper space")]),
+        ("Model_Space", vec![]),
+    ] {
+        check(
+            &format!("0 BLOCK 2 {name} 10 0 20 0 {} 0 ENDBLK", circle(1)),
+            "0 LINE 5 B 10 0 20 0 11 1 21 0",
+            &["LINE B on 0: 0 0 to 1 0"],
+            &expected,
+        );
+    }
+    let twice = format!("0 BLOCK 2 B 10 0 20 0 {} 0 ENDBLK 0 BLOCK 2 b 10 0 20 0 {} 0 ENDBLK", circle(1), circle(2));
+    let said = r#"warning at "b": a block of this name stands before this one: that one is drawn"#;
+    check(&twice, "0 INSERT 5 A 2 B 10 0 20 0", &["CIRCLE A on 0: 0 0 R1"], &[said]);
+}
+
+#[test]
 fn arrays_step_along_the_turned_axes_and_are_not_scaled() {
     check(
         "0 BLOCK 2 B 10 0 20 0 0 CIRCLE 8 0 10 1 20 0 40 1 0 ENDBLK",

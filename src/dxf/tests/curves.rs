@@ -31,6 +31,24 @@ fn a_periodic_spline_closes_without_running_through_its_control_points() {
     assert!(distance(&drawn, Point::new(0.0, 0.0)) > 1.0);
 }
 
+/// Programs write splines without their knots; others draw them with even ones. What it is not drawn for is an error: a part of the
+/// outline is missing.
+#[test]
+fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
+    let points = "10 0 20 0 10 1 20 3 10 4 20 3 10 5 20 0";
+    let document = Document::read(dxf(&format!("0 SPLINE 5 A 70 8 71 3 {points}")).into_bytes());
+    assert_eq!(findings(&document), [r#"warning at "SPLINE": SPLINE has no knots (group code 40): even ones are taken"#]);
+    let drawn = segments(&document);
+    for [x, y] in [[0.0, 0.0], [2.5, 2.25], [5.0, 0.0]] {
+        assert!(distance(&drawn, Point::new(x, y)) <= 1e-3, "{x} {y}");
+    }
+    let document = Document::read(dxf(&format!("0 SPLINE 5 A 70 8 71 3 40 0 40 1 {points}")).into_bytes());
+    assert_eq!(
+        findings(&document),
+        [r#"error at "SPLINE": SPLINE has 2 knots, expected 8 for 4 control points of degree 3: it is not drawn"#]
+    );
+}
+
 #[test]
 fn the_setting_says_how_near_arcs_come_to_the_curve() {
     let text = dxf("0 LINE 5 A 10 0 20 0 11 1 21 0 0 ELLIPSE 5 B 10 0 20 0 11 20 21 0 40 0.5 41 0 42 6.283185307179586 \

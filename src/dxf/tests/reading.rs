@@ -104,6 +104,27 @@ fn each_kind_of_entity() {
 }
 
 #[test]
+fn an_arc_without_radius_that_ends_as_it_begins_is_a_point() {
+    // As LibreCAD's library of symbols and QCAD's drawings have them.
+    let warning = r#"warning at "0": ARC has the radius 0: it is a point, and is not cut"#;
+    for (tags, place) in [
+        ("0 ARC 5 A 10 1 20 2 40 0 50 90 51 90", "1 2"),
+        ("0 ARC 5 A 10 1 20 2 40 0 50 0 51 360", "1 2"),
+        ("0 ARC 5 A 10 1 20 2 40 0 50 0 51 0 230 -1", "-1 2"),
+    ] {
+        check(&dxf(tags), &[&format!("ARC A on 0: {place} ")], &[warning]);
+    }
+}
+
+#[test]
+fn angles_beyond_a_turn() {
+    for (from, to, read) in [("810", "-270", "90 -270"), ("3600000000000000000000090", "720", "80 0")] {
+        let tags = format!("0 ARC 5 A 10 1 20 2 40 3 50 {from} 51 {to}");
+        check(&dxf(&tags), &[&format!("ARC A on 0: 1 2 R3 {read}")], &[]);
+    }
+}
+
+#[test]
 fn one_fault_is_one_finding_and_harms_no_neighbour() {
     let line = "LINE A1 on DIE: 1 2 to 3 4";
     for (tags, finding) in [
@@ -111,14 +132,13 @@ fn one_fault_is_one_finding_and_harms_no_neighbour() {
         ("0 LINE 10 1", r#"error at "LINE": LINE lacks the group codes 20 (y), 11 (end x) and 21 (end y)"#),
         ("0 LINE 10 1,5 20 2 11 3 21 4", r#"error at "1,5": group code 10 (x) is "1,5", expected a number with a decimal point"#),
         ("0 LINE 10 nan 20 2 11 3 21 4", r#"error at "nan": group code 10 (x) is "nan", expected a number"#),
-        // As LibreCAD's library of symbols has them.
-        ("0 ARC 10 1 20 2 40 0 50 90 51 180", r#"warning at "0": ARC has the radius 0: it is a point, and is not cut"#),
-        ("0 CIRCLE 10 1 20 2 40 0", r#"warning at "0": CIRCLE has the radius 0: it is a point, and is not cut"#),
+        ("0 ARC 10 1 20 2 40 0 50 90 51 180", r#"error at "0": group code 40 (radius) of ARC is "0", expected a number above 0"#),
+        ("0 CIRCLE 10 1 20 2 40 0", r#"error at "0": group code 40 (radius) of CIRCLE is "0", expected a number above 0"#),
         ("0 CIRCLE 10 1 20 2 40 -1", r#"error at "-1": group code 40 (radius) of CIRCLE is "-1", expected a number above 0"#),
         ("0 ARC 10 1 20 2 40 -5 50 0 51 1", r#"error at "-5": group code 40 (radius) of ARC is "-5", expected a number above 0"#),
         ("0 LWPOLYLINE 90 2 70 1 10 1 10 2 20 3", r#"error at "1": vertex 1 lacks group code 20 (y)"#),
         ("0 LWPOLYLINE 90 1 70 1 10 1 20 3", r#"warning at "LWPOLYLINE": LWPOLYLINE has 1 vertices, expected at least 2"#),
-        ("0 SPLINE 71 3 40 0 10 1 20 1", r#"warning at "SPLINE": SPLINE has 1 control points, expected at least 4: it is not drawn"#),
+        ("0 SPLINE 71 3 40 0 10 1 20 1", r#"error at "SPLINE": SPLINE has 1 control points, expected at least 4: it is not drawn"#),
         ("0 SPLINE 71 3 10 1 20 1 30 0 10 2 20 2 30 1", r#"information at "SPLINE": 1 SPLINE: its points differ in z"#),
         ("0 ELLIPSE 10 1 20 1 11 0 21 0 40 0.5", r#"error at "ELLIPSE": ELLIPSE has no width or no length: it is not drawn"#),
         (
