@@ -7,8 +7,9 @@ use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline};
 use crate::finding::{Detail, Edit, Finding, Fix, Place};
 use crate::program;
 use crate::settings::Effective;
-use crate::text::SourceText;
+use crate::text::{Patch, SourceText, TextEdit, edited};
 use crate::{dxf, finding::Severity};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -35,6 +36,18 @@ pub struct Document {
 struct Asked {
     findings: OnceLock<Arc<[Finding]>>,
     fix_all: OnceLock<Option<Edit>>,
+}
+
+/// A repair may make room for another one; past this many rounds nothing new comes of it.
+pub const ROUNDS: usize = 12;
+
+/// Repairs that are made one after another.
+#[derive(Clone, Debug)]
+pub enum Rounds {
+    /// As one edit of the text as it stands.
+    OfText(Vec<TextEdit>),
+    /// Each with the drawing that it is made in.
+    OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
 }
 
 /// What long work looks at while the document goes on changing.
@@ -175,6 +188,51 @@ impl Document {
             Source::Program(program) => program.fix_all(self.settings()).map(Edit::Text),
         };
         self.asked.fix_all.get_or_init(edit).clone()
+    }
+
+    /// What [`Document::fix_all`] comes to when it is asked again and again: one repair makes room for another. The edits are made one
+    /// after another, each in the drawing before it; those of a text are one.
+    pub fn fix_all_to_the_end(&self) -> Option<Rounds> {
+        match &self.source {
+            Source::Dxf(text) => {
+                let mut patch = Patch::of(text.text().len());
+                let mut present = Cow::Borrowed(self);
+                let mut rounds = 0;
+                while rounds < ROUNDS
+                    && let Some(edits) = present.fix_all_in_text()
+                    && let Some(longer) = patch.then(&edits)
+                    && let Some(bytes) = present.text().and_then(|text| edited(text.bytes(), &edits))
+                {
+                    rounds += 1;
+                    patch = longer;
+                    present = Cow::Owned(Document::new(Source::Dxf(dxf::Document::read(bytes)), self.settings().clone()));
+                }
+                (rounds > 0).then(|| Rounds::OfText(patch.edits()))
+            }
+            Source::Cad(_) => {
+                let mut present = self.clone();
+                let mut rounds = Vec::new();
+                while rounds.len() < ROUNDS
+                    && let Some(Edit::Drawing(edit)) = present.fix_all()
+                    && let Some(before) = present.drawing().cloned()
+                    && let Some(Ok(())) = present.edit_drawing(|drawing| drawing.apply(&edit))
+                {
+                    rounds.push((before, edit));
+                }
+                (!rounds.is_empty()).then_some(Rounds::OfDrawing(rounds))
+            }
+            Source::Program(_) => match self.fix_all()? {
+                Edit::Text(edits) => Some(Rounds::OfText(edits)),
+                Edit::Drawing(_) => None,
+            },
+        }
+    }
+
+    fn fix_all_in_text(&self) -> Option<Vec<TextEdit>> {
+        match (self.fix_all()?, &self.source) {
+            (Edit::Drawing(edit), Source::Dxf(text)) => text.text_edits(&edit).ok().filter(|edits| !edits.is_empty()),
+            _ => None,
+        }
     }
 
     /// Bytes that a place stands for; `None` where there is no text.

@@ -3,8 +3,10 @@
 //! The bytes may be anything; nothing here knows what the text means. Offsets are bytes, lines count from 0.
 
 mod line_starts;
+mod patch;
 
 pub(crate) use line_starts::LineStarts;
+pub use patch::Patch;
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -25,6 +27,19 @@ pub(crate) const WIDEST_COLUMN: usize = 64;
 pub struct TextEdit {
     pub range: Range<usize>,
     pub text: String,
+}
+
+/// The bytes with `edits` made, which are sorted and disjoint; `None` when they are not, or reach past the end.
+pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
+    let mut result = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    for edit in edits {
+        result.extend_from_slice(bytes.get(at..edit.range.start)?);
+        result.extend_from_slice(edit.text.as_bytes());
+        at = edit.range.end;
+    }
+    result.extend_from_slice(bytes.get(at..)?);
+    Some(result)
 }
 
 /// The bytes of a document and the starts of its lines, which end with LF, CR LF or CR.

@@ -1,23 +1,9 @@
-//! What a command changes in a file: edits made in its bytes, and shown as a diff.
+//! What a command changes in a file, shown as a diff.
 
 use super::output;
-use crate::text::TextEdit;
 use similar::udiff::UnifiedHunkHeader;
 use similar::{Algorithm, ChangeTag, capture_diff_slices, group_diff_ops};
 use std::path::Path;
-
-/// The bytes with `edits` made, which are sorted and disjoint; `None` when they are not, or reach past the end.
-pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
-    let mut result = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    for edit in edits {
-        result.extend_from_slice(bytes.get(at..edit.range.start)?);
-        result.extend_from_slice(edit.text.as_bytes());
-        at = edit.range.end;
-    }
-    result.extend_from_slice(bytes.get(at..)?);
-    Some(result)
-}
 
 /// A unified diff with three lines of context, in the file's own bytes.
 pub fn diff(path: &Path, before: &[u8], after: &[u8]) -> Vec<u8> {
@@ -55,26 +41,4 @@ fn push_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
     text.extend_from_slice(shown);
     text.extend_from_slice(style.render_reset().to_string().as_bytes());
     text.extend_from_slice(if line_end.is_empty() { b"\n" } else { line_end });
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn replacement(range: std::ops::Range<usize>, text: &str) -> TextEdit {
-        TextEdit { range, text: text.into() }
-    }
-
-    #[test]
-    fn edits_change_their_bytes_and_no_others() {
-        let edits = [replacement(1..2, "xyz"), replacement(3..3, "-"), replacement(4..5, "")];
-        assert_eq!(edited(b"ab\xffde", &edits).as_deref(), Some(&b"axyz\xff-d"[..]));
-    }
-
-    #[test]
-    fn edits_that_cannot_be_made_are_refused() {
-        for edits in [vec![replacement(0..9, "")], vec![replacement(2..3, ""), replacement(1..2, "")]] {
-            assert_eq!(edited(b"abc", &edits), None);
-        }
-    }
 }

@@ -1,13 +1,13 @@
 //! `wedm fix`: every safe repair of a drawing or program, in its own bytes.
 
-use super::changes::{diff, edited};
+use super::changes::diff;
 use super::options::Common;
 use super::output::{self, counted, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, files};
-use crate::document::{Document, Source};
+use crate::document::{Document, ROUNDS, Source};
 use crate::finding::{Edit, Finding, Rule, Severity};
-use crate::text::TextEdit;
+use crate::text::{TextEdit, edited};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -55,9 +55,6 @@ const REPAIRED: [(Rule, &str); 6] = [
     (Rule::Gap, "gap"),
     (Rule::ArcAsChords, "chorded arc"),
 ];
-
-/// A fix may make room for another one; past this many rounds nothing new comes of it.
-const ROUNDS: usize = 12;
 
 /// Findings that are asked why they were not repaired: each answer costs a look at the drawing.
 const LISTED: usize = 100;

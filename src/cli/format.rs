@@ -1,12 +1,13 @@
 //! `wedm format`: programs in their layout, with the same blocks.
 
-use super::changes::{diff, edited};
+use super::changes::diff;
 use super::options::{Common, words};
 use super::output::{self, STRONG, counted, styled};
 use super::{Failure, Verdict, files};
 use crate::finding::Rule;
 use crate::program::{Language, language};
 use crate::settings::{Layout, ProgramSettings, Settings};
+use crate::text::edited;
 use clap::Args;
 use std::path::{Path, PathBuf};
 

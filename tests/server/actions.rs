@@ -148,6 +148,66 @@ fn the_actions_of_dxf_text_answer_on_any_tag_of_the_segment() {
     client.shut_down();
 }
 
+/// A tight arc, a line that lies there twice, a crumb of a line and two ends that do not meet: one action mends them all, whichever
+/// way the drawing comes, and leaves nothing that it would mend when it is asked again.
+#[test]
+fn fix_all_goes_on_until_nothing_safe_is_left() {
+    let line = |handle: &str, [a, b, c, d]: [f64; 4]| json!({ "handle": handle, "type": "line", "start": [a, b], "end": [c, d] });
+    let arc = |handle: &str, x: f64, y: f64, from: f64| json!({ "handle": handle, "type": "arc", "center": [x, y], "radius": 0.05, "startAngle": from, "endAngle": from + 90.0 });
+    let entities = json!([
+        line("1", [0.05, 0.0, 5.0, 0.0]),
+        line("2", [5.0, 0.0, 5.003, 0.0]),
+        line("3", [5.003, 0.0, 9.95, 0.0]),
+        arc("4", 9.95, 0.05, 270.0),
+        line("5", [10.0, 0.05, 10.0, 9.95]),
+        line("6", [10.0, 9.95, 10.0, 0.05]),
+        arc("7", 9.95, 9.95, 0.0),
+        line("8", [9.95, 10.006, 0.05, 10.0]),
+        arc("9", 0.05, 9.95, 90.0),
+        line("A", [0.0, 9.95, 0.0, 0.05]),
+        arc("B", 0.05, 0.05, 180.0)
+    ]);
+    let texts: Vec<String> = entities.as_array().unwrap().iter().map(dxf_entity).collect();
+    let text =
+        format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n", texts.concat());
+    let mut client = Client::start();
+    let found = client.open_text(DXF, "dxf", &text);
+    let rules =
+        |found: &[Value]| found.iter().map(|each| each["code"].as_str().unwrap().to_owned()).collect::<std::collections::BTreeSet<_>>();
+    let all = ["duplicate-entity", "gap", "short-segment", "small-radius"];
+    assert!(all.iter().all(|rule| rules(&found).contains(*rule)), "{:?}", rules(&found));
+    let offered = actions(&mut client, DXF, everywhere(), &[], Some("source.fixAll"));
+    let mut edits = offered[0]["edit"]["documentChanges"][0]["edits"].as_array().unwrap().clone();
+    // From the back, so that what lies before stays where it is.
+    edits.reverse();
+    let changes: Vec<Value> = edits.iter().map(|edit| json!({ "range": edit["range"], "text": edit["newText"] })).collect();
+    client.notify("textDocument/didChange", json!({ "textDocument": { "uri": DXF, "version": 2 }, "contentChanges": changes }));
+    let found = client.diagnostics(DXF, 2);
+    assert!(all.iter().all(|rule| !rules(&found).contains(*rule)), "{:?}", rules(&found));
+    assert!(actions(&mut client, DXF, everywhere(), &[], Some("source.fixAll")).is_empty());
+
+    let found = client.open_drawing(CAD, entities);
+    assert!(all.iter().all(|rule| rules(&found).contains(*rule)), "{:?}", rules(&found));
+    let offered = actions(&mut client, CAD, everywhere(), &[], Some("source.fixAll"));
+    client.change_drawing(CAD, 2, argument(&offered[0])["changes"].clone());
+    let found = client.diagnostics(CAD, 2);
+    assert!(all.iter().all(|rule| !rules(&found).contains(*rule)), "{:?}", rules(&found));
+    assert!(actions(&mut client, CAD, everywhere(), &[], Some("source.fixAll")).is_empty());
+    client.shut_down();
+}
+
+/// A line or an arc of a drawing as DXF text.
+fn dxf_entity(entity: &Value) -> String {
+    let kind = entity["type"].as_str().unwrap().to_uppercase();
+    let number = |key: &str| entity[key].to_string();
+    let point = |key: &str, code: u8| format!("{code}\n{}\n{}\n{}\n", entity[key][0], code + 10, entity[key][1]);
+    let rest = match kind.as_str() {
+        "LINE" => point("start", 10) + &point("end", 11),
+        _ => format!("{}40\n{}\n50\n{}\n51\n{}\n", point("center", 10), number("radius"), number("startAngle"), number("endAngle")),
+    };
+    format!("0\n{kind}\n5\n{}\n8\n0\n{rest}", entity["handle"].as_str().unwrap())
+}
+
 #[test]
 fn a_client_without_document_changes_gets_plain_ones() {
     let mut without = capabilities();

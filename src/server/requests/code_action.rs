@@ -1,7 +1,7 @@
 //! `textDocument/codeAction`: the fixes of findings, one action that makes every safe fix, and the refactorings of programs.
 
 use super::{Errand, SMALL, Subject, Target, run, subject_of, workspace_edit};
-use crate::document::{Document, Source};
+use crate::document::{Document, Rounds, Source};
 use crate::finding::{Edit, Finding, Fix, Place};
 use crate::message::en;
 use crate::program::language;
@@ -20,6 +20,9 @@ pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
 
 /// More findings than this in one range get their fixes by "fix all" only: nobody picks from a longer list.
 const LISTED: usize = 100;
+
+/// Lines of a text, or entities of a drawing, beyond which it costs too much to try a repair behind each repair for no use.
+const LONG: usize = 50_000;
 
 pub(in crate::server) fn code_action(state: &mut State, params: CodeActionParams, errand: Errand<Option<CodeActionResponse>>) {
     match prepare(state, &params) {
@@ -61,11 +64,9 @@ fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> C
             }
         }
     }
-    if wants(&params.context, FIX_ALL)
-        && let Some(edit) = document.fix_all()
-    {
+    if wants(&params.context, FIX_ALL) {
         let action = CodeAction { title: en::fix_all_title().into(), kind: Some(CodeActionKind::new(FIX_ALL)), ..CodeAction::default() };
-        actions.extend(with_edit(document, target, action, &edit));
+        actions.extend(fix_all(document, target, action, params.context.only.is_some()));
     }
     if let Some(program) = document.program()
         && is_asked_for(&params.context)
@@ -75,6 +76,22 @@ fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> C
         actions.extend(proposals.into_iter().filter_map(|proposal| refactoring(document, target, proposal)));
     }
     actions.into_iter().map(CodeActionOrCommand::CodeAction).collect()
+}
+
+/// In a long document that is gone through once where the editor asks for whatever there is, at every step of the cursor.
+fn fix_all(document: &Document, target: &Target, action: CodeAction, is_meant: bool) -> Option<CodeAction> {
+    let is_long =
+        document.text().map_or_else(|| document.drawing().map_or(0, |drawing| drawing.len()) > LONG, |text| text.line_count() > LONG);
+    if is_long && !is_meant {
+        return with_edit(document, target, action, &document.fix_all()?);
+    }
+    match document.fix_all_to_the_end()? {
+        Rounds::OfText(edits) => with_edit(document, target, action, &Edit::Text(edits)),
+        Rounds::OfDrawing(rounds) => {
+            let changes = rounds.iter().flat_map(|(drawing, edit)| protocol::changes_of(drawing, edit)).collect();
+            with_changes(target, action, changes)
+        }
+    }
 }
 
 /// False where an editor only wants to know whether to show a light bulb, at every move of the cursor.
@@ -190,18 +207,18 @@ fn with_edit(document: &Document, target: &Target, action: CodeAction, edit: &Ed
                 None
             }
         },
-        (Source::Cad(drawing), Edit::Drawing(edit)) => {
-            let changes = protocol::changes_of(drawing, edit);
-            let argument = protocol::DrawingEdit { uri: target.uri.as_str().into(), version: target.version, changes };
-            let arguments = vec![serde_json::to_value(argument).ok()?];
-            let command =
-                Command { title: action.title.clone(), command: method::APPLY_DRAWING_EDIT_COMMAND.into(), arguments: Some(arguments) };
-            Some(CodeAction { command: Some(command), ..action })
-        }
+        (Source::Cad(drawing), Edit::Drawing(edit)) => with_changes(target, action, protocol::changes_of(drawing, edit)),
         (_, Edit::Text(edits)) => {
             let edits = convert::lsp_edits(document.text()?, edits.clone(), target.encoding);
             Some(CodeAction { edit: Some(workspace_edit(target, edits)), ..action })
         }
         (Source::Program(_), Edit::Drawing(_)) => None,
     }
+}
+
+fn with_changes(target: &Target, action: CodeAction, changes: Vec<protocol::DrawingChange>) -> Option<CodeAction> {
+    let argument = protocol::DrawingEdit { uri: target.uri.as_str().into(), version: target.version, changes };
+    let arguments = vec![serde_json::to_value(argument).ok()?];
+    let command = Command { title: action.title.clone(), command: method::APPLY_DRAWING_EDIT_COMMAND.into(), arguments: Some(arguments) };
+    Some(CodeAction { command: Some(command), ..action })
 }
