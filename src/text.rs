@@ -19,6 +19,9 @@ pub enum Encoding {
     Utf16,
 }
 
+/// Padding that is wider than this is no column that somebody lined up: it is not kept. (`format!` takes no width above 65,535.)
+pub(crate) const WIDEST_COLUMN: usize = 64;
+
 /// A replacement of a range of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextEdit {

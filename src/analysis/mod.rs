@@ -521,7 +521,7 @@ impl Analysis {
         let mut taken: Vec<(Travel, Replacement)> = Vec::new();
         let mut best = None;
         let mut waiting = vec![replacements];
-        for _ in 0..repair::TRIES {
+        for _ in 0..self.tries() {
             let Some(some) = waiting.pop() else { break };
             let together: Vec<_> = taken.iter().chain(some).cloned().collect();
             let edit = small_radius::drawing_edit(drawing, &together);

@@ -36,6 +36,14 @@ struct Seen {
 /// thousands of copies in one place would be compared for ever. Where that happened is reported.
 const MOST_SEEN: usize = 20_000;
 
+/// Looks that comparing may take for each run that is looked at, and in all beside that: a box of the grid, or a segment, held
+/// against another is one. Thousands of circles about one point come near each other everywhere without being seen, and would be
+/// compared for ever. Where that happened is reported.
+const LOOKS_OF_A_RUN: u64 = 1_000;
+const LOOKS: u64 = 30_000_000;
+/// What the rules take for two segments that come near each other, in looks.
+const LOOKS_OF_A_PAIR: u64 = 16;
+
 /// Segments of a run that have one box together.
 const GROUP: usize = 8;
 
@@ -125,27 +133,30 @@ impl Pairs {
         }
         let new: FxHashSet<RunId> = runs.iter().copied().collect();
         let (mut near, mut found) = (Vec::new(), Vec::new());
+        let mut left = LOOKS.saturating_add(LOOKS_OF_A_RUN.saturating_mul(runs.len() as u64));
         let mut kept = Kept { outlook, walls: FxHashMap::default() };
         for &run in runs {
             let Some(own) = outlook(run.0) else { continue };
-            if self.seen_count >= MOST_SEEN {
+            if self.seen_count >= MOST_SEEN || left == 0 {
                 self.uncompared.insert(run);
                 continue;
             }
             let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
             near.clear();
-            self.grid.near(&area, |other| {
+            let looked = self.grid.near(&area, |other| {
                 // Two new runs are looked at once.
                 if run <= other || !new.contains(&other) {
                     near.push(other);
                 }
             });
+            left = left.saturating_sub(looked);
             if near.is_empty() {
                 continue;
             }
             let Some(walls) = kept.walls_of(run) else { continue };
             // A long line may have a box that holds half the drawing, and come near little of it.
             near.retain(|&other| {
+                left = left.saturating_sub(LOOKS_OF_A_PAIR + walls.each.len() as u64);
                 let theirs = outlook(other.0).map_or(Bounds::EMPTY, |theirs| theirs.index.bounds_of_run(other.1 as usize));
                 other == run
                     || walls
@@ -154,16 +165,16 @@ impl Pairs {
                         .any(|(wall, bounds)| bounds.grown(self.reach).touches(&theirs) && passes(wall.geometry(), &theirs, self.reach))
             });
             for &other in &near {
-                if self.seen_count >= MOST_SEEN {
+                if self.seen_count >= MOST_SEEN || left == 0 {
                     self.uncompared.insert(run);
                     break;
                 }
                 let look = Look { rules: &rules, reach: self.reach, keys: (run.0, other.0) };
-                if other == run {
-                    look.within(&walls, &mut found);
-                } else if let Some(theirs) = kept.walls_of(other) {
-                    look.between(&walls, &theirs, &mut found);
-                }
+                let looked = match kept.walls_of(other).filter(|_| other != run) {
+                    Some(theirs) => look.between(&walls, &theirs, &mut found),
+                    None => look.within(&walls, &mut found),
+                };
+                left = left.saturating_sub(looked);
                 if !found.is_empty() {
                     if found.iter().any(|seen: &Seen| seen.disc.is_some()) {
                         self.stale.insert(run);
@@ -420,27 +431,39 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn within(&self, walls: &Walls, found: &mut Vec<Seen>) {
+    /// The pairs within one run. Gives back how many looks it took, as [`Look::between`] does.
+    fn within(&self, walls: &Walls, found: &mut Vec<Seen>) -> u64 {
+        let mut looks = (walls.each.len() * walls.groups.len()) as u64;
         for (at, one) in walls.each.iter().enumerate() {
             let area = one.1.grown(self.reach);
             for (group, _) in walls.groups.iter().enumerate().skip((at + 1) / GROUP).filter(|(_, bounds)| area.touches(bounds)) {
                 let others = walls.each.iter().enumerate().skip(group * GROUP).take(GROUP);
-                others.filter(|(other, (_, bounds))| *other > at && area.touches(bounds)).for_each(|(_, other)| self.at(one, other, found));
+                for (_, other) in others.filter(|(other, (_, bounds))| *other > at && area.touches(bounds)) {
+                    looks += LOOKS_OF_A_PAIR;
+                    self.at(one, other, found);
+                }
             }
         }
+        looks
     }
 
-    fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Seen>) {
+    fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Seen>) -> u64 {
+        let mut looks = (walls.each.len() + others.each.len()) as u64;
         for one in &walls.each {
             let area = one.1.grown(self.reach);
             if !(area.touches(&others.all) && passes(one.0.geometry(), &others.all, self.reach)) {
                 continue;
             }
+            looks += others.groups.len() as u64;
             for (group, _) in others.each.chunks(GROUP).zip(&others.groups).filter(|(_, bounds)| area.touches(bounds)) {
                 let near = |other: &&(Wall, Bounds)| area.touches(&other.1) && passes(one.0.geometry(), &other.1, self.reach);
-                group.iter().filter(near).for_each(|other| self.at(one, other, found));
+                for other in group.iter().filter(near) {
+                    looks += LOOKS_OF_A_PAIR;
+                    self.at(one, other, found);
+                }
             }
         }
+        looks
     }
 
     /// Lets the rules look at two segments whose boxes come near each other. The one of the entity that is machined earlier

@@ -12,8 +12,10 @@ pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 /// And behind that, the first of them that has any.
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
-/// Edits that are tried before a rule is given up: each costs a look at the drawing.
-pub(super) const TRIES: usize = 24;
+/// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one so many that about as many
+/// segments are looked at, and at least two.
+const TRIES: usize = 24;
+const SEGMENTS: usize = 4_000_000;
 
 /// Whether the edit of one fix can be made where the drawing comes from; of all fixes where there is none to ask.
 pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
@@ -44,6 +46,12 @@ impl Analysis {
             _ => after.is_no_worse_than(before, rule),
         };
         (is_less && is_no_worse).then_some(after)
+    }
+
+    /// How many edits are tried.
+    pub(super) fn tries(&self) -> usize {
+        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
+        (SEGMENTS / segments.max(1)).clamp(2, TRIES)
     }
 
     /// What there is to be said of the drawing as it is.
@@ -91,7 +99,7 @@ impl Analysis {
     fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit]) -> Option<DrawingEdit> {
         let mut best: Option<(DrawingEdit, Tally)> = None;
         let mut waiting: Vec<&[DrawingEdit]> = [edits].into_iter().filter(|edits| !edits.is_empty()).collect();
-        for _ in 0..TRIES {
+        for _ in 0..self.tries() {
             let Some(some) = waiting.pop() else { break };
             let (taken, before) = best.as_ref().map_or((&[][..], before), |(edit, tally)| (&edit.changes, tally));
             let changes = taken.iter().chain(some.iter().flat_map(|edit| &edit.changes)).cloned().collect();

@@ -16,7 +16,7 @@ const FEW: usize = 16;
 const BULK: usize = 8;
 
 /// Of more ends than these in one cell of the plane the nearest is not sought: the first one within the join tolerance, in machining
-/// order, goes on. A drawing to be cut has a few.
+/// order, goes on, and of those that are left no more than these are looked at. A drawing to be cut has a few.
 const CROWD: usize = 1000;
 
 /// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
@@ -284,8 +284,8 @@ struct Loose<'a> {
     ends_of: &'a [Ends],
     /// Each list in machining order, and of one entity the start first; before them what was taken last in each cell.
     ends: Numbered,
-    /// Cells with more ends than [`CROWD`].
-    crowded: FxHashSet<Cell>,
+    /// Cells with more ends than [`CROWD`], and the contour that was there last.
+    crowded: FxHashMap<Cell, Key>,
     /// By number: the contour that took the entity, or [`NO_KEY`].
     taken_by: Vec<Key>,
     /// The chain at hand, in order of travel: entities, and whether they are travelled against their own direction.
@@ -303,7 +303,7 @@ impl<'a> Loose<'a> {
             entities,
             ends_of,
             ends,
-            crowded: FxHashSet::default(),
+            crowded: FxHashMap::default(),
             taken_by: vec![NO_KEY; count],
             way: Vec::new(),
             touching: Vec::new(),
@@ -317,7 +317,7 @@ impl<'a> Loose<'a> {
         let mut counts: FxHashMap<Cell, usize> = FxHashMap::default();
         let place_of = |end: End| end.of(ends_of[entities[end.entity() as usize].0 as usize]);
         loose.ends.of_long_lists(CROWD).for_each(|end| *counts.entry(cells.of(place_of(end))).or_default() += 1);
-        loose.crowded = counts.into_iter().filter(|(_, count)| *count > CROWD).map(|(cell, _)| cell).collect();
+        loose.crowded = counts.into_iter().filter(|(_, count)| *count > CROWD).map(|(cell, _)| (cell, NO_KEY)).collect();
         loose
     }
 
@@ -355,7 +355,7 @@ impl<'a> Loose<'a> {
 
     /// True in a cell with so many ends that all within the join tolerance count as equally near.
     fn is_crowded(&self, cell: Cell) -> bool {
-        !self.crowded.is_empty() && self.crowded.contains(&cell)
+        !self.crowded.is_empty() && self.crowded.contains_key(&cell)
     }
 
     fn place_of(&self, end: End) -> Point {
@@ -412,7 +412,17 @@ impl<'a> Loose<'a> {
         let own = self.cells.of(place);
         for cell in self.cells.about(place) {
             let is_crowded = self.is_crowded(cell);
-            let Loose { cells, entities, ends_of, ends, taken_by, touching, .. } = self;
+            let Loose { cells, entities, ends_of, ends, taken_by, touching, crowded, .. } = self;
+            // Whoever looks into a crowded cell need not come as far as to an end that is taken.
+            if let Some(last) = crowded.get_mut(&cell).filter(|_| is_crowded) {
+                if ![NO_KEY, key].contains(last) && touching.last() != Some(&*last) {
+                    touching.push(*last);
+                }
+                if cell == own {
+                    *last = key;
+                }
+            }
+            let (mut looked_at, mut gave_up, mut passed_tip, mut met_taken) = (0, false, false, false);
             let look = |end: End| {
                 let at = end.entity() as usize;
                 let point = end.of(ends_of[entities[at].0 as usize]);
@@ -423,7 +433,16 @@ impl<'a> Loose<'a> {
                     if taken_by[at] != key && touching.last() != Some(&taken_by[at]) {
                         touching.push(taken_by[at]);
                     }
-                    return if cell == own { Visit::Remove } else { Visit::Next };
+                    passed_tip |= end == tip;
+                    // One that is taken stays in the cells about, for those who look there next.
+                    return if cell == own || std::mem::replace(&mut met_taken, true) { Visit::Remove } else { Visit::Next };
+                }
+                if is_crowded && cells.of(point) == cell {
+                    looked_at += 1;
+                    if looked_at > CROWD {
+                        gave_up = true;
+                        return Visit::Stop;
+                    }
                 }
                 let distance = cells.distance(point, place);
                 if distance > cells.join {
@@ -441,7 +460,10 @@ impl<'a> Loose<'a> {
             };
             if cell == own {
                 ends.visit_about(tip, look);
-                ends.insert_again(tip);
+                // Where the look did not come so far, the tip may still stand in its place.
+                if passed_tip || !gave_up {
+                    ends.insert_again(tip);
+                }
             } else {
                 ends.visit(cell, look);
             }

@@ -2,7 +2,7 @@
 //!
 //! Work is bounded before it begins: the size of a block is counted once, without drawing it.
 
-use super::entity::{Look, Outcome, PAPER_SPACE, Paint};
+use super::entity::{Look, Outcome, PAPER_SPACE, Paint, TILTED};
 use super::insert::{Insert, block_key};
 use super::layer_table::LayerStates;
 use super::lexer::Lexer;
@@ -21,6 +21,8 @@ use std::sync::Arc;
 const MOST_SEGMENTS: u64 = 1_000_000;
 /// Blocks within blocks.
 const DEEPEST: usize = 64;
+/// Why a part of a block is not drawn where it is put.
+const BEYOND_MEASURE: &str = "as a part of a block it comes to no length, numbers beyond all measure, or too many arcs";
 const REFERS_TO_A_FILE: i64 = 4 | 8;
 /// What the modelspace holds stands in the section ENTITIES.
 const IN_THE_BLOCK_OF_THE_MODELSPACE: &str = "it stands in the block of the modelspace instead of the section ENTITIES";
@@ -76,8 +78,8 @@ pub(super) struct Part {
 #[derive(Default)]
 pub(super) struct Drawn {
     pub(super) parts: Vec<Part>,
-    /// What does not end level with the drawing, and is not cut: how many of which kind.
-    pub(super) tilted: BTreeMap<Kind, usize>,
+    /// What is not cut, and why: how many of which kind.
+    pub(super) left_out: BTreeMap<(Kind, &'static str), usize>,
 }
 
 /// Blocks in the order of the text.
@@ -250,14 +252,16 @@ impl Blocks {
                     match content {
                         Content::Shape { kind, shape, look, lies, .. } => {
                             let Some((shape, map)) = level(&map, shape, lies, *kind) else {
-                                *pen.drawn.tilted.entry(*kind).or_default() += 1;
+                                *pen.drawn.left_out.entry((*kind, TILTED)).or_default() += 1;
                                 continue;
                             };
                             let (visibility, color) = inherited.hand_on(*look, layer, pen.states);
-                            shape.placed(&map, *kind, &mut |kind, shape| {
-                                let drawn = shape.drawn(pen.tolerance).filter(Geometry::is_sound);
-                                let part = |geometry| Part { layer: layer.clone(), visibility: visibility.clone(), color, kind, geometry };
-                                pen.drawn.parts.extend(drawn.map(part));
+                            shape.placed(&map, *kind, &mut |kind, shape| match shape.drawn(pen.tolerance) {
+                                Ok(geometry) if geometry.is_sound() => {
+                                    let (layer, visibility) = (layer.clone(), visibility.clone());
+                                    pen.drawn.parts.push(Part { layer, visibility, color, kind, geometry });
+                                }
+                                _ => *pen.drawn.left_out.entry((kind, BEYOND_MEASURE)).or_default() += 1,
                             });
                         }
                         Content::Reference(inner) => {

@@ -45,7 +45,7 @@ use crate::geometry::Tolerances;
 use crate::text::SourceText;
 use blocks::{Blocks, Drawn, Part};
 use code_page::CodePage;
-use entity::{Look, Outcome, Paint, TILTED};
+use entity::{Look, Outcome, Paint};
 use insert::Insert;
 use layer_table::LayerStates;
 use layers::Layers;
@@ -295,9 +295,9 @@ impl Document {
             };
             match item.became {
                 Became::Unsupported(kind) if item.context != Context::Blocks || is_drawn => name(kind, 1),
-                Became::Parts { first, .. } if !self.table.tilted.is_empty() => {
-                    let tilted = self.table.tilted.get(&first).into_iter().flatten();
-                    tilted.for_each(|&(kind, how_many)| name(kind, how_many));
+                Became::Parts { first, .. } if !self.table.left_out.is_empty() => {
+                    let left_out = self.table.left_out.get(&first).into_iter().flatten();
+                    left_out.for_each(|&(kind, how_many)| name(kind, how_many));
                 }
                 _ => {}
             }
@@ -431,15 +431,15 @@ impl Reading {
             return;
         }
         let blocks = self.known.as_mut().unwrap_or(&mut self.blocks);
-        let Drawn { parts, tilted } = match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
+        let Drawn { parts, left_out } = match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
             Ok(drawn) => drawn,
             Err(sentence) => {
                 item.became = Became::Damaged;
                 return fault::damage(findings, lines.trimmed_range(insert.name_line), sentence);
             }
         };
-        if parts.is_empty() && !tilted.is_empty() {
-            item.became = Became::Unsupported(table.kinds.index("INSERT".into(), TILTED));
+        if let (true, Some(((_, why), _))) = (parts.is_empty(), left_out.first_key_value()) {
+            item.became = Became::Unsupported(table.kinds.index("INSERT".into(), why));
             return;
         }
         let mut ids = EntityId(0)..EntityId(0);
@@ -461,9 +461,9 @@ impl Reading {
             ids.end = EntityId(id.0 + 1);
         }
         item.became = Became::Parts { first: ids.start, count: ids.end.0 - ids.start.0 };
-        if !tilted.is_empty() {
-            let tilted = tilted.into_iter().map(|(kind, count)| (table.kinds.index(kind.name().into(), TILTED), count)).collect();
-            table.tilted.insert(ids.start, tilted);
+        if !left_out.is_empty() {
+            let left_out = left_out.into_iter().map(|((kind, why), count)| (table.kinds.index(kind.name().into(), why), count)).collect();
+            table.left_out.insert(ids.start, left_out);
         }
     }
 }

@@ -11,6 +11,7 @@ use super::shape::Shape;
 use super::space::Lies;
 use super::table::{Became, Context};
 use crate::finding::{Finding, Severity};
+use crate::geometry::Unfit;
 
 /// What one item of the text says.
 #[derive(Debug)]
@@ -150,9 +151,17 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: 
         return Outcome::Entity(read);
     }
     match read.shape.drawn(tolerance) {
-        Some(geometry) => Outcome::Entity(entity::Read { shape: Shape::Plain(geometry), ..read }),
-        None => {
-            let sentence = format!("{} has no length, or numbers beyond all measure: it is not drawn", read.kind);
+        Ok(geometry) => Outcome::Entity(entity::Read { shape: Shape::Plain(geometry), ..read }),
+        Err(why) => {
+            let sentence = match why {
+                Unfit::NoCurve => format!("{} has no length, or numbers beyond all measure: it is not drawn", read.kind),
+                Unfit::TooManyArcs(most) => {
+                    format!(
+                        "{} takes more than {most} arcs, which is beyond all measure for what it is made of: it is not drawn",
+                        read.kind
+                    )
+                }
+            };
             damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
             Outcome::Damaged
         }

@@ -6,7 +6,7 @@ use super::number::{self, Number, written};
 use super::place::own_tags;
 use crate::drawing::Geometry;
 use crate::geometry::positive_angle;
-use crate::text::SourceText;
+use crate::text::{SourceText, WIDEST_COLUMN};
 use std::ops::Range;
 
 /// Decimals of lengths and of angles in degrees.
@@ -28,7 +28,8 @@ impl Style {
     pub(super) fn of(text: &SourceText, lines: Lines, line: usize) -> Style {
         let (whole, code) = (lines.range(line), lines.trimmed_range(line));
         let next = text.line_start(line + 1);
-        Style { width: code.end - whole.start, line_end: text.bytes().get(whole.end..next).unwrap_or_default().to_vec() }
+        let width = (code.end - whole.start).min(WIDEST_COLUMN);
+        Style { width, line_end: text.bytes().get(whole.end..next).unwrap_or_default().to_vec() }
     }
 
     pub(super) fn tag(&self, code: i16, value: &[u8], into: &mut Vec<u8>) {

@@ -1,7 +1,7 @@
 //! What an entity draws before it is placed: block references move, turn and stretch it, and curves are fitted last.
 
 use crate::drawing::{Geometry, Kind, Vertex};
-use crate::geometry::{Chain, EllipticArc, Point, Segment, Spline, SplineCurve, Vector, cross, fit};
+use crate::geometry::{Chain, EllipticArc, Point, Segment, Spline, SplineCurve, Unfit, Vector, cross, fit};
 use std::f64::consts::TAU;
 
 /// What an entity draws, in the coordinates of its block or of the modelspace.
@@ -53,14 +53,14 @@ impl Shape {
         }
     }
 
-    /// The shape as geometry of the drawing, curves as arcs within `tolerance`. `None` where nothing can be drawn: a
-    /// curve without length, or numbers that overflow.
-    pub(super) fn drawn(self, tolerance: f64) -> Option<Geometry> {
+    /// The shape as geometry of the drawing, curves as arcs within `tolerance`. An error where nothing can be drawn:
+    /// a curve without length, numbers that overflow, or arcs beyond all measure.
+    pub(super) fn drawn(self, tolerance: f64) -> Result<Geometry, Unfit> {
         match self {
-            Shape::Plain(geometry) => Some(geometry),
-            Shape::Ellipse(arc) if !arc.is_sound() => None,
-            Shape::Ellipse(arc) => polyline(fit(&arc, tolerance)),
-            Shape::Spline(spline) => polyline(fit(&SplineCurve::from(&*spline), tolerance)),
+            Shape::Plain(geometry) => Ok(geometry),
+            Shape::Ellipse(arc) if !arc.is_sound() => Err(Unfit::NoCurve),
+            Shape::Ellipse(arc) => polyline(fit(&arc, tolerance)?).ok_or(Unfit::NoCurve),
+            Shape::Spline(spline) => polyline(fit(&SplineCurve::from(&*spline), tolerance)?).ok_or(Unfit::NoCurve),
         }
     }
 

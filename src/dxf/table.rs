@@ -123,8 +123,8 @@ pub(super) struct Table {
     pub(super) item_of: Vec<u32>,
     pub(super) vertices: FxHashMap<EntityId, VertexLines>,
     pub(super) kinds: Kinds,
-    /// What of a block does not end level with the drawing, by the first entity that its reference became: kind and how many.
-    pub(super) tilted: FxHashMap<EntityId, Vec<(u32, usize)>>,
+    /// What of a block is not cut, and why, by the first entity that its reference became: kind and how many.
+    pub(super) left_out: FxHashMap<EntityId, Vec<(u32, usize)>>,
     pub(super) layers: Vec<LayerEntry>,
     pub(super) states: LayerStates,
     /// Entities that are named by their ordinal, and that were named anew.

@@ -20,6 +20,20 @@ pub trait Curve {
 /// A fitted chain: where each segment starts and its bulge. The last point has the bulge 0.
 pub type Chain = Vec<(Point, f64)>;
 
+/// Why a curve has no chain of arcs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unfit {
+    /// It has no length, or numbers that are not finite.
+    NoCurve,
+    /// It would take more than so many arcs.
+    TooManyArcs(usize),
+}
+
+/// Arcs that a curve may become, and beside that for each of its pieces up to the one at hand. A curve of a die takes some dozens; one whose coordinates
+/// leave no digits for the tolerance, or whose points lie at random over metres, would take a million from a line of text.
+const MOST_ARCS: usize = 2_000;
+const MOST_ARCS_OF_A_PIECE: usize = 48;
+
 /// A piece is halved at most this often.
 const HALVINGS: u32 = 14;
 /// Places of each piece at which its distance from the arcs is measured.
@@ -34,22 +48,28 @@ const FINEST: f64 = 1e-9;
 /// A chain of arcs and lines that the curve lies within `tolerance` of (or within a billionth of its extent, where that
 /// is more). Parts that are exactly lines or circular arcs become one segment of at most a half turn.
 ///
-/// Empty for a curve without length or with numbers that are not finite.
-pub fn fit(curve: &impl Curve, tolerance: f64) -> Chain {
+/// None for a curve without length or with numbers that are not finite, and where it would take arcs beyond all measure.
+pub fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
     let extent = curve.extent();
     if !extent.is_finite() || extent <= 0.0 {
-        return Vec::new();
+        return Err(Unfit::NoCurve);
     }
     let tolerance = tolerance.max(extent * FINEST);
     let mut chain: Chain = Vec::new();
-    let mut last = None;
+    let (mut last, mut halves) = (None, 0);
     for (piece, (from, to)) in curve.pieces().into_iter().enumerate() {
+        let most = MOST_ARCS + MOST_ARCS_OF_A_PIECE * (piece + 1);
         let mut open = vec![(from, to, 0)];
         while let Some((from, to, depth)) = open.pop() {
+            halves += 1;
+            // Where the curve stands still, halves of it come to nothing.
+            if chain.len() > most || halves > 2 * most {
+                return Err(Unfit::TooManyArcs(most));
+            }
             let (start, end) = (curve.at(piece, from).0, curve.at(piece, to).0);
             let sound = [start.x, start.y, end.x, end.y].iter().all(|number| number.is_finite());
             if !sound {
-                return Vec::new();
+                return Err(Unfit::NoCurve);
             }
             match biarc(curve, piece, from, to, tolerance) {
                 Some(arcs) => chain.extend(arcs),
@@ -66,9 +86,9 @@ pub fn fit(curve: &impl Curve, tolerance: f64) -> Chain {
             last = Some(end);
         }
     }
-    let Some(last) = last.filter(|_| !chain.is_empty()) else { return Vec::new() };
+    let Some(last) = last.filter(|_| !chain.is_empty()) else { return Err(Unfit::NoCurve) };
     chain.push((last, 0.0));
-    merged(chain, tolerance * SAME_CIRCLE)
+    Ok(merged(chain, tolerance * SAME_CIRCLE))
 }
 
 /// True where a part of a piece stays within `least` of where it begins.
@@ -175,7 +195,7 @@ mod tests {
 
     /// Dense samples of the curve lie within the tolerance of the chain, and of the chain within it of the samples' lines.
     fn check(curve: &impl Curve, tolerance: f64) -> Result<Vec<Segment>, TestCaseError> {
-        let chain = fit(curve, tolerance);
+        let chain = fit(curve, tolerance).unwrap_or_default();
         let fitted = segments(&chain);
         prop_assert!(!fitted.is_empty());
         let mut outline = Vec::new();
@@ -251,14 +271,14 @@ mod tests {
         let weights = vec![1.0, half, 1.0, half, 1.0, half, 1.0, half, 1.0];
         let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
         let spline = Spline::new(2, knots, circle, weights).unwrap();
-        let arcs = segments(&fit(&SplineCurve::from(&spline), 1e-3));
+        let arcs = segments(&fit(&SplineCurve::from(&spline), 1e-3).unwrap());
         assert_eq!(arcs.len(), 2);
         assert!(arcs.iter().all(|arc| arc.as_arc().is_some_and(|arc| (arc.radius - 5.0).abs() < 1e-9)));
         let round = EllipticArc { center: Point::origin(), u: Vector::new(0.0, 2.0), v: Vector::new(-2.0, 0.0), start: 1.0, sweep: 1.0 };
-        assert_eq!(segments(&fit(&round, 1e-3)).len(), 1);
+        assert_eq!(segments(&fit(&round, 1e-3).unwrap()).len(), 1);
         let line = vec![Point::new(0.0, 0.0), Point::new(1.0, 1.0), Point::new(2.0, 2.0), Point::new(4.0, 4.0)];
         let spline = Spline::new(3, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], line, Vec::new()).unwrap();
-        assert_eq!(fit(&SplineCurve::from(&spline), 1e-3), [(Point::new(0.0, 0.0), 0.0), (Point::new(4.0, 4.0), 0.0)]);
+        assert_eq!(fit(&SplineCurve::from(&spline), 1e-3), Ok(vec![(Point::new(0.0, 0.0), 0.0), (Point::new(4.0, 4.0), 0.0)]));
     }
 
     #[test]
@@ -268,7 +288,7 @@ mod tests {
         let points = points.map(|(x, y)| Point::new(x, y)).to_vec();
         let knots = [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 5.0, 5.0, 5.0].to_vec();
         let spline = Spline::new(3, knots, points, Vec::new()).unwrap();
-        let fitted = segments(&fit(&SplineCurve::from(&spline), 1e-3));
+        let fitted = segments(&fit(&SplineCurve::from(&spline), 1e-3).unwrap());
         assert!(fitted.len() < 200 && fitted.iter().all(|segment| segment.length() > 0.0), "{}", fitted.len());
     }
 
@@ -276,7 +296,7 @@ mod tests {
     fn periodic_knots_close_and_bad_numbers_are_refused() {
         let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0), (4.0, 0.0), (4.0, 4.0)].map(|(x, y)| Point::new(x, y));
         let spline = Spline::new(3, (0..11).map(f64::from).collect(), square.to_vec(), Vec::new()).unwrap();
-        let chain = fit(&SplineCurve::from(&spline), 1e-3);
+        let chain = fit(&SplineCurve::from(&spline), 1e-3).unwrap();
         assert!((chain[0].0 - chain[chain.len() - 1].0).norm() < 1e-12);
         for (degree, knots, weights, expected) in [
             (0, 8, vec![], "has the degree 0, expected 1 to 24"),
@@ -289,6 +309,6 @@ mod tests {
             assert_eq!(Spline::new(degree, knots, square.to_vec(), weights).unwrap_err(), expected);
         }
         let huge = EllipticArc { center: Point::origin(), u: Vector::new(1e308, 0.0), v: Vector::new(0.0, 1e308), start: 0.0, sweep: 6.0 };
-        assert!(fit(&huge, 1e-3).iter().all(|(point, _)| point.x.is_finite()));
+        assert!(fit(&huge, 1e-3).iter().flatten().all(|(point, _)| point.x.is_finite()));
     }
 }

@@ -91,19 +91,22 @@ impl<K: Copy + PartialEq> Grid<K> {
         }
     }
 
-    /// Calls `found` for each box that touches `area`, once each, in no order.
-    pub fn near(&self, area: &Bounds, mut found: impl FnMut(K)) {
+    /// Calls `found` for each box that touches `area`, once each, in no order. Gives back how many boxes and cells were looked at.
+    pub fn near(&self, area: &Bounds, mut found: impl FnMut(K)) -> u64 {
+        let mut work = 0;
         if area.is_empty() {
-            return;
+            return work;
         }
         let mut look = |first: u32| {
-            let mut at = first;
+            let (mut at, mut count) = (first, 0);
             while let Some(boxed) = self.boxes.get(at as usize) {
                 if boxed.bounds.touches(area) {
                     found(boxed.key);
                 }
                 at = boxed.next;
+                count += 1;
             }
+            count
         };
         for &level in self.levels.keys() {
             let size = cell_size(level);
@@ -113,17 +116,20 @@ impl<K: Copy + PartialEq> Grid<K> {
             let columns = (i64::from(right) - i64::from(left) + 1) as u64;
             let rows = (i64::from(top) - i64::from(bottom) + 1) as u64;
             if columns.saturating_mul(rows) > self.first.len() as u64 {
-                self.first.iter().filter(|((other, ..), _)| *other == level).for_each(|(_, &first)| look(first));
+                work += self.first.len() as u64;
+                self.first.iter().filter(|((other, ..), _)| *other == level).for_each(|(_, &first)| work += look(first));
                 continue;
             }
+            work += columns * rows;
             for x in left..=right {
                 for y in bottom..=top {
                     if let Some(&first) = self.first.get(&(level, x, y)) {
-                        look(first);
+                        work += look(first);
                     }
                 }
             }
         }
+        work
     }
 }
 

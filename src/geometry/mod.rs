@@ -16,7 +16,7 @@ mod tolerances;
 
 pub use approach::{curvature, facing, foot_inside, meetings, shared_length};
 pub use arc::Arc;
-pub use biarc::{Chain, Curve, fit};
+pub use biarc::{Chain, Curve, Unfit, fit};
 pub use bounds::Bounds;
 pub use ellipse::EllipticArc;
 pub use grid::Grid;

@@ -3,7 +3,7 @@
 use super::words::{WordKind, words_of};
 use crate::program::trace::Step;
 use crate::program::{Document, iso};
-use crate::text::TextEdit;
+use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
 /// The block number at a byte: its bytes, and what it is.
@@ -58,7 +58,7 @@ pub fn numbered(document: &Document, lines: Range<usize>, first: u32, step: u32)
                 let before = document.text().bytes().get(..digits.start).unwrap_or_default();
                 let room = before.iter().rev().take_while(|byte| **byte == b' ').count();
                 let start = digits.start - text.len().saturating_sub(digits.len()).min(room.saturating_sub(1));
-                let text = format!("{text:>width$}", width = if room > 1 { digits.end - start } else { 0 });
+                let text = format!("{text:>width$}", width = if room > 1 { (digits.end - start).min(WIDEST_COLUMN) } else { 0 });
                 edits.push(TextEdit { range: start..digits.end, text });
             }
             None => edits.push(TextEdit { range: block.range.start..block.range.start, text: format!("N{number} ") }),

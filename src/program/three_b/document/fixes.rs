@@ -12,7 +12,7 @@ use super::super::run::{BlockEntry, Entry, Move, Sum, What, travel_of};
 use super::{At, Document};
 use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault};
 use crate::settings::Layout;
-use crate::text::TextEdit;
+use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
 impl Document {
@@ -209,7 +209,7 @@ impl Document {
         let digits_start = before[..digits_end].iter().rposition(|byte| !byte.is_ascii_digit()).map_or(0, |last| last + 1);
         if has_number && digits_end > 0 {
             // Padding is kept as wide as it was.
-            let width = digits_end - digits_start;
+            let width = (digits_end - digits_start).min(WIDEST_COLUMN);
             let padded = before.get(digits_start) == Some(&b'0');
             let text = if padded { format!("{number:0width$}") } else { number.to_string() };
             return TextEdit { range: line.start + digits_start..line.start + digits_end, text };

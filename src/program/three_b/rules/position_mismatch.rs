@@ -11,7 +11,7 @@ use super::{TextFix, motion_name, one_edit};
 use crate::finding::FixKind;
 use crate::geometry::{Arc, Point, Segment, Vector};
 use crate::program::three_b::fields::Fields;
-use crate::text::TextEdit;
+use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
 /// How far coordinates of three decimals may lie off, µm: both ends are rounded, and J of an arc moves its end by two µm on each axis.
@@ -78,7 +78,7 @@ fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
         let start = from + bytes.get(from..)?.iter().position(is_part)?;
         let length = bytes[start..].iter().position(|byte| !is_part(byte)).unwrap_or(bytes.len() - start);
         let number = std::str::from_utf8(&bytes[start..start + length]).ok()?;
-        let places = number.split_once('.').map_or(0, |(_, places)| places.len());
+        let places = number.split_once('.').map_or(0, |(_, places)| places.len().min(WIDEST_COLUMN));
         // A zero has no sign.
         let text = format!("{:.places$}", value + 0.0);
         let text = if text.trim_start_matches('-').bytes().all(|byte| matches!(byte, b'0' | b'.')) { text.replace('-', "") } else { text };

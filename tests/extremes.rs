@@ -1,0 +1,137 @@
+//! What no person writes and a file may hold all the same: padding, numbers and heaps beyond all measure. Nothing panics, and the
+//! work stays bounded.
+
+use std::fmt::Write;
+use std::sync::Arc;
+use wedm::document::{Document, Source};
+use wedm::finding::Edit;
+use wedm::program::{self, Language};
+use wedm::settings::Effective;
+
+/// More than `format!` takes as a width.
+const WIDE: usize = 70_000;
+
+fn dxf(text: &str) -> Document {
+    Document::new(Source::Dxf(wedm::dxf::Document::read(text.as_bytes().to_vec())), Arc::new(Effective::default()))
+}
+
+fn three_b(text: &str) -> Document {
+    let settings = Arc::new(Effective::default());
+    Document::new(Source::Program(program::Document::read(Language::ThreeB, text.as_bytes().to_vec(), &settings)), settings)
+}
+
+/// The rules of all findings; every fix of each is asked for, and that of all.
+fn rules(mut document: Document) -> Vec<&'static str> {
+    let (findings, _) = document.findings(usize::MAX);
+    let length = document.text().map_or(0, |text| text.bytes().len());
+    for finding in &findings {
+        for fix in document.fixes(finding) {
+            if let Edit::Text(edits) = &fix.edit {
+                assert!(edits.iter().all(|edit| edit.range.end <= length && edit.text.len() < 1000), "{:?}", finding.rule);
+            }
+        }
+    }
+    document.fix_all();
+    let mut rules: Vec<&str> = findings.iter().map(|finding| finding.rule.name()).collect();
+    rules.dedup();
+    rules
+}
+
+#[test]
+fn numbers_with_more_digits_than_a_column_can_be_wide_are_repaired() {
+    let zeros = "0".repeat(WIDE);
+    let numbers = format!("N1 B1000B0B1000GXL1\nN2 B0B1000B1000GYL2\nN{zeros}2 B1000B0B1000GXL3\nN4 B0B1000B1000GYL4\nDD\n");
+    assert!(rules(three_b(&numbers)).contains(&"block-number"));
+    let places = format!(
+        "N 1: B 1000 B 0 B 1000 GX L1 ; 1.000 , 0.000\nN 2: B 0 B 1000 B 1000 GY L2 ; 1.{zeros} , 1.{zeros}5\n\
+         N 3: B 1000 B 0 B 1000 GX L3 ; 0.{zeros} , 1.500{zeros}\nN 4: B 0 B 1000 B 1000 GY L4 ; 0.000 , 0.000\nDD\n"
+    );
+    assert!(rules(three_b(&places)).contains(&"position-mismatch"));
+}
+
+#[test]
+fn group_codes_behind_more_padding_than_a_column_can_be_wide_are_repaired() {
+    let pad = " ".repeat(WIDE);
+    let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
+    let corners = [(0, 0), (20, 0), (20, 20), (0, 20), (0, 0)];
+    for (number, pair) in corners.windows(2).enumerate() {
+        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+        let _ = write!(text, "{pad}0\nLINE\n{pad}5\nA{number}\n{pad}10\n{x0}\n{pad}20\n{y0}\n{pad}11\n{x1}\n{pad}21\n{y1}\n");
+    }
+    let _ = write!(text, "{pad}0\nLWPOLYLINE\n{pad}5\nB\n{pad}90\n3\n{pad}70\n0\n");
+    for (x, y) in [(50, 0), (60, 0), (60, 10), (50, 0)] {
+        let _ = write!(text, "{pad}10\n{x}\n{pad}20\n{y}\n");
+    }
+    text += "0\nENDSEC\n0\nEOF\n";
+    let document = dxf(&text);
+    let ids: Vec<_> = document.drawing().unwrap().entities().map(|(id, _)| id).collect();
+    // A vertex gets a bulge, an entity a neighbour: tags are written in the style of those about them.
+    let line = wedm::drawing::Geometry::Line { start: [0.0, 0.0].into(), end: [1.0, 1.0].into() };
+    let vertex = wedm::drawing::Vertex::new(60.0, 0.0, 0.5);
+    let changes = vec![
+        wedm::drawing::Change::SetVertex { entity: ids[4], index: 1, vertex },
+        wedm::drawing::Change::AddEntity { after: ids[0], geometry: line },
+    ];
+    let Source::Dxf(source) = document.source() else { unreachable!("it was read as DXF") };
+    let edits = source.text_edits(&wedm::drawing::DrawingEdit { changes }).unwrap();
+    assert!(!edits.is_empty() && edits.iter().map(|edit| edit.text.len()).sum::<usize>() < 2 * WIDE);
+    assert!(rules(document).contains(&"sharp-corner"));
+}
+
+/// Entities in a drawing in mm.
+fn drawing(entities: impl Iterator<Item = String>) -> Document {
+    let entities: String = entities.collect();
+    dxf(&format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"))
+}
+
+fn said(document: &mut Document) -> Vec<(&'static str, String)> {
+    let (findings, _) = document.findings(usize::MAX);
+    let mut said: Vec<(&str, String)> =
+        findings.iter().map(|finding| (finding.rule.name(), wedm::message::en::sentence(finding, 1.0))).collect();
+    said.sort();
+    said.dedup();
+    said
+}
+
+#[test]
+fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was_not_is_said() {
+    let lines = |count: usize| {
+        let line = |number: usize| format!("0\nLINE\n10\n{number}\n20\n0\n11\n{number}\n21\n7000\n");
+        let mut document = drawing((0..count).map(line));
+        said(&mut document).into_iter().filter(|(rule, _)| *rule == "overlap").map(|(_, sentence)| sentence).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(500), [""; 0]);
+    let [sentence] = &lines(7000)[..] else { panic!("one finding is expected") };
+    assert!(sentence.contains("not compared"), "{sentence}");
+}
+
+#[test]
+fn a_curve_that_takes_arcs_beyond_all_measure_is_named_and_not_drawn() {
+    let spline = |count: usize, size: usize| {
+        let knots = (0..count + 4).map(|knot| format!("40\n{}\n", knot.clamp(3, count) - 3));
+        let points = (0..count).map(|point| format!("10\n{}\n20\n{}\n", point * 7919 % 101 * size, point * 104_729 % 97 * size));
+        let points: String = knots.chain(points).collect();
+        format!("0\nSPLINE\n70\n8\n71\n3\n72\n{}\n73\n{count}\n{points}", count + 4)
+    };
+    let mut near = drawing([spline(200, 1)].into_iter());
+    assert!(said(&mut near).iter().all(|(rule, _)| *rule != "syntax") && near.drawing().unwrap().entities().count() == 1);
+    let mut far = drawing([spline(200, 10_000_000)].into_iter());
+    let far = (said(&mut far), far.drawing().unwrap().entities().count());
+    assert!(matches!(&far.0[..], [("syntax", sentence)] if sentence.contains("arcs")) && far.1 == 0, "{far:?}");
+}
+
+#[test]
+fn lines_that_come_together_in_heaps_are_chained_each_once() {
+    // Ends on both sides of a border between cells of the plane, so that each heap looks into the other.
+    let near = |number: usize| (0.0001 * (number % 13) as f64 - 0.0006, 0.0001 * (number % 7) as f64 - 0.0003);
+    let line = |number: usize| {
+        let (angle, (x, y)) = (number as f64, near(number));
+        format!("0\nLINE\n10\n{}\n20\n{}\n11\n{x}\n21\n{y}\n", 50.0 * angle.cos(), 50.0 * angle.sin())
+    };
+    let document = drawing((0..2400).map(line));
+    let snapshot = document.snapshot().unwrap();
+    let mut pieces: Vec<u32> = snapshot.outlines.iter().flat_map(|outline| &outline.contour.pieces).map(|piece| piece.entity.0).collect();
+    pieces.sort_unstable();
+    assert_eq!(pieces, (0..2400).collect::<Vec<u32>>());
+    assert!(snapshot.outlines.len() <= 1250, "{} contours", snapshot.outlines.len());
+}
