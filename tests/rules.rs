@@ -142,6 +142,27 @@ fn corners_are_sharp_where_the_wire_runs_inside() {
     check(&step, Some(Role::Punch), Rule::SharpCorner, 1, true);
 }
 
+/// A corner between two entities names both.
+#[test]
+fn corners_and_kinks_name_the_other_entity() {
+    let kinked = closed(&[(0.0, 0.0, 0.0), (5.0, 0.1, 0.0), (10.0, 0.0, 0.0), (5.0, 10.0, 0.0)]);
+    let related = |drawing: &Drawing, rule: Rule| {
+        let findings = analysed(drawing).1;
+        findings.iter().filter(|finding| finding.rule == rule).map(|finding| finding.related.len()).collect::<Vec<_>>()
+    };
+    let flat = closed(&[(0.0, 0.0, 0.0), (5.0, 0.05, 0.0), (10.0, 0.0, 0.0), (5.0, 10.0, 0.0)]);
+    for (shape, role, rule, expected) in [
+        (&kinked, Some(Role::Opening), Rule::SharpCorner, 3),
+        (&kinked, Some(Role::Punch), Rule::SharpCorner, 1),
+        (&flat, None, Rule::NearTangent, 1),
+    ] {
+        assert_eq!(related(&shape.as_chain(role), rule), vec![1; expected], "{rule:?}");
+        assert_eq!(related(&shape.as_polyline(role), rule), vec![0; expected], "{rule:?}");
+    }
+    // One hint for all corners names none of them.
+    assert_eq!(related(&kinked.as_chain(None), Rule::SharpCorner), [0]);
+}
+
 /// The arc that rounds so flat a corner is shorter than what a control can follow: it would be a new finding, whose fix makes the
 /// corner again.
 #[test]
