@@ -260,7 +260,7 @@ impl Document {
                                 let entity = Entity { handle: "".into(), layer: read.layer, role: None, kind: read.kind, geometry };
                                 let id = reading.push_entity(entity, read.handle, line, &mut item, table, findings, lines);
                                 if is_fitted(read.kind) {
-                                    reading.drawing.set_editable(id, false);
+                                    reading.drawing.set_fitted(id, true);
                                 }
                                 set_look(&mut reading.drawing, id, read.look, &layer, &mut table.states);
                                 item.became = Became::Entity(id);
