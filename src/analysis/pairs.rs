@@ -188,11 +188,12 @@ impl Pairs {
                 }
             }
         }
-        self.ask_again(&mut kept, limits);
+        self.ask_again(&mut kept, limits, left.max(LOOKS));
     }
 
-    /// Looks whether the discs of what has been seen at the stale runs are empty.
-    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits) {
+    /// Looks whether the discs of what has been seen at the stale runs are empty, until so many looks are `left`. Of the others nothing is
+    /// told.
+    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits, mut left: u64) {
         let stale = std::mem::take(&mut self.stale);
         let partners = stale.iter().filter_map(|run| Some((run, self.partners.get(run)?)));
         let mut asked: Vec<(RunId, RunId)> =
@@ -203,19 +204,28 @@ impl Pairs {
         for pair in asked {
             let Some(mut seen) = self.seen.remove(&pair) else { continue };
             for each in &mut seen {
-                each.blocked = each.disc.is_some_and(|disc| self.reaches_into(kept, limits, disc));
+                each.blocked = each.disc.is_some_and(|disc| left == 0 || self.reaches_into(kept, limits, disc, &mut left));
+            }
+            if left == 0 && seen.iter().any(|each| each.disc.is_some()) {
+                self.uncompared.insert(pair.0);
             }
             self.seen.insert(pair, seen);
         }
     }
 
     /// True when some segment reaches into a disc by more than rounding.
-    fn reaches_into(&self, kept: &mut Kept, limits: &Limits, (center, radius): (Point, f64)) -> bool {
+    fn reaches_into(&self, kept: &mut Kept, limits: &Limits, (center, radius): (Point, f64), left: &mut u64) -> bool {
         let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
-        self.grid.near(&area, |run| near.push(run));
-        near.into_iter().any(|run| kept.walls_of(run).is_some_and(|walls| walls.reach_into(&area, center, radius)))
+        let looked = self.grid.near(&area, |run| near.push(run));
+        *left = left.saturating_sub(looked);
+        near.into_iter().any(|run| {
+            kept.walls_of(run).is_some_and(|walls| {
+                *left = left.saturating_sub(LOOKS_OF_A_PAIR + walls.each.len() as u64);
+                walls.reach_into(&area, center, radius)
+            })
+        })
     }
 
     /// Contours that have something of `rule` between two of their own segments.
