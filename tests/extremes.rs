@@ -115,6 +115,11 @@ fn a_curve_that_takes_arcs_beyond_all_measure_is_named_and_not_drawn() {
     };
     let mut near = drawing([spline(200, 1)].into_iter());
     assert!(said(&mut near).iter().all(|(rule, _)| *rule != "syntax") && near.drawing().unwrap().entities().count() == 1);
+    // A hundred metres: a drawing that says metres and means millimetres.
+    let mut wide = drawing([spline(200, 1000)].into_iter());
+    let wide = (said(&mut wide), wide.drawing().unwrap().entities().count());
+    let is_coarse = |(rule, sentence): &(&str, String)| *rule == "syntax" && sentence.contains("times arc-fit");
+    assert!(wide.0.iter().any(is_coarse) && wide.1 == 1, "{:?}", wide.0.first());
     let mut far = drawing([spline(200, 10_000_000)].into_iter());
     let far = (said(&mut far), far.drawing().unwrap().entities().count());
     assert!(matches!(&far.0[..], [("syntax", sentence)] if sentence.contains("arcs")) && far.1 == 0, "{far:?}");

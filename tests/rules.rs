@@ -142,6 +142,61 @@ fn corners_are_sharp_where_the_wire_runs_inside() {
     check(&step, Some(Role::Punch), Rule::SharpCorner, 1, true);
 }
 
+/// A corner between two entities names both.
+#[test]
+fn corners_and_kinks_name_the_other_entity() {
+    let kinked = closed(&[(0.0, 0.0, 0.0), (5.0, 0.1, 0.0), (10.0, 0.0, 0.0), (5.0, 10.0, 0.0)]);
+    let related = |drawing: &Drawing, rule: Rule| {
+        let findings = analysed(drawing).1;
+        findings.iter().filter(|finding| finding.rule == rule).map(|finding| finding.related.len()).collect::<Vec<_>>()
+    };
+    let flat = closed(&[(0.0, 0.0, 0.0), (5.0, 0.05, 0.0), (10.0, 0.0, 0.0), (5.0, 10.0, 0.0)]);
+    for (shape, role, rule, expected) in [
+        (&kinked, Some(Role::Opening), Rule::SharpCorner, 3),
+        (&kinked, Some(Role::Punch), Rule::SharpCorner, 1),
+        (&flat, None, Rule::NearTangent, 1),
+    ] {
+        assert_eq!(related(&shape.as_chain(role), rule), vec![1; expected], "{rule:?}");
+        assert_eq!(related(&shape.as_polyline(role), rule), vec![0; expected], "{rule:?}");
+    }
+    // One hint for all corners names none of them.
+    assert_eq!(related(&kinked.as_chain(None), Rule::SharpCorner), [0]);
+}
+
+/// A spline that lies there twice goes as a whole, and a line may come in behind one; of what a block reference draws no part goes.
+#[test]
+fn doubles_of_curves_are_deleted_and_those_in_blocks_are_not() {
+    let text = |blocks: &str, entities: &str| {
+        let all = format!(
+            "0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS {blocks} 0 ENDSEC 0 SECTION 2 ENTITIES {entities} 0 ENDSEC 0 EOF"
+        );
+        all.split_whitespace().map(|tag| format!("{tag}\n")).collect::<String>()
+    };
+    let spline = |handle: &str| format!("0 SPLINE 5 {handle} 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 50 10 10 20 70 10 20 20 50 ");
+    let ellipse = |handle: &str| format!("0 ELLIPSE 5 {handle} 10 0 20 0 11 10 21 0 40 0.5 ");
+    let line = "0 LINE 5 9 8 0 10 20 20 50 11 0 21 50 ";
+    let block = "0 BLOCK 2 B 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 3 0 ENDBLK ";
+    let insert = |handle: &str| format!("0 INSERT 5 {handle} 2 B 10 0 20 0 ");
+    for (blocks, entities, rule, expected) in [
+        ("", format!("{}{line}{}", spline("1"), spline("2")), Rule::DuplicateEntity, Some(format!("{}{line}", spline("1")))),
+        ("", ellipse("1") + &ellipse("2"), Rule::DuplicateEntity, Some(ellipse("1"))),
+        ("", spline("1"), Rule::OpenContour, Some(spline("1") + "0 LINE 5 2 10 20.0 20 50.0 11 0.0 21 50.0 ")),
+        (block, insert("1") + &insert("2"), Rule::DuplicateEntity, None),
+    ] {
+        let source = Source::Dxf(wedm::dxf::Document::read(text(blocks, &entities).into_bytes()));
+        let mut document = Document::new(source, settings());
+        let findings = document.findings(usize::MAX).0;
+        let finding = findings.iter().find(|finding| finding.rule == rule).unwrap_or_else(|| panic!("{findings:#?}"));
+        let fix = document.fixes(finding).into_iter().next();
+        assert_eq!(fix.is_some(), expected.is_some(), "{entities}");
+        if let (Some(fix), Some(expected), Source::Dxf(dxf)) = (fix, expected, document.source()) {
+            let wedm::finding::Edit::Drawing(edit) = fix.edit else { panic!("an edit of the drawing") };
+            let edited = wedm::text::edited(dxf.text().bytes(), &dxf.text_edits(&edit).unwrap()).unwrap();
+            assert_eq!(String::from_utf8(edited).unwrap(), text(blocks, &expected));
+        }
+    }
+}
+
 /// The arc that rounds so flat a corner is shorter than what a control can follow: it would be a new finding, whose fix makes the
 /// corner again.
 #[test]

@@ -81,12 +81,12 @@ impl Known {
             let mut facts = facts.iter().flatten().filter(concerned);
             if rule.one_hint_when_side_unknown && wire_side.is_none() {
                 let Some(&first) = facts.next() else { continue };
-                let mildest = Some(Severity::Hint);
+                let (mildest, count) = (Some(Severity::Hint), 1 + facts.count());
                 if report.counts(rule.rule, mildest)
-                    && let (Some(place), Some(detail)) =
-                        (outlook.place(first.index as usize), (rule.detail)(outlook, first, Some(1 + facts.count())))
+                    && let (Some(place), Some(detail)) = (outlook.place(first.index as usize), (rule.detail)(outlook, first, Some(count)))
                 {
-                    report.add(rule.rule, mildest, place, detail, (rule.related)(outlook, first));
+                    let related = if count == 1 { (rule.related)(outlook, first) } else { Vec::new() };
+                    report.add(rule.rule, mildest, place, detail, related);
                 }
                 continue;
             }

@@ -67,6 +67,8 @@ pub struct Analysis {
     lost: FxHashMap<ContourKey, ((Side, bool), Vec<Lost>)>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
+    /// What there is to be said in all, once it has been asked for.
+    tally: OnceLock<Tally>,
 }
 
 impl Analysis {
@@ -87,6 +89,7 @@ impl Analysis {
             lost: FxHashMap::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
+            tally: OnceLock::new(),
         };
         let keys: Vec<ContourKey> = analysis.chains.keys().collect();
         analysis.known.reserve(keys.len());
@@ -96,6 +99,7 @@ impl Analysis {
 
     /// Looks again at what `delta` touched. Same result as a fresh [`Analysis::new`].
     pub fn update(&mut self, drawing: &Drawing, delta: &Delta) {
+        self.tally = OnceLock::new();
         let limits = Limits::new(&self.settings, self.settings.unit_of(drawing).mm);
         if limits != self.limits || delta.touched.contains(&Touched::All) || self.is_most(delta) {
             *self = Analysis::new(drawing, self.settings.clone());
@@ -422,7 +426,7 @@ impl Analysis {
             let in_fix_all = replacement.moved <= self.limits.correction;
             if let Some(edit) = small_radius::drawing_edit(drawing, &[(travel, replacement)])
                 && self.betters(drawing, &edit)
-                && self.enlarges(drawing, &before, &edit)
+                && self.enlarges(drawing, before, &edit)
             {
                 fixes.push(Fix { kind, preferred: true, in_fix_all, edit });
             }
@@ -431,7 +435,7 @@ impl Analysis {
         if let Some(place) = place.filter(|_| !is_notch)
             && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
             && self.betters(drawing, &edit)
-            && self.enlarges(drawing, &before, &edit)
+            && self.enlarges(drawing, before, &edit)
         {
             let kind = FixKind::KeepEndPoints { radius: self.limits.fix_radius, kink };
             fixes.push(Fix { kind, preferred: false, in_fix_all: false, edit });
@@ -525,7 +529,7 @@ impl Analysis {
             let Some(some) = waiting.pop() else { break };
             let together: Vec<_> = taken.iter().chain(some).cloned().collect();
             let edit = small_radius::drawing_edit(drawing, &together);
-            if let Some(edit) = edit.filter(|edit| self.betters(drawing, edit) && self.enlarges(drawing, &before, edit)) {
+            if let Some(edit) = edit.filter(|edit| self.betters(drawing, edit) && self.enlarges(drawing, before, edit)) {
                 (taken, best) = (together, Some(edit));
             } else if some.len() > 1 {
                 let (first, second) = some.split_at(some.len() / 2);

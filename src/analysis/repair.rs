@@ -27,8 +27,8 @@ impl Analysis {
         if fixes.is_empty() {
             return fixes;
         }
-        let before = self.clone().tally(drawing);
-        fixes.into_iter().filter(|fix| self.mends(drawing, rule, &before, &fix.edit).is_some()).collect()
+        let before = self.tallied(drawing);
+        fixes.into_iter().filter(|fix| self.mends(drawing, rule, before, &fix.edit).is_some()).collect()
     }
 
     /// What is found behind an edit that can be made, leaves no more errors and no more warnings than `before`, and fewer
@@ -57,8 +57,8 @@ impl Analysis {
     }
 
     /// What there is to be said of the drawing as it is.
-    pub(super) fn tallied(&self, drawing: &Drawing) -> Tally {
-        self.clone().tally(drawing)
+    pub(super) fn tallied(&self, drawing: &Drawing) -> &Tally {
+        self.tally.get_or_init(|| self.clone().tally(drawing))
     }
 
     /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no open end, overlap, crossing or
@@ -72,13 +72,12 @@ impl Analysis {
 
     /// One edit that makes the safe repairs of one of the rules, as many as do not collide.
     pub(super) fn fix_all_else(&self, drawing: &Drawing, rules: &[Rule], can: Can<'_>) -> Option<DrawingEdit> {
-        let mut analysis = self.clone();
-        let before = analysis.tally(drawing);
+        let before = self.tallied(drawing);
         let rules: Vec<Rule> = rules.iter().copied().filter(|rule| before.of(*rule) > 0).collect();
         if rules.is_empty() {
             return None;
         }
-        let (findings, _) = analysis.findings(drawing, usize::MAX);
+        let (findings, _) = self.clone().findings(drawing, usize::MAX);
         for rule in rules {
             let of_rule = findings.iter().filter(|finding| finding.rule == rule);
             let fixes = of_rule.filter_map(|finding| {
@@ -89,7 +88,7 @@ impl Analysis {
                 let accepted = fix.edit.changes.iter().all(|change| drawing.accepts(change).is_ok());
                 (accepted && can.is_none_or(|can| can(&fix.edit))).then_some(fix.edit)
             });
-            if let Some(edit) = self.most_of(drawing, rule, &before, &apart(fixes)) {
+            if let Some(edit) = self.most_of(drawing, rule, before, &apart(fixes)) {
                 return Some(edit);
             }
         }

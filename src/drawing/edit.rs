@@ -224,6 +224,13 @@ impl Drawing {
             _ => 0.0,
         };
         match change.entity() {
+            entity if matches!(change, Change::RemoveEntity { .. } | Change::AddEntity { .. }) => {
+                if self.is_whole(entity) {
+                    Ok(())
+                } else {
+                    Err(ChangeError::NotEditable)
+                }
+            }
             entity if !self.is_editable(entity) => Err(ChangeError::NotEditable),
             entity if bulge != 0.0 && self.is_straight(entity) => Err(ChangeError::OnlyLines),
             _ => Ok(()),

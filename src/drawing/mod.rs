@@ -69,6 +69,8 @@ pub struct Drawing {
     last_number: FxHashMap<Handle, u64>,
     /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
     fixed: FxHashSet<EntityId>,
+    /// Those of them that are a whole entity of the source: it can go, or another one can come beside it.
+    whole: FxHashSet<EntityId>,
     /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
     straight: FxHashSet<EntityId>,
     /// Entities that are not simply shown, with the layer that says so; the entity's own where it says so itself.
@@ -213,6 +215,21 @@ impl Drawing {
         }
     }
 
+    /// Says whether an entity is a curve that arcs are fitted to: it has no numbers for them, but is one entity of the source.
+    pub fn set_fitted(&mut self, id: EntityId, fitted: bool) {
+        self.set_editable(id, !fitted);
+        if fitted {
+            self.whole.insert(id);
+        } else {
+            self.whole.remove(&id);
+        }
+    }
+
+    /// Whether an entity is one of the source, and no part of what a block reference draws.
+    pub fn is_whole(&self, id: EntityId) -> bool {
+        self.is_editable(id) || self.whole.contains(&id)
+    }
+
     /// False for a part of a block and for arcs fitted to a curve: the source has no numbers of their own for them.
     pub fn is_editable(&self, id: EntityId) -> bool {
         !self.fixed.contains(&id)
@@ -317,6 +334,7 @@ impl Drawing {
         self.by_handle.remove(&entity.handle, id);
         self.last_number.clear();
         self.fixed.remove(&id);
+        self.whole.remove(&id);
         self.straight.remove(&id);
         self.unseen.remove(&id);
         self.set_color(id, None);

@@ -3,11 +3,25 @@
 //! Source: DXF reference, "Binary DXF files" and "Group code value types".
 
 /// What a binary file begins with.
-pub(super) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
+const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
+
+/// The same behind a program that has made LF of each CR LF, as for a text. Where a number had these two bytes, one is gone, and the
+/// tags behind it are out of step.
+const AS_TEXT: &[u8] = b"AutoCAD Binary DXF\n\x1a\0";
+
+/// What the file begins with, where it is binary DXF.
+pub(super) fn sentinel(bytes: &[u8]) -> Option<&'static [u8]> {
+    [SENTINEL, AS_TEXT].into_iter().find(|sentinel| bytes.starts_with(sentinel))
+}
+
+/// True where the file has been handled as a text on its way.
+pub(super) fn is_mangled(bytes: &[u8]) -> bool {
+    bytes.starts_with(AS_TEXT)
+}
 
 /// The file as text, one tag on two lines; and what is wrong with it, where the tags break off.
 pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
-    let mut tags = Tags { bytes, at: SENTINEL.len().min(bytes.len()), wide: false };
+    let mut tags = Tags { bytes, at: sentinel(bytes).map_or(0, <[u8]>::len), wide: false };
     // Since release 13 a code has two bytes. The first one is 0 (a record) or 999 (a comment).
     tags.wide = matches!(bytes.get(tags.at..tags.at + 2), Some([0, 0] | [0xe7, 0x03]));
     let mut text = Vec::with_capacity(bytes.len() * 2);
@@ -134,6 +148,18 @@ mod tests {
             let syntax = document.findings().iter().filter(|finding| finding.rule == crate::finding::Rule::Syntax);
             assert_eq!(syntax.count(), usize::from(length < whole.len()), "{length}: {:?}", document.findings());
         }
+    }
+
+    #[test]
+    fn a_file_that_was_handled_as_a_text_is_read_and_said() {
+        let tags = b"\0SECTION\0\x02ENTITIES\0\0LINE\0";
+        let number = |code: u8, value: f64| [&[code][..], &value.to_le_bytes()].concat();
+        let line = [number(10, 1.0), number(20, 2.0), number(11, 3.0), number(21, 4.0)].concat();
+        let whole = [AS_TEXT, tags, &line, b"\0ENDSEC\0\0EOF\0"].concat();
+        let document = crate::dxf::Document::read_file(whole);
+        let said: Vec<_> = document.findings().iter().filter(|finding| finding.rule == crate::finding::Rule::Syntax).collect();
+        assert_eq!((document.drawing().len(), said.len()), (1, 1), "{said:?}");
+        assert_eq!(said[0].severity, crate::finding::Severity::Warning);
     }
 
     #[test]

@@ -257,7 +257,7 @@ impl Blocks {
                             };
                             let (visibility, color) = inherited.hand_on(*look, layer, pen.states);
                             shape.placed(&map, *kind, &mut |kind, shape| match shape.drawn(pen.tolerance) {
-                                Ok(geometry) if geometry.is_sound() => {
+                                Ok((geometry, _)) if geometry.is_sound() => {
                                     let (layer, visibility) = (layer.clone(), visibility.clone());
                                     pen.drawn.parts.push(Part { layer, visibility, color, kind, geometry });
                                 }

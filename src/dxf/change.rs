@@ -106,7 +106,13 @@ impl Document {
         };
         let of_entity = self.table.lines_of(item, lines.count());
         let name = format!("{} {}", entity.kind, entity.handle);
-        if !self.drawing.is_editable(id) {
+        let is_changed = wanted.line.is_some()
+            || wanted.arc.is_some()
+            || wanted.closed.is_some()
+            || !wanted.vertices.is_empty()
+            || !wanted.inserted.is_empty();
+        let may = if is_changed { self.drawing.is_editable(id) } else { self.drawing.is_whole(id) };
+        if !may {
             return Err(format!("{name} is a part of a block or fitted to a curve, and has no numbers of its own in the text"));
         }
         if wanted.removed {

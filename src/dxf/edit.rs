@@ -296,7 +296,7 @@ impl Document {
                     let on_layer = layer.clone();
                     let entity = Entity { handle, layer, role: None, kind, geometry };
                     let id = put(drawing, id, position, entity, &mut delta);
-                    drawing.set_editable(id, !is_fitted(kind));
+                    drawing.set_fitted(id, is_fitted(kind));
                     let looks_new = set_look(drawing, id, look, &on_layer, &mut table.states);
                     if looks_new && delta.touched.last() != Some(&Touched::Entity { entity: id }) {
                         delta.touched.push(Touched::Entity { entity: id });

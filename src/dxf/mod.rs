@@ -75,7 +75,8 @@ impl Document {
     /// Reads a file: DXF text in the code page that it names, or binary DXF or DXB, which become text that says the same
     /// (see [`Document::is_binary`]). Never fails: what is damaged is in [`Document::findings`].
     pub fn read_file(bytes: Vec<u8>) -> Document {
-        let (is_dxf, is_dxb) = (bytes.starts_with(binary::SENTINEL), bytes.starts_with(dxb::SENTINEL));
+        let (is_dxf, is_dxb) = (binary::sentinel(&bytes).is_some(), bytes.starts_with(dxb::SENTINEL));
+        let is_mangled = binary::is_mangled(&bytes);
         let is_binary = is_dxf || is_dxb;
         let (bytes, fault) = match () {
             () if is_dxf => binary::to_text(&bytes),
@@ -85,6 +86,11 @@ impl Document {
         let layers = Layers::in_code_page(Some(CodePage::of_file(&bytes)));
         let mut document = Document { layers: Box::new(layers), is_binary, ..Document::default() };
         document.take(bytes);
+        if is_mangled && fault.is_none() {
+            let sentence =
+                "this binary file was handled as a text on its way here (LF in place of CR LF), which damages numbers".to_owned();
+            fault::oddity(&mut document.findings, 0..0, sentence);
+        }
         if let Some(sentence) = fault {
             let end = document.text.len();
             // What the last record lacks is beyond the end: one fault, one finding.
@@ -254,7 +260,7 @@ impl Document {
                                 let entity = Entity { handle: "".into(), layer: read.layer, role: None, kind: read.kind, geometry };
                                 let id = reading.push_entity(entity, read.handle, line, &mut item, table, findings, lines);
                                 if is_fitted(read.kind) {
-                                    reading.drawing.set_editable(id, false);
+                                    reading.drawing.set_fitted(id, true);
                                 }
                                 set_look(&mut reading.drawing, id, read.look, &layer, &mut table.states);
                                 item.became = Became::Entity(id);

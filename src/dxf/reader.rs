@@ -151,7 +151,15 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: 
         return Outcome::Entity(read);
     }
     match read.shape.drawn(tolerance) {
-        Ok(geometry) => Outcome::Entity(entity::Read { shape: Shape::Plain(geometry), ..read }),
+        Ok((geometry, times)) => {
+            if times > 1.0 {
+                let kind = read.kind;
+                let sentence =
+                    format!("{kind} takes too many arcs for its size: it is drawn within {times} times arc-fit, not within arc-fit");
+                oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+            }
+            Outcome::Entity(entity::Read { shape: Shape::Plain(geometry), ..read })
+        }
         Err(why) => {
             let sentence = match why {
                 Unfit::NoCurve => format!("{} has no length, or numbers beyond all measure: it is not drawn", read.kind),

@@ -1,7 +1,7 @@
 //! What an entity draws before it is placed: block references move, turn and stretch it, and curves are fitted last.
 
 use crate::drawing::{Geometry, Kind, Vertex};
-use crate::geometry::{Chain, EllipticArc, Point, Segment, Spline, SplineCurve, Unfit, Vector, cross, fit};
+use crate::geometry::{Chain, Curve, EllipticArc, Point, Segment, Spline, SplineCurve, Unfit, Vector, cross, fit};
 use std::f64::consts::TAU;
 
 /// What an entity draws, in the coordinates of its block or of the modelspace.
@@ -43,6 +43,21 @@ impl Affine {
     }
 }
 
+/// How much coarser a curve is drawn that takes too many arcs; each step saves half of them.
+const COARSER: [f64; 4] = [1.0, 8.0, 64.0, 512.0];
+
+fn fitted(curve: &impl Curve, tolerance: f64) -> Result<(Geometry, f64), Unfit> {
+    let mut last = Unfit::NoCurve;
+    for times in COARSER {
+        match fit(curve, tolerance * times) {
+            Ok(chain) => return polyline(chain).map(|geometry| (geometry, times)).ok_or(Unfit::NoCurve),
+            Err(Unfit::NoCurve) => return Err(Unfit::NoCurve),
+            Err(too_many) => last = too_many,
+        }
+    }
+    Err(last)
+}
+
 impl Shape {
     /// An upper bound, or for a curve a guess, of the number of segments that it becomes.
     pub(super) fn cost(&self) -> u64 {
@@ -53,14 +68,15 @@ impl Shape {
         }
     }
 
-    /// The shape as geometry of the drawing, curves as arcs within `tolerance`. An error where nothing can be drawn:
-    /// a curve without length, numbers that overflow, or arcs beyond all measure.
-    pub(super) fn drawn(self, tolerance: f64) -> Result<Geometry, Unfit> {
+    /// The shape as geometry of the drawing, curves as arcs within `tolerance`; where that takes arcs beyond all measure, as in a
+    /// drawing that says metres and means millimetres, within so many times of it. An error where nothing can be drawn: a curve
+    /// without length, numbers that overflow, or still too many arcs.
+    pub(super) fn drawn(self, tolerance: f64) -> Result<(Geometry, f64), Unfit> {
         match self {
-            Shape::Plain(geometry) => Ok(geometry),
+            Shape::Plain(geometry) => Ok((geometry, 1.0)),
             Shape::Ellipse(arc) if !arc.is_sound() => Err(Unfit::NoCurve),
-            Shape::Ellipse(arc) => polyline(fit(&arc, tolerance)?).ok_or(Unfit::NoCurve),
-            Shape::Spline(spline) => polyline(fit(&SplineCurve::from(&*spline), tolerance)?).ok_or(Unfit::NoCurve),
+            Shape::Ellipse(arc) => fitted(&arc, tolerance),
+            Shape::Spline(spline) => fitted(&SplineCurve::from(&*spline), tolerance),
         }
     }
 

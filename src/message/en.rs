@@ -91,6 +91,7 @@ pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> Strin
         Detail::Overlap { .. } => format!("runs on this one: {place}"),
         Detail::SelfIntersection { touches: true, .. } => format!("touches this one: {place}"),
         Detail::SelfIntersection { .. } => format!("crosses this one: {place}"),
+        Detail::SharpCorner { .. } | Detail::NearTangent { .. } => format!("meets this one: {place}"),
         _ => format!("the other one: {place}"),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::segment::SegmentShape;
 use crate::drawing::{Drawing, Outline, Role};
+use crate::geometry::Tolerances;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -63,11 +64,12 @@ pub struct Gap {
 impl Contours {
     /// `unit_mm` is the drawing's unit in mm.
     pub fn new(drawing: &Drawing, outlines: &[Outline], unit_mm: f64) -> Contours {
-        Contours { units_to_mm: unit_mm, contours: outlines.iter().map(|outline| contour(drawing, outline)).collect() }
+        Contours { units_to_mm: unit_mm, contours: outlines.iter().map(|outline| contour(drawing, outline, unit_mm)).collect() }
     }
 }
 
-fn contour(drawing: &Drawing, outline: &Outline) -> ContoursContour {
+fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64) -> ContoursContour {
+    let rounding = Tolerances::default().in_units(unit_mm).report;
     let segments: Vec<_> = outline.contour.segments(drawing).collect();
     let count = segments.len();
     let closed = outline.contour.closed;
@@ -75,7 +77,7 @@ fn contour(drawing: &Drawing, outline: &Outline) -> ContoursContour {
     let gaps = (0..joints).filter_map(|after| {
         let (end, start) = (segments.get(after)?.geometry.end(), segments.get((after + 1) % count)?.geometry.start());
         let distance = (start - end).norm();
-        (distance > 0.0).then_some(Gap { after, distance })
+        (distance > rounding).then_some(Gap { after, distance })
     });
     let direction = if outline.twice_area < 0.0 { Direction::Cw } else { Direction::Ccw };
     ContoursContour {
@@ -96,5 +98,34 @@ fn contour(drawing: &Drawing, outline: &Outline) -> ContoursContour {
                 })
             })
             .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Contour, Entity, Geometry, Kind};
+    use crate::geometry::Point;
+    use std::f64::consts::PI;
+
+    /// Two half circles meet but for the last digits of the sine; what the rule `gap` speaks of is listed.
+    #[test]
+    fn rounding_is_no_gap() {
+        for (off, expected) in [(0.0, vec![]), (0.002, vec![(0, 0.002), (1, 0.002)])] {
+            let mut drawing = Drawing::new(None);
+            let half = |x: f64, start_angle: f64| Geometry::Arc {
+                center: Point::new(x, 0.0),
+                radius: 5.0,
+                start_angle,
+                end_angle: start_angle + PI,
+            };
+            let ids = [half(0.0, 0.0), half(off, PI)]
+                .map(|geometry| drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: Kind::Arc, geometry }));
+            let contour = Contour::new(&drawing, ids.map(|id| (id, false)), true);
+            let outline = Outline { contour, role: Role::Both, twice_area: 1.0 };
+            let listed = Contours::new(&drawing, &[outline], 1.0).contours.remove(0).gaps;
+            let listed: Vec<_> = listed.into_iter().map(|gap| (gap.after, (gap.distance * 1e9).round() / 1e9)).collect();
+            assert_eq!(listed, expected);
+        }
     }
 }

@@ -124,6 +124,13 @@ pub struct LocalRule {
     pub one_hint_when_side_unknown: bool,
 }
 
+/// The segment before the joint that a fact stands at, where it is of another entity.
+fn other_at_joint(outlook: &Outlook, fact: Fact) -> Vec<Place> {
+    let (before, own) = (outlook.segment(fact.index as isize - 1), outlook.segment(fact.index as isize));
+    let other = before.filter(|before| own.is_some_and(|own| own.entity != before.entity));
+    other.map(|before| Place::Segment { entity: before.entity, segment: before.segment }).into_iter().collect()
+}
+
 /// Every rule on single segments and their neighbours.
 pub const LOCAL_RULES: &[LocalRule] = &[sharp_corner::RULE, gap::RULE, short_segment::RULE, near_tangent::RULE, arc_as_chords::RULE];
 

@@ -5,7 +5,7 @@
 
 use super::sharp_corner::{CLEAR, inner_side};
 use super::small_radius::{Travel, center_side, drawing_edit, made_tangent};
-use super::{Fact, LocalRule, Outlook};
+use super::{Fact, LocalRule, Outlook, other_at_joint};
 use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
 use crate::geometry::Segment;
@@ -16,7 +16,7 @@ pub const RULE: LocalRule = LocalRule {
     look,
     reach: |_, _| (0, 1),
     holds: |_, _| true,
-    related: |_, _| Vec::new(),
+    related: other_at_joint,
     detail,
     fixes,
     one_hint_when_side_unknown: false,

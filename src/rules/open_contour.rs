@@ -50,7 +50,9 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
     let Some(piece) = contour.pieces.last().filter(|_| encloses && !contour.closed && length > outlook.limits.tolerances.join) else {
         return Vec::new();
     };
-    let own = matches!(outlook.drawing.get(piece.entity).map(|entity| &entity.geometry), Some(Geometry::Polyline { .. }));
+    // A spline has no vertices of its own to be closed with.
+    let own = outlook.drawing.is_editable(piece.entity)
+        && matches!(outlook.drawing.get(piece.entity).map(|entity| &entity.geometry), Some(Geometry::Polyline { .. }));
     let change = match contour.pieces.len() {
         1 if own => Change::SetClosed { entity: piece.entity, closed: true },
         _ => Change::AddEntity { after: piece.entity, geometry: Geometry::Line { start: from, end: to } },

@@ -5,7 +5,7 @@
 
 use super::arc_as_chords::{self, are_between_chords};
 use super::small_radius::{Travel, fillet};
-use super::{Fact, LocalRule, Outlook};
+use super::{Fact, LocalRule, Outlook, other_at_joint};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ pub const RULE: LocalRule = LocalRule {
     look,
     reach: |_, _| (arc_as_chords::REACH, arc_as_chords::REACH),
     holds: |_, _| true,
-    related: |_, _| Vec::new(),
+    related: other_at_joint,
     detail,
     fixes,
     one_hint_when_side_unknown: true,

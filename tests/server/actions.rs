@@ -98,6 +98,12 @@ fn only_what_is_asked_for_is_offered() {
     check(Some("source.fixAll.other"), &[]);
     check(Some("source.organizeImports"), &[]);
     check(Some("refactor"), &[]);
+    // For a light bulb: editors ask at every step of the cursor.
+    let context = json!({ "diagnostics": [], "triggerKind": 2 });
+    let params = json!({ "textDocument": { "uri": CAD }, "range": everywhere(), "context": context });
+    let offered = client.request("textDocument/codeAction", params).unwrap();
+    let kinds: Vec<&str> = offered.as_array().unwrap().iter().filter_map(|action| action["kind"].as_str()).collect();
+    assert_eq!(kinds, ["quickfix", "quickfix"]);
     client.shut_down();
 }
 

@@ -64,7 +64,7 @@ fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> C
             }
         }
     }
-    if wants(&params.context, FIX_ALL) {
+    if wants(&params.context, FIX_ALL) && is_asked_for(&params.context) {
         let action = CodeAction { title: en::fix_all_title().into(), kind: Some(CodeActionKind::new(FIX_ALL)), ..CodeAction::default() };
         actions.extend(fix_all(document, target, action, params.context.only.is_some()));
     }
