@@ -67,9 +67,17 @@ pub struct Pairs {
     uncompared: FxHashSet<RunId>,
     /// The farthest that a rule reaches.
     reach: f64,
+    /// Looks that are left, for comparing and for asking whether discs are empty, until [`Pairs::begin`] gives new ones.
+    left: u64,
+    left_to_ask: u64,
 }
 
 impl Pairs {
+    /// Gives the looks that one change of the drawing may take, however many contours it touches.
+    pub fn begin(&mut self) {
+        (self.left, self.left_to_ask) = (LOOKS, LOOKS);
+    }
+
     /// True when nothing that has been seen between others depends on this contour, and all that is sought has been.
     pub fn may_spare(&self, key: ContourKey) -> bool {
         let depends = |each: &Seen| each.disc.is_some() && each.one.0 != key && each.other.0 != key;
@@ -133,7 +141,9 @@ impl Pairs {
         }
         let new: FxHashSet<RunId> = runs.iter().copied().collect();
         let (mut near, mut found) = (Vec::new(), Vec::new());
-        let mut left = LOOKS.saturating_add(LOOKS_OF_A_RUN.saturating_mul(runs.len() as u64));
+        let more = LOOKS_OF_A_RUN.saturating_mul(runs.len() as u64);
+        let mut left = self.left.saturating_add(more);
+        self.left_to_ask = self.left_to_ask.saturating_add(more);
         let mut kept = Kept { outlook, walls: FxHashMap::default() };
         for &run in runs {
             let Some(own) = outlook(run.0) else { continue };
@@ -188,12 +198,13 @@ impl Pairs {
                 }
             }
         }
-        self.ask_again(&mut kept, limits, left.max(LOOKS));
+        self.left = left;
+        self.ask_again(&mut kept, limits);
     }
 
-    /// Looks whether the discs of what has been seen at the stale runs are empty, until so many looks are `left`. Of the others nothing is
-    /// told.
-    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits, mut left: u64) {
+    /// Looks whether the discs of what has been seen at the stale runs are empty, while looks are left. Of the others nothing is told.
+    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits) {
+        let mut left = self.left_to_ask;
         let stale = std::mem::take(&mut self.stale);
         let partners = stale.iter().filter_map(|run| Some((run, self.partners.get(run)?)));
         let mut asked: Vec<(RunId, RunId)> =
@@ -211,6 +222,7 @@ impl Pairs {
             }
             self.seen.insert(pair, seen);
         }
+        self.left_to_ask = left;
     }
 
     /// True when some segment reaches into a disc by more than rounding.
