@@ -170,18 +170,27 @@ impl SourceText {
     /// line end for the end of its line.
     pub fn position_of(&self, offset: usize, encoding: Encoding) -> (usize, usize) {
         let line = self.line_of(offset);
-        let Range { start: mut at, end } = self.line_range(line);
-        let offset = offset.min(end);
-        let mut character = 0;
-        while at < offset {
-            let (bytes, units) = measure(&self.bytes[at..end], encoding);
-            if at + bytes > offset {
+        let Range { start, end } = self.line_range(line);
+        (line, self.counted(start, offset.min(end), encoding).1)
+    }
+
+    /// Characters from the byte `from` on to the byte `to` of the same line, and where the last of them ends: before `to` where that lies
+    /// within a character.
+    pub fn counted(&self, from: usize, to: usize, encoding: Encoding) -> (usize, usize) {
+        let Some(bytes) = self.bytes.get(from..to) else { return (from, 0) };
+        if bytes.is_ascii() {
+            return (to, bytes.len());
+        }
+        let (mut at, mut characters) = (from, 0);
+        while at < to {
+            let (bytes, units) = measure(&self.bytes[at..], encoding);
+            if at + bytes > to {
                 break;
             }
             at += bytes;
-            character += units;
+            characters += units;
         }
-        (line, character)
+        (at, characters)
     }
 }
 
@@ -268,6 +277,10 @@ mod tests {
                     let back = text.offset_of(line, character, encoding);
                     prop_assert!(back <= offset && offset - back < 4);
                     prop_assert_eq!(text.position_of(back, encoding), (line, character));
+                    for part in text.line_start(line)..=back {
+                        let (at, before) = text.counted(text.line_start(line), part, encoding);
+                        prop_assert_eq!(before + text.counted(at, back, encoding).1, character);
+                    }
                 }
             }
         }

@@ -216,6 +216,18 @@ fn formats_that_are_not_read_are_named_and_not_skipped() {
 }
 
 #[test]
+fn of_more_than_a_hundred_thousand_findings_the_rest_is_counted() {
+    let desk = Desk::new();
+    desk.write("heap.dxf", format!("0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n", "0\nLINE\n".repeat(100_050)));
+    let ended = desk.run("check heap.dxf --output json");
+    let json = ended.json();
+    let rows = json["diagnostics"].as_array().unwrap();
+    let last = rows.last().unwrap();
+    assert_eq!((ended.code, rows.len()), (Some(1), 100_001));
+    assert_eq!((last["rule"].as_str(), last["message"].as_str()), (Some("more"), Some("51 more findings are not shown")));
+}
+
+#[test]
 fn json_holds_each_finding_with_its_place_and_its_numbers() {
     let desk = Desk::new();
     let ended = desk.run("check tight.dxf chain.dxf clean.dxf --output json");

@@ -250,6 +250,23 @@ proptest! {
     }
 }
 
+#[test]
+fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_from() {
+    let settings = Arc::new(Effective::of(&Settings { correction: Some(0.8), side: Some(SideSetting::Opening), ..Settings::default() }));
+    for number in 1..60 {
+        let place = |share: f64| Point::new(0.1 * f64::from(number) + 1.1 * share, 0.3 + 0.7 / f64::from(number) * share);
+        let vertex = |point: Point| Vertex { point, bulge: 0.0 };
+        let mut drawing = Drawing::new(None);
+        let vertices = [Point::new(-7.3, 91.7), place(9.0), place(4.0)].map(vertex).to_vec();
+        let polyline = drawing.push(entity(Geometry::Polyline { closed: true, vertices }, None));
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        let touched = drawing.splice(polyline, 0, 1, &[vertex(place(0.1))]).unwrap();
+        analysis.update(&drawing, &Delta { touched: vec![touched] });
+        let mut fresh = Analysis::new(&drawing, settings.clone());
+        assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX), "{number}");
+    }
+}
+
 /// Findings and where they lie, entities by their place in the machining order.
 fn told(drawing: &Drawing) -> Vec<String> {
     let order = |id| drawing.order().iter().position(|&other| other == id);

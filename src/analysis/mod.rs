@@ -92,6 +92,7 @@ impl Analysis {
             tally: OnceLock::new(),
         };
         let keys: Vec<ContourKey> = analysis.chains.keys().collect();
+        analysis.pairs.begin();
         analysis.known.reserve(keys.len());
         analysis.learn(drawing, &keys);
         analysis
@@ -108,6 +109,7 @@ impl Analysis {
         if !delta.touched.is_empty() {
             self.outlines = OnceLock::new();
         }
+        self.pairs.begin();
         let mut moved = Vec::new();
         let asleep = self.asleep.take();
         match (asleep, delta.touched.as_slice()) {

@@ -67,9 +67,17 @@ pub struct Pairs {
     uncompared: FxHashSet<RunId>,
     /// The farthest that a rule reaches.
     reach: f64,
+    /// Looks that are left, for comparing and for asking whether discs are empty, until [`Pairs::begin`] gives new ones.
+    left: u64,
+    left_to_ask: u64,
 }
 
 impl Pairs {
+    /// Gives the looks that one change of the drawing may take, however many contours it touches.
+    pub fn begin(&mut self) {
+        (self.left, self.left_to_ask) = (LOOKS, LOOKS);
+    }
+
     /// True when nothing that has been seen between others depends on this contour, and all that is sought has been.
     pub fn may_spare(&self, key: ContourKey) -> bool {
         let depends = |each: &Seen| each.disc.is_some() && each.one.0 != key && each.other.0 != key;
@@ -133,7 +141,9 @@ impl Pairs {
         }
         let new: FxHashSet<RunId> = runs.iter().copied().collect();
         let (mut near, mut found) = (Vec::new(), Vec::new());
-        let mut left = LOOKS.saturating_add(LOOKS_OF_A_RUN.saturating_mul(runs.len() as u64));
+        let more = LOOKS_OF_A_RUN.saturating_mul(runs.len() as u64);
+        let mut left = self.left.saturating_add(more);
+        self.left_to_ask = self.left_to_ask.saturating_add(more);
         let mut kept = Kept { outlook, walls: FxHashMap::default() };
         for &run in runs {
             let Some(own) = outlook(run.0) else { continue };
@@ -188,11 +198,13 @@ impl Pairs {
                 }
             }
         }
+        self.left = left;
         self.ask_again(&mut kept, limits);
     }
 
-    /// Looks whether the discs of what has been seen at the stale runs are empty.
+    /// Looks whether the discs of what has been seen at the stale runs are empty, while looks are left. Of the others nothing is told.
     fn ask_again(&mut self, kept: &mut Kept, limits: &Limits) {
+        let mut left = self.left_to_ask;
         let stale = std::mem::take(&mut self.stale);
         let partners = stale.iter().filter_map(|run| Some((run, self.partners.get(run)?)));
         let mut asked: Vec<(RunId, RunId)> =
@@ -203,19 +215,29 @@ impl Pairs {
         for pair in asked {
             let Some(mut seen) = self.seen.remove(&pair) else { continue };
             for each in &mut seen {
-                each.blocked = each.disc.is_some_and(|disc| self.reaches_into(kept, limits, disc));
+                each.blocked = each.disc.is_some_and(|disc| left == 0 || self.reaches_into(kept, limits, disc, &mut left));
+            }
+            if left == 0 && seen.iter().any(|each| each.disc.is_some()) {
+                self.uncompared.insert(pair.0);
             }
             self.seen.insert(pair, seen);
         }
+        self.left_to_ask = left;
     }
 
     /// True when some segment reaches into a disc by more than rounding.
-    fn reaches_into(&self, kept: &mut Kept, limits: &Limits, (center, radius): (Point, f64)) -> bool {
+    fn reaches_into(&self, kept: &mut Kept, limits: &Limits, (center, radius): (Point, f64), left: &mut u64) -> bool {
         let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
-        self.grid.near(&area, |run| near.push(run));
-        near.into_iter().any(|run| kept.walls_of(run).is_some_and(|walls| walls.reach_into(&area, center, radius)))
+        let looked = self.grid.near(&area, |run| near.push(run));
+        *left = left.saturating_sub(looked);
+        near.into_iter().any(|run| {
+            kept.walls_of(run).is_some_and(|walls| {
+                *left = left.saturating_sub(LOOKS_OF_A_PAIR + walls.each.len() as u64);
+                walls.reach_into(&area, center, radius)
+            })
+        })
     }
 
     /// Contours that have something of `rule` between two of their own segments.

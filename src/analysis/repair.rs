@@ -13,8 +13,9 @@ pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one so many that about as many
-/// segments are looked at, and at least two.
+/// segments are looked at, and at least two; few where not even the drawing as it is has been compared to its end.
 const TRIES: usize = 24;
+const FEW_TRIES: usize = 6;
 const SEGMENTS: usize = 4_000_000;
 
 /// Whether the edit of one fix can be made where the drawing comes from; of all fixes where there is none to ask.
@@ -51,7 +52,8 @@ impl Analysis {
     /// How many edits are tried.
     pub(super) fn tries(&self) -> usize {
         let segments: usize = self.known.values().map(|known| known.index.len()).sum();
-        (SEGMENTS / segments.max(1)).clamp(2, TRIES)
+        let most = if self.pairs.uncompared() > 0 { FEW_TRIES } else { TRIES };
+        (SEGMENTS / segments.max(1)).clamp(2, most)
     }
 
     /// What there is to be said of the drawing as it is.

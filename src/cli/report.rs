@@ -2,7 +2,7 @@
 
 use crate::document::Document;
 use crate::drawing::Unit;
-use crate::finding::{Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::message::en;
 use crate::protocol::FindingData;
 use crate::text::SourceText;
@@ -59,9 +59,18 @@ fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, 
     serializer.serialize_str(rule.name())
 }
 
-/// Every finding of a document, errors first.
+/// More findings of one file are counted: a drawing of millions of faults would take gigabytes to tell of, and nobody reads them.
+const MOST: usize = 100_000;
+
+/// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
 pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
-    let (findings, _) = document.findings(usize::MAX);
+    let (mut findings, count) = document.findings(MOST);
+    if count > findings.len()
+        && let Some(severity) = document.settings().severity(Rule::More)
+    {
+        let detail = Detail::More { count: count - findings.len() };
+        findings.push(Finding { rule: Rule::More, severity, place: Place::Document, detail, related: Vec::new() });
+    }
     findings.iter().map(|finding| row(path, document, finding)).collect()
 }
 

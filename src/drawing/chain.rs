@@ -16,8 +16,11 @@ const FEW: usize = 16;
 const BULK: usize = 8;
 
 /// Of more ends than these in one cell of the plane the nearest is not sought: the first one within the join tolerance, in machining
-/// order, goes on, and of those that are left no more than these are looked at. A drawing to be cut has a few.
+/// order, goes on. A drawing to be cut has a few.
 const CROWD: usize = 1000;
+
+/// Of the ends that are left in such a cell no more than these are looked at.
+const LOOKS: usize = 64;
 
 /// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
 pub type Key = u32;
@@ -439,7 +442,7 @@ impl<'a> Loose<'a> {
                 }
                 if is_crowded && cells.of(point) == cell {
                     looked_at += 1;
-                    if looked_at > CROWD {
+                    if looked_at > LOOKS {
                         gave_up = true;
                         return Visit::Stop;
                     }

@@ -9,6 +9,9 @@ use std::ops::Range;
 /// segments make only some thousand boxes.
 pub const RUN: usize = 64;
 
+/// An area below this share of the square about a contour has no sign: it says nothing of which way the contour goes round.
+const ROUNDING: f64 = 1e-12;
+
 #[derive(Clone, Debug)]
 struct Run {
     bounds: Bounds,
@@ -95,9 +98,13 @@ impl ContourIndex {
         run * RUN..((run + 1) * RUN).min(self.segments)
     }
 
-    /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour.
+    /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour. Zero for one that goes back on itself, whose
+    /// area is what rounding leaves of it.
     pub fn twice_area(&self) -> f64 {
-        self.runs.iter().map(|run| run.twice_area).sum()
+        let twice_area: f64 = self.runs.iter().map(|run| run.twice_area).sum();
+        let bounds = self.bounds();
+        let least = ROUNDING * (bounds.width() + bounds.height()).powi(2);
+        if twice_area.abs() > least { twice_area } else { 0.0 }
     }
 
     /// Number of runs.

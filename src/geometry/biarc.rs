@@ -33,6 +33,8 @@ pub enum Unfit {
 /// leave no digits for the tolerance, or whose points lie at random over metres, would take a million from a line of text.
 const MOST_ARCS: usize = 2_000;
 const MOST_ARCS_OF_A_PIECE: usize = 48;
+/// The tolerance for which these hold; a finer one takes more, by the cube root.
+const USUAL: f64 = 1e-3;
 
 /// A piece is halved at most this often.
 const HALVINGS: u32 = 14;
@@ -55,10 +57,11 @@ pub fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
         return Err(Unfit::NoCurve);
     }
     let tolerance = tolerance.max(extent * FINEST);
+    let finer = (USUAL / tolerance).cbrt().max(1.0);
     let mut chain: Chain = Vec::new();
     let (mut last, mut halves) = (None, 0);
     for (piece, (from, to)) in curve.pieces().into_iter().enumerate() {
-        let most = MOST_ARCS + MOST_ARCS_OF_A_PIECE * (piece + 1);
+        let most = (finer * (MOST_ARCS + MOST_ARCS_OF_A_PIECE * (piece + 1)) as f64) as usize;
         let mut open = vec![(from, to, 0)];
         while let Some((from, to, depth)) = open.pop() {
             halves += 1;

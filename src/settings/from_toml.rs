@@ -9,8 +9,16 @@ use toml::de::{DeTable, DeValue};
 /// Name of the project's file.
 pub const FILE_NAME: &str = "wedm.toml";
 
-/// Reads a `wedm.toml`. What does not fit is left out and reported with its bytes, everything else holds.
+/// Bytes that a settings file may have; nobody writes so many, and each costs hundreds in memory.
+const LARGEST: usize = 1024 * 1024;
+
+/// Reads a `wedm.toml`. What does not fit is left out and reported with its bytes, everything else holds. Of one that is larger than
+/// [`LARGEST`] nothing does.
 pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
+    if text.len() > LARGEST {
+        let message = format!("the file has {} bytes, expected at most {LARGEST}: none of it holds", text.len());
+        return (Settings::default(), vec![SettingsError { key: String::new(), message, range: Some(0..0) }]);
+    }
     let (table, faults) = DeTable::parse_recoverable(text);
     let mut errors: Vec<SettingsError> = faults
         .into_iter()
@@ -21,9 +29,8 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
         })
         .collect();
     // What follows a fault on its line is the parser's guess.
-    errors.dedup_by_key(|error| {
-        error.range.as_ref().map_or(0, |range| text.as_bytes()[..range.start.min(text.len())].iter().filter(|&&byte| byte == b'\n').count())
-    });
+    let line_ends: Vec<usize> = memchr::memchr_iter(b'\n', text.as_bytes()).collect();
+    errors.dedup_by_key(|error| error.range.as_ref().map_or(0, |range| line_ends.partition_point(|&end| end < range.start)));
     let range = table.span();
     let (settings, misfits) = reader::read(&Node { value: Value::Table(entries(table.get_ref())), range: Some(range) });
     errors.extend(misfits);

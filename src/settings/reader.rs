@@ -478,6 +478,14 @@ end = "DD"
     }
 
     #[test]
+    fn a_file_beyond_all_measure_is_said_to_be_so_and_thousands_of_faults_are_read_in_one_pass() {
+        let (settings, errors) = from_toml(&format!("correction = 0.2\n{}", "# \n".repeat(400_000)));
+        assert!(settings == Settings::default() && errors.len() == 1 && errors[0].message.contains("expected at most"), "{errors:?}");
+        let (settings, errors) = from_toml(&format!("correction = 0.2\n{}", "x\n".repeat(50_000)));
+        assert_eq!((settings.correction, errors.len()), (Some(0.2), 50_000));
+    }
+
+    #[test]
     fn json_is_taken_bare_or_as_the_section_and_null_is_not_set() {
         let check = |json: serde_json::Value, correction: Option<f64>, errors: usize| {
             let (settings, found) = from_json(&json);

@@ -1,13 +1,14 @@
 //! Giving memory back to the system.
 //!
 //! A message of many megabytes becomes millions of small pieces on its way; freed, they stay with the allocator of some
-//! systems for good. What a large message left behind is given back a moment after it.
+//! systems for good. So does what thousands of small ones opened and closed again. What a large message, or as much in small ones,
+//! left behind is given back a moment after it.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Messages shorter than this leave little behind.
+/// Messages that come to less than this together leave little behind.
 const LARGE: usize = 1024 * 1024;
 /// Long enough for what the message set off to be done with.
 const DELAY: Duration = Duration::from_millis(400);
@@ -15,14 +16,17 @@ const DELAY: Duration = Duration::from_millis(400);
 #[derive(Clone, Default)]
 pub(super) struct Memory {
     is_due: Arc<AtomicBool>,
+    /// Bytes of the messages since memory was given back last.
+    length: Arc<AtomicUsize>,
 }
 
 impl Memory {
     /// Gives back what a message of `length` bytes leaves behind.
     pub fn after_message(&self, length: usize, runtime: &tokio::runtime::Runtime) {
-        if length < LARGE || self.is_due.swap(true, Ordering::AcqRel) {
+        if self.length.fetch_add(length, Ordering::AcqRel).saturating_add(length) < LARGE || self.is_due.swap(true, Ordering::AcqRel) {
             return;
         }
+        self.length.store(0, Ordering::Release);
         let is_due = self.is_due.clone();
         runtime.spawn(async move {
             tokio::time::sleep(DELAY).await;

@@ -181,17 +181,19 @@ pub(in crate::server) fn range(state: &mut State, uri: &Uri, range: Range) -> Re
 fn encoded(text: &SourceText, tokens: &[Token], encoding: Encoding) -> Vec<SemanticToken> {
     let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     let (mut line, mut character) = (0, 0);
+    // A byte of the line and its character: what has been counted is not counted again, a program may stand in one line.
+    let (mut known, mut counted) = (0, 0);
     let mut data = Vec::with_capacity(tokens.len());
     for token in tokens {
         let begin = text.line_start(token.line);
         let (start, end) = (begin + token.start, begin + token.start + token.length);
-        let plain = text.bytes().get(begin..end).is_some_and(<[u8]>::is_ascii);
-        let (from, length) = if plain {
-            (token.start, token.length)
-        } else {
-            let from = text.position_of(start, encoding).1;
-            (from, text.position_of(end, encoding).1 - from)
-        };
+        if token.line != line || start < known || data.is_empty() {
+            (known, counted) = (begin, 0);
+        }
+        let (at, before) = text.counted(known, start, encoding);
+        let from = counted + before;
+        let length = text.counted(at, end, encoding).1;
+        (known, counted) = (at, from);
         let delta_line = token.line - line;
         data.push(SemanticToken {
             delta_line: number(delta_line),
