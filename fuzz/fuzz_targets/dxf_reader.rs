@@ -47,7 +47,7 @@ fuzz_target!(|data: &[u8]| {
     let inspection = Inspection::of(&document, None).expect("a drawing");
     assert!(inspection.entities.len() <= drawing.len());
     if let Some(snapshot) = document.snapshot() {
-        Contours::new(&snapshot.drawing, &snapshot.outlines, unit.mm);
+        Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
         wedm::picture::svg(&drawing, &snapshot.outlines, &findings, &[], unit.mm);
     }
     let fixes = findings.iter().take(REPAIRS).flat_map(|finding| document.fixes(finding)).map(|fix| fix.edit);

@@ -33,8 +33,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let Some(snapshot) = opened.document.snapshot() else {
         return Err(Failure(format!("{}: there is no drawing in it", arguments.path.display())));
     };
-    let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
-    let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, unit_mm);
+    let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
     let printed = match arguments.output {
         Format::Text => list(&contours),
         Format::Json => format!("{}\n", serde_json::to_string(&contours).map_err(|error| Failure(error.to_string()))?),
@@ -82,5 +81,7 @@ fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
     };
     let length = contour.length * unit_mm;
     let area = contour.area.map_or_else(String::new, |area| format!(", area {:.3} mm²", area * unit_mm * unit_mm));
-    format!("contour {index}: {shape}, {role}, {}, length {length:.3} mm{area}", counted(contour.segments.len(), "segment"))
+    let order = contour.order.map_or_else(String::new, |order| format!(", cut number {}", order + 1));
+    let mark = contour.mark.map_or_else(String::new, |[x, y]| format!(", start mark at {x:.3}, {y:.3}"));
+    format!("contour {index}: {shape}, {role}, {}, length {length:.3} mm{area}{order}{mark}", counted(contour.segments.len(), "segment"))
 }

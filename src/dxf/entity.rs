@@ -9,7 +9,7 @@ use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
 use super::shape::Shape;
 use super::space::{FLAT, Lies, Space, Vector3, in_space as at_height};
-use super::strings::words_of_mtext;
+use super::strings::{words_of_mtext, words_of_text};
 use super::{curve, insert, plain};
 use crate::drawing::{Color, Geometry, Handle, Kind, Vertex};
 use crate::finding::Finding;
@@ -489,7 +489,7 @@ fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings
         (_, lies) => (if common.plane() == Plane::Mirrored { 0.0 - x } else { x }, y, lies),
     };
     let content = layers.text(&content);
-    let words = if kind == Kind::LongText { words_of_mtext(&content) } else { content };
+    let words = if kind == Kind::LongText { words_of_mtext(&content) } else { words_of_text(&content) };
     let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
     common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None, findings)
 }

@@ -51,6 +51,21 @@ fn multibyte(text: &str) -> Option<(char, usize)> {
     Some((only, 8))
 }
 
+/// The words of a TEXT: switches of underline, overline and strike-through (`%%u`, `%%o`, `%%k`) dropped.
+pub(super) fn words_of_text(text: &str) -> String {
+    let mut words = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find("%%") {
+        let (before, code) = rest.split_at(at);
+        words.push_str(before);
+        let is_switch = matches!(code.as_bytes().get(2), Some(b'u' | b'U' | b'o' | b'O' | b'k' | b'K'));
+        words.push_str(if is_switch { "" } else { "%%" });
+        rest = code.get(if is_switch { 3 } else { 2 }..).unwrap_or_default();
+    }
+    words.push_str(rest);
+    words
+}
+
 /// The words of an MTEXT: groups, fonts, heights and colours dropped, `\P` a new line (DXF reference, MTEXT format codes).
 pub(super) fn words_of_mtext(text: &str) -> String {
     let mut words = String::with_capacity(text.len());
@@ -102,6 +117,9 @@ mod tests {
             [("O", "O"), ("{\\fArial|b0|i0;O}", "O"), ("\\A1;a\\Pb\\~c\\\\\\{", "a\nb c\\{"), ("\\LO\\l", "O"), ("\\H2.5", ""), ("\\", "")]
         {
             assert_eq!(words_of_mtext(text), expected);
+        }
+        for (text, expected) in [("%%uO", "O"), ("%%UO%%u", "O"), ("%%c5", "%%c5"), ("50%%", "50%%"), ("%%%%oO", "%%O"), ("O", "O")] {
+            assert_eq!(words_of_text(text), expected);
         }
     }
 }

@@ -21,12 +21,18 @@ pub(super) struct Wanted {
 pub(super) fn wanted(drawing: &Drawing, outlines: &[Outline], chosen: &[usize], settings: &Effective) -> Result<Vec<Wanted>, Refusal> {
     let threads = points(drawing, outlines, chosen, settings.thread.as_ref(), "thread hole")?;
     let entries = points(drawing, outlines, chosen, settings.entry.as_ref(), "entry")?;
-    let marks = marks(drawing, outlines);
-    let wanted = chosen.iter().zip(threads.into_iter().zip(entries)).map(|(&index, (thread, entry))| {
-        let mark = || marks.iter().filter(|mark| mark.outline == index).min_by(|a, b| a.distance.total_cmp(&b.distance));
-        Wanted { thread: thread.or_else(|| mark().map(|mark| mark.at)), entry }
-    });
+    let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
+    let wanted = chosen
+        .iter()
+        .zip(threads.into_iter().zip(entries))
+        .map(|(&index, (thread, entry))| Wanted { thread: thread.or_else(|| mark_of(&marks, index)), entry });
     Ok(wanted.collect())
+}
+
+/// The mark of one outline: of several the nearest.
+pub(super) fn mark_of(marks: &[Mark], outline: usize) -> Option<Point> {
+    let own = marks.iter().filter(|mark| mark.outline == outline);
+    own.min_by(|a, b| a.distance.total_cmp(&b.distance)).map(|mark| mark.at)
 }
 
 fn points(
@@ -60,28 +66,31 @@ fn points(
     Ok(points)
 }
 
-struct Mark {
+pub(super) struct Mark {
     at: Point,
     /// The outline nearest to it.
     outline: usize,
     distance: f64,
 }
 
-/// Every text "O", with the contour that it marks.
-fn marks(drawing: &Drawing, outlines: &[Outline]) -> Vec<Mark> {
+/// Every text "O", with the contour that it marks; `None` where there are more than `most`.
+pub(super) fn marks(drawing: &Drawing, outlines: &[Outline], most: usize) -> Option<Vec<Mark>> {
     let seen = drawing.entities().filter(|(id, _)| drawing.visibility(*id).is_seen());
     let texts = seen.filter_map(|(_, entity)| match &entity.geometry {
         Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
         _ => None,
     });
-    texts
-        .filter_map(|at| {
-            let distance =
-                |outline: &Outline| outline.contour.segments(drawing).map(|s| s.geometry.distance_to(at)).fold(f64::INFINITY, f64::min);
-            let nearest = outlines.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-            nearest.map(|(outline, distance)| Mark { at, outline, distance })
-        })
-        .collect()
+    let texts: Vec<Point> = texts.collect();
+    if texts.len() > most {
+        return None;
+    }
+    let marks = texts.into_iter().filter_map(|at| {
+        let distance =
+            |outline: &Outline| outline.contour.segments(drawing).map(|s| s.geometry.distance_to(at)).fold(f64::INFINITY, f64::min);
+        let nearest = outlines.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map(|(outline, distance)| Mark { at, outline, distance })
+    });
+    Some(marks.collect())
 }
 
 /// A place on the walls.

@@ -79,6 +79,30 @@ pub fn plan(drawing: &Drawing, outlines: &[Outline], settings: &Effective, handl
     plan_while(drawing, outlines, settings, handles, &|| true)
 }
 
+/// One contour among the cuts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// Index into the outlines.
+    pub outline: usize,
+    /// The start mark that is nearest to it, of those that are nearer to no other contour.
+    pub mark: Option<Point>,
+}
+
+/// All contours in the order in which they are cut: as they are drawn, but what lies within one before it. `None` for a drawing of
+/// so many contours or marks that finding out takes longer than a question may.
+pub fn cuts(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Option<Vec<Cut>> {
+    const MOST_CONTOURS: usize = 20_000;
+    const MOST_COMPARED: usize = 20_000_000;
+    if outlines.len() > MOST_CONTOURS {
+        return None;
+    }
+    let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
+    let chosen = order::chosen(drawing, outlines, None, tolerances.zero_length).unwrap_or_default();
+    let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
+    let marks = leads::marks(drawing, outlines, MOST_COMPARED / segments.max(1))?;
+    Some(chosen.into_iter().map(|outline| Cut { outline, mark: leads::mark_of(&marks, outline) }).collect())
+}
+
 /// The same for as long as `goes_on` says so, which is asked every few milliseconds.
 pub fn plan_while(
     drawing: &Drawing,

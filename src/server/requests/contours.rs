@@ -12,7 +12,7 @@ pub(in crate::server) fn contours(state: &mut State, params: DrawingName, errand
         Ok(Subject { document, stamp, small }) => {
             run(state, "Listing contours", &params.uri, (stamp, small), errand, move |_, _| {
                 let task = Task::new(document, None)?;
-                written(&Contours::new(&task.drawing, &task.outlines, task.unit_mm()))
+                written(&Contours::new(&task.drawing, &task.outlines, &task.settings))
             });
         }
     }

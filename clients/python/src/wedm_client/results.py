@@ -135,6 +135,8 @@ class Gap:
 
 @dataclass(frozen=True)
 class Contour:
+    """``order`` is its place among the cuts, from 0; ``mark`` the start mark that leads to it."""
+
     closed: bool
     role: str
     length: float
@@ -142,6 +144,8 @@ class Contour:
     gaps: list[Gap]
     direction: str | None = None
     area: float | None = None
+    order: int | None = None
+    mark: Point | None = None
 
 
 @dataclass(frozen=True)
