@@ -36,11 +36,12 @@ struct Seen {
 /// thousands of copies in one place would be compared for ever. Where that happened is reported.
 const MOST_SEEN: usize = 20_000;
 
-/// Looks that comparing may take for each run that is looked at, and in all beside that: a box of the grid, or a segment, held
-/// against another is one. Thousands of circles about one point come near each other everywhere without being seen, and would be
+/// Looks that comparing may take for each segment that is looked at, and in all beside that: a segment held against another is one, as
+/// are four boxes of the grid. Thousands of circles about one point come near each other everywhere without being seen, and would be
 /// compared for ever. Where that happened is reported.
-const LOOKS_OF_A_RUN: u64 = 1_000;
-const LOOKS: u64 = 30_000_000;
+const LOOKS_OF_A_SEGMENT: u64 = 128;
+const BOXES_OF_A_LOOK: u64 = 4;
+const LOOKS: u64 = 10_000_000;
 /// What the rules take for two segments that come near each other, in looks.
 const LOOKS_OF_A_PAIR: u64 = 16;
 
@@ -141,7 +142,8 @@ impl Pairs {
         }
         let new: FxHashSet<RunId> = runs.iter().copied().collect();
         let (mut near, mut found) = (Vec::new(), Vec::new());
-        let more = LOOKS_OF_A_RUN.saturating_mul(runs.len() as u64);
+        let segments: usize = runs.iter().filter_map(|&(key, run)| Some(outlook(key)?.index.range_of(run as usize).len())).sum();
+        let more = LOOKS_OF_A_SEGMENT.saturating_mul(segments as u64);
         let mut left = self.left.saturating_add(more);
         self.left_to_ask = self.left_to_ask.saturating_add(more);
         let mut kept = Kept { outlook, walls: FxHashMap::default() };
@@ -159,7 +161,7 @@ impl Pairs {
                     near.push(other);
                 }
             });
-            left = left.saturating_sub(looked);
+            left = left.saturating_sub(looked / BOXES_OF_A_LOOK);
             if near.is_empty() {
                 continue;
             }
@@ -231,7 +233,7 @@ impl Pairs {
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
         let looked = self.grid.near(&area, |run| near.push(run));
-        *left = left.saturating_sub(looked);
+        *left = left.saturating_sub(looked / BOXES_OF_A_LOOK);
         near.into_iter().any(|run| {
             kept.walls_of(run).is_some_and(|walls| {
                 *left = left.saturating_sub(LOOKS_OF_A_PAIR + walls.each.len() as u64);
