@@ -41,7 +41,7 @@ const MOST_SEEN: usize = 20_000;
 /// compared for ever. Where that happened is reported.
 const LOOKS_OF_A_SEGMENT: u64 = 128;
 const BOXES_OF_A_LOOK: u64 = 4;
-const LOOKS: u64 = 10_000_000;
+const LOOKS: u64 = 50_000_000;
 /// What the rules take for two segments that come near each other, in looks.
 const LOOKS_OF_A_PAIR: u64 = 16;
 
