@@ -13,7 +13,7 @@ pub const FILE_NAME: &str = "wedm.toml";
 const LARGEST: usize = 1024 * 1024;
 
 /// Reads a `wedm.toml`. What does not fit is left out and reported with its bytes, everything else holds. Of one that is larger than
-/// [`LARGEST`] nothing does.
+/// a mebibyte nothing does.
 pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     if text.len() > LARGEST {
         let message = format!("the file has {} bytes, expected at most {LARGEST}: none of it holds", text.len());
