@@ -228,11 +228,14 @@ impl Document {
         }
     }
 
-    fn fix_all_in_text(&self) -> Option<Vec<TextEdit>> {
-        match (self.fix_all()?, &self.source) {
-            (Edit::Drawing(edit), Source::Dxf(text)) => text.text_edits(&edit).ok().filter(|edits| !edits.is_empty()),
-            _ => None,
-        }
+    /// One round of [`Document::fix_all`] as edits of the text; `None` where there is none, or the text cannot take it.
+    pub fn fix_all_in_text(&self) -> Option<Vec<TextEdit>> {
+        let edits = match (self.fix_all()?, &self.source) {
+            (Edit::Drawing(edit), Source::Dxf(text)) => text.text_edits(&edit).ok()?,
+            (Edit::Text(edits), _) => edits,
+            (Edit::Drawing(_), _) => return None,
+        };
+        Some(edits).filter(|edits| !edits.is_empty())
     }
 
     /// Bytes that a place stands for; `None` where there is no text.

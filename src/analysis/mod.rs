@@ -414,7 +414,6 @@ impl Analysis {
         }
         let Some((key, index)) = self.chains.index_of(*entity, *segment) else { return Vec::new() };
         let mut fixes = Vec::new();
-        let before = self.tallied(drawing);
         let found = self.attempt(drawing, key, index).and_then(|(travel, attempt)| Some((travel, attempt.outcome.ok()?)));
         let mut is_notch = false;
         if let Some((travel, replacement)) = found {
@@ -427,8 +426,7 @@ impl Analysis {
             let kind = FixKind::Refillet { radius, arcs: replacement.arcs, moved: replacement.moved };
             let in_fix_all = replacement.moved <= self.limits.correction;
             if let Some(edit) = small_radius::drawing_edit(drawing, &[(travel, replacement)])
-                && self.betters(drawing, &edit)
-                && self.enlarges(drawing, before, &edit)
+                && self.enlarges(drawing, &edit)
             {
                 fixes.push(Fix { kind, preferred: true, in_fix_all, edit });
             }
@@ -436,8 +434,7 @@ impl Analysis {
         let place = self.chains.get(key).and_then(|contour| contour.segment(drawing, index));
         if let Some(place) = place.filter(|_| !is_notch)
             && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
-            && self.betters(drawing, &edit)
-            && self.enlarges(drawing, before, &edit)
+            && self.enlarges(drawing, &edit)
         {
             let kind = FixKind::KeepEndPoints { radius: self.limits.fix_radius, kink };
             fixes.push(Fix { kind, preferred: false, in_fix_all: false, edit });
@@ -514,31 +511,9 @@ impl Analysis {
             }
             replacements.extend(accepted.into_iter().map(|(_, travel, replacement)| (travel, replacement)));
         }
-        if replacements.is_empty() {
-            return None;
-        }
-        self.most_arcs(drawing, &replacements)
-    }
-
-    /// As many of the replacements as one edit as go together without spoiling anything: where all of them do not, each half is
-    /// tried beside what has been taken so far, then the halves of that half.
-    fn most_arcs(&self, drawing: &Drawing, replacements: &[(Travel, Replacement)]) -> Option<DrawingEdit> {
-        let before = self.tallied(drawing);
-        let mut taken: Vec<(Travel, Replacement)> = Vec::new();
-        let mut best = None;
-        let mut waiting = vec![replacements];
-        for _ in 0..self.tries() {
-            let Some(some) = waiting.pop() else { break };
-            let together: Vec<_> = taken.iter().chain(some).cloned().collect();
-            let edit = small_radius::drawing_edit(drawing, &together);
-            if let Some(edit) = edit.filter(|edit| self.betters(drawing, edit) && self.enlarges(drawing, before, edit)) {
-                (taken, best) = (together, Some(edit));
-            } else if some.len() > 1 {
-                let (first, second) = some.split_at(some.len() / 2);
-                waiting.extend([second, first]);
-            }
-        }
-        best
+        repair::most_together(&replacements, self.tries(), |together, _| {
+            small_radius::drawing_edit(drawing, together).filter(|edit| self.enlarges(drawing, edit))
+        })
     }
 
     /// Contours that have tight arcs, in machining order, with the wire side of each.
@@ -603,13 +578,6 @@ impl Analysis {
         let answer = attempt.outcome.err();
         self.answers.insert((key, index), (answer, attempt.region));
         answer
-    }
-
-    /// True when the edit can be made and leaves fewer tight arcs than there were.
-    fn betters(&self, drawing: &Drawing, edit: &DrawingEdit) -> bool {
-        let touched: FxHashSet<EntityId> = edit.changes.iter().map(crate::drawing::Change::entity).collect();
-        let mut after = drawing.clone();
-        after.apply(edit).is_ok() && self.tight(&after, &touched) < self.tight(drawing, &touched)
     }
 
     /// Number of arcs below the correction in some entities.

@@ -63,10 +63,14 @@ impl Analysis {
 
     /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no open end, overlap, crossing or
     /// crumb that was not there. A line that lies there twice is moved once: then the contour falls apart.
-    pub(super) fn enlarges(&self, drawing: &Drawing, before: &Tally, edit: &DrawingEdit) -> bool {
+    pub(super) fn enlarges(&self, drawing: &Drawing, edit: &DrawingEdit) -> bool {
         let mut edited = drawing.clone();
         let Ok(delta) = edited.apply(edit) else { return false };
-        let after = self.updated(&edited, &delta).tally(&edited);
+        let touched: FxHashSet<EntityId> = edit.changes.iter().map(Change::entity).collect();
+        if self.tight(&edited, &touched) >= self.tight(drawing, &touched) {
+            return false;
+        }
+        let (before, after) = (self.tallied(drawing), self.updated(&edited, &delta).tally(&edited));
         after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius) && after.spoils_nothing(before)
     }
 
@@ -95,25 +99,33 @@ impl Analysis {
         None
     }
 
-    /// As many of the edits as one as go together without making anything worse: where all of them do not, each half is tried
-    /// beside what has been taken so far, then the halves of that half.
+    /// As many of the edits as one as go together without making anything worse.
     fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit]) -> Option<DrawingEdit> {
-        let mut best: Option<(DrawingEdit, Tally)> = None;
-        let mut waiting: Vec<&[DrawingEdit]> = [edits].into_iter().filter(|edits| !edits.is_empty()).collect();
-        for _ in 0..self.tries() {
-            let Some(some) = waiting.pop() else { break };
-            let (taken, before) = best.as_ref().map_or((&[][..], before), |(edit, tally)| (&edit.changes, tally));
-            let changes = taken.iter().chain(some.iter().flat_map(|edit| &edit.changes)).cloned().collect();
-            let tried = DrawingEdit { changes };
-            if let Some(after) = self.mends(drawing, rule, before, &tried) {
-                best = Some((tried, after));
-            } else if some.len() > 1 {
-                let (first, second) = some.split_at(some.len() / 2);
-                waiting.extend([second, first]);
-            }
-        }
-        best.map(|(edit, _)| edit)
+        let most = most_together(edits, self.tries(), |together, best: Option<&(DrawingEdit, Tally)>| {
+            let tried = DrawingEdit { changes: together.iter().flat_map(|edit| &edit.changes).cloned().collect() };
+            let after = self.mends(drawing, rule, best.map_or(before, |(_, tally)| tally), &tried)?;
+            Some((tried, after))
+        });
+        most.map(|(edit, _)| edit)
     }
+}
+
+/// What comes of as many of the parts as go together: where all of them do not, each half is tried beside what has been taken so far,
+/// then the halves of that half. `made` is given the parts and what has come of those taken so far.
+pub(super) fn most_together<T: Clone, M>(parts: &[T], tries: usize, made: impl Fn(&[T], Option<&M>) -> Option<M>) -> Option<M> {
+    let (mut taken, mut best) = (Vec::new(), None);
+    let mut waiting: Vec<&[T]> = [parts].into_iter().filter(|parts| !parts.is_empty()).collect();
+    for _ in 0..tries {
+        let Some(some) = waiting.pop() else { break };
+        let together = [&taken, some].concat();
+        if let Some(more) = made(&together, best.as_ref()) {
+            (taken, best) = (together, Some(more));
+        } else if some.len() > 1 {
+            let (first, second) = some.split_at(some.len() / 2);
+            waiting.extend([second, first]);
+        }
+    }
+    best
 }
 
 /// What a change claims for itself: an entity, or one vertex of it.

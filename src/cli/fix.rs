@@ -7,7 +7,7 @@ use super::report::{self, Row};
 use super::{Failure, Verdict, files};
 use crate::document::{Document, ROUNDS, Source};
 use crate::finding::{Edit, Finding, Rule, Severity};
-use crate::text::{TextEdit, edited};
+use crate::text::edited;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -105,7 +105,7 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     let bytes_before = document.text().map_or_else(Vec::new, |text| text.bytes().to_vec());
     let mut rounds = 0;
     while rounds < ROUNDS
-        && let Some(edits) = next_edits(&document)
+        && let Some(edits) = document.fix_all_in_text()
     {
         let settings = document.settings().clone();
         let present = document.text().map_or(&[][..], |text| text.bytes());
@@ -122,15 +122,6 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
         return Err(Failure(format!("{}: internal error: {sentence}", path.display())));
     }
     Ok(repair)
-}
-
-fn next_edits(document: &Document) -> Option<Vec<TextEdit>> {
-    let edits = match (document.fix_all()?, document.source()) {
-        (Edit::Drawing(edit), Source::Dxf(text)) => text.text_edits(&edit).ok()?,
-        (Edit::Text(edits), _) => edits,
-        (Edit::Drawing(_), _) => return None,
-    };
-    Some(edits).filter(|edits| !edits.is_empty())
 }
 
 /// Findings with a safe fix that the text cannot take, each with the reason.

@@ -29,8 +29,8 @@ pub enum Unfit {
     TooManyArcs(usize),
 }
 
-/// Arcs that a curve may become, and beside that for each of its pieces up to the one at hand. A curve of a die takes some dozens; one whose coordinates
-/// leave no digits for the tolerance, or whose points lie at random over metres, would take a million from a line of text.
+/// Arcs that a curve may become, and beside that for each of its pieces up to the one at hand. A curve of a die takes some dozens; one
+/// whose coordinates leave no digits for the tolerance, or whose points lie at random over metres, would take a million from a line of text.
 const MOST_ARCS: usize = 2_000;
 const MOST_ARCS_OF_A_PIECE: usize = 48;
 /// The tolerance for which these hold; a finer one takes more, by the cube root.
@@ -50,7 +50,7 @@ const FINEST: f64 = 1e-9;
 /// A chain of arcs and lines that the curve lies within `tolerance` of (or within a billionth of its extent, where that
 /// is more). Parts that are exactly lines or circular arcs become one segment of at most a half turn.
 ///
-/// None for a curve without length or with numbers that are not finite, and where it would take arcs beyond all measure.
+/// Errors: a curve without length or with numbers that are not finite, and one that would take arcs beyond all measure.
 pub fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
     let extent = curve.extent();
     if !extent.is_finite() || extent <= 0.0 {
