@@ -19,8 +19,6 @@ mod iso_text;
 mod language;
 #[path = "server/locate.rs"]
 mod locate;
-#[path = "server/panics.rs"]
-mod panics;
 #[path = "server/program_text.rs"]
 mod program_text;
 #[path = "server/programs.rs"]

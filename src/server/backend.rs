@@ -7,8 +7,10 @@ use super::jobs::Cancel;
 use super::requests::code_action::FIX_ALL;
 use super::requests::language::formatting::Scope;
 use super::requests::language::navigate::{Question, navigate};
+#[cfg(feature = "testing")]
+use super::requests::probe;
 use super::requests::{
-    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, probe, scale, settings, simulate,
+    Errand, code_action, contours, drawing_edit, generate, inspect, internal, language, locate, picture, scale, settings, simulate,
     toolpath,
 };
 use super::state::{Mailbox, Reply, State};
@@ -45,7 +47,7 @@ pub(super) struct Backend {
 pub(super) fn service(mailbox: Mailbox, prepared: Prepared, flags: Arc<Flags>, orphaned: Option<fn()>) -> LspService<Backend> {
     // The framework's own client waits for answers; ours does not.
     let build = LspService::build(|_client| Backend { mailbox, prepared, flags, orphaned });
-    let (service, _socket) = build
+    let build = build
         .custom_method(method::DID_OPEN_DRAWING, Backend::did_open_drawing)
         .custom_method(method::DID_CHANGE_DRAWING, Backend::did_change_drawing)
         .custom_method(method::DID_CLOSE_DRAWING, Backend::did_close_drawing)
@@ -56,10 +58,10 @@ pub(super) fn service(mailbox: Mailbox, prepared: Prepared, flags: Arc<Flags>, o
         .custom_method(method::GENERATE, Backend::generate)
         .custom_method(method::LOCATE, Backend::locate)
         .custom_method(method::SETTINGS, Backend::settings)
-        .custom_method(method::SIMULATE, Backend::simulate)
-        .custom_method("wedm/test/panic", Backend::test_panic)
-        .custom_method("wedm/test/ask", Backend::test_ask)
-        .finish();
+        .custom_method(method::SIMULATE, Backend::simulate);
+    #[cfg(feature = "testing")]
+    let build = build.custom_method("wedm/test/panic", Backend::test_panic).custom_method("wedm/test/ask", Backend::test_ask);
+    let (service, _socket) = build.finish();
     service
 }
 
@@ -221,6 +223,7 @@ impl Backend {
         self.written(method::SIMULATE, &uri, token, move |state, errand| simulate::simulate(state, params, errand)).await
     }
 
+    #[cfg(feature = "testing")]
     async fn test_panic(&self, params: probe::Panic) -> Result<Value> {
         match params.site {
             probe::Site::Handler => panic!("asked for by wedm/test/panic"),
@@ -232,6 +235,7 @@ impl Backend {
         }
     }
 
+    #[cfg(feature = "testing")]
     async fn test_ask(&self, _: Value) -> Result<Value> {
         self.ask("wedm/test/ask", None, probe::ask).await
     }

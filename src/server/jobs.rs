@@ -74,6 +74,8 @@ type Job = Box<dyn FnOnce() + Send>;
 struct Queue {
     jobs: Mutex<VecDeque<Job>>,
     filled: Condvar,
+    /// Nobody hands in more: the threads end.
+    ended: AtomicBool,
 }
 
 /// The worker threads.
@@ -127,11 +129,22 @@ impl Workers {
     }
 }
 
+impl Workers {
+    /// Ends each thread behind the job that it is at.
+    pub fn end(&self) {
+        let jobs = self.queue.jobs.lock().unwrap_or_else(PoisonError::into_inner);
+        self.queue.ended.store(true, Ordering::Relaxed);
+        drop(jobs);
+        self.queue.filled.notify_all();
+    }
+}
+
 fn work(queue: &Queue) {
     loop {
         let mut jobs = queue.jobs.lock().unwrap_or_else(PoisonError::into_inner);
         let job = loop {
             match jobs.pop_front() {
+                _ if queue.ended.load(Ordering::Relaxed) => return,
                 Some(job) => break job,
                 None => jobs = queue.filled.wait(jobs).unwrap_or_else(PoisonError::into_inner),
             }

@@ -13,11 +13,14 @@ mod open;
 mod parent;
 mod requests;
 mod state;
+#[cfg(feature = "testing")]
+pub mod testing;
 mod texts;
 mod transport;
 
 use serde_json::Value;
 use state::Mailbox;
+use std::io::Read;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -60,22 +63,34 @@ pub fn run_stdio(options: Options) -> ExitCode {
 fn serve(options: Options) -> std::io::Result<u8> {
     let (input, output) = transport::pipes()?;
     let writer = Writer::start(output, || end_of_process(BAD_END))?;
-    let mailbox = state::start(writer.clone())?;
-    let prepared = Prepared::default();
     let flags = Arc::new(backend::Flags::default());
     let orphaned: Option<fn()> = options.watch_parent.then_some(|| end_of_process(BAD_END));
+    // Held to the end: threads that still work are not waited for.
+    let _transport = serve_between(input, &writer, &flags, orphaned, [LAST_ANSWERS, LAST_WRITES])?;
+    end_of_process(if flags.shut_down.load(Ordering::Acquire) { GOOD_END } else { BAD_END })
+}
+
+/// Serves `input` to its end, then waits for the last answers and for the client to read them.
+fn serve_between(
+    input: impl Read,
+    writer: &Writer,
+    flags: &Arc<backend::Flags>,
+    orphaned: Option<fn()>,
+    [last_answers, last_writes]: [Duration; 2],
+) -> std::io::Result<Transport<backend::Backend, ToState>> {
+    let mailbox = state::start(writer.clone())?;
+    let prepared = Prepared::default();
     let service = backend::service(mailbox.clone(), prepared.clone(), flags.clone(), orphaned);
     let inbox = ToState { mailbox: mailbox.clone(), flags: flags.clone() };
     let mut transport = Transport::new(service, inbox, writer.clone(), prepared)?;
     transport.serve(input);
-    transport.drain(LAST_ANSWERS);
+    transport.drain(last_answers);
     let (done, all_told) = std::sync::mpsc::channel();
     // The queue may be full and its thread busy: whoever waits for it must not be the one that ends the process.
     std::thread::spawn(move || mailbox.tell("exit", None, move |state| state.stop(done)));
-    let _ = all_told.recv_timeout(LAST_ANSWERS / 4);
-    writer.drain(LAST_WRITES);
-    // Threads that still work are not waited for.
-    end_of_process(if flags.shut_down.load(Ordering::Acquire) { GOOD_END } else { BAD_END })
+    let _ = all_told.recv_timeout(last_answers / 4);
+    writer.end(last_writes);
+    Ok(transport)
 }
 
 fn end_of_process(code: u8) -> ! {

@@ -114,7 +114,9 @@ impl State {
                 tracing::info!("a turn that began with {name} took {} ms", began.elapsed().as_millis());
             }
             if let Some(done) = self.stopped.take() {
+                self.workers.end();
                 let _ = done.send(());
+                return;
             }
         }
     }
@@ -130,7 +132,7 @@ impl State {
         }
     }
 
-    /// Answers when everything before has been handled and published.
+    /// Answers when everything before has been handled and published; then the threads end.
     pub fn stop(&mut self, done: std::sync::mpsc::Sender<()>) {
         self.stopped = Some(done);
     }

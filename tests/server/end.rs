@@ -36,16 +36,6 @@ fn the_exit_code_tells_whether_shutdown_came_before() {
         0,
     );
     check(
-        "exit while handlers wait for the client",
-        |client| {
-            for _ in 0..5 {
-                client.ask("wedm/test/ask", json!({}));
-            }
-            client.notify("exit", Value::Null);
-        },
-        1,
-    );
-    check(
         "end of stdin within a frame",
         |client| {
             client.send_bytes(b"Content-Length: 100\r\n\r\n{");

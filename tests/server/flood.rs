@@ -1,59 +1,7 @@
 //! More than a client should send, and less than it should read.
 
-use crate::support::{Client, TIGHT, capabilities, dxf_of, frame, small, tight_plate};
+use crate::support::{Client, capabilities, frame, tight_plate};
 use serde_json::{Value, json};
-
-const URI: &str = "file:///plate.dxf";
-
-#[test]
-fn ten_thousand_changes_between_slow_requests_are_applied_in_order() {
-    const COUNT: i64 = 10_000;
-    let mut client = Client::start();
-    let text = format!("999\n\n{}", dxf_of(&[("2A", &TIGHT)]));
-    client.open_text(URI, "dxf", &text);
-    client.open_drawing("cad:///1", json!([tight_plate("2A")]));
-    let mut requests = Vec::new();
-    for number in 0..COUNT {
-        // Every change appends to the comment; only in order does the last one leave it as it should be.
-        let edit = match number {
-            last if last == COUNT - 1 => {
-                json!({ "range": { "start": { "line": 1, "character": 0 }, "end": { "line": 1, "character": COUNT - 1 } }, "text": "" })
-            }
-            _ => {
-                json!({ "range": { "start": { "line": 1, "character": number }, "end": { "line": 1, "character": number } }, "text": "x" })
-            }
-        };
-        client.notify("textDocument/didChange", json!({ "textDocument": { "uri": URI, "version": number + 2 }, "contentChanges": [edit] }));
-        let splice = json!([{ "handle": "2A", "vertices": { "start": 0, "deleteCount": 1, "insert": [[-(number as f64) / 1e6, 5, 1]] } }]);
-        client.change_drawing("cad:///1", number + 2, splice);
-        if number % 500 == 0 {
-            requests.push(client.ask("wedm/test/ask", json!({})));
-            requests.push(client.ask("wedm/picture", json!({ "uri": "cad:///1" })));
-            // Its handler waits for this answer, which must not be longer than a busy machine takes for everything else.
-            let asked = client.asked("wedm/test/question");
-            client.respond(&asked, Value::Null);
-        }
-    }
-    assert_eq!(client.diagnostics(URI, COUNT + 1).len(), 1);
-    let list = client.request("wedm/inspect", json!({ "uri": "cad:///1" })).unwrap();
-    assert_eq!(list["entities"][0]["segments"][0]["start"][0], -((COUNT - 1) as f64) / 1e6);
-    assert_eq!(small(&client.diagnostics("cad:///1", COUNT + 1)), 1);
-    // The comment is empty again: the bulge stands where it stood.
-    let action = json!({ "textDocument": { "uri": URI }, "range": { "start": { "line": 0, "character": 0 }, "end": { "line": 1000, "character": 0 } },
-        "context": { "diagnostics": [], "only": ["quickfix"] } });
-    let actions = client.request("textDocument/codeAction", action).unwrap();
-    let line = text.lines().position(|line| line == "0.41421356237309503").unwrap();
-    assert_eq!(actions[0]["diagnostics"][0]["range"]["start"], json!({ "line": line, "character": 0 }));
-    assert!(
-        client.seen.iter().all(|message| message["method"] != "window/logMessage"),
-        "{:?}",
-        client.seen.iter().find(|message| message["method"] == "window/logMessage")
-    );
-    for id in requests {
-        assert!(client.answer(id).is_ok());
-    }
-    client.shut_down();
-}
 
 #[cfg(target_os = "linux")]
 fn resident_mib(client: &Client) -> u64 {

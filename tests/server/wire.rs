@@ -68,42 +68,13 @@ fn a_message_that_is_none_is_answered_with_its_fault() {
 }
 
 #[test]
-fn ids_of_every_kind_are_given_back_and_a_doubled_one_harms_nobody() {
+fn ids_of_every_kind_are_given_back() {
     let mut client = Client::start();
     client.open_drawing("cad:///1", json!([tight_plate("2A")]));
     for id in [json!("a string"), json!(-5), json!(9_007_199_254_740_993_i64), json!(0)] {
         client.send(&json!({ "jsonrpc": "2.0", "id": id, "method": "wedm/inspect", "params": { "uri": "cad:///1" } }));
         let answer = client.wait_for("an answer", |message| message["id"] == id);
         assert!(answer["result"].is_object(), "{answer}");
-    }
-    // The first waits for the client, the second comes while it waits.
-    for _ in 0..2 {
-        client.send(&json!({ "jsonrpc": "2.0", "id": "twice", "method": "wedm/test/ask", "params": {} }));
-    }
-    let second = client.wait_for("a refusal", |message| message["id"] == "twice");
-    assert_eq!(second["error"]["code"], -32600);
-    let asked = client.asked("wedm/test/question");
-    client.respond(&asked, json!("yes"));
-    assert_eq!(client.wait_for("the first answer", |message| message["id"] == "twice")["result"], "yes");
-    client.shut_down();
-}
-
-#[test]
-fn handlers_that_wait_for_the_client_do_not_stop_the_others() {
-    let mut client = Client::start();
-    client.open_drawing("cad:///1", json!([tight_plate("2A")]));
-    let waiting: Vec<i64> = (0..40).map(|_| client.ask("wedm/test/ask", json!({}))).collect();
-    let fifth = client.request("wedm/inspect", json!({ "uri": "cad:///1" })).unwrap();
-    assert_eq!(fifth["entities"].as_array().unwrap().len(), 1);
-    // The waiting ones are answered in any order, one of them by a cancellation.
-    client.notify("$/cancelRequest", json!({ "id": waiting[7] }));
-    assert_eq!(client.answer(waiting[7]).unwrap_err()["code"], -32800);
-    for number in 0..40 {
-        let asked = client.asked("wedm/test/question");
-        client.respond(&asked, json!(number));
-    }
-    for id in waiting.iter().filter(|&&id| id != waiting[7]) {
-        assert!(client.answer(*id).is_ok());
     }
     client.shut_down();
 }
@@ -125,5 +96,62 @@ fn notifications_with_broken_params_are_said_to_be_ignored() {
     client.logged("wedm/didOpenDrawing was ignored");
     client.notify("wedm/didCloseDrawing", json!({}));
     client.logged("wedm/didCloseDrawing was ignored");
+    client.shut_down();
+}
+
+#[test]
+fn a_header_at_fault_is_said_once_and_the_message_behind_it_is_answered() {
+    for bad in [
+        "Content-Length: 5\r\nx\r\n",
+        "Content-Length: 2\r\n{}",
+        "Content-Length: 2\r\nContent Type: x\r\n\r\n{}",
+        "Content Type: x\r\n",
+        "the server is ready",
+        "log: ready",
+        "Content-Length: 1",
+    ] {
+        let mut client = Client::start();
+        client.send_bytes(bad.as_bytes());
+        assert_eq!(client.code("wedm/inspect", json!({ "uri": "none:" })), -32602, "{bad:?}");
+        let is_error = |message: &&Value| message["id"].is_null() && message["error"]["code"] == -32700;
+        assert_eq!(client.settle().iter().filter(is_error).count(), 1, "{bad:?}");
+        client.shut_down();
+    }
+}
+
+#[test]
+fn requests_that_may_be_ignored_are_answered_all_the_same() {
+    let mut client = Client::start();
+    for method in ["$/nothing", "$/setTrace", "$/cancelRequest", "$/"] {
+        assert_eq!(client.code(method, json!({ "id": 7, "value": "off" })), -32601, "{method}");
+        client.notify(method, json!({ "id": 7, "value": "off" }));
+    }
+    assert_eq!(client.settle(), [] as [Value; 0]);
+    client.shut_down();
+}
+
+/// A short body that would be a tree of gigabytes is refused; a drawing as long is read.
+#[test]
+fn a_body_whose_values_would_fill_the_memory_is_refused() {
+    let mut client = Client::start();
+    client.send_bytes(&frame(&format!("[{}[]]", "[],".repeat(6_000_000))));
+    let answer = client.wait_for("a refusal", |message| message.get("error").is_some());
+    assert_eq!((&answer["id"], &answer["error"]["code"]), (&Value::Null, &json!(-32600)), "{answer}");
+    #[cfg(target_os = "linux")]
+    {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).unwrap();
+        let peak = status.lines().find(|line| line.starts_with("VmHWM:")).unwrap();
+        assert!(peak.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() < 100 * 1024, "{peak}");
+    }
+    client.shut_down();
+}
+
+#[cfg(not(feature = "testing"))]
+#[test]
+fn the_shipped_server_has_no_hidden_methods() {
+    let mut client = Client::start();
+    for method in ["wedm/test/panic", "wedm/test/ask"] {
+        assert_eq!(client.code(method, json!({ "site": "handler" })), -32601, "{method}");
+    }
     client.shut_down();
 }

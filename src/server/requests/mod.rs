@@ -8,6 +8,7 @@ pub(super) mod inspect;
 pub(super) mod language;
 pub(super) mod locate;
 pub(super) mod picture;
+#[cfg(feature = "testing")]
 pub(super) mod probe;
 pub(super) mod scale;
 pub(super) mod settings;

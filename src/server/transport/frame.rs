@@ -1,6 +1,7 @@
 //! Frames of the base protocol out of a stream of bytes, and the way back into step after a broken one.
 //!
-//! Knows nothing of JSON. Never allocates by `Content-Length` alone: memory grows with the bytes that came.
+//! Knows nothing of JSON. Never allocates by `Content-Length` alone: memory grows with the bytes that came. Every step uses up
+//! bytes: whatever came, there are fewer steps than bytes.
 
 use memchr::memmem;
 use std::io::Read;
@@ -10,23 +11,25 @@ pub(super) const BODY_CAP: u64 = 256 * 1024 * 1024;
 /// A header block longer than this is none.
 const HEADER_CAP: usize = 8 * 1024;
 const CHUNK: usize = 64 * 1024;
-/// More than the longest `Content-Length: …` line that is looked for.
+/// A `Content-Length: …` line that is longer is not looked for.
 const MARKER_CAP: usize = 64;
 
 /// What came next in the stream.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Frame {
+pub(in crate::server) enum Frame {
     Body(Vec<u8>),
     /// A frame that is none, and why; the stream stands before the next one.
     Broken(String),
     End,
 }
 
-pub(super) struct Frames<R> {
+pub(in crate::server) struct Frames<R> {
     input: R,
     buffer: Vec<u8>,
     /// Bytes of `buffer` that are used up.
     start: usize,
+    /// Bytes that have been dropped from the front of `buffer`; less than none while the end of a broken body is looked at again.
+    dropped: i64,
     ended: bool,
     /// The last body was broken: what follows it may be its rest.
     out_of_step: bool,
@@ -34,7 +37,13 @@ pub(super) struct Frames<R> {
 
 impl<R: Read> Frames<R> {
     pub fn new(input: R) -> Frames<R> {
-        Frames { input, buffer: Vec::new(), start: 0, ended: false, out_of_step: false }
+        Frames { input, buffer: Vec::new(), start: 0, dropped: 0, ended: false, out_of_step: false }
+    }
+
+    /// Bytes of the stream that are used up. It grows with every step; after [`Frames::was_broken`] it is less than before it, but
+    /// more than before the step.
+    pub fn position(&self) -> i64 {
+        self.dropped + self.start as i64
     }
 
     /// Reads until a frame is whole, broken, or the stream ends.
@@ -56,6 +65,7 @@ impl<R: Read> Frames<R> {
     /// Says that a body was not what it should be: its end, and what follows, are searched for the next header.
     pub fn was_broken(&mut self, body: &[u8]) {
         let tail = &body[body.len().saturating_sub(MARKER_CAP)..];
+        self.dropped += self.start as i64 - tail.len() as i64;
         self.buffer.splice(..self.start, tail.iter().copied());
         self.start = 0;
         self.out_of_step = true;
@@ -71,8 +81,7 @@ impl<R: Read> Frames<R> {
             return false;
         }
         if self.start > CHUNK {
-            self.buffer.drain(..self.start);
-            self.start = 0;
+            self.drop_used();
         }
         let old = self.buffer.len();
         self.buffer.resize(old + CHUNK, 0);
@@ -88,16 +97,25 @@ impl<R: Read> Frames<R> {
         !self.ended
     }
 
+    /// Forgets the bytes that are used up.
+    fn drop_used(&mut self) {
+        self.buffer.drain(..self.start);
+        self.dropped += self.start as i64;
+        self.start = 0;
+    }
+
     /// The length that the next header block states; `None` at the end of the stream.
+    ///
+    /// A block at fault is used up to behind the first byte of the line at fault: what that line holds besides may be the next header.
     fn header(&mut self) -> Result<Option<u64>, String> {
         let mut length = None;
-        let mut lines = 0;
-        let mut used = 0;
+        // Where the next line of the block begins.
+        let mut at = 0;
         loop {
-            let Some(end) = memchr::memchr(b'\n', &self.rest()[used..]).map(|at| used + at) else {
+            let Some(end) = memchr::memchr(b'\n', &self.rest()[at..]).map(|end| at + end).filter(|&end| end <= HEADER_CAP) else {
                 if self.rest().len() > HEADER_CAP {
-                    self.skip_to_header(1);
-                    return Err(format!("no header within {HEADER_CAP} bytes, expected Content-Length"));
+                    self.skip_to_header(at + 1);
+                    return Err(format!("no whole header within {HEADER_CAP} bytes, expected Content-Length and a blank line"));
                 }
                 if !self.fill() {
                     return match self.rest().iter().all(u8::is_ascii_whitespace) {
@@ -110,38 +128,34 @@ impl<R: Read> Frames<R> {
                 }
                 continue;
             };
-            let line = self.rest()[used..end].trim_ascii();
-            used = end + 1;
+            let line = self.rest()[at..end].trim_ascii();
             if line.is_empty() {
-                // Blank lines between frames harm nobody.
-                if lines == 0 {
-                    self.start += used;
-                    used = 0;
-                    continue;
+                let is_between_frames = at == 0;
+                self.start += end + 1;
+                match length {
+                    // Blank lines between frames harm nobody.
+                    _ if is_between_frames => continue,
+                    None => {
+                        self.skip_to_header(0);
+                        return Err("a header without Content-Length".into());
+                    }
+                    length => return Ok(length),
                 }
-                self.start += used;
-                if length.is_none() {
-                    self.skip_to_header(0);
-                    return Err("a header without Content-Length".into());
-                }
-                return Ok(length);
             }
-            lines += 1;
-            match field(line) {
+            let fault = match field(line) {
                 Some((name, value)) if name.eq_ignore_ascii_case(b"content-length") => {
                     length = std::str::from_utf8(value).ok().and_then(|digits| digits.parse().ok());
-                    if length.is_none() {
-                        let value = String::from_utf8_lossy(value).into_owned();
-                        self.skip_to_header(1);
-                        return Err(format!("Content-Length is \"{value}\", expected a number"));
-                    }
+                    length.is_none().then(|| format!("Content-Length is \"{}\", expected a number", shown(value)))
                 }
-                Some(_) => {}
-                None => {
-                    self.skip_to_header(0);
-                    return Err("a line that is no header, expected Content-Length".into());
-                }
+                // Something was printed right before the next header.
+                Some(_) if marker(&self.rest()[at..=end]).is_none() => None,
+                _ => Some(format!("\"{}\" is no header line, expected Content-Length and a blank line", shown(line))),
+            };
+            if let Some(fault) = fault {
+                self.skip_to_header(at + 1);
+                return Err(fault);
             }
+            at = end + 1;
         }
     }
 
@@ -167,13 +181,13 @@ impl<R: Read> Frames<R> {
         let end = self.start + length;
         let body = if self.start == 0 && length > CHUNK {
             let rest = self.buffer.split_off(end);
+            self.dropped += end as i64;
             std::mem::replace(&mut self.buffer, rest)
         } else {
             let body = self.buffer[self.start..end].to_vec();
             self.start = end;
             if self.start == self.buffer.len() {
-                self.buffer.clear();
-                self.start = 0;
+                self.drop_used();
             }
             body
         };
@@ -215,6 +229,11 @@ impl<R: Read> Frames<R> {
     }
 }
 
+/// The begin of what stands in a header's place, for a message.
+fn shown(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(&bytes[..bytes.len().min(MARKER_CAP)]).into_owned()
+}
+
 /// Name and value of a header line.
 fn field(line: &[u8]) -> Option<(&[u8], &[u8])> {
     let colon = memchr::memchr(b':', line)?;
@@ -231,7 +250,7 @@ fn marker(bytes: &[u8]) -> Option<usize> {
         let end = at + TAIL.len();
         let begin = end.checked_sub(NAME.len())?;
         let value = &bytes[end..];
-        let line = &value[..memchr::memchr(b'\n', &value[..value.len().min(MARKER_CAP)])?];
+        let line = &value[..memchr::memchr(b'\n', &value[..value.len().min(MARKER_CAP - NAME.len())])?];
         let digits = line.trim_ascii();
         let whole = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) && bytes[begin..end].eq_ignore_ascii_case(NAME);
         whole.then_some(begin)
@@ -241,6 +260,7 @@ fn marker(bytes: &[u8]) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     /// Bytes that come a few at a time, as from a pipe.
     struct Trickle<'a>(&'a [u8], usize);
@@ -258,8 +278,11 @@ mod tests {
         let run = |step: usize| {
             let mut frames = Frames::new(Trickle(input.as_bytes(), step));
             let mut seen = Vec::new();
+            let mut used = 0;
             loop {
-                match frames.next() {
+                let next = frames.next();
+                assert!(frames.position() > used || next == Frame::End, "{input:?} in steps of {step}: nothing was used up");
+                match next {
                     Frame::Body(body) => {
                         let text = String::from_utf8_lossy(&body).into_owned();
                         if broken_bodies.contains(&text.as_str()) {
@@ -272,6 +295,8 @@ mod tests {
                     Frame::Broken(_) => seen.push("?".into()),
                     Frame::End => return seen,
                 }
+                assert!(frames.position() > used, "{input:?} in steps of {step}: a broken body was given back whole");
+                used = frames.position();
             }
         };
         let seen = run(usize::MAX);
@@ -303,7 +328,63 @@ mod tests {
         check("Content-Length: 10\r\n\r\n{}", &[], &["?"]);
         check("Content-Length: 10", &[], &["?"]);
         check(&format!("{}{good}", "\0".repeat(100_000)), &[], &["?", "{}"]);
+        // A blank line forgotten, something printed, a header that is none: between frames and within one.
+        check("Content-Length: 5\r\nx\r\n", &[], &["?"]);
+        check(&format!("Content-Length: 5\r\nx\r\n{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Length: 2\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Length: 2\r\n{{}}\n{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Length: 2\r\nContent Type: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("Content Type: x\r\nContent-Length: 2\r\n\r\n{{}}{good}"), &[], &["?", "{}", "{}"]);
+        check(&format!("starting up\nContent-Length: 2\r\nstill starting up\r\n\r\n{{}}{good}"), &[], &["?", "?", "{}"]);
+        check(&format!("Content-Length: 2\r\nContent-Length: 2\r\n\r\n{{}}{good}"), &[], &["{}", "{}"]);
+        check(&format!("Content-Length: 2\r\nContent-Length: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("A: b\r\nContent-Length: 99999999999999999999999\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(&format!("{}{good}", "Content-Length: 5\r\nx\r\n".repeat(3)), &[], &["?", "?", "?", "{}"]);
+        check(&format!("\u{b}{good}"), &[], &["?", "{}"]);
+        check(&format!("ready{good}"), &[], &["?", "{}"]);
+        check(&format!("state: ready{good}"), &[], &["?", "{}"]);
+        check(&format!("Content-Length: 1{good}"), &[], &["?", "{}"]);
+        check("Content-Length: 0\r\n\r\n", &[""], &["!"]);
+        // Headers without end, in lines and in one.
+        check(&format!("{}\r\n{good}", "A: b\r\n".repeat(100_000)), &[], &["?", "{}"]);
+        check(&format!("Content-Length: 2\r\n{}{good}", "a".repeat(100_000)), &[], &["?", "{}"]);
         let long = "7".repeat(200_000);
         check(&format!("Content-Length: 200000\r\n\r\n{long}{good}"), &[], &[&long, "{}"]);
     }
+
+    proptest! {
+        /// The pieces that frames are made of, in any order: every step uses up bytes, however few come at a time.
+        #[test]
+        fn every_step_uses_up_bytes(pieces in prop::collection::vec(0_usize..PIECES.len(), 0..40), broken in any::<bool>()) {
+            let input: String = pieces.into_iter().map(|piece| PIECES[piece]).collect();
+            frames(&input, if broken { &["{}", "", "C", "{"] } else { &[] });
+        }
+    }
+
+    const PIECES: [&str; 24] = [
+        "Content-Length: 2\r\n",
+        "Content-Length: 0\r\n",
+        "Content-Length: 30\r\n",
+        "Content-Length: 99999999999\r\n",
+        "Content-Length: 99999999999999999999999\r\n",
+        "Content-Length: x\r\n",
+        "Content-Length:",
+        "content-length:1",
+        "Content Type: x\r\n",
+        "Content-Type: x\r\n",
+        "\r\n",
+        "\n",
+        "\r",
+        "{}",
+        "{",
+        "C",
+        "x\r\n",
+        ": ",
+        " ",
+        "5",
+        "\0",
+        "\u{b}",
+        "Content-Length: 2\r\n\r\n{}",
+        "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",
+    ];
 }

@@ -1,5 +1,6 @@
 //! A JSON-RPC message out of a body: request, notification, reply, or what is wrong with it.
 
+use super::weight::{LIMIT, is_too_heavy};
 use serde_json::Value;
 use std::borrow::Cow;
 use tower_lsp::jsonrpc::{Error, ErrorCode, Id, Request};
@@ -15,8 +16,11 @@ pub(super) enum Incoming {
     Invalid { id: Id, error: Error },
 }
 
-/// Reads a body. A body that is not JSON is `Err`.
+/// Reads a body. A body that is not JSON is `Err`; one whose values would fill the memory is not read, whatever it says.
 pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
+    if is_too_heavy(body) {
+        return Ok(invalid(Id::Null, format!("a message of {} bytes holds more than {LIMIT} lists, objects and values", body.len())));
+    }
     let value = parse_json(body).map_err(|reason| Error {
         code: ErrorCode::ParseError,
         message: Cow::Owned(format!("invalid JSON: {reason}")),
@@ -60,8 +64,8 @@ fn reply(id: Option<Id>, mut message: serde_json::Map<String, Value>) -> Incomin
     }
 }
 
-fn invalid(id: Id, reason: &'static str) -> Incoming {
-    let error = Error { code: ErrorCode::InvalidRequest, message: Cow::Borrowed(reason), data: None };
+fn invalid(id: Id, reason: impl Into<Cow<'static, str>>) -> Incoming {
+    let error = Error { code: ErrorCode::InvalidRequest, message: reason.into(), data: None };
     Incoming::Invalid { id, error }
 }
 
@@ -129,7 +133,7 @@ mod tests {
                 Ok(Incoming::Reply { id, result }) => format!("{id} {result:?}"),
                 Ok(Incoming::Invalid { id, error }) => format!("{} {id}", error.code),
             };
-            assert_eq!(seen, expected, "{body}");
+            assert_eq!(seen, expected, "{}", &body[..body.len().min(200)]);
         };
         check(r#"{"jsonrpc":"2.0","id":1,"method":"a","params":{}}"#, "a Some(Number(1))");
         check(r#"{"jsonrpc":"2.0","method":"a"}"#, "a None");
@@ -141,6 +145,7 @@ mod tests {
         check(r#"{"jsonrpc":"2.0","id":1.5,"method":"a"}"#, "-32600 null");
         check(r#"{"jsonrpc":"2.0","id":7,"method":3}"#, "-32600 7");
         check("[]", "-32600 null");
+        check(&format!(r#"{{"jsonrpc":"2.0","id":7,"method":"a","params":[{}[]]}}"#, "[],".repeat(4_000_000)), "-32600 null");
         check("42", "-32600 null");
         check("{", "-32700");
         check("", "-32700");

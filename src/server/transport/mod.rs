@@ -9,18 +9,19 @@ mod memory;
 mod message;
 mod prepared;
 mod stdio;
+mod weight;
 mod writer;
 
 pub(crate) use prepared::Prepared;
 pub(crate) use writer::{Publish, Writer};
 
-use frame::{Frame, Frames};
+pub(super) use frame::{Frame, Frames};
 use memory::Memory;
 use message::Incoming;
 use serde_json::Value;
 use std::any::Any;
-use std::fs::File;
 use std::future::Future;
+use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -63,7 +64,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     }
 
     /// Serves until `exit` or the end of the input; true when the client said `exit`.
-    pub fn serve(&mut self, input: File) -> bool {
+    pub fn serve(&mut self, input: impl Read) -> bool {
         let mut frames = Frames::new(input);
         loop {
             if !self.wait_for_reader() {
@@ -71,11 +72,14 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             }
             match frames.next() {
                 Frame::End => return false,
-                Frame::Broken(reason) => self.answer_broken(Error { code: ErrorCode::ParseError, message: reason.into(), data: None }),
+                Frame::Broken(reason) => {
+                    let error = Error { code: ErrorCode::ParseError, message: reason.into(), data: None };
+                    self.answer_broken(error, frames.position());
+                }
                 Frame::Body(body) => match message::parse(&body) {
                     Err(error) => {
                         frames.was_broken(&body);
-                        self.answer_broken(error);
+                        self.answer_broken(error, frames.position());
                     }
                     Ok(Incoming::Invalid { id, error }) => self.send(Response::from_error(id, error)),
                     Ok(Incoming::Reply { id, result }) => self.inbox.reply(id, result),
@@ -117,6 +121,11 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
 
     fn dispatch(&mut self, request: Request) {
         let (id, method) = (request.id().cloned(), request.method().to_owned());
+        // None of the framework's own is a request, and it leaves such requests without an answer.
+        if let Some(id) = id.clone().filter(|_| method.starts_with("$/")) {
+            let message = format!("there is no request {method}").into();
+            return self.send(Response::from_error(id, Error { code: ErrorCode::MethodNotFound, message, data: None }));
+        }
         let inline = method == "initialize";
         let taken = self.inbox.taken();
         let guard = self.runtime.enter();
@@ -171,8 +180,8 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         finish(&self.writer, &self.prepared, id, outcome);
     }
 
-    fn answer_broken(&self, error: Error) {
-        self.inbox.note(format!("a broken message was skipped: {}", error.message));
+    fn answer_broken(&self, error: Error, position: i64) {
+        self.inbox.note(format!("a broken message before byte {position} was skipped: {}", error.message));
         self.send(Response::from_error(Id::Null, error));
     }
 

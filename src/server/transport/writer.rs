@@ -53,6 +53,8 @@ struct Queue {
     tickets: u64,
     bytes: usize,
     writing: bool,
+    /// Nothing more comes: the thread ends when all is written.
+    ended: bool,
 }
 
 enum Waiting {
@@ -143,9 +145,11 @@ impl Writer {
         self.wait(limit, |queue| queue.bytes <= BACKLOG)
     }
 
-    /// Waits until everything has been written, at most `limit`.
-    pub fn drain(&self, limit: Duration) {
+    /// Waits until everything has been written, at most `limit`; then the thread ends.
+    pub fn end(&self, limit: Duration) {
         self.wait(limit, |queue| queue.waiting.is_empty() && !queue.writing);
+        self.shared.queue().ended = true;
+        self.shared.filled.notify_one();
     }
 
     fn wait(&self, limit: Duration, done: impl Fn(&Queue) -> bool) -> bool {
@@ -193,6 +197,7 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
                         break Next::Publish(publish);
                     }
                 }
+                None if queue.ended => return Ok(()),
                 None => queue = shared.filled.wait(queue).unwrap_or_else(PoisonError::into_inner),
             }
         };
@@ -268,7 +273,7 @@ mod tests {
         writer.publish(publish("b", 101, false));
         writer.send(b"last".to_vec());
         drop(open);
-        writer.drain(Duration::from_secs(10));
+        writer.end(Duration::from_secs(10));
         let versions: Vec<String> = written
             .try_iter()
             .map(|body| match serde_json::from_str::<serde_json::Value>(&body) {

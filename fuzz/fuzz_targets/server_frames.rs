@@ -1,0 +1,12 @@
+//! Bytes as a stream of frames: every step uses up bytes, and how they come makes no difference.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use wedm::server::testing::bodies;
+
+fuzz_target!(|data: &[u8]| {
+    let is_broken = |body: &[u8]| body.len() % 2 == 0;
+    let at_once = bodies(data, usize::MAX, is_broken);
+    assert_eq!(bodies(data, 1 + data.len() % 7, is_broken), at_once, "bytes that come a few at a time");
+});

@@ -1,0 +1,69 @@
+//! What a JSON text would take in memory as a tree of values, counted before the tree is built.
+//!
+//! A short text can be a large tree: `[],[],…` takes 26 times its own length. Nothing here checks the text; what is no JSON is
+//! refused by the parser.
+
+/// Slots of a list that holds anything: its first allocation.
+const LIST: u64 = 4;
+/// The same of an object, whose entries have keys and a table beside them.
+const OBJECT: u64 = 8;
+/// A tree may weigh this many slots of some 72 bytes: a good gigabyte. A polyline of a million vertices with bulges weighs seven millions.
+pub(super) const LIMIT: u64 = 16_000_000;
+
+/// True where the tree of `json` would weigh more than [`LIMIT`].
+pub(super) fn is_too_heavy(json: &[u8]) -> bool {
+    // No byte weighs more than an object.
+    if (json.len() as u64).saturating_mul(OBJECT) <= LIMIT {
+        return false;
+    }
+    let mut weight = 0;
+    let mut rest = json;
+    while let Some((&byte, behind)) = rest.split_first() {
+        rest = behind;
+        match byte {
+            b'"' => rest = behind_string(rest),
+            b'[' => weight += LIST,
+            b'{' => weight += OBJECT,
+            b',' | b':' => weight += 1,
+            _ => continue,
+        }
+        if weight > LIMIT {
+            return true;
+        }
+    }
+    false
+}
+
+/// What stands behind the end of a string; nothing where it does not end.
+fn behind_string(mut rest: &[u8]) -> &[u8] {
+    while let Some(at) = memchr::memchr2(b'"', b'\\', rest) {
+        if rest[at] == b'"' {
+            return &rest[at + 1..];
+        }
+        rest = rest.get(at + 2..).unwrap_or_default();
+    }
+    &[]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_and_objects_weigh_and_strings_do_not() {
+        let check = |json: String, expected: bool| assert_eq!(is_too_heavy(json.as_bytes()), expected, "{}…", &json[..40]);
+        check(format!("[{}[]]", "[],".repeat(4_000_000)), true);
+        check(format!("[{}{{}}]", "{},".repeat(2_000_000)), true);
+        check(format!("[{}1]", "1,".repeat(17_000_000)), true);
+        check("[".repeat(5_000_000), true);
+        check(format!("{{{}\"a\":1}}", "\"a\":1,".repeat(9_000_000)), true);
+        check(format!("[{}[]]", "[106.243,92.283,0.41421356],".repeat(1_000_000)), false);
+        check(format!("{{\"text\":\"{}\"}}", "[],\\\"[".repeat(5_000_000)), false);
+        check(format!("\"{}", "[],".repeat(9_000_000)), false);
+    }
+
+    #[test]
+    fn a_slot_is_what_it_is_taken_for() {
+        assert!(size_of::<serde_json::Value>() <= 72);
+    }
+}

@@ -1,0 +1,12 @@
+//! What needs a server with hidden methods, which the shipped one has not: `cargo test --features testing --test testing`.
+
+#[allow(dead_code, reason = "others use the rest")]
+#[path = "support/mod.rs"]
+mod support;
+
+#[path = "testing/panics.rs"]
+mod panics;
+#[path = "testing/sequences.rs"]
+mod sequences;
+#[path = "testing/waiting.rs"]
+mod waiting;
