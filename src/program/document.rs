@@ -1,12 +1,11 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
 use super::trace::{Chain, Kind, Step, Trace};
-use super::{iso, three_b};
+use super::{gate, iso, three_b};
 use crate::finding::{Finding, Fix, Severity, Side};
 use crate::geometry::Point;
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The languages of programs.
@@ -113,8 +112,14 @@ impl Document {
         (findings, count)
     }
 
-    /// The fixes of one finding as edits of the text, the preferred one first.
+    /// The fixes of one finding as edits of the text, the preferred one first. What would spoil the program is neither preferred nor
+    /// made without asking.
     pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+        gate::gated(self, finding, self.offered(finding))
+    }
+
+    /// What the language has to offer.
+    fn offered(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
         match self {
             Document::ThreeB(document) => document.fixes(finding),
             Document::Iso(document) => document.fixes(finding),
@@ -125,19 +130,12 @@ impl Document {
     pub fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
         let (mut findings, _) = self.findings(settings, usize::MAX);
         findings.retain(|finding| finding.severity <= Severity::Information);
-        let safe = |finding: &Finding| self.fixes(finding).into_iter().find(|fix| fix.preferred && fix.in_fix_all);
-        // By where they begin: an edit touches another one only if that is its neighbour.
-        let mut taken: BTreeMap<usize, TextEdit> = BTreeMap::new();
-        for fix in findings.iter().filter_map(safe) {
-            let is_free = |edit: &TextEdit| {
-                let before = taken.range(..=edit.range.end).next_back();
-                before.is_none_or(|(_, other)| other.range.end < edit.range.start)
-            };
-            if fix.edit.iter().all(is_free) {
-                taken.extend(fix.edit.into_iter().map(|edit| (edit.range.start, edit)));
-            }
-        }
-        (!taken.is_empty()).then(|| taken.into_values().collect())
+        let safe = |finding: &Finding| {
+            let fix = self.offered(finding).into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
+            Some((finding.rule, fix))
+        };
+        let edits = gate::together(self, findings.iter().filter_map(safe).collect());
+        (!edits.is_empty()).then_some(edits)
     }
 
     /// Where the machine goes, block by block.

@@ -7,6 +7,7 @@ pub mod convert;
 mod document;
 mod edits;
 mod format;
+mod gate;
 pub mod grid;
 pub mod iso;
 pub mod language;

@@ -1,0 +1,251 @@
+//! What a repair may make of a program: one test for every language.
+//!
+//! A repair is made without asking, or offered as the one that is meant, only where the program is no worse for it: it brings no new
+//! finding, no full turn out of nothing, and what it leads to closes. Where only what is written changes and not where the machine
+//! goes, nothing can be spoilt. Where a contour stays open, the fault has to say by itself what was meant, and the gap may not grow.
+
+use super::Document;
+use super::trace::Kind;
+use crate::finding::{Detail, Finding, Fix, FixKind, IsoFault, ProgramFault, Rule, Severity};
+use crate::geometry::{Arc, Segment};
+use crate::text::TextEdit;
+use std::collections::BTreeMap;
+
+/// Texts up to this length are tried with each repair for itself; longer ones with all that are to be made at once.
+const TRIED: usize = 64 << 10;
+
+/// Repairs that are tried one by one where all of them together are refused.
+const ONE_BY_ONE: usize = 32;
+
+/// What a program comes to, as far as a repair must not make it worse.
+#[derive(Clone, Debug)]
+pub(super) struct Standing {
+    findings: BTreeMap<&'static str, usize>,
+    open: usize,
+    /// µm.
+    gap: f64,
+    full_turns: usize,
+    moves: Vec<(Kind, usize, [f64; 3])>,
+}
+
+impl Standing {
+    pub fn of(program: &Document) -> Standing {
+        let own = match program {
+            Document::ThreeB(program) => program.findings(),
+            Document::Iso(program) => program.findings().to_vec(),
+        };
+        let mut standing = Standing { findings: BTreeMap::new(), open: 0, gap: 0.0, full_turns: 0, moves: Vec::new() };
+        for finding in own.iter().filter(|finding| finding.severity <= Severity::Information) {
+            *standing.findings.entry(finding.rule.name()).or_default() += 1;
+            if let Some(gap) = gap_of(finding) {
+                standing.open += 1;
+                standing.gap += gap;
+            }
+        }
+        for step in program.trace().steps.iter().filter(|step| step.moves()) {
+            let sweep = step.ideal.as_ref().and_then(Segment::as_arc).map_or(0.0, |arc| arc.sweep);
+            let by = step.meant();
+            standing.full_turns += usize::from(step.ideal.as_ref().and_then(Segment::as_arc).is_some_and(Arc::is_full_turn));
+            standing.moves.push((step.kind, step.contour, [by.x, by.y, sweep]));
+        }
+        standing
+    }
+
+    /// True where a repair of such a finding may lead from this to `after`.
+    fn allows(&self, after: &Standing, speaks_for_itself: bool, by_a_slip: bool) -> bool {
+        if self.moves == after.moves {
+            return true;
+        }
+        let has_new = after.findings.iter().any(|(rule, count)| *count > self.findings.get(rule).copied().unwrap_or(0));
+        let closes = after.open == 0 || after.open < self.open || (speaks_for_itself && after.open <= self.open && after.gap <= self.gap);
+        !has_new && closes && (by_a_slip || after.full_turns <= self.full_turns)
+    }
+}
+
+/// How far a contour is open, µm.
+fn gap_of(finding: &Finding) -> Option<f64> {
+    match &finding.detail {
+        Detail::Program(fault) => match **fault {
+            ProgramFault::NotClosed { x, y, .. } => Some(x.hypot(y)),
+            _ => None,
+        },
+        Detail::Iso(IsoFault::NotClosed { distance }) => Some(*distance),
+        _ => None,
+    }
+}
+
+/// True for faults that say what was meant whether the contour closes or not.
+fn speaks_for_itself(rule: Rule) -> bool {
+    matches!(
+        rule,
+        Rule::LengthInJ
+            | Rule::MissingB
+            | Rule::BlockNumberAsB
+            | Rule::Syntax
+            | Rule::ZeroBlock
+            | Rule::TooManyDigits
+            | Rule::PositionMismatch
+            | Rule::MissingEnd
+            | Rule::TextAfterEnd
+            | Rule::BlockNumber
+    )
+}
+
+/// True for a repair that draws what nobody wrote.
+fn invents(kind: &FixKind) -> bool {
+    matches!(kind, FixKind::Close { .. })
+}
+
+/// Each of so many edits is made for itself; more are made as one, from the first to the last.
+const FEW: usize = 8;
+
+/// The program with edits made, which are sorted and disjoint.
+fn edited(program: &Document, edits: &[TextEdit]) -> Document {
+    let mut edited = program.clone();
+    if let ([first, .., last], true) = (edits, edits.len() > FEW)
+        && let Some(bytes) = crate::text::edited(program.text().bytes(), edits)
+    {
+        let behind = program.text().len() - last.range.end;
+        let between = bytes.get(first.range.start..bytes.len() - behind).unwrap_or_default();
+        if let Ok(between) = std::str::from_utf8(between) {
+            edited.edit(first.range.start..last.range.end, between);
+            return edited;
+        }
+    }
+    edits.iter().rev().for_each(|edit| edited.edit(edit.range.clone(), &edit.text));
+    edited
+}
+
+/// True where one key more, less, another or two exchanged make one text of the other.
+pub(super) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
+    let head = found.iter().zip(meant).take_while(|(a, b)| a == b).count();
+    let (a, b) = (&found[head..], &meant[head..]);
+    let tail = a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count();
+    match (&a[..a.len() - tail], &b[..b.len() - tail]) {
+        ([_], [] | [_]) | ([], [_]) => true,
+        ([one, two], [other, another]) => one == another && two == other,
+        _ => false,
+    }
+}
+
+fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
+    let found = |edit: &TextEdit| program.text().bytes().get(edit.range.clone()).unwrap_or_default().to_vec();
+    matches!(edits, [edit] if is_slip(&found(edit), edit.text.as_bytes()))
+}
+
+type TextFix = Fix<Vec<TextEdit>>;
+
+/// The repairs of a finding, those that pass the gate before those that do not. None of these is preferred or made without asking.
+pub(super) fn gated(program: &Document, finding: &Finding, mut fixes: Vec<TextFix>) -> Vec<TextFix> {
+    if program.text().len() > TRIED || fixes.is_empty() {
+        fixes.iter_mut().filter(|fix| invents(&fix.kind)).for_each(refuse);
+        return fixes;
+    }
+    let before = Standing::of(program);
+    let (mut good, mut bad) = (Vec::new(), Vec::new());
+    for mut fix in fixes {
+        let passes = !invents(&fix.kind) && {
+            let after = Standing::of(&edited(program, &fix.edit));
+            before.allows(&after, speaks_for_itself(finding.rule), is_by_a_slip(program, &fix.edit))
+        };
+        if passes {
+            good.push(fix);
+        } else {
+            refuse(&mut fix);
+            bad.push(fix);
+        }
+    }
+    good.append(&mut bad);
+    good
+}
+
+fn refuse(fix: &mut TextFix) {
+    (fix.preferred, fix.in_fix_all) = (false, false);
+}
+
+/// Those of the repairs that go together and leave the program no worse, as one sorted list of disjoint edits: all, or else one after
+/// another as far as they pass. At most one changes a line.
+pub(super) fn together(program: &Document, fixes: Vec<(Rule, TextFix)>) -> Vec<TextEdit> {
+    let mut taken = Taken::default();
+    let fixes: Vec<(Rule, TextFix)> = fixes.into_iter().filter(|(_, fix)| taken.take(program, &fix.edit)).collect();
+    if fixes.is_empty() {
+        return Vec::new();
+    }
+    let before = Standing::of(program);
+    let all = taken.edits();
+    let for_itself = fixes.iter().all(|(rule, _)| speaks_for_itself(*rule));
+    let by_slips = fixes.iter().all(|(_, fix)| is_by_a_slip(program, &fix.edit));
+    if before.allows(&Standing::of(&edited(program, &all)), for_itself, by_slips) {
+        return all;
+    }
+    let mut kept = Taken::default();
+    for (rule, fix) in fixes.into_iter().take(ONE_BY_ONE) {
+        let mut more = kept.clone();
+        more.take(program, &fix.edit);
+        let present = Standing::of(&edited(program, &kept.clone().edits()));
+        let after = Standing::of(&edited(program, &more.clone().edits()));
+        if present.allows(&after, speaks_for_itself(rule), is_by_a_slip(program, &fix.edit)) {
+            kept = more;
+        }
+    }
+    kept.edits()
+}
+
+/// Edits that are made together, by where they begin: an edit touches another one only if that is its neighbour.
+#[derive(Clone, Default)]
+struct Taken {
+    edits: BTreeMap<usize, TextEdit>,
+    /// First and last line of each repair.
+    lines: BTreeMap<usize, usize>,
+}
+
+impl Taken {
+    /// Takes the edits of a repair where nothing else changes their lines; false where something does.
+    fn take(&mut self, program: &Document, edits: &[TextEdit]) -> bool {
+        let text = program.text();
+        let is_free = |edit: &TextEdit| {
+            let before = self.edits.range(..=edit.range.end).next_back();
+            before.is_none_or(|(_, other)| other.range.end < edit.range.start)
+        };
+        let lines = |edit: &TextEdit| {
+            // What is put behind a line is none of it.
+            let (first, last) = (text.line_of(edit.range.start), text.line_of(edit.range.end));
+            let is_behind = edit.range.is_empty() && edit.range.start == text.line_range(first).end && edit.text.starts_with(['\r', '\n']);
+            (!is_behind).then_some((first, last))
+        };
+        let is_line_free = |edit: &TextEdit| {
+            lines(edit).is_none_or(|(first, last)| self.lines.range(..=last).next_back().is_none_or(|(_, end)| *end < first))
+        };
+        if !edits.iter().all(|edit| is_free(edit) && is_line_free(edit)) {
+            return false;
+        }
+        self.lines.extend(edits.iter().filter_map(lines));
+        self.edits.extend(edits.iter().map(|edit| (edit.range.start, edit.clone())));
+        true
+    }
+
+    fn edits(self) -> Vec<TextEdit> {
+        self.edits.into_values().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_slip;
+
+    #[test]
+    fn a_slip_is_one_key() {
+        for (found, meant, expected) in [
+            ("5000", "500", true),
+            ("500", "5000", true),
+            ("5000", "5100", true),
+            ("1500", "5100", true),
+            ("", "7", true),
+            ("5000", "5000", false),
+            ("5000", "3100", false),
+            ("12", "2100", false),
+        ] {
+            assert_eq!(is_slip(found.as_bytes(), meant.as_bytes()), expected, "{found} {meant}");
+        }
+    }
+}
