@@ -83,7 +83,6 @@ fn speaks_for_itself(rule: Rule) -> bool {
             | Rule::BlockNumberAsB
             | Rule::Syntax
             | Rule::ZeroBlock
-            | Rule::TooManyDigits
             | Rule::PositionMismatch
             | Rule::MissingEnd
             | Rule::TextAfterEnd
