@@ -6,6 +6,7 @@
 
 pub mod analysis;
 pub mod cli;
+mod disk;
 pub mod document;
 pub mod drawing;
 pub mod dxf;

@@ -1,5 +1,8 @@
 //! The command line as a user meets it: the real binary, small files, what it prints and how it ends.
 
+#[path = "cli/untrusted.rs"]
+mod untrusted;
+
 use serde_json::Value;
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -1,20 +1,28 @@
 //! What a command changes in a file, shown as a diff.
 
-use super::output;
+use super::{Failure, output};
+use crate::message::readable;
 use similar::udiff::UnifiedHunkHeader;
 use similar::{Algorithm, ChangeTag, capture_diff_slices, group_diff_ops};
 use std::path::Path;
 
-/// A unified diff with three lines of context, in the file's own bytes.
-pub fn diff(path: &Path, before: &[u8], after: &[u8]) -> Vec<u8> {
+/// A unified diff with three lines of context: for people with colours and readable, else in the file's own bytes.
+pub fn print_diff(path: &Path, before: &[u8], after: &[u8]) -> Result<(), Failure> {
+    let for_people = output::is_for_people();
+    let diff = diff(path, before, after, for_people);
+    if for_people { output::print(String::from_utf8_lossy(&diff)) } else { output::print_bytes(&diff) }
+}
+
+fn diff(path: &Path, before: &[u8], after: &[u8], for_people: bool) -> Vec<u8> {
     let mut text = Vec::new();
     if before == after {
         return text;
     }
+    let push_line = if for_people { push_readable_line } else { push_bytes };
     let lines = |bytes| <[u8]>::split_inclusive(bytes, |&byte| byte == b'\n').collect::<Vec<_>>();
     let (old, new) = (lines(before), lines(after));
     for sign in ["---", "+++"] {
-        push_line(&mut text, output::STRONG, format!("{sign} {}", path.display()).as_bytes());
+        push_line(&mut text, output::STRONG, format!("{sign} {}", output::name(path)).as_bytes());
     }
     for ops in group_diff_ops(capture_diff_slices(Algorithm::Myers, &old, &new), 3) {
         push_line(&mut text, output::NOTE, UnifiedHunkHeader::new(&ops).to_string().as_bytes());
@@ -33,12 +41,16 @@ pub fn diff(path: &Path, before: &[u8], after: &[u8]) -> Vec<u8> {
     text
 }
 
+fn push_bytes(text: &mut Vec<u8>, _: anstyle::Style, line: &[u8]) {
+    text.extend_from_slice(line);
+    if !line.ends_with(b"\n") {
+        text.push(b'\n');
+    }
+}
+
 /// A line in a style; its line end stands behind the colours, which would reach into the next line's margin.
-fn push_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
+fn push_readable_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
     let end = line.iter().rposition(|byte| !matches!(byte, b'\r' | b'\n')).map_or(0, |last| last + 1);
-    let (shown, line_end) = line.split_at(end);
-    text.extend_from_slice(style.render().to_string().as_bytes());
-    text.extend_from_slice(shown);
-    text.extend_from_slice(style.render_reset().to_string().as_bytes());
-    text.extend_from_slice(if line_end.is_empty() { b"\n" } else { line_end });
+    let shown = String::from_utf8_lossy(&line[..end]);
+    text.extend_from_slice(format!("{}\n", output::styled(style, readable(&shown))).as_bytes());
 }

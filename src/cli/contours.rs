@@ -5,6 +5,7 @@ use super::options::Common;
 use super::output::{self, counted, styled};
 use super::{Failure, Verdict, files};
 use crate::drawing::Role;
+use crate::message::readable;
 use crate::protocol::{Contours, ContoursContour, Direction};
 use clap::Args;
 use std::fmt::Write;
@@ -34,11 +35,13 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         return Err(Failure(format!("{}: there is no drawing in it", arguments.path.display())));
     };
     let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
-    let printed = match arguments.output {
-        Format::Text => list(&contours),
-        Format::Json => format!("{}\n", serde_json::to_string(&contours).map_err(|error| Failure(error.to_string()))?),
-    };
-    output::print(&printed)?;
+    match arguments.output {
+        Format::Text => output::print(list(&contours))?,
+        Format::Json => {
+            let json = serde_json::to_string(&contours).map_err(|error| Failure(error.to_string()))?;
+            output::print_json(&format!("{json}\n"))?;
+        }
+    }
     Ok(Verdict::Clean)
 }
 
@@ -54,7 +57,7 @@ fn list(contours: &Contours) -> String {
             } else {
                 format!("segments {} to {}", first.segment, last.segment)
             };
-            let _ = writeln!(text, "  {:<12} {range}{against}", first.handle);
+            let _ = writeln!(text, "  {:<12} {range}{against}", readable(&first.handle));
         }
         for gap in &contour.gaps {
             let distance = gap.distance * contours.units_to_mm * 1000.0;

@@ -140,12 +140,18 @@ fn converted(
             output::complain(&format!("{}: {sentence}", arguments.path.display()));
             Ok(None)
         }
+        // Errors that were passed over: what comes of them is theirs.
+        Err(error) if report::has_errors(document) => {
+            let path = arguments.path.display();
+            output::complain(&format!("{path}: the program has errors, and no other could be proved for it: {error}"));
+            Ok(None)
+        }
         Err(error) => Err(Failure(format!("{}: internal error, nothing is written: {error}", arguments.path.display()))),
     }
 }
 
 fn summarise(arguments: &Arguments, cuts: &convert::Cuts, what: &str) {
-    let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| path.display().to_string());
+    let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| output::name(path));
     output::say(&format!("{} {target}: {what}", styled(output::GOOD, "written")));
     if cuts.closure >= 0.005 {
         output::say(&format!("the machine misses the begin of a contour by up to {:.2} µm; its ends are made one there", cuts.closure));

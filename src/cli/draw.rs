@@ -7,9 +7,10 @@ use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Segment;
+use crate::message::{en, readable};
 use crate::settings::Settings;
 use crate::toolpath::{self, Refusal, WirePath};
-use crate::{dxf, message::en, picture};
+use crate::{dxf, picture};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -57,6 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             Refusal::Cancelled => "the path was given up".into(),
             Refusal::Findings(findings) => findings.first().map_or_else(String::new, |finding| en::sentence(finding, unit_mm)),
         };
+        let reason = readable(&reason);
         output::say(&format!("{} drawn without the path of the wire: {reason}", styled(output::NOTE, "note:")));
         Vec::new()
     });

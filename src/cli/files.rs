@@ -3,6 +3,7 @@
 use super::options::Common;
 use super::report::Row;
 use super::{Failure, output};
+use crate::disk::{self, Seen, plain};
 use crate::document::{Document, Source};
 use crate::drawing::Unit;
 use crate::finding::{Detail, Finding, Place, Rule};
@@ -22,6 +23,8 @@ const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
 pub struct Opened {
     pub path: PathBuf,
     pub document: Document,
+    /// The file as it was: only over this one may be written.
+    pub seen: Seen,
     /// Values in settings files that do not fit; the settings without them hold.
     pub settings_rows: Vec<Row>,
 }
@@ -35,18 +38,21 @@ enum Kind {
 pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let kind = kind_of(path)?;
     let (settings, settings_rows) = settings_for(path, common, last)?;
-    let bytes = read(path)?;
-    Ok(Opened { path: path.to_path_buf(), document: document(&kind, bytes, Arc::new(settings)), settings_rows })
+    let (bytes, seen) = read(path).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?;
+    Ok(Opened { path: path.to_path_buf(), document: document(&kind, bytes, Arc::new(settings)), seen, settings_rows })
 }
 
 /// A text that cannot be held whole is refused: what is written from it would lack its end.
-fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    let failure = |reason: String| Failure(format!("{}: {reason}", path.display()));
-    let length = std::fs::metadata(path).map_err(|error| failure(plain(&error)))?.len();
-    if length >= u64::from(u32::MAX) {
-        return Err(failure(format!("it has {length} bytes, expected less than 4 GiB")));
-    }
-    std::fs::read(path).map_err(|error| failure(plain(&error)))
+const LARGEST: u64 = u32::MAX as u64 - 1;
+/// The same of a device or a pipe, which may have no end.
+const LARGEST_STREAM: u64 = 256 * 1024 * 1024;
+
+fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
+    let file = std::fs::File::open(path).map_err(|error| plain(&error))?;
+    let is_regular = file.metadata().map_err(|error| plain(&error))?.is_file();
+    let bytes = disk::read_at_most(&file, if is_regular { LARGEST } else { LARGEST_STREAM })?;
+    let seen = Seen::of(&file, &bytes)?;
+    Ok((bytes, seen))
 }
 
 /// The same for a command that needs a drawing, and settings without a fault: it makes something of them.
@@ -101,7 +107,7 @@ fn settings_for(path: &Path, common: &Common, last: &Settings) -> Result<(Effect
     let mut settings = Settings::default();
     let mut rows = Vec::new();
     for file in project_file(path).iter().chain(&common.config) {
-        let bytes = std::fs::read(file).map_err(|error| Failure(format!("{}: {}", file.display(), plain(&error))))?;
+        let bytes = settings::read_file(file).map_err(|reason| Failure(format!("{}: {reason}", file.display())))?;
         let text = String::from_utf8(bytes).map_err(|_| Failure(format!("{}: it is not UTF-8 text", file.display())))?;
         let (level, errors) = settings::from_toml(&text);
         settings = settings.overlaid(&level);
@@ -168,12 +174,4 @@ pub fn search(paths: &[PathBuf]) -> Found {
 fn has_known_ending(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
-}
-
-/// The system's reason without its number.
-pub fn plain(error: &std::io::Error) -> String {
-    let text = error.to_string();
-    let short = text.split(" (os error").next().unwrap_or(&text);
-    let mut characters = short.chars();
-    characters.next().map_or_else(String::new, |first| first.to_lowercase().chain(characters).collect())
 }

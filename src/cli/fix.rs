@@ -1,12 +1,14 @@
 //! `wedm fix`: every safe repair of a drawing or program, in its own bytes.
 
-use super::changes::diff;
+use super::changes::print_diff;
 use super::options::Common;
 use super::output::{self, counted, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, files};
+use crate::disk::Seen;
 use crate::document::{Document, ROUNDS, Source};
 use crate::finding::{Edit, Finding, Rule, Severity};
+use crate::message::readable;
 use crate::text::edited;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -64,10 +66,13 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.target.output {
         output::refuse_input(target, path)?;
     }
+    if arguments.target.in_place {
+        output::refuse_irregular(path)?;
+    }
     let opened = files::open(path, &arguments.common, &arguments.common.settings())?;
     files::refuse_faulty_settings(&opened)?;
     let repair = repair(path, opened.document)?;
-    deliver(arguments, &repair)?;
+    deliver(arguments, &repair, &opened.seen)?;
     summarise(path, &repair);
     let errors_left = repair.after.iter().any(|row| row.severity == Severity::Error);
     Ok(if errors_left || !repair.refused.is_empty() { Verdict::Errors } else { Verdict::Clean })
@@ -137,14 +142,14 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
     repaired.take(LISTED).filter_map(reason).collect()
 }
 
-fn deliver(arguments: &Arguments, repair: &Repair) -> Result<(), Failure> {
+fn deliver(arguments: &Arguments, repair: &Repair, seen: &Seen) -> Result<(), Failure> {
     let target = &arguments.target;
     if target.diff {
-        return output::print(diff(&arguments.path, &repair.bytes_before, repair.bytes()));
+        return print_diff(&arguments.path, &repair.bytes_before, repair.bytes());
     }
     match &target.output {
         Some(path) => output::write(Some(path), repair.bytes()),
-        None if repair.is_changed() => output::write(Some(&arguments.path), repair.bytes()),
+        None if repair.is_changed() => output::write_over(&arguments.path, seen, repair.bytes()),
         None => Ok(()),
     }
 }
@@ -158,7 +163,7 @@ fn summarise(path: &Path, repair: &Repair) {
     });
     let repaired = repaired.collect::<Vec<_>>().join(", ");
     let is_sound = REPAIRED.iter().all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
-    let name = path.display();
+    let name = output::name(path);
     if !repaired.is_empty() {
         let rounds = if repair.rounds > 1 { format!(" in {} rounds", repair.rounds) } else { String::new() };
         output::say(&format!("{name}: {}{rounds}", styled(output::GOOD, format!("{repaired} repaired"))));
@@ -169,6 +174,7 @@ fn summarise(path: &Path, repair: &Repair) {
     }
     for (row, reason) in &repair.refused {
         let place = format!("{name}:{}:{}", row.line, row.column);
+        let reason = readable(reason);
         output::say(&format!("{} {place}: {}: {reason}", styled(output::WARNING, "not repaired:"), row.message));
     }
     let is_refused =

@@ -1,6 +1,6 @@
 //! `wedm format`: programs in their layout, with the same blocks.
 
-use super::changes::diff;
+use super::changes::print_diff;
 use super::options::{Common, words};
 use super::output::{self, STRONG, counted, styled};
 use super::{Failure, Verdict, files};
@@ -114,6 +114,9 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         pause: arguments.pause.clone(),
         ..ProgramSettings::default()
     };
+    if arguments.target.in_place {
+        output::refuse_irregular(path)?;
+    }
     let mut opened = files::open(path, &common, &Settings { program: Some(program), ..Settings::default() })?;
     files::refuse_faulty_settings(&opened)?;
     let settings = opened.document.settings().clone();
@@ -127,22 +130,26 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let is_changed = after != before;
     let target = &arguments.target;
     if target.diff {
-        output::print(diff(path, before, &after))?;
+        print_diff(path, before, &after)?;
     } else if target.check {
         if is_changed {
-            output::print(format!("{} {}\n", styled(STRONG, "would be formatted:"), path.display()))?;
+            output::print(format!("{} {}\n", styled(STRONG, "would be formatted:"), output::name(path)))?;
         }
     } else if !target.in_place {
         output::write(target.output.as_deref(), &after)?;
     } else if is_changed {
-        output::write(Some(path), &after)?;
+        output::write_over(path, &opened.seen, &after)?;
     }
     let (findings, _) = opened.document.findings(usize::MAX);
     // What was meant may be plain and the block read: its text is damaged all the same.
     let is_of_text = |rule: Rule| matches!(rule, Rule::Syntax | Rule::MissingB | Rule::BlockNumberAsB);
     let damaged = findings.iter().filter(|finding| is_of_text(finding.rule)).count();
     if damaged > 0 {
-        output::say(&format!("{}: left as they stand: {} with a syntax error, see wedm check", path.display(), counted(damaged, "line")));
+        output::say(&format!(
+            "{}: left as they stand: {} with a syntax error, see wedm check",
+            output::name(path),
+            counted(damaged, "line")
+        ));
     }
     Ok(is_changed)
 }

@@ -64,6 +64,11 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             output::complain(&format!("{}: {sentence}", path.display()));
             return Ok(Verdict::Errors);
         }
+        // Errors that were passed over with --force: what comes of them is theirs.
+        Err(error) if report::has_errors(&document) => {
+            output::complain(&format!("{}: the drawing has errors, and no program could be proved for it: {error}", path.display()));
+            return Ok(Verdict::Errors);
+        }
         Err(error) => return Err(Failure(format!("{}: internal error, no program is written: {error}", path.display()))),
     };
     output::write(arguments.output.as_deref(), program.text.as_bytes())?;
@@ -121,7 +126,7 @@ fn list(arguments: &Arguments, document: &Document, findings: &[Finding]) {
 }
 
 fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
-    let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| path.display().to_string());
+    let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| output::name(path));
     // A drift that rounds to zero has no sign.
     let [x, y] = program.closure.map(|drift| (drift * 100.0).round() / 100.0 + 0.0);
     output::say(&format!(

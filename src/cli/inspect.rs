@@ -6,6 +6,7 @@ use super::output::{self, counted, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict};
 use crate::finding::Severity;
+use crate::message::readable;
 use crate::protocol::{InspectedEntity, InspectedSegment, Inspection, SegmentKind};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -62,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         (Format::Text, None) => output::print(table(&printed))?,
         (Format::Json, failure) => {
             let json = serde_json::to_string(&printed).map_err(|error| Failure(error.to_string()))?;
-            output::print(format!("{json}\n"))?;
+            output::print_json(&format!("{json}\n"))?;
             failure.map_or(Ok(()), Err)?;
         }
     }
@@ -111,7 +112,7 @@ fn table(printed: &Printed) -> String {
 fn heading(entity: &InspectedEntity) -> String {
     let closed = if entity.closed { "closed" } else { "open" };
     let cut = if entity.cut { "" } else { ", not cut" };
-    format!("{} {} on layer {}, {closed}{cut}", entity.r#type, entity.handle, entity.layer)
+    format!("{} {} on layer {}, {closed}{cut}", entity.r#type, readable(&entity.handle), readable(&entity.layer))
 }
 
 fn columns() -> String {

@@ -21,6 +21,7 @@ mod report;
 mod serve;
 mod simulate;
 
+use crate::message::{is_hidden, readable};
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -92,7 +93,14 @@ struct Failure(String);
 
 /// Does what the process was called for.
 pub fn run() -> ExitCode {
-    let arguments = CommandLine::parse();
+    let arguments = CommandLine::try_parse().unwrap_or_else(|error| {
+        // Words that stand in the message may be names of files that a shell has put there.
+        if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden)) && error.use_stderr() {
+            output::say(&error.to_string().lines().map(readable).collect::<Vec<_>>().join("\n"));
+            std::process::exit(Verdict::Failed.code().into());
+        }
+        error.exit()
+    });
     let outcome = match arguments.command {
         None => return serve::run(&arguments.server),
         Some(Command::Serve(arguments)) => return serve::run(&arguments),

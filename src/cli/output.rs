@@ -1,8 +1,11 @@
-//! Where output goes: terminals with colours, pipes without, files beside their target and renamed.
+//! Where output goes: terminals with colours, pipes without, files. Nothing that a terminal obeys is printed but our own colours.
 
 use super::Failure;
+use crate::disk;
+use crate::message::{is_hidden, readable};
 use anstyle::{AnsiColor, Style};
-use std::io::{self, ErrorKind, Write};
+use std::borrow::Cow;
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
 pub const ERROR: Style = AnsiColor::Red.on_default().bold();
@@ -17,26 +20,87 @@ pub fn styled(style: Style, text: impl std::fmt::Display) -> String {
     format!("{style}{text}{style:#}")
 }
 
-/// Text to stdout. A reader that has gone away has seen enough: no error.
-pub fn print(text: impl AsRef<[u8]>) -> Result<(), Failure> {
-    let mut stdout = anstream::stdout().lock();
-    accepted(stdout.write_all(text.as_ref()).and_then(|()| stdout.flush()), "stdout")
+/// The name of a file as people may read it.
+pub fn name(path: &Path) -> String {
+    readable(&path.to_string_lossy()).into_owned()
 }
 
-/// Bytes to stdout, as they are.
-fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
+/// Text to stdout. A reader that has gone away has seen enough: no error.
+pub fn print(text: impl AsRef<str>) -> Result<(), Failure> {
+    let mut stdout = anstream::stdout().lock();
+    accepted(stdout.write_all(shown(text.as_ref()).as_bytes()).and_then(|()| stdout.flush()), "stdout")
+}
+
+/// JSON to stdout: what a terminal would obey is escaped, which changes nothing that is said.
+pub fn print_json(json: &str) -> Result<(), Failure> {
+    print(escaped(json))
+}
+
+/// Bytes to stdout: to a pipe or a file as they are, to a terminal as a person may read them.
+pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
+    if io::stdout().is_terminal() {
+        return print(String::from_utf8_lossy(bytes));
+    }
     let mut stdout = io::stdout().lock();
     accepted(stdout.write_all(bytes).and_then(|()| stdout.flush()), "stdout")
 }
 
+/// True where a person reads stdout: it is a terminal, or shows colours.
+pub fn is_for_people() -> bool {
+    let stdout = io::stdout();
+    stdout.is_terminal() || anstream::AutoStream::choice(&stdout) != anstream::ColorChoice::Never
+}
+
 /// A line to stderr. Nobody can be told when that fails.
 pub fn say(text: &str) {
-    let _ = writeln!(anstream::stderr().lock(), "{text}");
+    let _ = writeln!(anstream::stderr().lock(), "{}", shown(text));
 }
 
 /// What went wrong, to stderr.
 pub fn complain(sentence: &str) {
-    say(&format!("{}: {sentence}", styled(ERROR, "error")));
+    say(&format!("{}: {}", styled(ERROR, "error"), readable(sentence)));
+}
+
+/// Text of several lines with our own colours, nothing else of which a terminal obeys: what was forgotten before is caught here.
+fn shown(text: &str) -> Cow<'_, str> {
+    if !text.contains(|character| is_hidden(character) && character != '\n') {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(character) = rest.chars().next() {
+        let style = if character == '\u{1b}' { style_length(rest) } else { 0 };
+        let length = style.max(character.len_utf8());
+        match character {
+            _ if style > 0 => out.push_str(&rest[..style]),
+            '\r' if rest[1..].starts_with('\n') => {}
+            '\n' => out.push(character),
+            hidden if is_hidden(hidden) => out.push(char::REPLACEMENT_CHARACTER),
+            other => out.push(other),
+        }
+        rest = &rest[length..];
+    }
+    Cow::Owned(out)
+}
+
+/// Bytes of the colour or weight that `text` begins with: `ESC [ digits m`.
+fn style_length(text: &str) -> usize {
+    let Some(numbers) = text.strip_prefix("\u{1b}[") else { return 0 };
+    let end = numbers.bytes().position(|byte| !matches!(byte, b'0'..=b'9' | b';')).unwrap_or(numbers.len());
+    if numbers[end..].starts_with('m') { 2 + end + 1 } else { 0 }
+}
+
+/// JSON with every character that [`is_hidden`] as an escape. Outside of strings there is none but line ends.
+fn escaped(json: &str) -> String {
+    let mut out = String::with_capacity(json.len());
+    for character in json.chars() {
+        if character != '\n' && is_hidden(character) {
+            character.encode_utf16(&mut [0; 2]).iter().for_each(|unit| out.push_str(&format!("\\u{unit:04x}")));
+        } else {
+            out.push(character);
+        }
+    }
+    out
 }
 
 fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
@@ -46,51 +110,44 @@ fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
     }
 }
 
-/// Bytes to a file, or to stdout for none and for `-`.
-///
-/// A file is written beside its target and renamed, so that nobody ever sees half of it; permissions of a file that
-/// stands there are kept, and a link stays a link. What is no regular file (a device, a pipe) is written directly.
+/// Bytes to a file, or to stdout for none and for `-`. A file is [replaced](disk::replace), what is no regular file (a device, a pipe)
+/// is written directly.
 pub fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match target {
         None => print_bytes(bytes),
         Some(path) if path == Path::new("-") => print_bytes(bytes),
-        Some(path) => replace(path, bytes).map_err(|error| Failure(format!("{} could not be written: {error}", path.display()))),
+        Some(path) => said_of(path, disk::write(path, bytes)),
     }
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let present = match std::fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => return Err(io::Error::new(ErrorKind::IsADirectory, "it is a folder")),
-        Ok(metadata) if !metadata.is_file() => return std::fs::write(path, bytes),
-        Ok(metadata) => Some(metadata.permissions()),
-        Err(error) if error.kind() == ErrorKind::NotFound => None,
-        Err(error) => return Err(error),
-    };
-    let path = if present.is_some() { path.canonicalize()? } else { path.to_path_buf() };
-    if present.as_ref().is_some_and(std::fs::Permissions::readonly) {
-        return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
+/// Bytes over the file that was read; an error, and nothing written, where it is not that file any more.
+pub fn write_over(path: &Path, read: &disk::Seen, bytes: &[u8]) -> Result<(), Failure> {
+    said_of(path, disk::replace(path, Some(read), bytes))
+}
+
+/// How many names an old file has beside that which stands for the new one now.
+fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
+    match written {
+        Ok(0) => {}
+        Ok(others) => say(&format!(
+            "{} {} had {} besides (hard links): what stands there is the old content",
+            styled(NOTE, "note:"),
+            name(path),
+            counted(usize::try_from(others).unwrap_or(usize::MAX), "name")
+        )),
+        Err(reason) => return Err(Failure(format!("{} could not be written: {reason}", path.display()))),
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut beside = new_file(folder)?;
-    beside.write_all(bytes)?;
-    if let Some(permissions) = present {
-        beside.as_file().set_permissions(permissions)?;
-    }
-    beside.as_file().sync_all()?;
-    beside.persist(&path)?;
     Ok(())
 }
 
-/// A temporary file that gets the permissions of any new file, not those of a secret one.
-fn new_file(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".wedm-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
+/// An error where `path` is no regular file: nothing else can be changed in its place.
+pub fn refuse_irregular(path: &Path) -> Result<(), Failure> {
+    match std::fs::metadata(path) {
+        Ok(metadata) if !metadata.is_file() => {
+            Err(Failure(format!("{}: it is no regular file, expected one to be changed in its place", path.display())))
+        }
+        _ => Ok(()),
     }
-    builder.tempfile_in(folder)
 }
 
 /// An error where `target` is the file that was read: an input changes only when `--in-place` says so.
@@ -108,4 +165,27 @@ pub fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
 /// "1 error", "3 errors".
 pub fn counted(count: usize, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_but_lines_and_colours_reaches_a_terminal() {
+        let check = |text: &str, expected: &str| assert_eq!(shown(text), expected, "{text:?}");
+        check("plain\n\ttext\n", "plain\n\ttext\n");
+        check(&styled(ERROR, "a"), &styled(ERROR, "a"));
+        check("a\u{1b}]0;title\u{7}\u{1b}[2Jb\u{1b}[31", "a\u{fffd}]0;title\u{fffd}\u{fffd}[2Jb\u{fffd}[31");
+        check("a\r\nb\rc\u{9b}", "a\nb\u{fffd}c\u{fffd}");
+        check("\u{202e}\u{1b}", "\u{fffd}\u{fffd}");
+    }
+
+    #[test]
+    fn escaped_json_says_the_same() {
+        let value = serde_json::json!({ "a\u{1b}\u{9b}": ["\u{202e}\n", "\u{e0041}ä模"] });
+        let escaped = escaped(&format!("{value:#}\n"));
+        assert!(!escaped.contains(|character| is_hidden(character) && character != '\n'), "{escaped}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&escaped).unwrap(), value);
+    }
 }

@@ -3,7 +3,7 @@
 use crate::document::Document;
 use crate::drawing::Unit;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::message::en;
+use crate::message::{en, is_hidden, readable};
 use crate::protocol::FindingData;
 use crate::text::SourceText;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
@@ -74,6 +74,10 @@ pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     findings.iter().map(|finding| row(path, document, finding)).collect()
 }
 
+pub fn has_errors(document: &Document) -> bool {
+    document.all_findings().iter().any(|finding| finding.severity == Severity::Error)
+}
+
 /// One finding of a document.
 pub fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     let drawing = document.drawing();
@@ -137,17 +141,18 @@ impl Row {
         };
         let title = level.primary_title(self.message.as_str()).id(self.rule.name());
         let renderer = Renderer::styled();
+        let path = readable(&self.path);
         match &self.excerpt {
             Some(excerpt) => {
                 let snippet = Snippet::source(excerpt.text.as_str())
                     .line_start(excerpt.first_line)
-                    .path(self.path.as_str())
+                    .path(path.as_ref())
                     .fold(false)
                     .annotation(AnnotationKind::Primary.span(excerpt.span.clone()).label(self.label()));
                 renderer.render(&[title.element(snippet)])
             }
             None => {
-                let place = annotate_snippets::Origin::path(self.path.as_str()).line(self.line).char_column(self.column);
+                let place = annotate_snippets::Origin::path(path.as_ref()).line(self.line).char_column(self.column);
                 renderer.render(&[title.element(place)])
             }
         }
@@ -157,7 +162,7 @@ impl Row {
     fn label(&self) -> Option<String> {
         let handle = self.data.handle.as_ref()?;
         let place = self.data.segment.map_or_else(String::new, |segment| format!(", segment {segment}"));
-        Some(format!("{handle}{place}"))
+        Some(format!("{}{place}", readable(handle)))
     }
 }
 
@@ -211,7 +216,7 @@ fn is_group_code(line: &[u8]) -> bool {
 /// Bytes as text that a terminal can show: what is no UTF-8 and what would move its cursor becomes U+FFFD.
 fn push_readable(shown: &mut String, bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
-    shown.extend(text.chars().map(|character| if character.is_control() && character != '\t' { '\u{fffd}' } else { character }));
+    shown.extend(text.chars().map(|character| if is_hidden(character) && character != '\t' { '\u{fffd}' } else { character }));
 }
 
 #[cfg(test)]

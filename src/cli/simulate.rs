@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     match arguments.output {
         Format::Json => {
             let json = serde_json::to_string(&simulation).map_err(|error| Failure(error.to_string()))?;
-            output::print(format!("{json}\n"))?;
+            output::print_json(&format!("{json}\n"))?;
         }
         Format::Text => output::print(table(&simulation))?,
     }

@@ -1,10 +1,17 @@
 //! English.
 
+use super::readable;
 use crate::drawing::Visibility;
 use crate::finding::{CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
+///
+/// Names out of the drawing that stand in it are [`readable`].
 pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
+    readable(&said(finding, unit_mm)).into_owned()
+}
+
+fn said(finding: &Finding, unit_mm: f64) -> String {
     match &finding.detail {
         Detail::SmallRadius(numbers) => small_radius(numbers, unit_mm),
         Detail::UnsupportedEntity { kind, count: 1, why } => format!("{kind} is not cut: {why}"),
@@ -84,6 +91,7 @@ fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
 
 /// What the other place of a finding is, for a person.
 pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> String {
+    let handle = readable(handle);
     let place = segment.map_or_else(|| handle.to_string(), |segment| format!("{handle}, segment {segment}"));
     match finding.detail {
         Detail::NarrowSlot { .. } => format!("the facing wall: {place}"),

@@ -2,6 +2,7 @@
 
 use super::state::State;
 use super::transport::Writer;
+use crate::message::readable;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 use serde_json::Value;
@@ -99,7 +100,7 @@ impl Client {
     }
 
     fn say(&self, method: &str, weight: Weight, message: String) {
-        self.writer.notify(method, serde_json::json!({ "type": weight as u8, "message": message }));
+        self.writer.notify(method, serde_json::json!({ "type": weight as u8, "message": readable(&message) }));
     }
 
     /// When the next request is given up.

@@ -1,19 +1,17 @@
 //! The levels of settings, and which `wedm.toml` holds for which document.
 
-use crate::settings::{Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml};
+use crate::settings::{Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, read_file as read_settings};
 use crate::text::SourceText;
 use ls_types::Uri;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
-/// A `wedm.toml` longer than this is none.
-const FILE_CAP: u64 = 1024 * 1024;
-
-/// A project's file as it was read last.
+/// A project's file as it was found.
 pub(super) struct ProjectFile {
+    pub path: PathBuf,
     pub text: SourceText,
     pub settings: Settings,
     pub errors: Vec<SettingsError>,
@@ -27,7 +25,6 @@ pub(super) struct Config {
     /// The client's answer to `workspace/configuration`.
     pulled: Settings,
     folders: Vec<PathBuf>,
-    files: FxHashMap<PathBuf, Option<ProjectFile>>,
     /// Misfits that the user has been shown, by level.
     shown: FxHashMap<&'static str, Vec<String>>,
 }
@@ -69,70 +66,83 @@ impl Config {
             Level::Pulled => self.pulled = settings,
         }
         let sentences: Vec<String> = errors.iter().map(|error| format!("settings in {}: {}", level.name(), error.message)).collect();
-        let old = self.shown.insert(level.name(), sentences.clone()).unwrap_or_default();
+        let old: FxHashSet<String> = self.shown.insert(level.name(), sentences.clone()).unwrap_or_default().into_iter().collect();
         sentences.into_iter().filter(|sentence| !old.contains(sentence)).collect()
     }
 
-    /// The settings for a document, before a request's own options; `file` is what [`Config::file_for`] gave.
-    pub fn settings_for(&self, file: Option<&Path>) -> Settings {
+    /// The settings for a document, before a request's own options; `file` is what [`Config::file_for`] found.
+    pub fn settings_for(&self, file: Option<&ProjectFile>) -> Settings {
         let levels = self.initialization.overlaid(&self.pushed).overlaid(&self.pulled);
-        match file.and_then(|file| self.files.get(file)).and_then(Option::as_ref) {
+        match file {
             Some(project) => levels.overlaid(&project.settings),
             None => levels,
         }
     }
 
-    pub fn effective_for(&self, file: Option<&Path>) -> Arc<Effective> {
+    pub fn effective_for(&self, file: Option<&ProjectFile>) -> Arc<Effective> {
         Arc::new(Effective::of(&self.settings_for(file)))
     }
 
     /// The project's file that holds for a document: upwards from it, or from the workspace folder where it is no file.
-    /// `opened` are files whose text the client holds; the disk is asked for the others and read anew.
-    pub fn file_for(&mut self, uri: &str, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<PathBuf> {
+    pub fn file_for(&self, uri: &str, search: &mut Search, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<Arc<ProjectFile>> {
         let document = path_of(uri);
         let start = match &document {
-            Some(path) => path.parent()?.to_path_buf(),
-            None => self.folders.first()?.clone(),
+            Some(path) => path.parent()?,
+            None => self.folders.first()?,
         };
-        start.ancestors().map(|folder| folder.join(FILE_NAME)).find(|file| self.read(file, opened))
+        search.upwards(start, opened)
     }
+}
 
-    /// Reads a file anew; false where there is none.
-    pub fn read(&mut self, file: &Path, opened: &dyn Fn(&Path) -> Option<SourceText>) -> bool {
-        let project = match opened(file) {
-            Some(text) => Some(parse(text)),
-            None => match std::fs::metadata(file) {
-                Ok(metadata) if metadata.is_file() => Some(read_file(file, metadata.len())),
-                _ => None,
-            },
-        };
-        let found = project.is_some();
-        self.files.insert(file.to_path_buf(), project);
+/// A search for project files at one moment: however many documents lie in a folder, the disk is asked about it once.
+#[derive(Default)]
+pub(super) struct Search {
+    /// By folder: the file in it or in the nearest one above.
+    found: FxHashMap<PathBuf, Option<Arc<ProjectFile>>>,
+}
+
+impl Search {
+    fn upwards(&mut self, start: &Path, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<Arc<ProjectFile>> {
+        let mut asked = Vec::new();
+        let mut found = None;
+        for folder in start.ancestors() {
+            if let Some(known) = self.found.get(folder) {
+                found = known.clone();
+                break;
+            }
+            asked.push(folder);
+            found = read(&folder.join(FILE_NAME), opened).map(Arc::new);
+            if found.is_some() {
+                break;
+            }
+        }
+        self.found.extend(asked.into_iter().map(|folder| (folder.to_path_buf(), found.clone())));
         found
     }
+}
 
-    pub fn project_file(&self, file: &Path) -> Option<&ProjectFile> {
-        self.files.get(file)?.as_ref()
+/// A project's file as it is now; `None` where there is none. `opened` are files whose text the client holds.
+pub(super) fn read(file: &Path, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<ProjectFile> {
+    match opened(file) {
+        Some(text) => Some(parse(file, text)),
+        None => std::fs::metadata(file).is_ok_and(|metadata| metadata.is_file()).then(|| read_file(file)),
     }
 }
 
-fn parse(text: SourceText) -> ProjectFile {
+fn parse(path: &Path, text: SourceText) -> ProjectFile {
     let (settings, errors) = from_toml(&text.as_str_lossy());
-    ProjectFile { settings, errors, text }
+    ProjectFile { path: path.to_path_buf(), settings, errors, text }
 }
 
-fn read_file(file: &Path, length: u64) -> ProjectFile {
-    let refused = |message: String| ProjectFile {
-        text: SourceText::default(),
-        settings: Settings::default(),
-        errors: vec![SettingsError { key: String::new(), message, range: None }],
-    };
-    if length > FILE_CAP {
-        return refused(format!("the file is {length} bytes long, expected at most {FILE_CAP}"));
-    }
-    match std::fs::read(file) {
-        Ok(bytes) => parse(SourceText::new(bytes)),
-        Err(error) => refused(format!("the file cannot be read: {error}")),
+fn read_file(path: &Path) -> ProjectFile {
+    match read_settings(path) {
+        Ok(bytes) => parse(path, SourceText::new(bytes)),
+        Err(reason) => ProjectFile {
+            path: path.to_path_buf(),
+            text: SourceText::default(),
+            settings: Settings::default(),
+            errors: vec![SettingsError { key: String::new(), message: format!("the file cannot be taken: {reason}"), range: None }],
+        },
     }
 }
 
@@ -165,14 +175,31 @@ mod tests {
         assert!(config.set_level(Level::Pulled, &json!({ "correction": 0.2, "gap": null })).is_empty());
         let nothing_open = |_: &Path| None;
         for uri in [uri_of(&deep.join("x.dxf")).unwrap(), "cad:///1".into()] {
-            let file = config.file_for(&uri, &nothing_open).unwrap();
+            let file = config.file_for(&uri, &mut Search::default(), &nothing_open).unwrap();
             let settings = config.settings_for(Some(&file));
             assert_eq!((settings.correction, settings.margin), (Some(0.3), Some(0.5)), "{uri}");
         }
         assert_eq!(config.settings_for(None).correction, Some(0.2));
         let edited = |_: &Path| Some(SourceText::new(b"correction = 0.4".to_vec()));
-        let file = config.file_for("cad:///1", &edited).unwrap();
+        let file = config.file_for("cad:///1", &mut Search::default(), &edited).unwrap();
         assert_eq!(config.settings_for(Some(&file)).correction, Some(0.4));
+    }
+
+    #[test]
+    fn one_search_asks_about_each_folder_once() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(FILE_NAME), "margin = 0.5\n").unwrap();
+        let asked = std::cell::Cell::new(0);
+        let nothing_open = |_: &Path| {
+            asked.set(asked.get() + 1);
+            None
+        };
+        let (config, mut search) = (Config::default(), Search::default());
+        for number in 0..1000 {
+            let path = folder.path().join(format!("{}/{number}.dxf", number % 10));
+            assert_eq!(config.file_for(&uri_of(&path).unwrap(), &mut search, &nothing_open).unwrap().settings.margin, Some(0.5));
+        }
+        assert_eq!(asked.get(), 11);
     }
 
     #[test]

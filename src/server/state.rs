@@ -4,9 +4,9 @@
 //! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
 
 use super::client::{self, Abilities, Client, Weight};
-use super::config::{self, Config};
+use super::config::{self, Config, ProjectFile, Search};
 use super::jobs::Workers;
-use super::open::Open;
+use super::open::{Content, Open};
 use super::transport::{Publish, Writer, panic_text};
 use crate::protocol::Diagnostic;
 use crate::settings::Effective;
@@ -59,6 +59,10 @@ pub(super) struct State {
     pub resending: FxHashSet<Arc<str>>,
     /// Documents that have to be published, in the order in which they changed.
     dirty: Vec<Arc<str>>,
+    /// The same, to be asked.
+    is_dirty: FxHashSet<Arc<str>>,
+    /// Open texts of project files, by their paths.
+    settings_texts: FxHashMap<PathBuf, Arc<str>>,
     /// Files on disk whose errors the client is shown.
     shown_files: FxHashSet<PathBuf>,
     stamp: u64,
@@ -78,6 +82,8 @@ pub(super) fn start(writer: Writer) -> std::io::Result<Mailbox> {
         documents: FxHashMap::default(),
         resending: FxHashSet::default(),
         dirty: Vec::new(),
+        is_dirty: FxHashSet::default(),
+        settings_texts: FxHashMap::default(),
         shown_files: FxHashSet::default(),
         stamp: 0,
         stopped: None,
@@ -158,7 +164,7 @@ impl State {
             open.dirty = true;
             // Ours is the document's own copy of the name: one allocation for each document.
             let uri = open.uri.clone();
-            if !self.dirty.contains(&uri) {
+            if self.is_dirty.insert(uri.clone()) {
                 self.dirty.push(uri);
             }
         }
@@ -168,6 +174,11 @@ impl State {
     pub fn insert(&mut self, open: Open) {
         let uri = open.uri.clone();
         self.publish(&uri);
+        if matches!(open.content, Content::Settings(_))
+            && let Some(path) = config::path_of(&uri)
+        {
+            self.settings_texts.insert(path, uri.clone());
+        }
         self.documents.insert(uri.clone(), open);
         self.mark_dirty(&uri);
     }
@@ -181,15 +192,16 @@ impl State {
     /// Closes a document; false when it is not open.
     pub fn close(&mut self, uri: &Arc<str>) -> bool {
         self.publish(uri);
-        if self.documents.remove(uri).is_none() {
-            return false;
+        let Some(open) = self.documents.remove(uri) else { return false };
+        if matches!(open.content, Content::Settings(_)) {
+            self.settings_texts.retain(|_, other| other != uri);
         }
-        self.dirty.retain(|other| other != uri);
         self.client.writer().publish(Publish { uri: uri.clone(), version: None, diagnostics: Vec::new(), owed: true });
         true
     }
 
     fn publish_dirty(&mut self) {
+        self.is_dirty.clear();
         for uri in std::mem::take(&mut self.dirty) {
             self.publish(&uri);
         }
@@ -212,21 +224,24 @@ impl State {
         self.config.effective_for(file.as_deref())
     }
 
-    pub fn file_for(&mut self, uri: &str) -> Option<PathBuf> {
-        let documents = &self.documents;
-        let opened = |file: &Path| opened_text(documents, file);
-        let file = self.config.file_for(uri, &opened)?;
-        self.show_file(&file);
+    pub fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
+        let file = self.config.file_for(uri, &mut Search::default(), &|file| self.opened_text(file))?;
+        self.show_file(&file.path, Some(&file));
         Some(file)
     }
 
+    /// The text of a project's file that the client holds open.
+    fn opened_text(&self, file: &Path) -> Option<SourceText> {
+        self.documents.get(self.settings_texts.get(file)?)?.source_text().cloned()
+    }
+
     /// Shows the errors of a file that the client does not hold open itself.
-    fn show_file(&mut self, file: &Path) {
-        if opened_text(&self.documents, file).is_some() {
+    fn show_file(&mut self, file: &Path, project: Option<&ProjectFile>) {
+        if self.settings_texts.contains_key(file) {
             self.shown_files.remove(file);
             return;
         }
-        let errors = match self.config.project_file(file) {
+        let errors = match project {
             Some(project) => super::convert::settings_diagnostics(&project.text, &project.errors, self.encoding),
             None => Vec::new(),
         };
@@ -248,17 +263,30 @@ impl State {
         }
     }
 
-    /// Settings of any level may have changed: every open document is looked at under what holds for it now.
+    /// Settings of any level may have changed: every open document is looked at under what holds for it now. Each folder is looked at
+    /// and each file read once, however many documents there are.
     pub fn settings_changed(&mut self) {
         for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
-            let documents = &self.documents;
-            let opened = |file: &Path| opened_text(documents, file);
-            self.config.read(&file, &opened);
-            self.show_file(&file);
+            let project = config::read(&file, &|file| self.opened_text(file));
+            self.show_file(&file, project.as_ref());
         }
+        let mut search = Search::default();
+        let mut effective: FxHashMap<Option<PathBuf>, Arc<Effective>> = FxHashMap::default();
         let uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
         for uri in uris {
-            let settings = self.settings_for(&uri);
+            let file = self.config.file_for(&uri, &mut search, &|file| self.opened_text(file));
+            let key = file.as_ref().map(|file| file.path.clone());
+            let settings = match effective.get(&key) {
+                Some(settings) => settings.clone(),
+                None => {
+                    if let Some(file) = &file {
+                        self.show_file(&file.path, Some(file));
+                    }
+                    let settings = self.config.effective_for(file.as_deref());
+                    effective.insert(key, settings.clone());
+                    settings
+                }
+            };
             let Some(open) = self.documents.get_mut(&uri) else { continue };
             let was_dirty = std::mem::take(&mut open.dirty);
             open.set_settings(&settings);
@@ -278,11 +306,4 @@ impl State {
     pub fn set_abilities(&mut self, abilities: Abilities) {
         self.client.abilities = abilities;
     }
-}
-
-/// The text of a project's file that the client holds open.
-fn opened_text(documents: &FxHashMap<Arc<str>, Open>, file: &Path) -> Option<SourceText> {
-    let mut settings = documents.values().filter(|open| matches!(open.content, super::open::Content::Settings(_)));
-    let open = settings.find(|open| config::path_of(&open.uri).as_deref() == Some(file))?;
-    open.source_text().cloned()
 }

@@ -3,6 +3,8 @@
 use super::reader;
 use super::value::{Entry, Node, Value};
 use super::{Settings, SettingsError};
+use crate::disk;
+use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -11,6 +13,14 @@ pub const FILE_NAME: &str = "wedm.toml";
 
 /// Bytes that a settings file may have; nobody writes so many, and each costs hundreds in memory.
 const LARGEST: usize = 1024 * 1024;
+
+/// The bytes of a settings file: no more than the reader refuses, of one that may have no end.
+///
+/// # Errors
+/// A sentence: it cannot be read, or is no settings file by its length.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, String> {
+    disk::read_path_at_most(path, 16 * LARGEST as u64)
+}
 
 /// Reads a `wedm.toml`. What does not fit is left out and reported with its bytes, everything else holds. Of one that is larger than
 /// a mebibyte nothing does.

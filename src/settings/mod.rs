@@ -11,7 +11,7 @@ mod value;
 
 pub use effective::Effective;
 pub use from_json::from_json;
-pub use from_toml::{FILE_NAME, from_toml};
+pub use from_toml::{FILE_NAME, from_toml, read_file};
 pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Profile, ProfileSettings, Zero, shipped_profiles};
 
 use crate::drawing::Role;

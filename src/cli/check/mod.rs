@@ -69,12 +69,11 @@ struct Survey {
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let survey = survey(arguments);
-    let printed = match arguments.output {
-        Format::Text => text::render(&survey),
-        Format::Json => json(&survey.rows),
-        Format::Sarif => sarif::render(&survey),
-    };
-    output::print(&printed)?;
+    match arguments.output {
+        Format::Text => output::print(text::render(&survey))?,
+        Format::Json => output::print_json(&json(&survey.rows))?,
+        Format::Sarif => output::print_json(&sarif::render(&survey))?,
+    }
     survey.failures.iter().for_each(|Failure(sentence)| output::complain(sentence));
     Ok(verdict(&survey, arguments.deny))
 }
@@ -121,7 +120,7 @@ fn survey(arguments: &Arguments) -> Survey {
 fn check(path: &Path, common: &Common, settings: &Settings) -> Checked {
     match files::open(path, common, settings) {
         Err(failure) => Checked { rows: Vec::new(), fixable: false, failure: Some(failure) },
-        Ok(Opened { path, mut document, settings_rows }) => {
+        Ok(Opened { path, mut document, settings_rows, .. }) => {
             let mut rows = settings_rows;
             rows.extend(report::rows(&path, &mut document));
             Checked { rows, fixable: document.fix_all().is_some(), failure: None }

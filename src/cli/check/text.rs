@@ -26,10 +26,10 @@ pub(super) fn render(survey: &Survey) -> String {
     let result = if parts.is_empty() { styled(output::GOOD, "nothing found") } else { parts.join(", ") };
     let _ = writeln!(text, "{} checked: {result}", counted(survey.files, "file"));
     if let [only] = survey.fixable.as_slice() {
-        let _ = writeln!(text, "{} wedm fix {} --in-place", styled(output::NOTE, "repair what can be repaired with:"), only.display());
+        let _ = writeln!(text, "{} wedm fix {} --in-place", styled(output::NOTE, "repair what can be repaired with:"), output::name(only));
     } else if let Some(first) = survey.fixable.first() {
         let heading = styled(output::NOTE, format!("{} can be repaired, such as:", counted(survey.fixable.len(), "file")));
-        let _ = writeln!(text, "{heading} wedm fix {} --in-place", first.display());
+        let _ = writeln!(text, "{heading} wedm fix {} --in-place", output::name(first));
     }
     text
 }

@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     ] {
         let path = arguments.folder.join(name);
         output::write(Some(&path), bytes)?;
-        narrator.say(&format!("{}  {what}", path.display()));
+        narrator.say(&format!("{}  {what}", output::name(&path)));
     }
     narrator.good("Everything above was checked as it was said.");
     Ok(Verdict::Clean)

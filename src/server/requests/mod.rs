@@ -21,6 +21,7 @@ use super::state::{Reply, State};
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::Finding;
+use crate::message::readable;
 use crate::protocol::{Diagnostic, Refused};
 use crate::settings::{Effective, Settings, from_json};
 use crate::text::Encoding;
@@ -44,7 +45,7 @@ const SMALL: usize = 2_000;
 
 /// −32803: refused for what the drawing is.
 pub(super) fn refused(message: impl Into<String>) -> Error {
-    Error { code: ErrorCode::ServerError(-32803), message: message.into().into(), data: None }
+    Error { code: ErrorCode::ServerError(-32803), message: readable(&message.into()).into_owned().into(), data: None }
 }
 
 pub(super) fn refused_with(message: impl Into<String>, diagnostics: Vec<Diagnostic>) -> Error {

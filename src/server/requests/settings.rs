@@ -8,14 +8,13 @@ use crate::settings::{Effective, Settings};
 pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInForce {
     let file = state.file_for(uri);
     let of_client = state.config.settings_for(None);
-    let of_file = file.as_deref().and_then(|file| state.config.project_file(file)).map(|project| project.settings.clone());
     let effective = Effective::of(&state.config.settings_for(file.as_deref()));
     SettingsInForce {
         correction: effective.correction,
         corrections: effective.corrections,
-        correction_from: source(&of_client, of_file.as_ref()),
+        correction_from: source(&of_client, file.as_ref().map(|file| &file.settings)),
         side: effective.side,
-        file: file.as_deref().and_then(uri_of),
+        file: file.as_ref().and_then(|file| uri_of(&file.path)),
     }
 }
 

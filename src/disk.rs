@@ -1,0 +1,277 @@
+//! Files in and out: never more of them than can be held, and none replaced that is not the one that was read.
+
+use std::fs::{File, Metadata};
+use std::hash::{DefaultHasher, Hasher};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::Path;
+
+/// What a file was when it was read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Seen {
+    identity: Option<[u64; 2]>,
+    length: usize,
+    digest: u64,
+}
+
+/// The bytes of `file`, at most `cap` of them: a device or a pipe may have no end.
+///
+/// # Errors
+/// A sentence: it cannot be read, or holds more.
+pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
+    let metadata = file.metadata().map_err(|error| plain(&error))?;
+    let mut bytes = Vec::new();
+    if metadata.is_file() {
+        if metadata.len() > cap {
+            return Err(format!("it has {} bytes, expected at most {cap}", metadata.len()));
+        }
+        bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or_default().saturating_add(1));
+    }
+    file.take(cap.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| plain(&error))?;
+    if bytes.len() as u64 > cap {
+        return Err(format!("it holds more than {cap} bytes, expected at most so many"));
+    }
+    Ok(bytes)
+}
+
+/// [`read_at_most`] of what stands at a path.
+pub(crate) fn read_path_at_most(path: &Path, cap: u64) -> Result<Vec<u8>, String> {
+    read_at_most(&File::open(path).map_err(|error| plain(&error))?, cap)
+}
+
+impl Seen {
+    /// What `file` is, whose bytes these are.
+    pub fn of(file: &File, bytes: &[u8]) -> Result<Seen, String> {
+        let metadata = file.metadata().map_err(|error| plain(&error))?;
+        let mut hasher = DefaultHasher::new();
+        hasher.write(bytes);
+        Ok(Seen { identity: identity(&metadata), length: bytes.len(), digest: hasher.finish() })
+    }
+}
+
+/// Device and number of a file, where a system has them.
+#[cfg(unix)]
+fn identity(metadata: &Metadata) -> Option<[u64; 2]> {
+    use std::os::unix::fs::MetadataExt;
+    Some([metadata.dev(), metadata.ino()])
+}
+
+#[cfg(not(unix))]
+fn identity(_: &Metadata) -> Option<[u64; 2]> {
+    None
+}
+
+/// Writes to whatever stands at `path`: a regular file is [replaced](replace), a device or a pipe written to. Returns the names that
+/// an old file has besides.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<u64, String> {
+    match std::fs::metadata(path) {
+        Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => std::fs::write(path, bytes).map(|()| 0).map_err(|error| plain(&error)),
+        _ => replace(path, None, bytes),
+    }
+}
+
+/// Puts a new file in the place of the one at `path`, or where none is.
+///
+/// The bytes are written beside it, to a file that nobody else may read, which then gets the owner and the permissions of the old one and
+/// its name: nobody ever sees half of it. A link stays a link to a new file. Returns the names that the old file has besides (hard links),
+/// which still lead to the old content.
+///
+/// # Errors
+/// A sentence, with nothing changed: there is no regular file or one that is read-only, it is not the one that was `read`, or the new one cannot
+/// have its owner.
+pub(crate) fn replace(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> Result<u64, String> {
+    replaced(path, read, bytes).map_err(|error| plain(&error))
+}
+
+fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
+    let refused = |kind: ErrorKind, reason: &str| Err(io::Error::new(kind, reason));
+    let old = match std::fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => return refused(ErrorKind::IsADirectory, "it is a folder"),
+        Ok(metadata) if !metadata.is_file() => return refused(ErrorKind::InvalidInput, "it is no regular file"),
+        Ok(metadata) if metadata.permissions().readonly() => return refused(ErrorKind::PermissionDenied, "it is read-only"),
+        Ok(metadata) => Some(metadata),
+        Err(error) if error.kind() == ErrorKind::NotFound && read.is_none() => None,
+        Err(error) => return Err(error),
+    };
+    let path = if old.is_some() { path.canonicalize()? } else { path.to_path_buf() };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut beside = beside(folder, old.is_some())?;
+    beside.write_all(bytes)?;
+    if let Some(old) = &old {
+        give_owner(beside.as_file(), old)?;
+        beside.as_file().set_permissions(old.permissions())?;
+    }
+    beside.as_file().sync_all()?;
+    // As late as can be: what somebody else wrote meanwhile is not lost.
+    if let Some(read) = read
+        && !is_still(&path, read)?
+    {
+        return refused(ErrorKind::InvalidData, "it is not the file any more that was read, nothing is changed");
+    }
+    beside.persist(&path)?;
+    sync(folder);
+    Ok(old.as_ref().map_or(0, other_names))
+}
+
+fn is_still(path: &Path, read: &Seen) -> io::Result<bool> {
+    let file = File::open(path)?;
+    // One byte more tells a longer file from this one.
+    let bytes = match read_at_most(&file, read.length as u64) {
+        Ok(bytes) => bytes,
+        Err(_) => return Ok(false),
+    };
+    Ok(Seen::of(&file, &bytes).map_err(io::Error::other)? == *read)
+}
+
+/// A temporary file. What stands for an old one is nobody else's to read until it has the old one's permissions; a new one gets those of
+/// any new file.
+fn beside(folder: &Path, stands_for_old: bool) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".wedm-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(if stands_for_old { 0o600 } else { 0o666 }));
+    }
+    #[cfg(not(unix))]
+    let _ = stands_for_old;
+    builder.tempfile_in(folder)
+}
+
+#[cfg(unix)]
+fn give_owner(new: &File, old: &Metadata) -> io::Result<()> {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let own = new.metadata()?;
+    if (own.uid(), own.gid()) == (old.uid(), old.gid()) {
+        return Ok(());
+    }
+    fchown(new, Some(old.uid()), Some(old.gid())).map_err(|error| {
+        let reason = format!("its owner (user {}, group {}) cannot be kept: {}", old.uid(), old.gid(), plain(&error));
+        io::Error::new(error.kind(), reason)
+    })
+}
+
+/// A new file belongs to whom its folder says.
+#[cfg(not(unix))]
+fn give_owner(_: &File, _: &Metadata) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(unix)]
+fn other_names(old: &Metadata) -> u64 {
+    use std::os::unix::fs::MetadataExt;
+    old.nlink().saturating_sub(1)
+}
+
+#[cfg(not(unix))]
+fn other_names(_: &Metadata) -> u64 {
+    0
+}
+
+/// Makes the new name last. The file is in its place by now: a system that cannot do this is no fault.
+fn sync(folder: &Path) {
+    if cfg!(unix) {
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
+    }
+}
+
+/// The system's reason without its number.
+pub(crate) fn plain(error: &io::Error) -> String {
+    let text = error.to_string();
+    let short = text.split(" (os error").next().unwrap_or(&text);
+    let mut characters = short.chars();
+    characters.next().map_or_else(String::new, |first| first.to_lowercase().chain(characters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_is_read_than_can_be_held() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        std::fs::write(&path, "12345").unwrap();
+        assert_eq!(read_path_at_most(&path, 5), Ok(b"12345".to_vec()));
+        assert_eq!(read_path_at_most(&path, 4), Err("it has 5 bytes, expected at most 4".into()));
+        assert_eq!(read_path_at_most(&folder.path().join("b"), 4), Err("no such file or directory".into()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_has_no_end_is_read_up_to_the_cap() {
+        let sentence = "it holds more than 1000 bytes, expected at most so many";
+        assert_eq!(read_path_at_most(Path::new("/dev/zero"), 1000), Err(sentence.into()));
+        assert_eq!(read_path_at_most(Path::new("/dev/null"), 1000), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn only_the_file_that_was_read_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        let read = || Seen::of(&File::open(&path).unwrap(), &std::fs::read(&path).unwrap()).unwrap();
+        std::fs::write(&path, "old").unwrap();
+        let seen = read();
+        assert_eq!(replace(&path, Some(&seen), b"new"), Ok(0));
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        let changes: [fn(&Path); 4] = [
+            |path| std::fs::write(path, "net").unwrap(),
+            |path| std::fs::write(path, "newer").unwrap(),
+            |path| std::fs::write(path, "").unwrap(),
+            |path| std::fs::remove_file(path).unwrap(),
+        ];
+        for (index, change) in changes.into_iter().enumerate() {
+            std::fs::write(&path, "new").unwrap();
+            let seen = read();
+            change(&path);
+            let now = std::fs::read(&path).ok();
+            assert!(replace(&path, Some(&seen), b"repaired").is_err(), "{index}");
+            assert_eq!(std::fs::read(&path).ok(), now, "{index}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "a temporary file is left");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn another_file_of_the_same_content_is_another_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, other) = (folder.path().join("a"), folder.path().join("b"));
+        for path in [&path, &other] {
+            std::fs::write(path, "same").unwrap();
+        }
+        let seen = Seen::of(&File::open(&path).unwrap(), b"same").unwrap();
+        std::fs::rename(&other, &path).unwrap();
+        assert_eq!(replace(&path, Some(&seen), b"new"), Err("it is not the file any more that was read, nothing is changed".into()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn owner_mode_and_links_are_kept() {
+        use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let (path, link, second) = (folder.path().join("a"), folder.path().join("link"), folder.path().join("second"));
+        std::fs::write(&path, "old").unwrap();
+        std::fs::set_permissions(&path, PermissionsExt::from_mode(0o640)).unwrap();
+        // Only root may give a file away.
+        let is_given = chown(&path, Some(12_345), Some(54_321)).is_ok();
+        symlink(&path, &link).unwrap();
+        std::fs::hard_link(&path, &second).unwrap();
+        assert_eq!(replace(&link, None, b"new"), Ok(1));
+        assert!(link.is_symlink());
+        assert_eq!((std::fs::read(&path).unwrap(), std::fs::read(&second).unwrap()), (b"new".to_vec(), b"old".to_vec()));
+        let metadata = std::fs::metadata(&path).unwrap();
+        assert_eq!(metadata.mode() & 0o7777, 0o640);
+        if is_given {
+            assert_eq!((metadata.uid(), metadata.gid()), (12_345, 54_321));
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_stands_for_an_old_file_is_nobody_elses_to_read() {
+        use std::os::unix::fs::MetadataExt;
+        let folder = tempfile::tempdir().unwrap();
+        let mode = |stands_for_old| beside(folder.path(), stands_for_old).unwrap().as_file().metadata().unwrap().mode() & 0o777;
+        assert_eq!(mode(true), 0o600);
+        assert_ne!(mode(false), 0o600);
+    }
+}

@@ -1,0 +1,39 @@
+//! Text of others, as people may read it: a name in a drawing, or of a file, moves no cursor, hides nothing and turns no line around.
+
+use std::borrow::Cow;
+
+/// True for what a terminal or a label would obey and not show: control characters (ESC, C0 but for the tab, C1, DEL), marks that turn
+/// the direction of what follows, and the separators of lines and paragraphs.
+pub fn is_hidden(character: char) -> bool {
+    (character.is_control() && character != '\t')
+        || matches!(
+            character,
+            '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}'
+        )
+}
+
+/// The text with `U+FFFD` in the place of every character that [`is_hidden`]. Line ends are among them: a name stands in one line.
+pub fn readable(text: &str) -> Cow<'_, str> {
+    let is_plain = |byte: u8| (b' '..0x7f).contains(&byte);
+    if text.bytes().all(is_plain) || !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    Cow::Owned(text.chars().map(|character| if is_hidden(character) { char::REPLACEMENT_CHARACTER } else { character }).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_obeys_is_replaced_and_what_people_write_stays() {
+        let check = |text: &str, expected: &str| assert_eq!(readable(text), expected, "{text:?}");
+        check("DIE 1.dxf", "DIE 1.dxf");
+        check("", "");
+        check("模具 Größe 凸模\u{1f600} נקבה", "模具 Größe 凸模\u{1f600} נקבה");
+        check("a\u{1b}[8mb\u{7}", "a\u{fffd}[8mb\u{fffd}");
+        check("\u{9b}31m\u{7f}\u{85}\n\r\t\0", "\u{fffd}31m\u{fffd}\u{fffd}\u{fffd}\u{fffd}\t\u{fffd}");
+        check("fxd.\u{202e}exe\u{2066}\u{200f}\u{61c}", "fxd.\u{fffd}exe\u{fffd}\u{fffd}\u{fffd}");
+        check("\u{2028}\u{2029}\u{feff}\u{e0041}", "\u{fffd}\u{fffd}\u{fffd}\u{fffd}");
+    }
+}
