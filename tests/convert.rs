@@ -206,7 +206,10 @@ fn several_contours_keep_their_ways() {
             assert_eq!(cuts.cuts.len(), 3, "{text}");
             let ways = [[0.0, 10_000.0], [10_000.0, 25_000.0]].map(|way| way.map(|x| Point::new(x, 0.0)));
             assert_eq!(cuts.ways, ways, "{text}");
-            assert!(cuts.cuts.iter().all(|cut| cut.closed && cut.lead_in && cut.lead_out && cut.contour().len() == 4), "{cuts:?}");
+            assert!(
+                cuts.cuts.iter().all(|cut| cut.closed && cut.lead_in == 1 && cut.lead_out == 1 && cut.contour().len() == 4),
+                "{cuts:?}"
+            );
             // As text that a CAD program reads: contours closed on CUT, leads on LEAD, ways on WAY.
             let back = dxf::Document::read(dxf::write(&cuts.drawing()).unwrap());
             assert!(back.findings().is_empty(), "{:?}", back.findings());

@@ -1,6 +1,8 @@
 //! A program as its cuts: what the machine runs from one stop or rapid to the next, joined, to be drawn or written in another language.
 
+use super::closing::tolerance;
 use super::document::Document;
+use super::language::passages;
 use super::three_b::{Item, Words, read_line};
 use super::trace::{Kind, Step};
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
@@ -10,26 +12,20 @@ use crate::toolpath::{PathSegment, Source, WirePath};
 use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
 
-/// Ends this near each other, and 1 µm more for each arc between, are one place, µm: what a controller that counts may drift.
-const JOINED: f64 = 2.0;
-
-/// How far a coordinate that stands behind a block may lie from where the block leads and still be its end, µm; 1 µm more for each arc.
-const STATED: f64 = 2.0;
-
 /// Layers of a drawing that is made of a program.
 const CUT: &str = "CUT";
 const LEAD: &str = "LEAD";
 const WAY: &str = "WAY";
 
 /// Consecutive cuts, µm.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cut {
     /// Each begins where the one before ended.
     pub segments: Vec<Segment>,
-    /// The first segment leads to a contour that the others go round.
-    pub lead_in: bool,
-    /// The last segment leads away from it.
-    pub lead_out: bool,
+    /// Segments at the beginning that lead to a contour, which others go round.
+    pub lead_in: usize,
+    /// Segments at the end that lead away from it.
+    pub lead_out: usize,
     /// The contour comes back to where it began.
     pub closed: bool,
     /// The side of travel on which the control lets the wire run.
@@ -39,8 +35,7 @@ pub struct Cut {
 impl Cut {
     /// The segments of the contour, without the ways in and out.
     pub fn contour(&self) -> &[Segment] {
-        let end = self.segments.len() - usize::from(self.lead_out);
-        self.segments.get(usize::from(self.lead_in)..end).unwrap_or_default()
+        self.segments.get(self.lead_in..self.segments.len().saturating_sub(self.lead_out)).unwrap_or_default()
     }
 }
 
@@ -52,25 +47,33 @@ pub struct Cuts {
     pub ways: Vec<[Point; 2]>,
     /// Lines of blocks that lead nowhere, from 0.
     pub lost: Vec<usize>,
+    /// Lines of the stops within contours, before their tabs, from 0: no cut holds them.
+    pub stops: Vec<usize>,
     /// By how much contours did not close before their ends were made one, the most of it, µm.
     pub closure: f64,
 }
 
-/// The cuts of a program, in the order of the machine.
+/// The cuts of a program, in the order of the machine, one for each of its contours.
 ///
 /// Where coordinates stand behind the blocks of a 3B program the nodes are those; else they are where the machine stops.
 pub fn cuts(document: &Document) -> Cuts {
-    let trace = document.trace().as_meant();
+    let trace = document.trace();
+    let passages = passages(&trace);
+    let trace = trace.as_meant();
     let sides = document.sides();
     let stated = stated_ends(document);
     let mut cuts = Cuts::default();
-    let mut open: Vec<Segment> = Vec::new();
-    let mut side = None;
+    let mut open = Cut::default();
+    let mut passages = passages.iter().peekable();
     let mut node = trace.start;
-    let mut arcs = 0_u32;
+    let mut arcs = 0_usize;
     for (index, step) in trace.steps.iter().enumerate() {
+        while passages.next_if(|passage| passage.steps.end <= index).is_some() {
+            cuts.close(std::mem::take(&mut open));
+        }
         if !step.moves() {
-            cuts.close(std::mem::take(&mut open), side);
+            let is_within = passages.peek().is_some_and(|passage| passage.steps.contains(&index));
+            cuts.stops.extend(is_within.then_some(step.line));
             continue;
         }
         let Some(ideal) = step.ideal else {
@@ -79,24 +82,28 @@ pub fn cuts(document: &Document) -> Cuts {
             continue;
         };
         let mut end = node + (step.end - step.start);
-        arcs += u32::from(step.kind == Kind::Arc);
+        arcs += usize::from(step.kind == Kind::Arc);
         if let Some(&stated) = stated.get(&step.range.start)
-            && (stated - end).norm() <= STATED + f64::from(arcs)
+            && (stated - end).norm() <= tolerance(arcs)
         {
             (end, arcs) = (stated, 0);
         }
         if step.kind == Kind::Rapid {
-            cuts.close(std::mem::take(&mut open), side);
             cuts.ways.push([node, end]);
         } else if end != node || is_full(&ideal) {
-            if open.is_empty() {
-                side = sides.get(index).copied().flatten();
+            if open.segments.is_empty() {
+                open.side = sides.get(index).copied().flatten();
             }
-            open.push(between(&ideal, step, node, end));
+            if let Some(passage) = passages.peek() {
+                open.closed = passage.closed;
+                open.lead_in += usize::from(index < passage.contour_steps().start);
+                open.lead_out += usize::from(index >= passage.contour_steps().end);
+            }
+            open.segments.push(between(&ideal, step, node, end));
         }
         node = end;
     }
-    cuts.close(open, side);
+    cuts.close(open);
     cuts
 }
 
@@ -125,28 +132,42 @@ fn between(ideal: &Segment, step: &Step, from: Point, to: Point) -> Segment {
 }
 
 impl Cuts {
-    /// Ends a cut: joins its ends where they are one place, and tells the contour from the ways in and out.
-    fn close(&mut self, mut segments: Vec<Segment>, side: Option<Side>) {
-        let count = segments.len();
-        let (Some(first), Some(last)) = (segments.first().copied(), segments.last().copied()) else { return };
-        let arcs = segments.iter().filter(|segment| segment.as_arc().is_some()).count();
-        let near = |a: Point, b: Point| (a - b).norm() <= JOINED + arcs as f64;
-        let is_line = |segment: &Segment| matches!(segment, Segment::Line(_));
-        // The way in ends where the way out begins.
-        let last_node = |segments: &[Segment]| segments[count - 1].start();
-        let led = count >= 3 && is_line(&first) && is_line(&last) && near(first.end(), last_node(&segments));
-        let led_in = count >= 2 && is_line(&first) && !near(first.start(), last.end()) && near(first.end(), last.end());
-        let closed = led || led_in || near(first.start(), last.end());
-        if led {
-            self.join(&mut segments, count - 2, first.end());
-            let out_to = if near(last.end(), first.start()) { first.start() } else { last.end() };
-            segments[count - 1] = Segment::line(first.end(), out_to);
-        } else if led_in {
-            self.join(&mut segments, count - 1, first.end());
-        } else if closed {
-            self.join(&mut segments, count - 1, first.start());
+    /// Ends a cut: joins the ends of its contour, and those of its ways in and out, where they are one place.
+    fn close(&mut self, mut cut: Cut) {
+        let count = cut.segments.len();
+        let last = count.saturating_sub(cut.lead_out + 1);
+        let (Some(begin), Some(end)) = (cut.segments.get(cut.lead_in).copied(), cut.segments.get(last).copied()) else { return };
+        let arcs = cut.segments.iter().filter(|segment| segment.as_arc().is_some()).count();
+        let near = |a: Point, b: Point| (a - b).norm() <= 2.0 * tolerance(arcs);
+        if cut.closed {
+            let mut target = begin.start();
+            if !near(target, end.end()) {
+                // It goes on past the place where it closes: what is cut twice is no part of the contour.
+                if end.distance_to(target) <= 2.0 * tolerance(arcs) {
+                    let share = end.share_of(target);
+                    cut.segments[last] = end.part(0.0, share);
+                    cut.segments.insert(last + 1, end.part(share, 1.0));
+                    cut.lead_out += 1;
+                } else {
+                    let share = begin.share_of(end.end());
+                    target = begin.point_at(share);
+                    cut.segments[cut.lead_in] = begin.part(share, 1.0);
+                    cut.segments.insert(cut.lead_in, begin.part(0.0, share));
+                    cut.lead_in += 1;
+                }
+            }
+            let last = cut.segments.len().saturating_sub(cut.lead_out + 1);
+            let by = target - cut.segments[last].end();
+            self.join(&mut cut.segments, last, target);
+            cut.segments[last + 1..].iter_mut().for_each(|segment| *segment = segment.moved(by));
+            let first = cut.segments[0].start();
+            if let Some(out) = cut.segments.len().checked_sub(1).filter(|out| *out > last)
+                && near(cut.segments[out].end(), first)
+            {
+                self.join(&mut cut.segments, out, first);
+            }
         }
-        self.cuts.push(Cut { segments, lead_in: led || led_in, lead_out: led, closed, side });
+        self.cuts.push(cut);
     }
 
     /// Lets a segment end in `end`.
@@ -167,12 +188,8 @@ impl Cuts {
     pub fn drawing(&self) -> Drawing {
         let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
         for cut in &self.cuts {
-            let lead = |index: usize| cut.segments.get(index).map(|segment| [segment.start(), segment.end()]);
-            if cut.lead_in
-                && let Some(ends) = lead(0)
-            {
-                push_line(&mut drawing, LEAD, ends);
-            }
+            let way_out = cut.segments.len().saturating_sub(cut.lead_out);
+            cut.segments[..cut.lead_in.min(way_out)].iter().for_each(|lead| push_lead(&mut drawing, lead));
             if let Some(geometry) = polyline(cut.contour(), cut.closed) {
                 drawing.push(Entity {
                     handle: CUT.into(),
@@ -182,11 +199,7 @@ impl Cuts {
                     geometry,
                 });
             }
-            if cut.lead_out
-                && let Some(ends) = lead(cut.segments.len() - 1)
-            {
-                push_line(&mut drawing, LEAD, ends);
-            }
+            cut.segments[way_out..].iter().for_each(|lead| push_lead(&mut drawing, lead));
         }
         for &ends in &self.ways {
             push_line(&mut drawing, WAY, ends);
@@ -197,8 +210,8 @@ impl Cuts {
     /// The cuts as paths of the wire in µm, to be written in another language.
     pub fn paths(&self) -> Vec<WirePath> {
         let source = |cut: &Cut, index: usize| match index {
-            0 if cut.lead_in => Source::LeadIn,
-            _ if cut.lead_out && index + 1 == cut.segments.len() => Source::LeadOut,
+            _ if index < cut.lead_in => Source::LeadIn,
+            _ if index + cut.lead_out >= cut.segments.len() => Source::LeadOut,
             _ => Source::Segment { entity: EntityId(0), segment: index },
         };
         let paths = self.cuts.iter().filter_map(|cut| {
@@ -208,6 +221,16 @@ impl Cuts {
             Some(WirePath { outline: 0, correction: 0.0, thread_hole, side: cut.side, segments })
         });
         paths.collect()
+    }
+}
+
+fn push_lead(drawing: &mut Drawing, lead: &Segment) {
+    if lead.as_arc().is_none() {
+        return push_line(drawing, LEAD, [lead.start(), lead.end()]);
+    }
+    if let Some(geometry) = polyline(&[*lead], false) {
+        let kind = crate::drawing::Kind::LightPolyline;
+        drawing.push(Entity { handle: LEAD.into(), layer: LEAD.into(), role: None, kind, geometry });
     }
 }
 

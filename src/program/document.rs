@@ -1,5 +1,6 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
+use super::closing::Writing;
 use super::trace::{Chain, Kind, Step, Trace};
 use super::{gate, iso, three_b};
 use crate::finding::{Finding, Fix, Severity, Side};
@@ -146,6 +147,13 @@ impl Document {
         }
     }
 
+    fn writing(&self) -> Writing {
+        match self {
+            Document::ThreeB(_) => Writing::default(),
+            Document::Iso(document) => document.reading().writing(),
+        }
+    }
+
     /// The side of travel on which the control lets the wire run, for each step of the trace; empty where no program can say.
     pub fn sides(&self) -> Vec<Option<Side>> {
         match self {
@@ -165,16 +173,23 @@ impl Document {
 
     /// The same with every step of the chain.
     pub fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
-        let mut steps = self.trace().steps;
+        let Trace { mut steps, writing, .. } = self.trace();
         let touches = |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
-        let index = steps.iter().rposition(touches)?;
-        let own = steps.get(index).map(|step| (step.contour, step.kind == Kind::Rapid))?;
+        let touched = steps.iter().rposition(touches)?;
+        let own = steps.get(touched).map(|step| (step.contour, step.kind == Kind::Rapid))?;
         let is_same = |step: &Step| step.moves() && (step.contour, step.kind == Kind::Rapid) == own;
+        // A pause of the contour's own stands before its tab.
+        let pauses = |until: usize| steps[..until].iter().filter(|step| step.kind == Kind::Pause).count();
+        let stop = steps.iter().position(|step| step.kind == Kind::Pause && step.contour == own.0 && own.1 == (step.kind == Kind::Rapid));
+        let stop = stop.map(|stop| stop - pauses(stop));
+        let index = touched - pauses(touched);
+        steps.retain(|step| step.kind != Kind::Pause);
         let first = steps[..index].iter().rposition(|step| !is_same(step)).map_or(0, |before| before + 1);
         let end = steps[index..].iter().position(|step| !is_same(step)).map_or(steps.len(), |behind| index + behind);
         steps.truncate(end);
         steps.drain(..first);
-        Some((Chain::of(steps), index - first))
+        let stop = stop.and_then(|stop| stop.checked_sub(first)).filter(|stop| (1..end - first).contains(stop));
+        Some((Chain::of(steps, writing).stopping(stop), index - first))
     }
 
     /// The moves from the last stop on that stand before a byte, by their ends.
@@ -184,7 +199,7 @@ impl Document {
             Document::Iso(_) => {
                 let last = self.trace().steps.into_iter().rfind(|step| step.range.end <= offset).filter(Step::moves)?;
                 let (chain, nth) = self.whole_chain_at(last.range.start)?;
-                Some(Chain::of(chain.steps_to(nth + 1)))
+                Some(Chain::of(chain.steps_to(nth + 1), self.writing()))
             }
         }
     }

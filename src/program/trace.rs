@@ -3,6 +3,7 @@
 //! Points are µm in the program's own frame, as `f64`: a machine that counts stands on whole µm, an ISO program may name parts of
 //! them. Nothing here knows how a language is written.
 
+use super::closing::{Node, Way, Writing};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -37,7 +38,7 @@ pub struct Step {
     /// The line or arc that the block means, from `start`, µm. `None` where nothing moves, and for a block that means none
     /// (`arc-without-radius`, …): the machine stays there.
     pub ideal: Option<Segment>,
-    /// Index of the contour: pauses are between two of them.
+    /// Index of the contour: pauses are between two of them, but for those before a tab.
     pub contour: usize,
 }
 
@@ -70,6 +71,8 @@ pub struct Trace {
     pub start: Point,
     /// The program says where it begins.
     pub start_is_known: bool,
+    /// How it says where its blocks lead.
+    pub writing: Writing,
 }
 
 impl Trace {
@@ -130,6 +133,9 @@ pub struct Chain<'a> {
     tail: Vec<Step>,
     count: usize,
     arcs: usize,
+    writing: Writing,
+    /// Steps before the stop at its tab.
+    stop: Option<usize>,
     /// From the chain's beginning to that of each step of the head, and behind the last, as the blocks mean it, µm.
     to_head: Vec<Vector>,
     /// The same to the steps of the tail.
@@ -141,17 +147,31 @@ impl<'a> Chain<'a> {
     pub const ENDS: usize = 24;
 
     /// A chain that holds all its steps.
-    pub fn of(steps: impl Into<Cow<'a, [Step]>>) -> Chain<'a> {
+    pub fn of(steps: impl Into<Cow<'a, [Step]>>, writing: Writing) -> Chain<'a> {
         let head: Cow<'a, [Step]> = steps.into();
         let arcs = head.iter().filter(|step| step.kind == Kind::Arc).count();
-        Chain { count: head.len(), arcs, to_head: sums(Vector::zeros(), &head), to_tail: Vec::new(), tail: Vec::new(), head }
+        Chain {
+            count: head.len(),
+            arcs,
+            writing,
+            stop: None,
+            to_head: sums(Vector::zeros(), &head),
+            to_tail: Vec::new(),
+            tail: Vec::new(),
+            head,
+        }
     }
 
     /// A chain of `count` steps, `arcs` of them arcs, by its first and last ones; together the blocks mean to lead by `meant`, µm.
     pub fn by_ends(head: Vec<Step>, tail: Vec<Step>, (count, arcs): (usize, usize), meant: Vector) -> Chain<'static> {
         let of_tail: Vector = tail.iter().map(Step::meant).sum();
         let (to_head, to_tail) = (sums(Vector::zeros(), &head), sums(meant - of_tail, &tail));
-        Chain { head: head.into(), tail, count, arcs, to_head, to_tail }
+        Chain { head: head.into(), tail, count, arcs, writing: Writing::default(), stop: None, to_head, to_tail }
+    }
+
+    /// The same with a stop behind so many steps, before its tab.
+    pub fn stopping(self, stop: Option<usize>) -> Chain<'a> {
+        Chain { stop, ..self }
     }
 
     pub fn count(&self) -> usize {
@@ -163,10 +183,6 @@ impl<'a> Chain<'a> {
         self.head.get(..count.min(self.head.len())).unwrap_or_default().to_vec()
     }
 
-    pub fn arcs(&self) -> usize {
-        self.arcs
-    }
-
     /// A step by its index, where it is held.
     pub fn step(&self, index: usize) -> Option<&Step> {
         let in_tail = || self.tail.get((index + self.tail.len()).checked_sub(self.count)?);
@@ -174,7 +190,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Where the machine stands before a step, or behind the last.
-    pub fn node(&self, index: usize) -> Option<Point> {
+    fn stands(&self, index: usize) -> Option<Point> {
         if index == self.count {
             return self.step(index.checked_sub(1)?).map(|step| step.end);
         }
@@ -182,9 +198,48 @@ impl<'a> Chain<'a> {
     }
 
     /// Where it would stand, did it not drift while it counts.
-    pub fn meant_node(&self, index: usize) -> Option<Point> {
+    fn meant(&self, index: usize) -> Option<Point> {
         let in_tail = || self.to_tail.get((index + self.tail.len()).checked_sub(self.count)?);
-        Some(self.node(0)? + self.to_head.get(index).or_else(in_tail)?)
+        Some(self.stands(0)? + self.to_head.get(index).or_else(in_tail)?)
+    }
+}
+
+impl Way for Chain<'_> {
+    fn count(&self) -> usize {
+        self.count
+    }
+
+    fn arcs(&self) -> usize {
+        self.arcs
+    }
+
+    fn writing(&self) -> Writing {
+        self.writing
+    }
+
+    fn stop(&self) -> Option<usize> {
+        self.stop
+    }
+
+    fn node(&self, index: usize) -> Option<Node> {
+        Some(Node { stands: self.stands(index)?, meant: self.meant(index)? })
+    }
+
+    fn piece(&self, index: usize) -> Option<Segment> {
+        let (step, at) = (self.step(index)?, self.meant(index)?);
+        Some(step.ideal.as_ref().map_or(Segment::line(at, at + step.meant()), |ideal| ideal.moved(at - step.start)))
+    }
+
+    fn pieces_about(&self, _: Point, _: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()> {
+        if self.head.len() < self.count {
+            return None;
+        }
+        for index in 0..self.count {
+            if each(index, &self.piece(index)?) {
+                break;
+            }
+        }
+        Some(())
     }
 }
 

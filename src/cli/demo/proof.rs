@@ -49,8 +49,8 @@ pub fn of(faulty: &str, fixed: &str, program: &str, path: &Value, correction: f6
     if let (Some(motion), Some(path)) = (motions.last(), path.paths.last()) {
         proof.open_um = (motion.segment.end() - Point::from(path.thread_hole)).norm() * 1e3;
     }
-    // A controller that counts J may drift by 2 µm and 1 µm for each arc on the way round.
-    let allowed_um = 2.0 + arcs as f64;
+    // A controller that counts J may drift on the way round.
+    let allowed_um = crate::program::closing::tolerance(arcs);
     let near = proof.from_path_um <= allowed_um && proof.open_um <= allowed_um;
     holds(near, || format!("the program lies {:.2} µm from the path", proof.from_path_um))?;
     let distances = (proof.least_distance - correction).abs().max((proof.largest_distance - correction).abs()) * 1e3;

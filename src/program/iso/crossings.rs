@@ -205,7 +205,7 @@ fn seen_from(begin: Place, place: Place) -> Displacement {
 }
 
 /// The moves of a run in µm from where it begins, and the place of each in the text.
-fn pieces(document: &Document, stretch: usize, run: usize) -> (Vec<Segment>, Vec<Range<usize>>) {
+pub(super) fn pieces(document: &Document, stretch: usize, run: usize) -> (Vec<Segment>, Vec<Range<usize>>) {
     let mut start = None;
     let (mut pieces, mut places) = (Vec::new(), Vec::new());
     let offset = document.run_again(stretch, &mut |index, step, range| {

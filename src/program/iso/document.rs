@@ -2,6 +2,7 @@
 
 use super::block::{Code, Motion, Note, Offset, Stop, read_line};
 use super::crossings::Crossings;
+use super::cuts::{StopAt, tabs};
 use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
@@ -42,6 +43,8 @@ pub struct Document {
     order: Option<Order>,
     /// Where the cuts cross themselves.
     crossings: Box<Crossings>,
+    /// The stops within contours, before their tabs, in the order in which they run.
+    tabs: Vec<StopAt>,
     /// What settings a fault is held against.
     pub(super) limits: Box<Limits>,
     /// What the program puts into the control's table.
@@ -152,6 +155,7 @@ impl Document {
             evidence: Evidence::default(),
             order: None,
             crossings: Box::default(),
+            tabs: Vec::new(),
             limits: Box::new(limits),
             table: Box::default(),
         };
@@ -205,6 +209,11 @@ impl Document {
 
     pub(super) fn stretches(&self) -> &[Stretch] {
         &self.stretches
+    }
+
+    /// Whether a stop stands within a contour, before its tab.
+    pub(super) fn is_tab(&self, stop: StopAt) -> bool {
+        self.tabs.binary_search(&stop).is_ok()
     }
 
     pub(super) fn crossings(&self) -> &Crossings {
@@ -368,10 +377,10 @@ impl Document {
     pub fn lines_without_ends(&self, range: Range<usize>) -> BTreeSet<usize> {
         let wanted = self.text.line_of(range.start)..self.text.line_of(range.end) + 1;
         let mut found = BTreeSet::new();
-        for placed in self.placed() {
+        for (index, placed) in self.placed().enumerate() {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
             if lines.start < wanted.end && wanted.start < lines.end {
-                self.steps_of(lines, placed.stretch.before, &mut 0, &mut |step, machine, _| {
+                self.steps_of(index, lines, &placed, &mut 0, &mut |step, machine, _| {
                     if machine.incremental {
                         found.insert(step.line);
                     }
@@ -468,6 +477,7 @@ impl Document {
     /// finest step, then, measured with these, where I and J lead.
     fn settle(&mut self) {
         self.find_reading();
+        self.tabs = tabs(self);
         let mut crossings = std::mem::take(&mut self.crossings);
         let calm = crossings.look(self);
         self.crossings = crossings;
@@ -510,12 +520,12 @@ impl Document {
 
     /// Where the machine goes, move by move.
     pub fn trace(&self) -> Trace {
-        let mut trace = Trace::default();
+        let mut trace = Trace { writing: self.reading.writing(), ..Trace::default() };
         let mut contour = 0;
         let mut start = None;
-        for placed in self.placed() {
+        for (index, placed) in self.placed().enumerate() {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
-            self.steps_of(lines, placed.stretch.before, &mut contour, &mut |step, machine, _| {
+            self.steps_of(index, lines, &placed, &mut contour, &mut |step, machine, _| {
                 start.get_or_insert((step.start, machine.stated));
                 trace.steps.push(step);
             });
@@ -548,9 +558,9 @@ impl Document {
     /// The side on which the wire runs beside each step of the trace.
     pub fn sides(&self) -> Vec<Option<Side>> {
         let mut sides = Vec::new();
-        for placed in self.placed() {
+        for (index, placed) in self.placed().enumerate() {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
-            self.steps_of(lines, placed.stretch.before, &mut 0, &mut |_, _, side| sides.push(side));
+            self.steps_of(index, lines, &placed, &mut 0, &mut |_, _, side| sides.push(side));
         }
         sides
     }
@@ -560,24 +570,33 @@ impl Document {
         let wanted = self.text.line_of(range.start)..self.text.line_of(range.end) + 1;
         let mut steps = Vec::new();
         let mut contour = 0;
-        for placed in self.placed() {
+        for (index, placed) in self.placed().enumerate() {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
             if lines.start < wanted.end && wanted.start < lines.end {
                 let mut own = contour;
-                self.steps_of(lines, placed.stretch.before, &mut own, &mut |step, _, _| {
+                self.steps_of(index, lines, &placed, &mut own, &mut |step, _, _| {
                     if step.range.start <= range.end && range.start <= step.range.end {
                         steps.push(step);
                     }
                 });
             }
-            contour += placed.stretch.pauses as usize;
+            let before = |stretch: usize| self.tabs.partition_point(|tab| tab.0 < stretch);
+            contour += (placed.stretch.pauses as usize).saturating_sub(before(index + 1) - before(index));
         }
         steps
     }
 
-    /// Runs lines and hands out their steps, each with what is in force behind it, and the side on which the wire runs beside it.
-    fn steps_of(&self, lines: Range<usize>, before: Machine, contour: &mut usize, each: &mut dyn FnMut(Step, &Machine, Option<Side>)) {
-        let mut machine = before;
+    /// Runs lines of a stretch and hands out their steps, each with what is in force behind it, and the side on which the wire runs
+    /// beside it.
+    fn steps_of(
+        &self,
+        index: usize,
+        lines: Range<usize>,
+        placed: &Placed<'_>,
+        contour: &mut usize,
+        each: &mut dyn FnMut(Step, &Machine, Option<Side>),
+    ) {
+        let mut machine = placed.stretch.before;
         for line in lines {
             if machine.ended {
                 return;
@@ -610,9 +629,10 @@ impl Document {
             if let Some(stop) = block.stop {
                 let kind = if stop == Stop::End { Kind::End } else { Kind::Pause };
                 let at = micrometres(machine.at);
+                let is_tab = self.is_tab((index, words.start.saturating_sub(placed.offset) as u32));
                 let step = Step { range: words, line, number: block.number, kind, start: at, end: at, ideal: None, contour: *contour };
                 each(step, &machine, None);
-                *contour += usize::from(stop == Stop::Pause);
+                *contour += usize::from(stop == Stop::Pause && !is_tab);
             }
         }
     }

@@ -7,6 +7,7 @@ use super::block::{Block, Compensation, Motion, Offset, Stop};
 use super::word::Number;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
+use crate::program::closing::Writing;
 pub use crate::settings::CenterRule;
 
 /// Nanometres in a micrometre.
@@ -31,6 +32,11 @@ pub struct Reading {
 impl Reading {
     pub fn rule(&self, incremental: bool) -> CenterRule {
         if incremental { self.incremental } else { self.absolute }
+    }
+
+    /// How the program says where its moves lead.
+    pub fn writing(&self) -> Writing {
+        Writing { names_places: true, slack: self.tolerance as f64 / 1e3 }
     }
 
     /// A length as it is written, in nm.

@@ -4,6 +4,7 @@
 
 mod block;
 mod crossings;
+mod cuts;
 mod document;
 mod encode;
 mod evidence;

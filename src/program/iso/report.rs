@@ -1,22 +1,21 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
 use super::block::{Code, Motion, read_line, word_range};
+use super::cuts::{Cut, cuts};
 use super::document::{Document, Limits, Placed, Table};
 use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
 use super::stretch::{Fault, Run, RunSide, Stretch, Tight};
 use super::word::WordFault;
 use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::{Arc, cross};
+use crate::program::closing::tolerance;
 use crate::settings::{Compensation, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
-/// A radius this little below the correction is rounding on the grid, µm.
-const RADIUS_TOLERANCE: f64 = 1.5;
-
-/// Ends of a cut this near each other, and 1 µm more for each arc of it, are closed, µm.
-const CLOSED: f64 = 2.0;
+/// Radii within half a µm of the correction are as large as it, µm: as in programs of every language.
+const RADIUS_TOLERANCE: f64 = 0.5;
 
 /// A run with fewer moves is no contour that could be closed.
 const FEWEST_MOVES: u32 = 3;
@@ -27,14 +26,12 @@ const SWITCH_REACH: usize = 1_000;
 /// All findings, in the order of the text.
 pub(super) fn findings(document: &Document) -> Vec<Finding> {
     let mut report = Report::new(document);
-    let mut open: Option<OpenRun> = None;
     let mut last_words = None;
     let mut is_ended = false;
     for placed in document.placed() {
         let (stretch, offset) = (placed.stretch, placed.offset);
         report.line_faults(stretch, offset);
         report.note(stretch, offset);
-        report.follow(&mut open, &placed);
         is_ended = stretch.after.ended;
         if let Some(words) = stretch.last_words {
             last_words = Some(at(offset, words));
@@ -45,9 +42,7 @@ pub(super) fn findings(document: &Document) -> Vec<Finding> {
             report.add(Rule::TextAfterEnd, at(offset, behind), IsoFault::BehindEnd);
         }
     }
-    if let Some(run) = open.take() {
-        report.judge(&run);
-    }
+    report.follow();
     report.findings.extend(document.crossings().findings(document));
     report.foreign_words();
     report.block_numbers();
@@ -76,15 +71,7 @@ pub(super) fn table(document: &Document) -> Table {
 pub(super) fn quiet(document: &Document) -> Vec<usize> {
     let mut report = Report::new(document);
     let not_known = document.placed().enumerate().filter(|(_, placed)| !placed.stretch.is_quiet);
-    not_known.filter(|(_, placed)| report.is_quiet(placed)).map(|(index, _)| index).collect()
-}
-
-/// A cut with the place of its first and last line in the text, and its arcs that may be too tight.
-struct OpenRun {
-    run: Run,
-    range: Range<usize>,
-    last_range: Range<usize>,
-    tight: Vec<(Tight, Range<usize>)>,
+    not_known.filter(|(index, placed)| report.is_quiet(placed, *index)).map(|(index, _)| index).collect()
 }
 
 struct Report<'a> {
@@ -164,55 +151,49 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// Puts together the cuts that go on from stretch to stretch, and judges those that end.
-    fn follow(&mut self, open: &mut Option<OpenRun>, placed: &Placed<'_>) {
-        let stretch = placed.stretch;
-        if let Some(whole) = stretch.ends_run_before
-            && let Some(mut run) = open.take()
-        {
-            run.run.whole &= whole;
-            self.judge(&run);
-        }
-        let skipped = if stretch.is_quiet { stretch.inner() } else { 0..0 };
-        for index in (0..skipped.start).chain(skipped.end..stretch.run_count()) {
-            let Some(own) = self.open_run(placed, index) else { continue };
-            let is_over = !own.run.open;
-            match open {
-                Some(known) if own.run.continues => {
-                    known.run.append(&own.run);
-                    known.last_range = own.last_range;
-                    known.tight.extend(own.tight);
+    /// Judges the cuts, each with what goes on behind the stop at its tab.
+    fn follow(&mut self) {
+        let document = self.document;
+        let mut waiting: Option<Cut> = None;
+        cuts(document, &mut |cut| {
+            let Some(cut) = cut else { return };
+            let cut = match waiting.take() {
+                Some(mut before) => {
+                    before.append(cut);
+                    before
                 }
-                _ => {
-                    if let Some(run) = open.replace(own) {
-                        self.judge(&run);
-                    }
-                }
+                None => cut,
+            };
+            if cut.single_stop().is_some_and(|stop| document.is_tab(stop)) {
+                waiting = Some(cut);
+            } else {
+                self.judge(&cut);
             }
-            if is_over && let Some(run) = open.take() {
-                self.judge(&run);
-            }
-        }
+        });
+        waiting.into_iter().for_each(|cut| self.judge(&cut));
     }
 
-    fn open_run(&self, placed: &Placed<'_>, index: usize) -> Option<OpenRun> {
-        let (stretch, offset) = (placed.stretch, placed.offset);
-        let run = stretch.run_at(index)?;
-        // Most programs have no arc as tight as any correction.
-        let is_offset_only = self.limits.compensation == Compensation::Path;
-        let tightest = stretch.tightest.offset.min(if is_offset_only { f64::INFINITY } else { stretch.tightest.plain });
-        let may_be_tight = |tight: &Tight| tight.radius < self.tight_below && (tight.arc.side.is_some() || !is_offset_only);
-        let tight = (tightest < self.tight_below).then(|| stretch.tight_of(index).filter(may_be_tight));
-        let tight = tight.into_iter().flatten().map(|tight| (tight, at(offset, tight.range))).collect();
-        Some(OpenRun { run, range: at(offset, run.range), last_range: at(offset, run.last_range), tight })
+    /// The arcs of a cut that may be too tight, with their places in the text.
+    fn tight_of(&self, cut: &Cut) -> Vec<(Tight, Range<usize>)> {
+        let mut found = Vec::new();
+        for part in &cut.parts {
+            let Some(stretch) = self.document.stretches().get(part.stretch) else { continue };
+            // Most programs have no arc as tight as any correction.
+            let is_offset_only = self.limits.compensation == Compensation::Path;
+            let tightest = stretch.tightest.offset.min(if is_offset_only { f64::INFINITY } else { stretch.tightest.plain });
+            let may_be_tight = |tight: &Tight| tight.radius < self.tight_below && (tight.arc.side.is_some() || !is_offset_only);
+            let tight = (tightest < self.tight_below).then(|| stretch.tight_of(part.run).filter(may_be_tight));
+            found.extend(tight.into_iter().flatten().map(|tight| (tight, at(part.offset, tight.range))));
+        }
+        found
     }
 
     /// Whether nothing is wrong with the cuts that begin and end in a stretch, each as a whole.
-    fn is_quiet(&mut self, placed: &Placed<'_>) -> bool {
+    fn is_quiet(&mut self, placed: &Placed<'_>, index: usize) -> bool {
         let known = self.findings.len();
-        for index in placed.stretch.inner() {
-            if let Some(run) = self.open_run(placed, index) {
-                self.judge(&run);
+        for run in placed.stretch.inner() {
+            if let Some(cut) = Cut::of(placed, index, run) {
+                self.judge(&cut);
             }
         }
         let is_quiet = self.findings.len() == known;
@@ -221,13 +202,13 @@ impl<'a> Report<'a> {
     }
 
     /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
-    fn judge(&mut self, open: &OpenRun) {
-        let run = &open.run;
-        let closed = self.closed(run);
+    fn judge(&mut self, cut: &Cut) {
+        let run = &cut.run;
+        let closed = self.closed(cut);
         if let (Err(distance), true) = (closed, run.whole) {
             let fragment = run.moves < FEWEST_MOVES;
             let severity = if fragment { Severity::Information } else { Rule::NotClosed.default_severity() };
-            self.push(Rule::NotClosed, severity, open.last_range.clone(), Detail::Iso(IsoFault::NotClosed { distance }));
+            self.push(Rule::NotClosed, severity, cut.last_range.clone(), Detail::Iso(IsoFault::NotClosed { distance }));
         }
         // Contours that are only a line there and back have no inside.
         let orientation = if closed.is_ok() && run.twice_area.unsigned_abs() > 2_000_000 { run.twice_area.signum() } else { 0 };
@@ -242,43 +223,27 @@ impl<'a> Report<'a> {
                 SideSetting::Punch => inside,
                 SideSetting::Both | SideSetting::Auto => false,
             };
-            let range = || self.switch_range(open.range.start);
+            let range = || self.switch_range(cut.range.start);
             if is_wrong {
                 self.add(Rule::WrongSide, range(), IsoFault::RoleSide { side, punch: !inside });
             } else if self.side_of_entry(run).is_some_and(|entry| entry != side) {
                 self.push(Rule::WrongSide, Severity::Warning, range(), Detail::Iso(IsoFault::EntrySide { side }));
             }
         }
-        self.tight_arcs(open, orientation);
+        self.tight_arcs(cut, orientation);
     }
 
-    /// Whether a cut comes back to where it began, or to where its lead-in ended; else by how much it misses, µm.
-    ///
-    /// The way out may lead elsewhere than the way in, and the cut may go on past the place where it closes.
-    fn closed(&self, run: &Run) -> Result<(), f64> {
-        let tolerance = (CLOSED + f64::from(run.arcs)).max(self.reading.tolerance as f64 / 1e3);
-        let begins: [Spot; 2] = [run.first[0].from, run.first[0].to];
-        let ends: [Spot; 2] = [run.last[1].to, run.last[0].to];
-        let missed = |begin: Spot, end: Spot| distance(begin, end) / 1e3;
-        if run.moves == 1 {
-            let missed = missed(begins[0], ends[0]);
-            return if missed <= tolerance { Ok(()) } else { Err(missed) };
-        }
-        let pairs = begins.iter().flat_map(|&begin| ends.iter().map(move |&end| (begin, end)));
-        // The end of the way in and that of the way out are the same place in a cut of two moves.
-        let counts = |begin: Spot, end: Spot| run.moves > 2 || (begin == begins[0] && end == ends[0]);
-        if pairs.clone().any(|(begin, end)| counts(begin, end) && missed(begin, end) <= tolerance) {
+    /// Whether a cut closes; else by how much it misses, µm.
+    fn closed(&self, cut: &Cut) -> Result<(), f64> {
+        if cut.closes(self.document) {
             return Ok(());
         }
-        // Of three moves the one before the last is the first of the contour itself.
-        if run.moves > 3 {
-            // Seen from where the cut begins, so that it comes to the same to the last bit wherever that is.
-            let first = run.first[1].seen_from(run.start()).segment(self.reading);
-            if ends.iter().any(|&end| first.distance_to(micrometres(apart(end, run.start()))) <= tolerance) {
-                return Ok(());
-            }
-        }
-        Err(pairs.map(|(begin, end)| missed(begin, end)).take(if run.moves > 2 { 4 } else { 1 }).fold(f64::INFINITY, f64::min))
+        let run = &cut.run;
+        let begins: [Spot; 2] = [run.first[0].from, run.first[0].to];
+        let ends: [Spot; 2] = [run.last[1].to, run.last[0].to];
+        let pairs = begins.iter().flat_map(|&begin| ends.iter().map(move |&end| distance(begin, end) / 1e3));
+        // The end of the way in and that of the way out are the same place in a cut of two moves.
+        Err(pairs.take(if run.moves > 2 { 4 } else { 1 }).fold(f64::INFINITY, f64::min))
     }
 
     /// The side of the contour from which the way in comes, told by the contour's directions where it begins and ends; `None` where they
@@ -288,7 +253,7 @@ impl<'a> Report<'a> {
         if lead.switches != Some(true) || lead.is_arc() || run.moves < FEWEST_MOVES {
             return None;
         }
-        let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= CLOSED + f64::from(run.arcs);
+        let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= tolerance(run.arcs as usize);
         let last = run.last.iter().rev().find(|step| near(step.to))?;
         let ahead = run.first[1].at_origin().segment(self.reading).start_tangent();
         let behind = last.at_origin().segment(self.reading).end_tangent();
@@ -322,8 +287,8 @@ impl<'a> Report<'a> {
     }
 
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
-    fn tight_arcs(&mut self, open: &OpenRun, orientation: i128) {
-        for (Tight { arc: step, radius, .. }, range) in &open.tight {
+    fn tight_arcs(&mut self, cut: &Cut, orientation: i128) {
+        for (Tight { arc: step, radius, .. }, range) in &self.tight_of(cut) {
             let side_of_center = if step.motion == Motion::CounterClockwise { Side::Left } else { Side::Right };
             let wire_side = match step.side {
                 Some(side) => side,

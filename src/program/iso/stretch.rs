@@ -8,7 +8,8 @@ use super::evidence::Evidence;
 use super::machine::{Bend, Course, Machine, Move, Place, Reading, added};
 use super::word::{Number, WordFault};
 use crate::finding::Side;
-use crate::geometry::{Bounds, Segment};
+use crate::geometry::{Bounds, Point, Segment};
+use crate::program::closing::{HeldWay, Node, closing};
 use crate::program::three_b::near_each_other;
 use std::ops::Range;
 
@@ -86,9 +87,14 @@ pub struct Run {
     pub open: bool,
     /// It is the continuation of the one before.
     pub continues: bool,
+    /// The stop behind it, before anything else moves, bytes from the start of the stretch; [`SEVERAL`] for more than one.
+    pub stop: Option<u32>,
     /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
     pub side: RunSide,
 }
+
+/// Stands for more than one stop.
+pub const SEVERAL: u32 = u32::MAX;
 
 /// On which side of a run the wire was sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,6 +120,7 @@ impl Run {
             faulty: false,
             open: true,
             continues,
+            stop: None,
             side,
         }
     }
@@ -159,6 +166,7 @@ impl Run {
         self.whole &= next.whole;
         self.faulty |= next.faulty;
         self.open = next.open;
+        self.stop = next.stop;
         self.side = joined(self.side, next.side);
     }
 
@@ -194,6 +202,8 @@ pub struct Path {
     pub bounds: Bounds,
     /// Moves of it that come near each other, by their number in the run.
     pub near: Box<[(u32, u32)]>,
+    /// It holds a closed contour.
+    pub closes: bool,
 }
 
 /// Hears of every move of a run: the run's index, the move, the place of its words.
@@ -211,7 +221,15 @@ impl Ways {
         let mut near = Vec::new();
         near_each_other(&ways, &boxes, &mut |first, second| near.push((first as u32, second as u32)));
         let bounds = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
-        Path { mark: self.mark(reading), bounds, near: near.into() }
+        Path { mark: self.mark(reading), bounds, near: near.into(), closes: self.closes(&ways, reading) }
+    }
+
+    fn closes(&self, ways: &[Segment], reading: &Reading) -> bool {
+        let mut held = HeldWay::from(Node::at(Point::origin()), reading.writing());
+        for (step, piece) in self.0.iter().zip(ways) {
+            held.push(*piece, step.is_arc(), Node::at(piece.end()));
+        }
+        closing(&held).is_some_and(|closing| closing.closed)
     }
 
     fn mark(&self, reading: &Reading) -> u64 {
@@ -291,6 +309,8 @@ pub struct Stretch {
     pub programs: Vec<u32>,
     /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
     pub ends_run_before: Option<bool>,
+    /// The stop before the first cut of these lines, as [`Run::stop`].
+    pub stop_before: Option<u32>,
     /// Something is wrong in a line that belongs to that cut.
     pub faulty_before: bool,
     /// The first words behind the end.
@@ -348,6 +368,7 @@ impl Stretch {
             blocks: 0,
             programs: Vec::new(),
             ends_run_before: None,
+            stop_before: None,
             faulty_before: false,
             behind_end: None,
             last_words: None,
@@ -411,8 +432,12 @@ impl Stretch {
             None => {}
         }
         if let Some(stop) = block.stop {
-            self.pauses += u32::from(stop == Stop::Pause);
             self.interrupt(true);
+            if stop == Stop::Pause {
+                self.pauses += 1;
+                let known = self.runs.last_mut().map_or(&mut self.stop_before, |run| &mut run.stop);
+                *known = Some(known.map_or(range.0, |_| SEVERAL));
+            }
         }
     }
 

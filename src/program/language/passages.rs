@@ -1,22 +1,16 @@
-//! The contours of a program: what is cut between two pauses, with its way in and its way out.
+//! The contours of a program: what is cut between two pauses, with its way in and its way out; a pause before a tab is part of it.
 
-use crate::geometry::{Point, Segment};
 use crate::program::Document;
+use crate::program::closing::closing;
 use crate::program::trace::{Chain, Kind, Step, Trace};
 use std::ops::Range;
-
-/// How far two places that are meant as one may lie apart, µm, beside 1 µm for each arc between them: published programs stay within.
-const NEAR: f64 = 2.0;
-
-/// Blocks that a way in or out of an open program has at most.
-const LONGEST_LEAD: usize = 6;
 
 /// A contour with its ways in and out, or the way between two contours.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Passage {
     /// As the trace counts them.
     pub contour: usize,
-    /// Indices of the trace's steps, all of which move.
+    /// Indices of the trace's steps; all of them move but the pauses before tabs.
     pub steps: Range<usize>,
     /// Steps at the beginning that lead to the contour.
     pub lead_in: usize,
@@ -44,15 +38,32 @@ pub fn passages(trace: &Trace) -> Vec<Passage> {
             index += 1;
             continue;
         }
-        let is_same =
-            |step: &&Step| step.moves() && step.contour == first.contour && (step.kind == Kind::Rapid) == (first.kind == Kind::Rapid);
-        let count = trace.steps[index..].iter().take_while(is_same).count();
-        // A chain of all its steps lacks none.
-        let own = passage_of(&Chain::of(&trace.steps[index..index + count])).unwrap_or_default();
-        found.push(Passage { steps: own.steps.start + index..own.steps.end + index, ..own });
+        let is_same = |step: &Step| step.moves() && (step.kind == Kind::Rapid) == (first.kind == Kind::Rapid);
+        let is_within = |step: &&Step| step.contour == first.contour && (is_same(step) || step.kind == Kind::Pause);
+        let count = trace.steps[index..].iter().take_while(is_within).count();
+        let count = trace.steps[index..index + count].iter().rposition(is_same).map_or(1, |last| last + 1);
+        found.push(passage_in(trace, index..index + count));
         index += count;
     }
     found
+}
+
+fn passage_in(trace: &Trace, steps: Range<usize>) -> Passage {
+    let own = trace.steps.get(steps.clone()).unwrap_or_default();
+    let places: Vec<usize> = own.iter().enumerate().filter(|(_, step)| step.moves()).map(|(index, _)| index).collect();
+    let chain = if places.len() == own.len() {
+        Chain::of(own, trace.writing)
+    } else {
+        let stop = own.iter().position(|step| !step.moves());
+        Chain::of(own.iter().filter(|step| step.moves()).cloned().collect::<Vec<_>>(), trace.writing).stopping(stop)
+    };
+    // A chain of all its steps lacks none.
+    let passage = passage_of(&chain).unwrap_or_default();
+    // Pauses count as steps here.
+    let place = |nth: usize| places.get(nth).copied().unwrap_or(own.len());
+    let contour = passage.contour_steps();
+    let end = contour.end.checked_sub(1).map_or(0, |last| place(last) + 1);
+    Passage { steps, lead_in: place(contour.start), lead_out: own.len() - end.max(place(contour.start)), ..passage }
 }
 
 /// The chain of moves that touches a byte, what it comes to, and the number of the touching one.
@@ -74,32 +85,6 @@ pub fn passage_of(chain: &Chain<'_>) -> Option<Passage> {
     if first.is_some_and(|step| step.kind == Kind::Rapid) {
         return Some(Passage { is_way: true, ..all });
     }
-    let is_near = |one: usize, other: usize| -> Option<bool> {
-        let near = |a: Point, b: Point| (a - b).norm() <= NEAR + chain.arcs() as f64;
-        Some(near(chain.node(one)?, chain.node(other)?) || near(chain.meant_node(one)?, chain.meant_node(other)?))
-    };
-    let count = chain.count();
-    let encloses = |lead_in: usize, lead_out: usize| -> Option<bool> {
-        Some(match count.saturating_sub(lead_in + lead_out) {
-            0 => false,
-            1 => matches!(chain.step(lead_in)?.ideal, Some(Segment::Arc(arc)) if arc.is_full_turn()),
-            // There and back encloses nothing.
-            2 => chain.step(lead_in)?.kind == Kind::Arc || chain.step(lead_in + 1)?.kind == Kind::Arc,
-            _ => true,
-        })
-    };
-    if is_near(0, count)? {
-        // The way out runs back along the way in.
-        let mut leads = 0;
-        while encloses(leads + 1, leads + 1)? && is_near(leads + 1, count - leads - 1)? {
-            leads += 1;
-        }
-        return Some(Passage { lead_in: leads, lead_out: leads, closed: encloses(leads, leads)?, ..all });
-    }
-    for (lead_in, lead_out) in (1..=LONGEST_LEAD).flat_map(|both| (0..=both).map(move |lead_out| (both - lead_out, lead_out))) {
-        if encloses(lead_in, lead_out)? && is_near(lead_in, count - lead_out)? {
-            return Some(Passage { lead_in, lead_out, closed: true, ..all });
-        }
-    }
-    Some(all)
+    let closing = closing(chain)?;
+    Some(Passage { lead_in: closing.lead_in, lead_out: closing.lead_out, closed: closing.closed, ..all })
 }

@@ -8,6 +8,7 @@ mod judge;
 mod report;
 mod sections;
 mod walk;
+mod way;
 
 pub use walk::PlacedBlock;
 
@@ -78,6 +79,8 @@ struct View {
     outer: Vec<Section>,
     /// Where the contours begin that do not close.
     open: Vec<PartAt>,
+    /// Where sections begin that go on with the contour before them, behind the stop at its tab.
+    tabs: Vec<PartAt>,
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,
@@ -290,10 +293,13 @@ mod tests {
                 let Some((chain, passage, nth)) = passage_at(&document, step.range.start) else {
                     return Err(TestCaseError::fail("no chain"));
                 };
-                prop_assert_eq!(nth + whole.steps.start, index);
+                // A pause before a tab is a step of the trace and none of the chain.
+                let moves = |steps: std::ops::Range<usize>| trace.steps[steps].iter().filter(|step| step.moves()).count();
+                prop_assert_eq!(nth, moves(whole.steps.start..index));
                 prop_assert_eq!(chain.step(nth).is_none_or(|held| held == step), true);
-                let offset = whole.steps.start;
-                prop_assert_eq!(Passage { steps: passage.steps.start + offset..passage.steps.end + offset, ..passage }, whole);
+                let (steps, own) = (whole.steps.clone(), whole.contour_steps());
+                let (lead_in, lead_out) = (moves(steps.start..own.start), moves(own.end..steps.end));
+                prop_assert_eq!(passage, Passage { steps: 0..moves(steps), lead_in, lead_out, ..whole });
             }
         }
 

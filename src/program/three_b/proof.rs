@@ -5,6 +5,7 @@ use super::decode::decode;
 use super::encode::{END_TOLERANCE, Encoded, MIDDLE_TOLERANCE, point_of};
 use super::parse::{Item, Words, read_line};
 use crate::geometry::Vector;
+use crate::program::closing::tolerance;
 
 /// What the blocks of one program have shown so far.
 #[derive(Clone, Debug, Default)]
@@ -54,7 +55,7 @@ impl Proof {
         Ok(())
     }
 
-    /// Ends one contour: what it drifted must stay within 2 µm and 1 µm for each arc.
+    /// Ends one contour: what it drifted must stay within the tolerance of closing.
     ///
     /// `first` and `last` are its nodes where the path is closed: they must be the same.
     pub fn finish_contour(&mut self, closed: bool, first: Node, last: Node) -> Result<(), String> {
@@ -62,7 +63,7 @@ impl Proof {
             return Err(format!("the cut begins at {first:?} and ends at {last:?}"));
         }
         let drift = (self.drift - self.drift_at_start).norm();
-        let allowed = 2.0 + (self.arcs - self.arcs_at_start) as f64;
+        let allowed = tolerance(self.arcs - self.arcs_at_start);
         if drift > allowed {
             return Err(format!("a controller that counts J drifts by {drift:.3} µm, {allowed:.0} µm are allowed"));
         }

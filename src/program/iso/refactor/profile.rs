@@ -41,6 +41,9 @@ fn paths(document: &Document) -> Result<Vec<crate::toolpath::WirePath>, String> 
     if let Some(line) = cuts.lost.first() {
         return Err(format!("line {}: the arc leads nowhere", line + 1));
     }
+    if let Some(line) = cuts.stops.first() {
+        return Err(format!("line {}: the stop before the tab would be lost", line + 1));
+    }
     if cuts.cuts.is_empty() {
         return Err("the program cuts nothing".into());
     }

@@ -4,6 +4,7 @@ use crate::finding::{Detail, Place as Where, Severity};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::{Course, Move};
 use crate::program::language::{Passage, passages};
+use crate::program::trace::Kind;
 use crate::settings::Effective;
 use std::ops::Range;
 
@@ -29,6 +30,8 @@ pub struct Content {
     pub rows: Vec<Row>,
     /// Their steps are rows.
     pub contours: Vec<Passage>,
+    /// The rows before which the program pauses.
+    pauses: Vec<usize>,
 }
 
 impl<'a> Sheet<'a> {
@@ -63,16 +66,22 @@ impl Content {
     /// The rows of a closed contour whose ends are one place; the error says why there are none.
     pub fn closed(&self, contour: &Passage) -> Result<Range<usize>, String> {
         let own = contour.contour_steps();
-        let (Some(first), Some(last)) = (self.rows.get(own.start), own.end.checked_sub(1).and_then(|last| self.rows.get(last))) else {
-            return Err("the contour has no block".into());
-        };
+        let Some(first) = self.rows.get(own.start).filter(|_| !own.is_empty()) else { return Err("the contour has no block".into()) };
+        if let Some(row) = self.pauses.iter().find(|row| contour.steps.start < **row && **row < contour.steps.end) {
+            let line = self.rows[*row].line + 1;
+            return Err(format!("the contour pauses before line {line}, to hold the part while its tab is cut"));
+        }
         if !contour.closed {
             return Err(format!("the contour that begins in line {} is open", first.line + 1));
         }
-        if first.made.from != last.made.to {
-            return Err(format!("the contour that begins in line {} misses its own begin: close it first", first.line + 1));
-        }
-        Ok(own)
+        // Leads that only nearly lie on each other are part of it.
+        let wider = (0..=contour.lead_in.min(contour.lead_out)).map(|by| own.start - by..own.end + by);
+        let is_one_place = |own: &Range<usize>| match (self.rows.get(own.start), self.rows.get(own.end - 1)) {
+            (Some(first), Some(last)) => first.made.from == last.made.to,
+            _ => false,
+        };
+        let found = wider.into_iter().find(is_one_place);
+        found.ok_or_else(|| format!("the contour that begins in line {} misses its own begin: close it first", first.line + 1))
     }
 }
 
@@ -111,6 +120,12 @@ fn content(document: &Document) -> Result<Content, String> {
     }
     row_of.push(row);
     let at = |step: usize| row_of.get(step).copied().unwrap_or(row);
-    let contours = passages(&trace).into_iter().map(|passage| Passage { steps: at(passage.steps.start)..at(passage.steps.end), ..passage });
-    Ok(Content { contours: contours.collect(), rows })
+    let contours = passages(&trace).into_iter().map(|passage| {
+        let (steps, own) = (at(passage.steps.start)..at(passage.steps.end), passage.contour_steps());
+        let (lead_in, lead_out) = (at(own.start) - steps.start, steps.end - at(own.end));
+        Passage { steps, lead_in, lead_out, ..passage }
+    });
+    let contours = contours.collect();
+    let pauses = trace.steps.iter().enumerate().filter(|(_, step)| step.kind == Kind::Pause).map(|(step, _)| at(step)).collect();
+    Ok(Content { contours, rows, pauses })
 }

@@ -34,7 +34,7 @@ fn start_here(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     if first == own.start {
         return Ok(Vec::new());
     }
-    if contour.lead_in != 1 || contour.lead_out > 1 {
+    if contour.lead_in != 1 || contour.lead_out > 1 || own != contour.contour_steps() {
         return Err("the contour has no straight way in of one block".into());
     }
     let begin = content.rows[first].made.from;

@@ -6,8 +6,11 @@ use super::super::parse::unexpected;
 use super::super::rules::block_number::{Numbered, Sequence};
 use super::super::rules::{self, block_number, culprit, not_closed, position_mismatch};
 use super::super::run::{BlockEntry, Entry, Move, Numbering, Part, What, may_cross_itself};
+use super::sections::joined;
+use super::way::SectionWay;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Detail, Finding, Place, ProgramFault, Rule, Severity};
+use crate::program::closing::{closing, gap, is_tab};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -36,9 +39,9 @@ impl Document {
         view
     }
 
-    /// `not-closed`, and the block that is to blame where it is plain. A contour that pauses before its last piece goes on behind the pause.
+    /// `not-closed`, and the block that is to blame where it is plain. A contour that stops before its tab goes on behind the stop.
     fn judge_contours(&self, view: &mut View) {
-        let is_open = |section: &Section| !section.is_jump && !not_closed::is_closed(&section.sum);
+        let is_open = |section: &Section| !section.is_jump && !self.is_closed(section);
         let mut candidates: Vec<Section> = self.inner_sections(view.end, |run| &run.open).filter(is_open).collect();
         candidates.extend(view.outer.iter().filter(|section| is_open(section)).cloned());
         // What would be a way to the next contour between two pauses is none before the end.
@@ -52,30 +55,51 @@ impl Document {
             if section.parts[0] < behind {
                 continue;
             }
-            let (mut whole, mut next) = (section.sum, self.part_behind(section.parts[1]));
-            let mut closes = false;
-            for _ in 0..PAUSES_WITHIN {
-                let Some(more) = self.section_from(next, view.end) else { break };
-                whole = whole.then(&more.sum);
-                next = self.part_behind(more.parts[1]);
-                closes = not_closed::is_closed(&whole);
-                if closes {
-                    break;
+            match self.goes_on(view, &section) {
+                Some((stops, next)) => {
+                    view.tabs.extend(stops);
+                    behind = next;
+                }
+                None => {
+                    view.open.push(section.parts[0]);
+                    self.judge_open(view, &section);
                 }
             }
-            if closes {
-                behind = next;
-            } else {
-                view.open.push(section.parts[0]);
-                self.judge_open(view, &section);
-            }
         }
+    }
+
+    fn is_closed(&self, section: &Section) -> bool {
+        not_closed::is_closed(&section.sum) || closing(&SectionWay::of(self, section)).is_some_and(|closing| closing.closed)
+    }
+
+    /// Where the sections begin that go on with an open one behind a stop, and what comes behind them: a tab, or blocks that come back
+    /// to the start together, in whatever order they are cut. `None` where there are none.
+    fn goes_on(&self, view: &View, section: &Section) -> Option<(Vec<PartAt>, PartAt)> {
+        let mut whole = section.clone();
+        let mut begins = Vec::new();
+        let mut may_be_tab = true;
+        for _ in 0..PAUSES_WITHIN {
+            let next = self.part_behind(whole.parts[1]);
+            let more = self.section_from(next, view.end)?;
+            let longer = joined(whole.clone(), &more);
+            begins.push(next);
+            let way = |section: &Section| SectionWay::of(self, section);
+            let is_tab = may_be_tab && more.sum.blocks > 0 && is_tab(&way(&whole), &way(&more), &way(&longer)) == Some(true);
+            if is_tab || not_closed::is_closed(&longer.sum) {
+                return Some((begins, self.part_behind(more.parts[1])));
+            }
+            // What closes by itself is a contour of its own, and what leads to it no tab.
+            may_be_tab &= more.sum.blocks == 0 || !(more.is_jump || self.is_closed(&more));
+            whole = longer;
+        }
+        None
     }
 
     fn judge_open(&self, view: &mut View, section: &Section) {
         let Some(last) = self.last_block_of(section).filter(|_| section.sum.unread == 0) else { return };
         let is_fragment = view.end.is_none() || section.sum.blocks <= not_closed::FRAGMENT;
-        let fault = not_closed::fault(&section.sum);
+        let Some(gap) = gap(&SectionWay::of(self, section)) else { return };
+        let fault = not_closed::fault(gap, &section.sum);
         let severity = if is_fragment { Severity::Information } else { fault.rule().default_severity() };
         let mut findings = vec![Finding { severity, ..finding(self.range_of(last, &view.starts), fault) }];
         let may_be_one_field = section.sum.errors == 0 && culprit::BLOCKS.contains(&section.sum.blocks) && !self.lacks_a_number(section);

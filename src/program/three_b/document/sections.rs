@@ -73,8 +73,25 @@ impl Document {
         sections
     }
 
+    /// The contour that a part belongs to, or the way between two: its section, and those before and behind at its tabs.
+    pub(super) fn section_of_part(&self, view: &View, part: PartAt) -> Option<Section> {
+        let mut section = self.own_section_of_part(view, part)?;
+        while view.tabs.binary_search(&section.parts[0]).is_ok() {
+            let (run, part) = section.parts[0];
+            // Its word stands at the end of the part before.
+            let Some(before) = part.checked_sub(1).and_then(|part| self.own_section_of_part(view, (run, part))) else { break };
+            section = joined(before, &section);
+        }
+        loop {
+            let next = self.part_behind(section.parts[1]);
+            let Some(behind) = view.tabs.binary_search(&next).ok().and_then(|_| self.section_from(next, view.end)) else { break };
+            section = joined(section, &behind);
+        }
+        Some(section)
+    }
+
     /// The section that a part belongs to.
-    pub(super) fn section_of_part(&self, view: &View, (run, part): PartAt) -> Option<Section> {
+    fn own_section_of_part(&self, view: &View, (run, part): PartAt) -> Option<Section> {
         let of = self.runs.get(run)?;
         if part > 0 && part + 1 < of.parts.len() {
             return self.section_from((run, part), view.end);
@@ -85,6 +102,11 @@ impl Document {
 
     pub(super) fn is_jump(&self, part: PartAt) -> bool {
         self.section_of_part(&self.view, part).is_some_and(|section| section.is_jump)
+    }
+
+    /// Whether what begins with a part goes on with the contour before it.
+    pub(super) fn is_tab(&self, part: PartAt) -> bool {
+        self.view.tabs.binary_search(&part).is_ok()
     }
 
     pub(super) fn closes(&self, view: &View, section: &Section) -> bool {
@@ -126,4 +148,9 @@ impl Document {
         let part = self.runs.get(at.run)?.parts.partition_point(|part| part.entries.end <= at.entry);
         self.section_of_part(&self.view, (at.run, part))
     }
+}
+
+/// A section and the one behind it as one contour.
+pub(super) fn joined(section: Section, behind: &Section) -> Section {
+    Section { parts: [section.parts[0], behind.parts[1]], sum: section.sum.then(&behind.sum), is_jump: false }
 }

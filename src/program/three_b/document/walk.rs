@@ -3,8 +3,10 @@
 use super::super::block::{Block, PartArc};
 use super::super::decode::meant;
 use super::super::run::{Entry, Move, What};
+use super::way::SectionWay;
 use super::{At, Document, Section};
 use crate::geometry::{Point, Vector};
+use crate::program::closing::Way;
 use crate::program::trace::{Chain, Kind, Step, Trace};
 use std::ops::Range;
 
@@ -201,7 +203,8 @@ impl Document {
         (head_end..tail_start).for_each(|run| walk.skip(run));
         let tail = steps_of(tail_start..(last_run + 1).max(tail_start), &mut walk);
         let [x, y] = travel.meant_um();
-        (count > 0).then(|| Chain::by_ends(head, tail, (count, arcs), Vector::new(x, y)))
+        let stop = SectionWay::of(self, section).stop().filter(|stop| *stop < count);
+        (count > 0).then(|| Chain::by_ends(head, tail, (count, arcs), Vector::new(x, y)).stopping(stop))
     }
 
     fn walk(&self) -> Walk<'_> {
@@ -259,8 +262,8 @@ impl Walk<'_> {
                     if wanted(&range) {
                         each(Step { range, line, number, kind, start, end: start, ideal: None, contour });
                     }
-                    self.section += 1;
                     part += 1;
+                    self.section += usize::from(!document.is_tab((index, part)));
                     is_jump = document.is_jump((index, part));
                 }
                 What::StartPoint(_) | What::Text { .. } | What::Unread => {}
@@ -276,6 +279,8 @@ impl Walk<'_> {
         }
         let [x, y] = run.travel.machine;
         self.at += Vector::new(x as f64, y as f64);
-        self.section += run.words;
+        let tabs = &self.document.view.tabs;
+        let before = |run: usize| tabs.partition_point(|tab| tab.0 < run);
+        self.section += run.words - (before(index + 1) - before(index)).min(run.words);
     }
 }

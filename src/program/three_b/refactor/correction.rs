@@ -38,6 +38,7 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
     let mut outlines = Vec::new();
     let (mut threads, mut entries) = (BTreeMap::new(), BTreeMap::new());
     for contour in content.contours.iter().filter(|contour| !contour.is_way) {
+        content.refuse_pause(contour)?;
         if !contour.closed {
             return Err(format!("contour {} is open: the side of the wire is not known", contour.ordinal));
         }

@@ -58,7 +58,7 @@ fn run(content: &Content, nodes: &[(Node, Node)], rows: Range<usize>) -> Range<u
     if !is_line(&content.rows[start]) {
         return start..end;
     }
-    while end < rows.end && is_line(&content.rows[end]) && content.rows[end].comment.is_none() {
+    while end < rows.end && is_line(&content.rows[end]) && content.rows[end].comment.is_none() && !content.rows[end].is_behind_pause {
         let (from, to) = (nodes[start].0, nodes[end].1);
         let whole = Line { start: point(from), end: point(to) };
         let length = (to.x - from.x).abs().max((to.y - from.y).abs());

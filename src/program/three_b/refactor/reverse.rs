@@ -25,6 +25,7 @@ fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     let nodes = content.nodes()?;
     let mut rewrite = Rewrite { end: sheet.trace.end(), ..Rewrite::default() };
     for contour in sheet.selected_contours(content) {
+        content.refuse_pause(contour)?;
         let rows = if contour.closed {
             contour.own_rows()
         } else if content.contours.len() == 1 {

@@ -15,6 +15,8 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub struct Row {
     pub line: usize,
+    /// A pause stands between it and the row before.
+    pub is_behind_pause: bool,
     /// Bytes of the text.
     pub range: Range<usize>,
     pub block: Block,
@@ -145,6 +147,15 @@ impl Content {
         moved(&row.piece, Point::new(from.x as f64, from.y as f64) - row.from)
     }
 
+    /// An error where the contour pauses before its tab: the pause stands where it stands.
+    pub fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
+        let rows = self.rows.get(contour.rows.clone()).unwrap_or_default();
+        match rows.iter().skip(1).find(|row| row.is_behind_pause) {
+            Some(row) => Err(format!("the contour pauses before line {}, to hold the part while its tab is cut", row.line + 1)),
+            None => Ok(()),
+        }
+    }
+
     /// An error where a block carries 4B's radius: the program then holds the part's contour.
     pub fn refuse_four_b(&self) -> Result<(), String> {
         match self.rows.iter().find(|row| row.part.is_some()) {
@@ -170,7 +181,10 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
     let text = document.text();
     let words = document.words();
     let mut steps = trace.steps.iter().filter(|step| step.moves());
+    // Words that end programs elsewhere may stand before the one that ends this one.
+    let end = trace.steps.iter().find(|step| step.kind == Kind::End).map(|step| step.range.start);
     let (mut rows, mut header, mut fault, mut is_over) = (Vec::new(), None, None, false);
+    let mut is_behind_pause = false;
     for line in 0..text.line_count() {
         if is_over {
             break;
@@ -184,6 +198,7 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
             pieces.iter().rev().find(|piece| piece.field == field).map(|piece| &piece.range)
         };
         read_line(bytes, range.start, &words, |item| match item {
+            _ if is_over => {}
             Item::Block { block, part, range: own, stated_end, .. } => {
                 blocks += 1;
                 let step = steps.next().filter(|step| step.range.start == own.start);
@@ -194,6 +209,7 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
                 let is_spaced = bytes.get(own.start - range.start..own.end - range.start).is_some_and(|block| block.contains(&b' '));
                 rows.push(Row {
                     line,
+                    is_behind_pause: std::mem::take(&mut is_behind_pause),
                     range: own,
                     block,
                     part,
@@ -214,7 +230,10 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
                 fault.get_or_insert_with(|| format!("line {} cannot be read", line + 1));
             }
             Item::Text { .. } => {}
-            Item::Word { word, .. } => is_over |= word == crate::program::three_b::Word::End,
+            Item::Word { range, .. } => {
+                is_over |= end.is_some_and(|end| range.start >= end);
+                is_behind_pause = true;
+            }
         });
         if blocks > 1 {
             fault.get_or_insert_with(|| format!("line {} holds {blocks} blocks: format the program first", line + 1));
@@ -229,12 +248,15 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
 
 fn contours(trace: &Trace) -> Vec<Contour> {
     let (mut row, mut ordinal) = (0, 0);
+    let moves = |steps: Range<usize>| trace.steps.get(steps).unwrap_or_default().iter().filter(|step| step.moves()).count();
     let contour = |passage: Passage| {
-        let rows = row..row + passage.steps.len();
+        let rows = row..row + moves(passage.steps.clone());
         row = rows.end;
         let is_way = passage.is_way || trace.steps.get(passage.steps.start).is_some_and(|step| step.kind == Kind::Rapid);
         ordinal += usize::from(!is_way);
-        Contour { ordinal, rows, lead_in: passage.lead_in, lead_out: passage.lead_out, closed: passage.closed, is_way }
+        let own = passage.contour_steps();
+        let (lead_in, lead_out) = (moves(passage.steps.start..own.start), moves(own.end..passage.steps.end));
+        Contour { ordinal, rows, lead_in, lead_out, closed: passage.closed, is_way }
     };
     passages(trace).into_iter().map(contour).collect()
 }

@@ -22,6 +22,7 @@ fn start_here(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     let line = sheet.selected_lines().start;
     let first = content.rows.iter().position(|row| row.line == line).ok_or("no block is selected")?;
     let contour = content.contours.iter().find(|contour| contour.rows.contains(&first)).ok_or("no contour is selected")?;
+    content.refuse_pause(contour)?;
     let own = contour.own_rows();
     if !own.contains(&first) {
         return Err("the block leads to the contour or away from it, expected one of the contour".into());

@@ -1,18 +1,16 @@
 //! `not-closed`: a contour does not come back to where it began, nor to the end of its lead-in.
+//!
+//! Where a contour closes is said by [`crate::program::closing`]; its sums alone tell that for nearly all of them.
 
 use super::super::run::{Move, Sum};
 use crate::finding::ProgramFault;
-
-/// How far a contour of so many arcs may end beside its beginning, µm: published programs stay within it.
-pub(in super::super) fn tolerance(arcs: usize) -> f64 {
-    2.0 + arcs as f64
-}
+use crate::program::closing::tolerance;
 
 /// Up to this many blocks are a fragment: they may well be all that was meant.
 pub(in super::super) const FRAGMENT: usize = 2;
 
-/// True where the way comes back to its start or to the end of its lead-in, the first block or the first two; a lead-out that goes elsewhere
-/// counts as one only where it runs neither back along the lead-in nor on in its direction.
+/// True where the sums alone tell that the way comes back to its start or to the end of a lead-in of one or two blocks; a lead-out that
+/// goes elsewhere counts as one only where it runs neither back along the lead-in nor on in its direction.
 pub(in super::super) fn is_closed(sum: &Sum) -> bool {
     let tolerance = tolerance(sum.arcs);
     if sum.blocks == 0 || sum.travel.is_within(tolerance) {
@@ -47,7 +45,7 @@ pub(in super::super) fn gap(sum: &Sum) -> [f64; 2] {
     if length(to_lead_in) < length(to_start) { to_lead_in } else { to_start }
 }
 
-pub(in super::super) fn fault(sum: &Sum) -> ProgramFault {
-    let [x, y] = gap(sum);
+/// `gap` leads from the end of the way to where it should be.
+pub(in super::super) fn fault([x, y]: [f64; 2], sum: &Sum) -> ProgramFault {
     ProgramFault::NotClosed { x: -x, y: -y, blocks: sum.blocks }
 }

@@ -1,0 +1,443 @@
+//! Where a contour closes: the one answer that the rules, the outline, conversion and refactorings of every language go by.
+//!
+//! A contour is closed where the way behind its way in comes back to the end of the way in, or to the start of all, however many blocks
+//! the way in has; a way out may follow. A stop while the contour is open, behind which a block goes on from that very point and comes
+//! to close or meet the contour, belongs to the contour: it holds the part while its tab is cut.
+
+use crate::geometry::{Point, Segment};
+
+/// How far a way of so many arcs may end beside a place and still end in it, µm: rounding adds up as a random walk.
+pub fn tolerance(arcs: usize) -> f64 {
+    2.0 + (arcs as f64).sqrt()
+}
+
+/// Blocks in the ways in and out together among which an answer is looked for before the whole way is gone through.
+const SHORT_LEADS: usize = 6;
+
+/// The most blocks of a way out that leads elsewhere than to the start.
+const LONGEST_WAY_OUT: usize = 12;
+
+/// Blocks behind a stop of which one has to meet the contour that is open.
+const BEHIND_A_STOP: usize = 16;
+
+/// Where a way stands between two of its blocks, µm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Where the machine stands.
+    pub stands: Point,
+    /// Where it would, did it not drift while it counts.
+    pub meant: Point,
+}
+
+impl Node {
+    /// A node of a program that names its places.
+    pub fn at(point: Point) -> Node {
+        Node { stands: point, meant: point }
+    }
+
+    fn is_near(&self, other: &Node, tolerance: f64) -> bool {
+        (self.stands - other.stands).norm() <= tolerance || (self.meant - other.meant).norm() <= tolerance
+    }
+}
+
+/// How a program says where its blocks lead.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Writing {
+    /// Its places are named, not only the ways between them.
+    pub names_places: bool,
+    /// How far ends that are meant as one may lie apart because numbers are written so coarsely, µm.
+    pub slack: f64,
+}
+
+/// Blocks that cut one after another. What is `None` is not held.
+pub trait Way {
+    fn count(&self) -> usize;
+    fn arcs(&self) -> usize;
+    fn writing(&self) -> Writing;
+    /// Where it stands before a block, or behind the last.
+    fn node(&self, index: usize) -> Option<Node>;
+    /// What a block means, where it is meant to begin; a line without length where it leads nowhere.
+    fn piece(&self, index: usize) -> Option<Segment>;
+    /// Hands out all pieces that come within `reach` µm of a place, and perhaps others, in their order, until `each` says that it has
+    /// seen enough.
+    fn pieces_about(&self, at: Point, reach: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()>;
+
+    /// The blocks before its first stop, where it holds one: what comes behind is the tab.
+    fn stop(&self) -> Option<usize>;
+
+    /// How far it may end beside a place and still end in it, µm.
+    fn tolerance(&self) -> f64 {
+        tolerance(self.arcs()).max(self.writing().slack)
+    }
+}
+
+/// How a way falls into way in, contour and way out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Closing {
+    pub closed: bool,
+    /// Blocks; none where the contour is open.
+    pub lead_in: usize,
+    pub lead_out: usize,
+}
+
+/// Whether a way holds a closed contour, and where; `None` where that hangs on blocks that are not held.
+pub fn closing(way: &dyn Way) -> Option<Closing> {
+    let count = way.count();
+    if count == 0 {
+        return Some(Closing::default());
+    }
+    let tolerance = way.tolerance();
+    let is_near = |one: usize, other: usize| Some(way.node(one)?.is_near(&way.node(other)?, tolerance));
+    let closed = |lead_in, lead_out| Some(Closing { closed: true, lead_in, lead_out });
+    if is_near(0, count)? {
+        // The way out runs back along the way in.
+        let mut leads = 0;
+        while encloses(way, leads + 1, leads + 1)? && is_near(leads + 1, count - leads - 1)? {
+            leads += 1;
+        }
+        return closed(leads, leads);
+    }
+    if count >= 3 && is_near(1, count)? {
+        return closed(1, 0);
+    }
+    // A last block like the first, there or back, was meant to lead to the start.
+    let longest_out = if is_mirrored(way, tolerance)? { 0 } else { LONGEST_WAY_OUT };
+    for both in 1..=SHORT_LEADS.min(count) {
+        for lead_out in 0..=(both - 1).min(longest_out) {
+            let lead_in = both - lead_out;
+            if encloses(way, lead_in, lead_out)? && is_near(lead_in, count - lead_out)? {
+                return closed(lead_in, lead_out);
+            }
+        }
+    }
+    if way.writing().names_places && count > 3 {
+        // The cut may go on past the place where it closes.
+        let first = way.piece(1)?;
+        for lead_out in [0, 1] {
+            if first.distance_to(way.node(count - lead_out)?.meant) <= tolerance {
+                return closed(1, lead_out);
+            }
+        }
+    }
+    for lead_out in 0..=longest_out.min(count) {
+        let end = way.node(count - lead_out)?.meant;
+        let mut found = None;
+        way.pieces_about(end, tolerance, &mut |index, piece| {
+            let is_it = index > 0 && (piece.start() - end).norm() <= tolerance && encloses(way, index, lead_out) == Some(true);
+            found = found.or(is_it.then_some(index));
+            found.is_some() || index + lead_out >= count
+        })?;
+        if let Some(lead_in) = found {
+            return closed(lead_in, lead_out);
+        }
+    }
+    Some(meeting(way, tolerance)?.unwrap_or_default())
+}
+
+/// A way whose tab comes to meet what was cut before its stop, elsewhere than where it stopped.
+fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {
+    let Some(before) = way.stop().filter(|before| (3..way.count()).contains(before)) else { return Some(None) };
+    let stopped = way.node(before)?.meant;
+    for behind in before + 1..=way.count().min(before + BEHIND_A_STOP) {
+        let end = way.node(behind)?.meant;
+        if (end - stopped).norm() <= tolerance {
+            continue;
+        }
+        let mut met = None;
+        way.pieces_about(end, tolerance, &mut |index, piece| {
+            met = met.or((index < before && piece.distance_to(end) <= tolerance).then_some(index));
+            met.is_some() || index >= before
+        })?;
+        if let Some(lead_in) = met {
+            return Some(Some(Closing { closed: true, lead_in, lead_out: way.count() - behind }));
+        }
+    }
+    Some(None)
+}
+
+/// Whether what is left between ways in and out of so many blocks can go round something: there and back does not.
+fn encloses(way: &dyn Way, lead_in: usize, lead_out: usize) -> Option<bool> {
+    let is_arc = |index: usize| Some(way.piece(index)?.as_arc().is_some());
+    let count = way.count().saturating_sub(lead_in + lead_out);
+    let goes_round = match count {
+        0 => false,
+        1 => way.piece(lead_in)?.as_arc().is_some_and(|arc| arc.is_full_turn()),
+        2 => is_arc(lead_in)? || is_arc(lead_in + 1)?,
+        _ => true,
+    };
+    if !goes_round {
+        return Some(false);
+    }
+    // What stays in one place is no contour.
+    let begin = way.node(lead_in)?.meant;
+    for index in lead_in..lead_in + count.min(LOOKED_THROUGH) {
+        let piece = way.piece(index)?;
+        if [0.5, 1.0].into_iter().any(|share| (piece.point_at(share) - begin).norm() > 2.0 * way.tolerance()) {
+            return Some(true);
+        }
+    }
+    Some(false)
+}
+
+/// Blocks of which one has to lead away from where a contour begins.
+const LOOKED_THROUGH: usize = 16;
+
+/// Whether the last block runs as far and in the same or the opposite direction as the first.
+fn is_mirrored(way: &dyn Way, tolerance: f64) -> Option<bool> {
+    let count = way.count();
+    let first = way.node(1)?.meant - way.node(0)?.meant;
+    let last = way.node(count)?.meant - way.node(count - 1)?.meant;
+    Some(count >= 3 && ((first - last).norm() <= tolerance || (first + last).norm() <= tolerance))
+}
+
+/// From where a way ends to the nearer of its start and the end of a way in of one block, µm.
+pub fn gap(way: &dyn Way) -> Option<[f64; 2]> {
+    let count = way.count();
+    let end = way.node(count)?.meant;
+    let to = |index: usize| Some(way.node(index)?.meant - end);
+    let to_start = to(0)?;
+    let nearer = if count >= 3 { [to_start, to(1)?].into_iter().min_by(|a, b| a.norm().total_cmp(&b.norm()))? } else { to_start };
+    Some([nearer.x, nearer.y])
+}
+
+/// Whether a way that goes on behind a stop belongs to the contour before it, which is open: it closes the contour or comes to meet it.
+/// `before` are the blocks up to the stop, `whole` those and the ones behind it.
+pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<bool> {
+    if before.count() == 0 || behind.count() == 0 || closing(before)?.closed || closing(behind)?.closed {
+        return Some(false);
+    }
+    let closing = closing(whole)?;
+    Some(closing.closed && closing.lead_in <= before.count())
+}
+
+/// A way of which everything is held.
+#[derive(Clone, Debug, Default)]
+pub struct HeldWay {
+    nodes: Vec<Node>,
+    pieces: Vec<Segment>,
+    arcs: usize,
+    writing: Writing,
+}
+
+impl HeldWay {
+    pub fn from(start: Node, writing: Writing) -> HeldWay {
+        HeldWay { nodes: vec![start], writing, ..HeldWay::default() }
+    }
+
+    /// One block more: what it means, from where the way is meant to stand, and where the machine stands behind it.
+    pub fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
+        self.pieces.push(piece);
+        self.nodes.push(end);
+        self.arcs += usize::from(is_arc);
+    }
+}
+
+impl Way for HeldWay {
+    fn count(&self) -> usize {
+        self.pieces.len()
+    }
+
+    fn arcs(&self) -> usize {
+        self.arcs
+    }
+
+    fn writing(&self) -> Writing {
+        self.writing
+    }
+
+    fn stop(&self) -> Option<usize> {
+        None
+    }
+
+    fn node(&self, index: usize) -> Option<Node> {
+        self.nodes.get(index).copied()
+    }
+
+    fn piece(&self, index: usize) -> Option<Segment> {
+        self.pieces.get(index).copied()
+    }
+
+    fn pieces_about(&self, _: Point, _: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()> {
+        _ = self.pieces.iter().enumerate().any(|(index, piece)| each(index, piece));
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::finding::Rule;
+    use crate::program::language::{SymbolKind, passages, symbols};
+    use crate::program::{Document, Language, convert};
+    use crate::settings::Effective;
+    use proptest::prelude::*;
+
+    /// What every reader of a program says of its one contour: closed or not.
+    #[track_caller]
+    fn answers(language: Language, text: &str) -> bool {
+        let document = Document::read(language, text.into(), &Effective::default());
+        let (findings, _) = document.findings(&Effective::default(), usize::MAX);
+        let by_rule = !findings.iter().any(|finding| finding.rule == Rule::NotClosed);
+        let contours: Vec<_> = passages(&document.trace()).into_iter().filter(|passage| !passage.is_way).collect();
+        let by_passages = contours.iter().all(|passage| passage.closed);
+        let outline = symbols(&document);
+        let mut contours_of_outline = outline.iter().filter(|symbol| symbol.kind == SymbolKind::Contour);
+        let by_outline = contours_of_outline.all(|symbol| symbol.detail.starts_with("closed"));
+        let cuts = convert::cuts(&document);
+        let by_conversion = cuts.cuts.iter().all(|cut| cut.closed);
+        let all = [by_rule, by_passages, by_outline, by_conversion];
+        assert!(all.iter().all(|one| *one == by_rule), "rule, passages, outline, conversion: {all:?}\n{text}");
+        assert_eq!(cuts.cuts.len(), contours.len(), "{text}");
+        for (cut, passage) in cuts.cuts.iter().zip(&contours) {
+            // Where a cut meets itself within a segment, that is parted.
+            assert!(cut.lead_in - passage.lead_in <= 1 && cut.lead_out - passage.lead_out <= 1, "{text}");
+        }
+        by_rule
+    }
+
+    /// A way through places in µm; `None` is a stop.
+    fn three_b(way: &[Option<[i64; 2]>]) -> String {
+        let mut text = String::new();
+        let mut at = [0, 0];
+        for step in way {
+            let Some([x, y]) = *step else {
+                text.push_str("D\n");
+                continue;
+            };
+            let (dx, dy) = (x - at[0], y - at[1]);
+            at = [x, y];
+            let quadrant = match (dx, dy) {
+                (dx, dy) if dx > 0 && dy >= 0 => 1,
+                (dx, dy) if dx <= 0 && dy > 0 => 2,
+                (dx, dy) if dx < 0 && dy <= 0 => 3,
+                _ => 4,
+            };
+            let (a, b) = (dx.abs(), dy.abs());
+            let axis = if a > b || (a == b && quadrant % 2 == 0) { 'X' } else { 'Y' };
+            text.push_str(&format!("B{a}B{b}B{}G{axis}L{quadrant}\n", a.max(b)));
+        }
+        text + "DD\n"
+    }
+
+    fn iso(way: &[Option<[i64; 2]>]) -> String {
+        let line = |step: &Option<[i64; 2]>| match step {
+            Some([x, y]) => format!("G01 X{:.3} Y{:.3}\n", *x as f64 / 1e3, *y as f64 / 1e3),
+            None => "M00\n".to_owned(),
+        };
+        format!("G92 X0. Y0.\nG90\n{}M02\n", way.iter().map(line).collect::<String>())
+    }
+
+    #[track_caller]
+    fn check(way: &[Option<[i64; 2]>], expected: bool) {
+        assert_eq!(answers(Language::ThreeB, &three_b(way)), expected, "{}", three_b(way));
+        assert_eq!(answers(Language::Iso, &iso(way)), expected, "{}", iso(way));
+    }
+
+    fn some(way: &[[i64; 2]]) -> Vec<Option<[i64; 2]>> {
+        way.iter().map(|at| Some(*at)).collect()
+    }
+
+    #[test]
+    fn the_tolerance_grows_as_a_random_walk() {
+        assert_eq!(tolerance(0), 2.0);
+        assert_eq!(tolerance(1), 3.0);
+        assert_eq!(tolerance(156).round(), 14.0);
+    }
+
+    #[test]
+    fn a_square_closes_behind_a_bent_way_in() {
+        let square = [[9000, 2000], [9000, 12000], [-1000, 12000], [-1000, 2000], [4000, 2000]];
+        let bent = [[0, -3000], [4000, -3000], [4000, 2000]];
+        check(&some(&[&bent[..], &square[..]].concat()), true);
+        // A way out that goes elsewhere, and one back along the way in.
+        check(&some(&[&bent[..], &square[..], &[[5000, -4000]]].concat()), true);
+        check(&some(&[&bent[..], &square[..], &[[4000, -3000], [0, -3000], [0, 0]]].concat()), true);
+        // It ends 1 mm beside the end of its way in.
+        check(&some(&[&bent[..], &square[..4], &[[3000, 2000]]].concat()), false);
+        check(&some(&square), false);
+    }
+
+    #[test]
+    fn a_stop_before_the_tab_does_not_end_a_contour() {
+        let [hole, entry] = [[0, 0], [4000, 0]];
+        let main = [entry, [4000, 5000], [24000, 5000], [24000, -15000], [4000, -15000], [4000, -3000]];
+        let with = |behind: &[Option<[i64; 2]>]| [&some(&main)[..], &[None], behind].concat();
+        // The tab closes the contour; with and without a way out; or comes to meet it past its entry; or stops twice.
+        check(&with(&some(&[entry])), true);
+        check(&with(&some(&[entry, hole])), true);
+        check(&with(&some(&[[4000, 300]])), true);
+        check(&with(&[Some([4000, -1000]), None, Some(entry), Some(hole)]), true);
+        // The tab is left standing.
+        check(&[&some(&main)[..], &[None]].concat(), false);
+        check(&with(&some(&[[3000, -9000]])), false);
+        for (language, text) in
+            [(Language::ThreeB, three_b(&with(&some(&[entry, hole])))), (Language::Iso, iso(&with(&some(&[entry, hole]))))]
+        {
+            let document = Document::read(language, text.clone().into(), &Effective::default());
+            let trace = document.trace();
+            let contours = passages(&trace);
+            assert_eq!(contours.len(), 1, "{text}");
+            assert_eq!((contours[0].lead_in, contours[0].lead_out, contours[0].closed), (1, 1, true), "{text}");
+            assert!(trace.steps.iter().filter(|step| step.moves()).all(|step| step.contour == 0), "{text}");
+            let cuts = convert::cuts(&document);
+            assert_eq!((cuts.cuts.len(), cuts.stops.len()), (1, 1), "{text}");
+            assert_eq!(cuts.cuts[0].contour().len(), 6, "{text}");
+        }
+    }
+
+    #[test]
+    fn two_stops_with_a_way_between_are_a_jump() {
+        let text = "B4000B0B4000GXL1\nB4000B0B16000GYNR1\nB4000B0B4000GXL3\nD\nB50000B0B50000GXL1\nD\nB4000B0B4000GXL1\n\
+                    B4000B0B16000GYNR1\nB4000B0B4000GXL3\nDD\n";
+        assert!(answers(Language::ThreeB, text));
+        let document = Document::read(Language::ThreeB, text.into(), &Effective::default());
+        let contours: Vec<_> = passages(&document.trace()).iter().map(|passage| (passage.contour, passage.is_way)).collect();
+        assert_eq!(contours, [(0, false), (1, true), (2, false)]);
+    }
+
+    /// A ring of places about a middle, none of which lie on one line.
+    fn ring() -> impl Strategy<Value = Vec<[i64; 2]>> {
+        (prop::collection::vec(3_000.0_f64..20_000.0, 3..12), 0.0_f64..1.0).prop_map(|(radii, turned)| {
+            let count = radii.len() as f64;
+            let at = |(index, radius): (usize, &f64)| {
+                let angle = (index as f64 + turned) / count * std::f64::consts::TAU;
+                [(radius * angle.cos()).round() as i64, (radius * angle.sin()).round() as i64]
+            };
+            radii.iter().enumerate().map(at).collect()
+        })
+    }
+
+    fn ways() -> impl Strategy<Value = Vec<[i64; 2]>> {
+        prop::collection::vec((20_500_i64..60_000, 20_500_i64..60_000).prop_map(|(x, y)| [x, y]), 0..10)
+    }
+
+    proptest! {
+        #[test]
+        fn all_say_the_same_however_long_the_ways_are(
+            ring in ring(), way_in in ways(), way_out in ways(),
+            (back, stop, miss) in (any::<bool>(), 0_usize..40, prop_oneof![3 => Just(0), 1 => 40_i64..900]),
+        ) {
+            // From the origin, which a ring lies about, or from outside.
+            let mut way: Vec<Option<[i64; 2]>> = some(&way_in);
+            way.extend(some(&ring));
+            let begin = ring[0];
+            way.push(Some([begin[0] + miss, begin[1]]));
+            if back {
+                way.extend(some(&way_in).into_iter().rev().skip(1));
+                way.push(Some([0, 0]));
+            } else if miss == 0 {
+                way.extend(some(&way_out));
+            }
+            if stop > way_in.len() + 1 && stop < way_in.len() + ring.len() {
+                way.insert(stop, None);
+            }
+            let expected = miss == 0 || back;
+            for (language, text) in [(Language::ThreeB, three_b(&way)), (Language::Iso, iso(&way))] {
+                let said = answers(language, &text);
+                // A way out from a contour that no way leads to is none.
+                let is_plain = !way_in.is_empty() || back || way_out.is_empty();
+                prop_assert!(!is_plain || said == expected, "{said}, expected {expected}\n{text}");
+            }
+        }
+    }
+}
