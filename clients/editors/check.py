@@ -73,7 +73,7 @@ class Place:
             "WEDM_DRAWING": str(self.drawing),
         }
 
-    def run(self, words: list[str], limit: float = 90, **environment: str) -> str:
+    def run(self, words: list[str], limit: float = 300, **environment: str) -> str:
         try:
             ended = subprocess.run(
                 words, cwd=self.folder, env={**self.environment, **environment}, stdin=subprocess.DEVNULL,
@@ -106,7 +106,7 @@ class Place:
         expect(len(old) == len(new), f"the file had {len(old)} lines and has {len(new)}")
         changed = [number for number, pair in enumerate(zip(old, new, strict=True), 1) if pair[0] != pair[1]]
         expect(bool(changed) and set(changed) <= set(range(37, 49)), f"lines {changed} differ")
-        ended = subprocess.run([WEDM, "check", str(self.drawing)], capture_output=True, text=True, timeout=20, check=False)
+        ended = subprocess.run([WEDM, "check", str(self.drawing)], capture_output=True, text=True, timeout=90, check=False)
         expect(ended.returncode == 0, f"the repaired drawing has errors:\n{ended.stdout}")
 
     def log(self, name: str, content: str) -> None:
@@ -239,7 +239,7 @@ class Terminal:
 
     def _tmux(self, *words: str) -> str:
         command = ["tmux", "-S", self._socket, "-f", "/dev/null", *words]
-        ended = subprocess.run(command, env=self._place.environment, cwd=self._place.folder, capture_output=True, text=True, timeout=20, check=False)
+        ended = subprocess.run(command, env=self._place.environment, cwd=self._place.folder, capture_output=True, text=True, timeout=90, check=False)
         return ended.stdout
 
     def type(self, *keys: str) -> None:
@@ -249,7 +249,7 @@ class Terminal:
     def screen(self) -> str:
         return self._tmux("capture-pane", "-p")
 
-    def wait(self, what: str, holds: Callable[[str], bool], limit: float = 20) -> str:
+    def wait(self, what: str, holds: Callable[[str], bool], limit: float = 90) -> str:
         end = time.monotonic() + limit
         while time.monotonic() < end:
             screen = self.screen()
@@ -350,12 +350,12 @@ class Screen:
         self._started.append(subprocess.Popen(words, env=self._place.environment, cwd=self._place.folder, start_new_session=True, **quiet))
 
     def type(self, *keys: str) -> None:
-        subprocess.run(["xdotool", "key", *keys], env=self._place.environment, timeout=20, check=False)
+        subprocess.run(["xdotool", "key", *keys], env=self._place.environment, timeout=90, check=False)
         time.sleep(0.4)
 
     def shot(self, name: str) -> None:
         ARTIFACTS.mkdir(parents=True, exist_ok=True)
-        subprocess.run(["import", "-window", "root", str(ARTIFACTS / name)], env=self._place.environment, timeout=20, check=False)
+        subprocess.run(["import", "-window", "root", str(ARTIFACTS / name)], env=self._place.environment, timeout=90, check=False)
 
     def close(self) -> None:
         for process in reversed(self._started):
