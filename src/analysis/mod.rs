@@ -733,15 +733,16 @@ impl Analysis {
     }
 }
 
-/// The role that an entity states, else that of its layer, else that of its colour.
+/// The role that an entity states, else that of its handle, else that of its layer, else that of its colour.
 fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Role> {
     let entity = drawing.get(id)?;
     let by_color = || if settings.colors.is_empty() { None } else { settings.colors.get(&drawing.color(id)?).copied() };
-    entity.role.or_else(|| settings.layers.get(&*entity.layer).copied()).or_else(by_color)
+    let by_handle = || if settings.contours.is_empty() { None } else { settings.contours.get(&*entity.handle).copied() };
+    entity.role.or_else(by_handle).or_else(|| settings.layers.get(&*entity.layer).copied()).or_else(by_color)
 }
 
 /// True when an entity is part of a contour: it has segments, its role is not `ignore`, and it is seen, or somebody has given it
-/// or its layer a role. A colour alone does not bring back what is frozen.
+/// or its layer a role. A colour or a handle alone does not bring back what is frozen.
 pub fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
     let Some(entity) = drawing.get(id).filter(|entity| entity.geometry.segment_count() > 0) else { return false };
     let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);

@@ -20,6 +20,8 @@ pub struct Effective {
     pub unit: Unit,
     pub margin: f64,
     pub layers: BTreeMap<String, Role>,
+    /// Roles by handle.
+    pub contours: BTreeMap<String, Role>,
     pub colors: BTreeMap<Color, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,
     /// The rules whose severity somebody has set.
@@ -81,6 +83,7 @@ impl Effective {
             },
             margin: settings.margin.unwrap_or(0.001),
             layers: settings.layers.clone().unwrap_or_default(),
+            contours: settings.contours.clone().unwrap_or_default(),
             colors: settings.colors.iter().flatten().filter_map(|(name, role)| Some((Color::named(name)?, *role))).collect(),
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),

@@ -212,6 +212,9 @@ pub struct Settings {
     /// Role by layer name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layers: Option<BTreeMap<String, Role>>,
+    /// Role by the handle of an entity: comes before those of layers and colours. Handles are those of one drawing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contours: Option<BTreeMap<String, Role>>,
     /// Role by colour, where neither entity nor layer has one: `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255`
     /// (AutoCAD colour index) or `#rrggbb`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -249,6 +252,7 @@ impl Settings {
             margin: later.margin.or(earlier.margin),
             passes: later.passes.clone().or(earlier.passes),
             layers: merged(earlier.layers, later.layers.clone()),
+            contours: merged(earlier.contours, later.contours.clone()),
             colors: merged(earlier.colors, later.colors.clone()),
             arc_fit: later.arc_fit.or(earlier.arc_fit),
             rules: merged(earlier.rules, later.rules.clone()),

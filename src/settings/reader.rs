@@ -36,7 +36,8 @@ impl Reader {
                 "units" => settings.units = reader.name(key, node),
                 "margin" => settings.margin = reader.number_from_zero(key, node),
                 "passes" => settings.passes = reader.passes(key, node),
-                "layers" => settings.layers = reader.layers(key, node),
+                "layers" => settings.layers = reader.roles(key, node),
+                "contours" => settings.contours = reader.roles(key, node),
                 "colors" => settings.colors = reader.colors(key, node),
                 "arcFit" => settings.arc_fit = reader.arc_fit(key, node),
                 "rules" => settings.rules = reader.rules(key, node),
@@ -45,7 +46,7 @@ impl Reader {
                 _ => reader.unknown(
                     key,
                     entry,
-                    "correction, wire-diameter, gap, side, units, margin, passes, layers, colors, arc-fit, rules, program or profiles",
+                    "correction, wire-diameter, gap, side, units, margin, passes, layers, contours, colors, arc-fit, rules, program or profiles",
                 ),
             }
         });
@@ -97,14 +98,15 @@ impl Reader {
         }
     }
 
-    fn layers(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
-        let mut layers = BTreeMap::new();
+    /// Roles by a name that is taken as it stands.
+    fn roles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
+        let mut roles = BTreeMap::new();
         self.table(key, node, |reader, key, entry| {
             if let Some(role) = reader.name(key, &entry.node) {
-                layers.insert(entry.key.clone(), role);
+                roles.insert(entry.key.clone(), role);
             }
         })
-        .then_some(layers)
+        .then_some(roles)
     }
 
     fn colors(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {

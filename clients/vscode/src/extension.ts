@@ -29,9 +29,9 @@ export function activate(context: vscode.ExtensionContext): void {
   const radii = new Radii(server);
   const check = new PathCheck(server);
   const commands: Record<string, (...given: unknown[]) => Promise<void> | void> = {
-    "wedm.generate3b": (uri) => generate(server, front, "3b", uri),
-    "wedm.generate4b": (uri) => generate(server, front, "4b", uri),
-    "wedm.generateIso": (uri) => generate(server, front, "iso", uri),
+    "wedm.generate3b": (uri) => generate(server, front, pictures, "3b", uri),
+    "wedm.generate4b": (uri) => generate(server, front, pictures, "4b", uri),
+    "wedm.generateIso": (uri) => generate(server, front, pictures, "iso", uri),
     "wedm.openPicture": (uri) => pictures.open(uri, false),
     "wedm.simulate": (uri) => pictures.open(uri, true),
     "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),

@@ -57,6 +57,22 @@ export interface SettingsInForce {
   file?: string;
 }
 
+/** What a contour is: which side of it the wire runs on. */
+export type Role = "opening" | "punch" | "both" | "ignore";
+
+export interface Contour {
+  closed: boolean;
+  role: Role;
+  /** Drawing units. */
+  length: number;
+  segments: { handle: string; segment: number }[];
+}
+
+export interface Contours {
+  unitsToMm: number;
+  contours: Contour[];
+}
+
 export type Format = "3b" | "4b" | "iso";
 
 export interface Generated {
@@ -66,7 +82,7 @@ export interface Generated {
   length: number;
   /** µm */
   closure: { x: number; y: number };
-  /** Largest distance of a decoded block's end from the path, µm. */
+  /** Largest distance of a decoded block from the path, µm. */
   deviation: number;
   warnings: Diagnostic[];
 }
@@ -92,6 +108,7 @@ export interface Simulation {
 /** Params and result of each request. */
 export interface Methods {
   "wedm/inspect": [{ uri: string; handle?: string }, Inspection];
+  "wedm/contours": [{ uri: string }, Contours];
   "wedm/picture": [{ uri: string; options?: object }, { svg: string }];
   "wedm/locate": [{ uri: string; position: Position } | { uri: string; handle: string; segment?: number }, Located | null];
   "wedm/settings": [{ uri: string }, SettingsInForce];

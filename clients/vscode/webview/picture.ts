@@ -79,6 +79,9 @@ window.addEventListener("message", ({ data }: MessageEvent<ToPage>) => {
     case "segment":
       follow(data.handle === null ? [] : (sheet?.ofSegment(data.handle, data.segment) ?? []));
       break;
+    case "contour":
+      follow(data.handles.flatMap((handle) => sheet?.ofSegment(handle, null) ?? []));
+      break;
     case "line":
       follow(sheet?.ofLine(data.line) ?? []);
       player.toLine(data.line);

@@ -97,6 +97,9 @@ fn colours_are_those_of_the_entity_its_block_or_its_layer() {
     assert_eq!(roles("[colors]\n\"30\" = \"ignore\"\ncyan = \"ignore\""), "xxxx-x---");
     assert_eq!(roles("[colors]\nred = \"ignore\"\n[layers]\nLocked = \"punch\""), "xxxxxx-x-");
     assert_eq!(roles("[colors]\nwhite = \"punch\""), "xxxxxx-x-");
+    // A handle comes before layer and colour, and does not bring back what is not seen.
+    assert_eq!(roles("[contours]\nB = \"ignore\"\nF = \"punch\"\n[layers]\nLocked = \"punch\""), "x-xxxx-x-");
+    assert_eq!(roles("[contours]\nA = \"opening\"\n[colors]\nred = \"ignore\""), "xxxxxx-x-");
 }
 
 #[test]

@@ -44,6 +44,7 @@ class Settings(TypedDict, total=False):
     arc_fit: float
     passes: Passes
     layers: Mapping[str, Role]
+    contours: Mapping[str, Role]
     colors: Mapping[str, Role]
     rules: Mapping[str, RuleSeverity]
     program: ProgramSettings

@@ -7,21 +7,24 @@ import { isDrawing } from "../languages";
 import { CONTENT_MODIFIED, type Format, type Generated, REFUSED } from "../protocol";
 import type { Server } from "../server/server";
 import { write } from "./output";
+import type { Pictures } from "../picture/pictures";
+import type { Sides } from "./keep";
 import { choices } from "./profiles";
+import { askSides, offerToKeep } from "./sides";
 import { subject } from "./subject";
 
 const TITLES: Record<Format, string> = { "3b": "3B", "4b": "4B", iso: "ISO" };
 const PROBLEMS = "Show Problems";
 const FORCE = "Generate All the Same";
-const INSIDE = "Opening: Wire Inside";
-const OUTSIDE = "Punch: Wire Outside";
 
 interface How {
-  options?: { side?: "opening" | "punch"; program?: { profile: string } };
+  options?: { program?: { profile: string } };
+  /** What the user has said of contours that nothing says it of. */
+  sides?: Sides;
   force?: boolean;
 }
 
-export async function generate(server: Server, front: Front, format: Format, argument: unknown): Promise<void> {
+export async function generate(server: Server, front: Front, pictures: Pictures, format: Format, argument: unknown): Promise<void> {
   const document = await subject(front, argument, isDrawing);
   if (document === undefined) {
     return;
@@ -30,10 +33,11 @@ export async function generate(server: Server, front: Front, format: Format, arg
   if (how === undefined) {
     return;
   }
-  const generated = await attempt(server, document, format, how);
-  if (generated === undefined) {
+  const made = await attempt(server, pictures, document, format, how);
+  if (made === undefined) {
     return;
   }
+  const { generated } = made;
   const stem = document.uri.path.replace(/\.[^./]*$/, "");
   const target = await vscode.window.showSaveDialog({
     title: `Save the ${TITLES[format]} Program`,
@@ -48,6 +52,9 @@ export async function generate(server: Server, front: Front, format: Format, arg
   const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
   await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
   void vscode.window.showInformationMessage(`${TITLES[format]}: ${told(generated, format)}`);
+  if (made.how.sides !== undefined) {
+    await offerToKeep(server, document.uri, made.how.sides);
+  }
 }
 
 async function chooseProfile(document: vscode.TextDocument): Promise<How | undefined> {
@@ -62,20 +69,34 @@ async function chooseProfile(document: vscode.TextDocument): Promise<How | undef
   return chosen.profile === undefined ? {} : { options: { program: { profile: chosen.profile } } };
 }
 
+interface Made {
+  generated: Generated;
+  how: How;
+}
+
 /** Asks, and asks again as the user answers, until there is a program or they give up. */
-async function attempt(server: Server, document: vscode.TextDocument, format: Format, how: How): Promise<Generated | undefined> {
+async function attempt(
+  server: Server,
+  pictures: Pictures,
+  document: vscode.TextDocument,
+  format: Format,
+  how: How,
+): Promise<Made | undefined> {
+  const uri = document.uri.toString();
+  const options = { ...how.options, ...how.sides };
   try {
-    return await vscode.window.withProgress(
+    const generated = await vscode.window.withProgress(
       { location: vscode.ProgressLocation.Window, title: `Wire EDM: generating ${TITLES[format]}` },
-      (_progress, token) => server.request("wedm/generate", { uri: document.uri.toString(), format, ...how }, token),
+      (_progress, token) => server.request("wedm/generate", { uri, format, options, ...(how.force === true ? { force: true } : {}) }, token),
     );
+    return { generated, how };
   } catch (error) {
-    const next = await answer(error, how);
-    return next === undefined ? undefined : attempt(server, document, format, next);
+    const next = await answer(error, how, () => askSides(server, pictures, document.uri));
+    return next === undefined ? undefined : attempt(server, pictures, document, format, next);
   }
 }
 
-async function answer(error: unknown, how: How): Promise<How | undefined> {
+async function answer(error: unknown, how: How, ask: () => Promise<Sides | undefined>): Promise<How | undefined> {
   if (!(error instanceof ResponseError)) {
     void vscode.window.showErrorMessage(`Wire EDM: ${error instanceof Error ? error.message : String(error)}`);
     return undefined;
@@ -88,9 +109,9 @@ async function answer(error: unknown, how: How): Promise<How | undefined> {
     void vscode.window.showErrorMessage(sentence);
     return undefined;
   }
-  if (how.options?.side === undefined && /side of contour .* is not known/.test(error.message)) {
-    const side = await vscode.window.showWarningMessage(sentence, { modal: false }, INSIDE, OUTSIDE);
-    return side === undefined ? undefined : { ...how, options: { ...how.options, side: side === INSIDE ? "opening" : "punch" } };
+  if (how.sides === undefined && /side of contour .* is not known/.test(error.message)) {
+    const sides = await ask();
+    return sides === undefined ? undefined : { ...how, sides };
   }
   const listed = (error.data as { diagnostics?: unknown[] } | undefined)?.diagnostics ?? [];
   const canBeForced = listed.length > 0 && how.force !== true;

@@ -18,6 +18,8 @@ export type ToPage =
   | { type: "picture"; uri: string; name: string; kind: "drawing" | "program"; svg: string; faults: Fault[]; blocks: Block[] }
   /** What the cursor stands on in a drawing, or null. */
   | { type: "segment"; handle: string | null; segment: number | null }
+  /** Entities that are asked about: marked together until the cursor moves. */
+  | { type: "contour"; handles: string[] }
   /** The line on which the cursor stands in a program. */
   | { type: "line"; line: number }
   | { type: "trouble"; message: string }

@@ -26,6 +26,7 @@ export class Picture implements vscode.Disposable {
   #stale = true;
   #making = false;
   #playWhenShown = false;
+  #marked: readonly string[] | null = null;
   #calm = CALM;
   #timer: NodeJS.Timeout | undefined;
   #cursorTimer: NodeJS.Timeout | undefined;
@@ -99,6 +100,14 @@ export class Picture implements vscode.Disposable {
     }
   }
 
+  /** Marks entities, in place of what the cursor stands on. */
+  mark(handles: readonly string[] | null): void {
+    this.#marked = handles;
+    if (this.#ready && !this.#stale) {
+      void this.#tell({ type: "contour", handles: [...(handles ?? [])] });
+    }
+  }
+
   #soon(): void {
     this.#stale = true;
     clearTimeout(this.#timer);
@@ -140,7 +149,9 @@ export class Picture implements vscode.Disposable {
     const blocks = kind === "program" ? await this.#blocks(uri) : [];
     await this.#tell({ type: "picture", uri: uri.toString(), name, kind, svg, faults: faultsOf(uri), blocks });
     const editor = vscode.window.visibleTextEditors.find((editor) => editor.document.uri.toString() === uri.toString());
-    if (editor !== undefined) {
+    if (this.#marked !== null) {
+      await this.#tell({ type: "contour", handles: [...this.#marked] });
+    } else if (editor !== undefined) {
       await this.#point(editor);
     }
     if (this.#playWhenShown) {

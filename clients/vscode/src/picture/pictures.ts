@@ -38,6 +38,11 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
     }
   }
 
+  /** Marks entities that the user is asked about; null when they have answered. */
+  mark(handles: readonly string[] | null): void {
+    this.#picture?.mark(handles);
+  }
+
   /** After a reload of the window. What is in front now counts more than what was when the picture was drawn last. */
   async deserializeWebviewPanel(panel: vscode.WebviewPanel, state: unknown): Promise<void> {
     const kept = typeof state === "object" && state !== null ? (state as { uri?: unknown }).uri : undefined;

@@ -1,0 +1,124 @@
+// Asks what the contours of a drawing are where nothing says it, each marked in the picture, and keeps the answer if the user wants.
+
+import * as vscode from "vscode";
+import type { Pictures } from "../picture/pictures";
+import type { Contour, Role } from "../protocol";
+import type { Server } from "../server/server";
+import { keep, type Sides } from "./keep";
+
+const KEEP = "Keep in wedm.toml";
+
+/** By nesting, one by one, or the answer for the only one. */
+interface Way extends vscode.QuickPickItem {
+  choice: "nesting" | "each" | Role;
+}
+
+interface Answer extends vscode.QuickPickItem {
+  role: Role;
+}
+
+const OPENING: Answer = { label: "Opening: Wire Inside", detail: "What falls out is scrap, as of a die's plate", role: "opening" };
+const PUNCH: Answer = { label: "Punch: Wire Outside", detail: "What falls out is the part", role: "punch" };
+const NOT_CUT: Answer = { label: "Not Cut", detail: "A frame, a construction line", role: "ignore" };
+
+/** What the contours of unknown side are, or undefined where the user gives up. */
+export async function askSides(server: Server, pictures: Pictures, uri: vscode.Uri): Promise<Sides | undefined> {
+  const { contours, unitsToMm } = await server.request("wedm/contours", { uri: uri.toString() });
+  const unknown = contours.filter(({ closed, role }) => closed && role === "both");
+  await pictures.open(uri, false);
+  const several = unknown.length > 1;
+  const byNesting: Way = {
+    label: "By Nesting",
+    detail: `What lies outermost is a punch, a contour within it an opening, and so on${several ? `: ${unknown.length} contours` : ""}`,
+    choice: "nesting",
+  };
+  const each: Way = { label: "Say for Each Contour…", detail: "They are marked in the picture one after another", choice: "each" };
+  const one = [OPENING, PUNCH].map((answer): Way => ({ ...answer, choice: answer.role }));
+  const ways = several ? [byNesting, each] : [byNesting, ...one];
+  try {
+    if (!several) {
+      pictures.mark(handlesOf(unknown));
+    }
+    const placeHolder = several ? "Where the wire runs along each contour is not known" : "The contour that is marked in the picture";
+    const way = await vscode.window.showQuickPick(ways, { title: "Which Side Does the Wire Run On?", placeHolder, ignoreFocusOut: true });
+    if (way === undefined || way.choice === "nesting") {
+      return way && { side: "auto" };
+    }
+    return way.choice === "each" ? await askEach(pictures, unknown, unitsToMm) : { contours: rolesOf(unknown, [way.choice]) };
+  } finally {
+    pictures.mark(null);
+  }
+}
+
+async function askEach(pictures: Pictures, unknown: readonly Contour[], unitsToMm: number): Promise<Sides | undefined> {
+  const roles: Role[] = [];
+  for (const [index, contour] of unknown.entries()) {
+    pictures.mark(handlesOf([contour]));
+    const title = `Contour ${index + 1} of ${unknown.length}`;
+    const placeHolder = `The one that is marked in the picture, ${(contour.length * unitsToMm).toFixed(3)} mm round`;
+    const answer = await vscode.window.showQuickPick([OPENING, PUNCH, NOT_CUT], { title, placeHolder, ignoreFocusOut: true });
+    if (answer === undefined) {
+      return undefined;
+    }
+    roles.push(answer.role);
+  }
+  return { contours: rolesOf(unknown, roles) };
+}
+
+/** A contour takes the role of its first entity that has one. */
+function rolesOf(contours: readonly Contour[], roles: readonly Role[]): Record<string, Role> {
+  return Object.fromEntries(
+    contours.flatMap((contour, index) => {
+      const role = roles[index];
+      // Of what is not cut every entity must be told.
+      const handles = role === "ignore" ? handlesOf([contour]) : handlesOf([contour]).slice(0, 1);
+      return role === undefined ? [] : handles.map((handle): [string, Role] => [handle, role]);
+    }),
+  );
+}
+
+function handlesOf(contours: readonly Contour[]): string[] {
+  return [...new Set(contours.flatMap(({ segments }) => segments.map(({ handle }) => handle)))];
+}
+
+/** Offers to write the answer down, in the wedm.toml that holds or in one beside the drawing. */
+export async function offerToKeep(server: Server, uri: vscode.Uri, sides: Sides): Promise<void> {
+  const settings = await server.request("wedm/settings", { uri: uri.toString() });
+  const target = settings.file === undefined ? vscode.Uri.joinPath(uri, "..", "wedm.toml") : vscode.Uri.parse(settings.file);
+  const general = await forAll(server, uri, target, sides);
+  if (general === undefined || uri.scheme !== "file") {
+    return;
+  }
+  if ((await vscode.window.showInformationMessage("Keep what you said of the wire's side for the next time?", KEEP)) !== KEEP) {
+    return;
+  }
+  const edit = new vscode.WorkspaceEdit();
+  edit.createFile(target, { ignoreIfExists: true });
+  await vscode.workspace.applyEdit(edit);
+  const document = await vscode.workspace.openTextDocument(target);
+  const text = document.getText();
+  const change = new vscode.WorkspaceEdit();
+  change.replace(target, new vscode.Range(document.positionAt(0), document.positionAt(text.length)), keep(text, general));
+  await vscode.workspace.applyEdit(change);
+  await document.save();
+}
+
+/** Handles are those of one drawing. Where the file holds for others too, the answer is kept by layer, if layers can say it. */
+async function forAll(server: Server, uri: vscode.Uri, target: vscode.Uri, sides: Sides): Promise<Sides | undefined> {
+  if (!("contours" in sides)) {
+    return sides;
+  }
+  const around = new vscode.RelativePattern(vscode.Uri.joinPath(target, ".."), "**/*.{dxf,DXF}");
+  if ((await vscode.workspace.findFiles(around, null, 2)).length <= 1) {
+    return sides;
+  }
+  const { entities } = await server.request("wedm/inspect", { uri: uri.toString() });
+  const layers: Record<string, Role> = {};
+  for (const { handle, layer } of entities) {
+    const role = sides.contours[handle];
+    if (role !== undefined && (layers[layer] ??= role) !== role) {
+      return undefined;
+    }
+  }
+  return { layers };
+}
