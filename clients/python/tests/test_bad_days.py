@@ -23,6 +23,7 @@ from wedm_client import (
     Splice,
     WedmError,
     WrongProtocol,
+    WrongSettings,
     find,
 )
 
@@ -187,3 +188,18 @@ def test_the_process_is_gone_at_the_end() -> None:
     for ask in (lambda: server.open([]), lambda: server.diagnostics(drawing), lambda: server.pid):
         with pytest.raises(WedmError):
             ask()
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"correction": -1}, "correction is -1, expected a number above 0"),
+        ({"sied": "auto"}, "sied is not known"),
+        ({"side": "left", "margin": "x"}, "side is \"left\", expected one of both, auto, opening, punch"),
+    ],
+)
+def test_settings_that_do_not_fit_are_refused_and_named(settings: Any, said: str) -> None:
+    with pytest.raises(WrongSettings) as error, Server(settings=settings, timeout=30):
+        pass
+    assert said in str(error.value)
+    assert ("margin" in str(error.value)) == ("margin" in settings)

@@ -10,7 +10,7 @@ import pytest
 from ezdxf.filemanagement import new, readfile
 from ezdxf.layouts.layout import Modelspace
 
-from wedm_client import Drawing, Server, UnsupportedEntity, check_many, write_back
+from wedm_client import Drawing, Server, UnsupportedEntity, UnsupportedUnits, check_many, write_back
 
 from .plates import QUARTER, TIGHT
 
@@ -106,3 +106,23 @@ def test_a_mark_chooses_the_thread_hole(server: Server) -> None:
     document.modelspace().add_mtext("a note", dxfattribs={"insert": (60, 5)})
     (path,) = server.toolpath(server.open(document.modelspace()), {"side": "opening"}).paths
     assert path.thread_hole == (6, 5)
+
+
+@pytest.mark.parametrize(("units", "expected"), [(4, 1.0), (1, 25.4), (0, 1.0)])
+def test_the_unit_of_the_document_holds(server: Server, units: int, expected: float) -> None:
+    space = new(units=units).modelspace()
+    _lw(space)
+    assert server.inspect(server.open(space)).units_to_mm == expected
+    assert server.inspect(server.open(list(space))).units_to_mm == expected
+    assert server.inspect(server.open(space, units="inch")).units_to_mm == 25.4
+
+
+def test_a_unit_that_cannot_be_said_is_refused(server: Server) -> None:
+    metres, inches = new(units=6).modelspace(), new(units=1).modelspace()
+    for space in (metres, inches):
+        _lw(space)
+    with pytest.raises(UnsupportedUnits, match=r"\$INSUNITS 6, expected 1 \(inches\) or 4 \(millimetres\)"):
+        server.open(metres)
+    with pytest.raises(UnsupportedUnits, match="different units"):
+        server.open([*metres, *inches])
+    assert server.inspect(server.open(metres, units="mm")).units_to_mm == 1.0

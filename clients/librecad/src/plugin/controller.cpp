@@ -137,6 +137,17 @@ void Controller::settle()
             showCurrent();
             m_live.wake();
         });
+    // No plugin is told of an undo, but this action comes to life with it, however it was asked for.
+    for (const char *name : {"EditUndo", "EditRedo"}) {
+        if (QAction *action = host::action(name)) {
+            connect(action, &QAction::triggered, this, &Controller::undone);
+            if (name == QLatin1String("EditRedo"))
+                connect(action, &QAction::changed, this, [this] {
+                    if (host::redoIsPossible())
+                        undone();
+                });
+        }
+    }
     const QList<QMenu *> menus = main->findChildren<QMenu *>();
     for (QMenu *menu : menus) {
         menu->removeAction(look);
@@ -344,6 +355,16 @@ Controller::Open *Controller::current()
     return there == m_open.end() ? nullptr : &*there;
 }
 
+void Controller::undone()
+{
+    Open *open = current();
+    if (!open || m_running)
+        return;
+    open->stale = true;
+    if (m_panel)
+        m_panel->setStale(true);
+}
+
 void Controller::look(Document_Interface &drawing)
 {
     QElapsedTimer clock;
@@ -414,6 +435,8 @@ void Controller::deliver(const Snapshot &snapshot, qint64 spent)
     QStringList unchecked;
     for (auto each = snapshot.unchecked.constBegin(); each != snapshot.unchecked.constEnd(); ++each)
         unchecked += QStringLiteral("%1 × %2").arg(each.value()).arg(each.key());
+    open.stale = false;
+    m_panel->setStale(false);
     open.unchecked = unchecked.isEmpty() ? QString() : tr("Not checked here: %1. Explode them, or check the saved DXF.").arg(unchecked.join(QStringLiteral(", ")));
     if (snapshot.otherUnit != 0)
         open.unchecked += tr(" The drawing's unit is neither mm nor inch; it is taken as the settings say, else as mm.");
@@ -463,6 +486,7 @@ void Controller::showCurrent()
     if (open->version < 0)
         return;
     m_panel->setFindings(open->findings);
+    m_panel->setStale(open->stale);
     if (open->settings.correction > 0)
         m_panel->setInForce(open->settings);
 }
@@ -509,7 +533,9 @@ void Controller::generateFailed(const QString &uri, const QString &path, const Q
     QMessageBox *box = new QMessageBox(QMessageBox::Warning, tr("Wire EDM"), reason, QMessageBox::NoButton, host::mainWindow());
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->setObjectName(QStringLiteral("wedm_refused"));
-    box->setInformativeText(findings.mid(0, 8).join(QLatin1Char('\n')));
+    box->setTextFormat(Qt::PlainText);
+    // The informative text takes what looks like mark-up for it, whatever the format of the other: names come out of drawings.
+    box->setInformativeText(Qt::convertFromPlainText(findings.mid(0, 8).join(QLatin1Char('\n'))));
     QPushButton *force = box->addButton(tr("Write it all the same"), QMessageBox::DestructiveRole);
     QPushButton *close = box->addButton(QMessageBox::Close);
     box->setDefaultButton(close);

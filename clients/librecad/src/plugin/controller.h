@@ -44,6 +44,8 @@ private:
     struct Open {
         QString uri;
         bool seen = false;
+        /// Changed by Undo or Redo since it was looked at.
+        bool stale = false;
         int version = -1;
         QVector<Finding> findings;
         QSharedPointer<Inspection> inspection;
@@ -52,6 +54,7 @@ private:
     };
 
     void settle();
+    void undone();
     void connectSession();
     void connectPanel();
     void trigger(const char *command);

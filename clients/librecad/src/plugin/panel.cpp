@@ -44,10 +44,18 @@ const char *severityName(Severity severity)
     return "";
 }
 
-QLabel *wrapped(const char *name)
+/// Shows what it is given letter by letter: names out of drawings are no mark-up.
+QLabel *plain(const char *name)
 {
     QLabel *label = new QLabel;
     label->setObjectName(QString::fromLatin1(name));
+    label->setTextFormat(Qt::PlainText);
+    return label;
+}
+
+QLabel *wrapped(const char *name)
+{
+    QLabel *label = plain(name);
     label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     label->hide();
@@ -85,9 +93,9 @@ Panel::Panel(QWidget *parent)
     , m_server(wrapped("wedm_server"))
     , m_inForce(wrapped("wedm_in_force"))
     , m_message(wrapped("wedm_message"))
-    , m_live(new QLabel)
+    , m_live(plain("wedm_live"))
     , m_unchecked(wrapped("wedm_unchecked"))
-    , m_count(new QLabel)
+    , m_count(plain("wedm_count"))
     , m_show(new QComboBox)
     , m_side(new QComboBox)
     , m_correction(new QDoubleSpinBox)
@@ -117,8 +125,6 @@ Panel::Panel(QWidget *parent)
     m_show->addItem(tr("Arcs and faults"), int(RadiusTable::Show::Arcs));
     m_show->addItem(tr("All vertices"), int(RadiusTable::Show::All));
     m_show->setCurrentIndex(1);
-    m_count->setObjectName(QStringLiteral("wedm_count"));
-    m_live->setObjectName(QStringLiteral("wedm_live"));
     m_live->setWordWrap(true);
 
     m_view->setObjectName(QStringLiteral("wedm_radii"));
@@ -245,6 +251,17 @@ void Panel::setMessage(const QString &text, Tone tone)
 void Panel::setLive(const QString &text)
 {
     m_live->setText(text);
+    m_isLive = !text.isEmpty();
+    showCount();
+}
+
+void Panel::setStale(bool stale)
+{
+    if (stale && !m_isStale)
+        setMessage(QString(), Tone::Plain);
+    m_isStale = stale;
+    showCount();
+    showDetails();
 }
 
 void Panel::setUnchecked(const QString &text)
@@ -271,17 +288,35 @@ void Panel::setFindings(const QVector<Finding> &findings)
     }
     if (unlisted > 0)
         m_list->addItem(tr("and more: %1 that were sent are not listed").arg(unlisted));
-    int errors = 0;
-    int warnings = 0;
+    m_isChecked = true;
+    m_errors = 0;
+    m_warnings = 0;
     for (const Finding &finding : findings) {
-        errors += finding.severity == Severity::Error;
-        warnings += finding.severity == Severity::Warning;
+        m_errors += finding.severity == Severity::Error;
+        m_warnings += finding.severity == Severity::Warning;
     }
-    const bool clean = errors == 0 && warnings == 0;
-    m_count->setText(clean ? tr("no fault found") : tr("errors: %1   warnings: %2").arg(errors).arg(warnings));
-    m_count->setStyleSheet(errors > 0 ? QStringLiteral("font-weight: bold; color: #a00000")
-                                      : QStringLiteral("font-weight: bold; color: %1").arg(clean ? "#066006" : "#805000"));
+    showCount();
     showDetails();
+}
+
+/// Green is said of what was looked at, and of nothing that has changed since.
+void Panel::showCount()
+{
+    if (!m_isChecked) {
+        m_count->clear();
+        return;
+    }
+    if (m_isStale) {
+        m_count->setText(tr("not checked since Undo"));
+        m_count->setToolTip(tr("What is listed was found before. Check looks at the drawing again; what Redo could bring back is lost then."));
+        m_count->setStyleSheet(QStringLiteral("font-weight: bold; color: #805000"));
+        return;
+    }
+    const bool clean = m_errors == 0 && m_warnings == 0;
+    const QString found = clean ? tr("no fault found") : tr("errors: %1   warnings: %2").arg(m_errors).arg(m_warnings);
+    m_count->setText(m_isLive ? found : tr("%1 at the last check").arg(found));
+    m_count->setToolTip(QString());
+    m_count->setStyleSheet(QStringLiteral("font-weight: bold; color: %1").arg(m_errors > 0 ? "#a00000" : clean ? "#066006" : "#805000"));
 }
 
 void Panel::setInspection(const QSharedPointer<Inspection> &inspection)
@@ -299,7 +334,9 @@ void Panel::clear()
 {
     m_findings.clear();
     m_list->clear();
-    m_count->clear();
+    m_isChecked = false;
+    m_isStale = false;
+    showCount();
     say(m_inForce, QString(), PLAIN);
     m_table->setInspection(QSharedPointer<Inspection>());
     setMessage(QString(), Tone::Plain);
@@ -343,7 +380,7 @@ void Panel::showDetails()
             break;
         }
     }
-    m_fixOne->setEnabled(repairable);
+    m_fixOne->setEnabled(repairable && !m_isStale);
 }
 
 } // namespace wedm

@@ -32,6 +32,8 @@ public:
     void setLive(const QString &text);
     void setFindings(const QVector<Finding> &findings);
     void setInspection(const QSharedPointer<Inspection> &inspection);
+    /// The drawing was changed by Undo or Redo since it was looked at.
+    void setStale(bool stale);
     /// What of the drawing is not looked at; empty for nothing.
     void setUnchecked(const QString &text);
     /// Everything that belongs to a drawing goes.
@@ -55,6 +57,13 @@ signals:
 private:
     void placeOf(const Row &row);
     void showDetails();
+    void showCount();
+
+    int m_errors = 0;
+    int m_warnings = 0;
+    bool m_isChecked = false;
+    bool m_isStale = false;
+    bool m_isLive = false;
 
     RadiusTable *m_table;
     QTableView *m_view;

@@ -113,19 +113,30 @@ QVariant RadiusTable::headerData(int section, Qt::Orientation orientation, int r
     case Layer:
         return tr("Layer");
     case X:
-        return QStringLiteral("X");
+        return QStringLiteral("X %1").arg(unit());
     case Y:
-        return QStringLiteral("Y");
+        return QStringLiteral("Y %1").arg(unit());
     case Kind:
         return tr("Kind");
     case Radius:
-        return tr("Radius");
+        return tr("Radius %1").arg(unit());
     case Sweep:
         return tr("Sweep °");
     case Verdict:
         return tr("Verdict");
     }
     return QVariant();
+}
+
+/// The unit of the drawing's lengths, as it stands in the heads of the columns.
+QString RadiusTable::unit() const
+{
+    const double millimetres = m_inspection ? m_inspection->unitsToMm : 1;
+    if (millimetres == 1)
+        return QStringLiteral("mm");
+    if (millimetres == 25.4)
+        return QStringLiteral("in");
+    return tr("× %1 mm").arg(millimetres);
 }
 
 void RadiusTable::choose()

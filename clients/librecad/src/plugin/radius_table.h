@@ -31,6 +31,7 @@ public:
 
 private:
     void choose();
+    QString unit() const;
 
     QSharedPointer<Inspection> m_inspection;
     QVector<int> m_shown;

@@ -9,6 +9,7 @@
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileInfo>
+#include <QLabel>
 #include <QMap>
 #include <QMdiArea>
 #include <QMdiSubWindow>
@@ -62,6 +63,10 @@ void Driver::check()
     expect("R 0.0800 is at fault", verdictOf("0.0800").contains("small-radius"), verdictOf("0.0800"));
     expect("R 5.0000 is not", verdictOf("5.0000") == "ok", verdictOf("5.0000"));
     expect("what happens at the machine is said", findings().join('\n').contains("0.080 mm is below the correction 0.100 mm"), findings().join('\n'));
+    bool plain = true;
+    for (const char *name : {"wedm_message", "wedm_server", "wedm_unchecked", "wedm_count", "wedm_live", "wedm_in_force"})
+        plain = plain && m_main->findChild<QLabel *>(name)->textFormat() == Qt::PlainText;
+    expect("what comes out of a drawing is no mark-up", plain);
     expect("the server says who it is", text("wedm_server").startsWith("wedm "), text("wedm_server"));
     expect("the plugin's own actions are not in the menu", !action("wedm look") && !action("wedm apply"));
 }
@@ -82,13 +87,22 @@ void Driver::fix()
     save();
     expect("and no layer is made for it", isSaved("DIE") && !isSaved("WEDM_MARKS"));
     expect("it lies on its layer", saved("layers") == layers, saved("layers"));
+    expectSoon("no fault is found any more", [this] { return text("wedm_count").startsWith("no fault found"); }, [this] { return text("wedm_count"); });
     press("EditUndo");
+    expectSoon("of what was undone nothing is said that was said before", [this] { return text("wedm_count").contains("not checked") && text("wedm_message").isEmpty(); },
+               [this] { return text("wedm_count") + " / " + text("wedm_message"); });
     save();
     expect("one undo takes all of it back", saved("radii") == radii, saved("radii"));
     expect("and there is nothing more to undo", !action("EditUndo")->isEnabled());
     press("EditRedo");
     save();
     expect("redo brings it again", saved("radii") == QString(radii).replace("0.0800", "0.1010"), saved("radii"));
+    expect("which is not checked either", text("wedm_count").contains("not checked"), text("wedm_count"));
+    choose("Check radii");
+    expectSoon("until it is looked at", [this] { return text("wedm_count").startsWith("no fault found"); }, [this] { return text("wedm_count"); });
+    QTableView *view = m_main->findChild<QTableView *>("wedm_radii");
+    const QString head = view->model()->headerData(RADIUS, Qt::Horizontal).toString();
+    expect("the list says the unit of its radii", head == "Radius mm", head);
 }
 
 void Driver::fixChain()

@@ -11,7 +11,7 @@
 """
 
 from .archive import Checked, check_many
-from .cad import UnsupportedEntity
+from .cad import UnsupportedEntity, UnsupportedUnits
 from .documents import Document, Drawing, TextDocument, write_back
 from .entities import Arc, Change, Circle, Delete, Entity, Line, Point, Polyline, Put, Splice, Text, Vertex
 from .errors import (
@@ -25,6 +25,7 @@ from .errors import (
     ServerNotFound,
     WedmError,
     WrongProtocol,
+    WrongSettings,
 )
 from .find import find
 from .results import (
@@ -103,10 +104,12 @@ __all__ = [
     "TextDocument",
     "Toolpath",
     "UnsupportedEntity",
+    "UnsupportedUnits",
     "Vertex",
     "WedmError",
     "WirePath",
     "WrongProtocol",
+    "WrongSettings",
     "check_many",
     "find",
     "write_back",

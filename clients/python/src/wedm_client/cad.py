@@ -6,6 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from .entities import Arc, Circle, Entity, Line, Polyline, Text, entity_from_json, with_handle
+from .settings import Units
+
+
+class UnsupportedUnits(ValueError):
+    """The entities are in units that the drawing model of the protocol does not have."""
 
 
 class UnsupportedEntity(ValueError):
@@ -31,6 +36,26 @@ def entities_from(source: Iterable[Any] | Any) -> tuple[list[Entity], dict[str, 
             sources[entity.handle] = item
         entities.append(entity)
     return entities, sources
+
+
+#: $INSUNITS of the units that the drawing model of the protocol has; 0 says nothing.
+_UNITS: dict[int, Units | None] = {0: None, 1: "inch", 4: "mm"}
+
+
+def units_of(sources: Iterable[Any]) -> Units | None:
+    """The units of the documents that the entities of ezdxf belong to; None where none says any.
+
+    :raises UnsupportedUnits: they are neither millimetres nor inches, or not the same for all.
+    """
+    documents = {id(entity.doc): entity.doc for entity in sources if getattr(entity, "doc", None) is not None}
+    found = {int(document.units) for document in documents.values()}
+    if len(found) > 1:
+        raise UnsupportedUnits(f"the entities come from documents of different units ($INSUNITS {sorted(found)}), expected one; say units")
+    for code in found:
+        if code not in _UNITS:
+            raise UnsupportedUnits(f"the document's unit is $INSUNITS {code}, expected 1 (inches) or 4 (millimetres); say units, or open the document")
+        return _UNITS[code]
+    return None
 
 
 def is_ezdxf(item: Any) -> bool:

@@ -17,7 +17,7 @@ from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
 from pygls.protocol import LanguageServerProtocol
 
-from .errors import NoAnswer, Outdated, Refused, RequestFailed, WedmError, WrongProtocol
+from .errors import NoAnswer, Outdated, Refused, RequestFailed, WedmError, WrongProtocol, WrongSettings
 from .results import diagnostic_from_json
 
 #: The version of the name space wedm/ that this package speaks.
@@ -158,8 +158,13 @@ class Connection:
         self._client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: on_publish(self, params))
         self._client.feature("wedm/resendDrawing")(lambda params: on_resend(str(params["uri"])))
         self._client.feature(types.WORKSPACE_APPLY_EDIT)(lambda params: _applied(on_edit(params["edit"])))
-        for unheard in (types.WINDOW_LOG_MESSAGE, types.WINDOW_SHOW_MESSAGE):
-            self._client.feature(unheard)(lambda params: self._hear(params))
+        self._shown: list[str] = []
+        self._client.feature(types.WINDOW_LOG_MESSAGE)(lambda params: self._hear(params))
+        self._client.feature(types.WINDOW_SHOW_MESSAGE)(lambda params: self._see(params))
+
+    def _see(self, params: types.ShowMessageParams) -> None:
+        self._shown.append(params.message)
+        self._hear(params)
 
     def _hear(self, params: types.LogMessageParams | types.ShowMessageParams) -> None:
         self._client.said.append(params.message)
@@ -182,6 +187,7 @@ class Connection:
         """Starts the process and shakes hands.
 
         :raises WrongProtocol: it is another version of wedm, or no wedm.
+        :raises WrongSettings: it does not take one of the settings.
         :raises Died: it ended before it had answered.
         """
         try:
@@ -208,6 +214,18 @@ class Connection:
             raise WrongProtocol(f"{self._command[0]} does not answer as a language server") from None
         self._agree(answer)
         self.notify(types.INITIALIZED, types.InitializedParams())
+        if settings:
+            self._check_settings(timeout)
+
+    def _check_settings(self, timeout: float) -> None:
+        """What the server has to say of the settings it shows before it answers the next request."""
+        try:
+            self.request("wedm/settings", {"uri": "wedm-client:settings"}, timeout)
+        except RequestFailed:
+            # There is no such document, and the answer is not what is wanted.
+            pass
+        if self._shown:
+            raise WrongSettings("\n".join(self._shown))
 
     def _agree(self, answer: Any) -> None:
         answer = answer if isinstance(answer, dict) else {}

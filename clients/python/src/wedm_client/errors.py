@@ -20,6 +20,10 @@ class WrongProtocol(WedmError):
     """The program speaks another version of the protocol than this package, or is no wedm at all."""
 
 
+class WrongSettings(WedmError, ValueError):
+    """The server does not take a setting that it was started with; the message names each, and what was expected."""
+
+
 class ServerDied(WedmError):
     """The server ended again and again; its last words are in the message."""
 

@@ -80,6 +80,7 @@ class Server:
     :param timeout: seconds that an answer may take.
     :raises ServerNotFound: there is no program.
     :raises WrongProtocol: the program is another version.
+    :raises WrongSettings: one of the settings is not known, or does not fit.
     """
 
     def __init__(
@@ -145,7 +146,9 @@ class Server:
 
         :param source: the path of a DXF, 3B or ISO file; or a list of entities (of this package, dictionaries of the protocol's form,
             lists of vertices, entities of ezdxf) in machining order; or one list of vertices; or a document of ezdxf as a whole.
-        :param units: of a list; without it those of the settings hold.
+        :param units: of a list; without it those of the ezdxf document that the entities belong to, else those of the settings hold.
+        :raises UnsupportedUnits: the ezdxf document is drawn in neither millimetres nor inches, or the entities come from documents of
+            different units; say ``units``, or open the document as a whole.
         :raises OSError: the file cannot be read.
         """
         if isinstance(source, (str, os.PathLike)):
@@ -161,6 +164,7 @@ class Server:
         doubled = len(entities) - len({entity.handle for entity in entities})
         if doubled:
             raise ValueError(f"{doubled} entities have a handle that another one has")
+        units = units or cad.units_of(sources.values())
         drawing = Drawing(self, uri or f"wedm-client:drawing-{next(self._numbers)}", entities, units)
         drawing.sources = sources
         return self._opened(drawing)
