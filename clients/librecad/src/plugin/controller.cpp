@@ -15,6 +15,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSettings>
+#include <QTextDocument>
 #include <QUrl>
 
 namespace wedm {

@@ -1,9 +1,9 @@
 // The live picture and the radius list: seen, clicked, and at one with the cursor in both directions; programs generated.
 
-import { readFile, writeFile } from "node:fs/promises";
+import { readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { type Checks, expectEqual, expectSoon } from "./checks";
-import { FILLET, lineOf } from "./drawings";
+import { FILLET, lineOf, PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
 import { Window } from "./window";
@@ -11,7 +11,7 @@ import { Window } from "./window";
 const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
 
 export async function picture(checks: Checks): Promise<void> {
-  const host = await Host.start({ "wedm.server.path": WEDM, "wedm.correction": 0.1 }, { "plate.dxf": FILLET, "small-radius.dxf": SMALL });
+  const host = await Host.start({ "wedm.server.path": WEDM, "wedm.correction": 0.1 }, { "plate.dxf": FILLET, "plate-with-hole.dxf": PLATE, "small-radius.dxf": SMALL });
   const window = new Window(host.page);
   checks.page = host.page;
   const bulges = [...SMALL.matchAll(/^ *42\r?\n/gm)].map((match) => SMALL.slice(0, match.index).split("\n").length + 1);
@@ -96,8 +96,12 @@ export async function picture(checks: Checks): Promise<void> {
     });
     await checks.check("a clean drawing gives its 3B program, once the side is known", async () => {
       await window.command("Wire EDM: Generate 3B Program…");
-      await window.notification("is not known").waitFor();
-      await window.notification("is not known").getByRole("button", { name: "Opening: Wire Inside" }).click();
+      const asked = host.page.locator(".quick-input-widget", { hasText: "Which Side Does the Wire Run On?" });
+      await asked.getByText("By Nesting").waitFor();
+      await expectSoon("the contour marked", async () => (await page.locator("svg .contour.selected").count()) === 14);
+      await checks.shot("side-of-one");
+      await asked.locator("input").fill("Opening");
+      await host.page.keyboard.press("Enter");
       const target = join(host.folder, "made.3b");
       await window.path(target);
       await expectSoon("a program", async () => /^(B\d+B\d+B\d+G[XY](L|SR|NR)[1-4]\n){17}DD\n$/.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
@@ -105,6 +109,34 @@ export async function picture(checks: Checks): Promise<void> {
       await window.notification("µm beside it; a controller that counts J drifts by").waitFor();
       await checks.shot("generated");
       await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("of a plate with a hole each contour is asked for, marked in the picture, and the answer can be kept", async () => {
+      await window.turnTo("plate-with-hole.dxf");
+      await window.command("Wire EDM: Generate 3B Program…");
+      const box = host.page.locator(".quick-input-widget");
+      await box.getByText("By Nesting").waitFor();
+      await box.locator("input").fill("Say for Each");
+      await host.page.keyboard.press("Enter");
+      const roles = { "Contour 1 of 2": "Punch", "Contour 2 of 2": "Opening" };
+      for (const [title, role] of Object.entries(roles)) {
+        await box.getByText(title).waitFor();
+        const handle = title.startsWith("Contour 1") ? "2A" : "2B";
+        await expectSoon(`${handle} marked`, async () => (await page.locator(`svg .contour.selected[data-handle="${handle}"]`).count()) > 0);
+        expectEqual("marked alone", await page.locator(`svg .contour.selected:not([data-handle="${handle}"])`).count(), 0);
+        await checks.shot(`side-of-${handle}`);
+        await box.locator("input").fill(role);
+        await host.page.keyboard.press("Enter");
+      }
+      const target = join(host.folder, "plate.3b");
+      await window.path(target);
+      // Punch 20 × 10 and hole of R 3 with a correction of 0.1 mm: the hole first, from within; the outline from without.
+      await expectSoon("a program", async () => (await readFile(target, "utf8")).includes("B20000B0B20000GXL"), () => readFile(target, "utf8"));
+      expectEqual("the hole is cut from within", /B2900B0B11600G[XY]NR/.test(await readFile(target, "utf8")), true);
+      await window.notification("Keep what you said").getByRole("button", { name: "Keep in wedm.toml" }).click();
+      const kept = join(host.folder, "wedm.toml");
+      await expectSoon("the answer kept by layer", async () => (await readFile(kept, "utf8")) === '[layers]\n"DIE" = "punch"\n"HOLES" = "opening"\n', () => readFile(kept, "utf8"));
+      await window.command("Notifications: Clear All Notifications");
+      await rm(kept);
     });
     await checks.check("wedm.toml wins over the settings, and the status bar says so", async () => {
       await window.turnTo("small-radius.dxf");
