@@ -66,6 +66,7 @@ impl Document {
         if let Source::Dxf(text) = &mut source {
             text.set_arc_fit(settings.tolerances.arc_fit);
         }
+        assume_unit(&mut source, &settings);
         let analysis = judged(&source, settings);
         Document { source, analysis, asked: Asked::default() }
     }
@@ -88,6 +89,7 @@ impl Document {
             if let Source::Program(program) = &mut self.source {
                 program.set_settings(&settings);
             }
+            assume_unit(&mut self.source, &settings);
             self.analysis = judged(&self.source, settings);
         }
     }
@@ -277,6 +279,15 @@ fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Find
     findings.sort_by_key(|finding| finding.severity);
     findings.truncate(limit);
     (findings, count)
+}
+
+/// Lets a drawing know the unit that the settings give it, where it states none.
+fn assume_unit(source: &mut Source, settings: &Effective) {
+    match source {
+        Source::Dxf(text) => text.assume_unit(settings.unit),
+        Source::Cad(drawing) if drawing.assumes_another(settings.unit) => Arc::make_mut(drawing).assume_unit(settings.unit),
+        Source::Cad(_) | Source::Program(_) => {}
+    }
 }
 
 fn judged(source: &Source, settings: Arc<Effective>) -> Analysis {

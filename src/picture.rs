@@ -129,7 +129,7 @@ fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> 
 fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
     let mut bounds = Bounds::EMPTY;
     for (_, entity) in drawing.entities() {
-        bounds.merge(&entity.geometry.bounds());
+        bounds.merge(&entity.geometry.bounds(drawing.flat()));
     }
     for path in paths {
         bounds.include(path.thread_hole);
@@ -211,8 +211,8 @@ impl Picture<'_> {
         let mut areas: Vec<(f64, &str, String)> = Vec::new();
         for (id, entity) in self.drawing.entities() {
             if entity.geometry.is_closed() && !self.cut.contains(&id) {
-                let segments: Vec<Segment> = entity.geometry.segments().collect();
-                let bounds = entity.geometry.bounds();
+                let segments: Vec<Segment> = entity.geometry.segments_of(self.drawing.flat()).collect();
+                let bounds = entity.geometry.bounds(self.drawing.flat());
                 areas.push((bounds.width() * bounds.height() * 2.0, "part", path_data(frame, segments, true)));
             }
         }
@@ -245,7 +245,7 @@ impl Picture<'_> {
                 }
                 continue;
             }
-            let data = path_data(frame, entity.geometry.segments(), entity.geometry.is_closed());
+            let data = path_data(frame, entity.geometry.segments_of(self.drawing.flat()), entity.geometry.is_closed());
             let label = format!("{} {} on layer {}, not cut", entity.kind, entity.handle, entity.layer);
             if !data.is_empty() {
                 let _ = writeln!(
@@ -264,7 +264,7 @@ impl Picture<'_> {
             for piece in &outline.contour.pieces {
                 let Some(entity) = self.drawing.get(piece.entity) else { continue };
                 if count > TOOLTIP_SEGMENTS {
-                    let data = path_data(frame, entity.geometry.segments(), entity.geometry.is_closed());
+                    let data = path_data(frame, entity.geometry.segments_of(self.drawing.flat()), entity.geometry.is_closed());
                     let label = format!("{} {} · {} segments", entity.kind, entity.handle, piece.count());
                     let _ = writeln!(
                         sheet,
@@ -274,7 +274,7 @@ impl Picture<'_> {
                     );
                     continue;
                 }
-                for (index, segment) in entity.geometry.segments().enumerate() {
+                for (index, segment) in entity.geometry.segments_of(self.drawing.flat()).enumerate() {
                     let data = path_data(frame, [segment], false);
                     let label = escaped(&self.segment_label(entity, index, &segment));
                     let name = named(&entity.handle, index);
@@ -313,7 +313,7 @@ impl Picture<'_> {
         for finding in self.findings.iter().filter(|finding| is_other(finding)) {
             let Place::Segment { entity: id, segment } = finding.place else { continue };
             let Some(entity) = self.drawing.get(id) else { continue };
-            let Some(geometry) = entity.geometry.segment(segment) else { continue };
+            let Some(geometry) = entity.geometry.segment_of(segment, self.drawing.flat()) else { continue };
             let point = match finding.detail {
                 Detail::SelfIntersection { at, .. } | Detail::LostPocket { near: at } => Some(at),
                 // Seen where the segment begins in the direction of travel.
@@ -334,7 +334,7 @@ impl Picture<'_> {
                     // Chords are shown in full where they are of one entity.
                     let count = if let Detail::ArcAsChords { chords, .. } = finding.detail { chords } else { 1 };
                     let from = if reversed.contains(&id) { (segment + 1).saturating_sub(count) } else { segment };
-                    let all = entity.geometry.segments().skip(from).take(count);
+                    let all = entity.geometry.segments_of(self.drawing.flat()).skip(from).take(count);
                     writeln!(sheet, r#"<path class="other" {name} d="{}">{label}</path>"#, path_data(frame, all, false))
                 }
             };

@@ -583,7 +583,7 @@ impl Analysis {
     /// Number of arcs below the correction in some entities.
     fn tight(&self, drawing: &Drawing, entities: &FxHashSet<EntityId>) -> usize {
         let entities = entities.iter().filter_map(|&id| drawing.get(id));
-        let arcs = entities.flat_map(|entity| entity.geometry.segments());
+        let arcs = entities.flat_map(|entity| entity.geometry.segments_of(drawing.flat()));
         arcs.filter(|segment| segment.as_arc().is_some_and(|arc| small_radius::is_too_small(arc.radius, &self.limits))).count()
     }
 

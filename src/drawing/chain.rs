@@ -494,7 +494,7 @@ fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<E
 /// True when an open entity whose ends touch really leads round, and is not just shorter than the join tolerance.
 fn comes_back(drawing: &Drawing, id: EntityId) -> bool {
     let Some(geometry) = drawing.get(id).map(|entity| &entity.geometry) else { return false };
-    geometry.segment_count() > 2 || geometry.segments().any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
+    geometry.segment_count() > 2 || geometry.segments_of(drawing.flat()).any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
 }
 
 fn free_ends(drawing: &Drawing, id: EntityId) -> Option<Ends> {

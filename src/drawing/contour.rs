@@ -89,7 +89,7 @@ impl Contour {
     /// Segment `index` in the direction of travel, `None` past the end.
     pub fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
         let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.range().end <= index))?;
-        segment_of(piece, &drawing.get(piece.entity)?.geometry, index - piece.first())
+        segment_of(piece, &drawing.get(piece.entity)?.geometry, index - piece.first(), drawing.flat())
     }
 
     /// All segments in the direction of travel.
@@ -100,11 +100,12 @@ impl Contour {
     /// The segments of a range of indices in the direction of travel.
     pub fn segments_in<'a>(&'a self, drawing: &'a Drawing, range: Range<usize>) -> impl Iterator<Item = ContourSegment> + 'a {
         let first = self.pieces.partition_point(|piece| piece.range().end <= range.start);
+        let flat = drawing.flat();
         let pieces = self.pieces[first..].iter().take_while(move |piece| piece.first() < range.end);
         pieces.flat_map(move |piece| {
             let geometry = drawing.get(piece.entity).map(|entity| &entity.geometry);
             let along = range.start.saturating_sub(piece.first())..range.end.min(piece.range().end) - piece.first();
-            along.filter_map(move |along| segment_of(piece, geometry?, along))
+            along.filter_map(move |along| segment_of(piece, geometry?, along, flat))
         })
     }
 
@@ -134,9 +135,9 @@ impl Contour {
 }
 
 /// The segment `along` a piece in the direction of travel.
-fn segment_of(piece: &Piece, geometry: &Geometry, along: usize) -> Option<ContourSegment> {
+fn segment_of(piece: &Piece, geometry: &Geometry, along: usize, flat: f64) -> Option<ContourSegment> {
     let segment = if piece.reversed { piece.count().checked_sub(1 + along)? } else { along };
-    let own = geometry.segment(segment)?;
+    let own = geometry.segment_of(segment, flat)?;
     let geometry = if piece.reversed { own.reversed() } else { own };
     Some(ContourSegment { entity: piece.entity, segment, reversed: piece.reversed, geometry })
 }

@@ -1,7 +1,7 @@
 //! One entity of a drawing.
 
 use super::{Handle, Kind};
-use crate::geometry::{Arc, Bounds, Point, Segment};
+use crate::geometry::{Arc, Bounds, Point, Segment, Tolerances};
 use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
@@ -85,32 +85,44 @@ impl Geometry {
         }
     }
 
-    /// Segment `index` in the entity's own direction. An ARC whose angles coincide is a full turn, as a CIRCLE is,
-    /// which starts at its +X-most point.
+    /// Segment `index` as [`Geometry::segment_of`] tells it of a drawing in millimetres.
     pub fn segment(&self, index: usize) -> Option<Segment> {
+        self.segment_of(index, Tolerances::default().flat)
+    }
+
+    /// Segment `index` in the entity's own direction. An ARC whose angles coincide is a full turn, as a CIRCLE is,
+    /// which starts at its +X-most point. What rises less than `flat` (see [`Drawing::flat`]) above its chord is a line.
+    ///
+    /// [`Drawing::flat`]: super::Drawing::flat
+    pub fn segment_of(&self, index: usize, flat: f64) -> Option<Segment> {
         match self {
             Geometry::Polyline { vertices, .. } => {
                 if index >= self.segment_count() {
                     return None;
                 }
                 let (from, to) = (vertices[index], vertices[(index + 1) % vertices.len()]);
-                Some(Segment::from_bulge(from.point, to.point, from.bulge))
+                Some(Segment::from_bulge(from.point, to.point, from.bulge).straightened(flat))
             }
             _ if index > 0 => None,
             Geometry::Line { start, end } => Some(Segment::line(*start, *end)),
             Geometry::Arc { center, radius, start_angle, end_angle } => {
                 let forward = crate::geometry::positive_angle(end_angle - start_angle);
                 let sweep = if forward == 0.0 { TAU } else { forward };
-                Some(Segment::Arc(Arc::from_center(*center, *radius, *start_angle, sweep)))
+                Some(Segment::Arc(Arc::from_center(*center, *radius, *start_angle, sweep)).straightened(flat))
             }
             Geometry::Circle { center, radius } => Some(Segment::Arc(Arc::from_center(*center, *radius, 0.0, TAU))),
             Geometry::Text { .. } => None,
         }
     }
 
-    /// All segments in the entity's own direction.
+    /// All segments in the entity's own direction, as those of a drawing in millimetres.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
-        (0..self.segment_count()).filter_map(|index| self.segment(index))
+        self.segments_of(Tolerances::default().flat)
+    }
+
+    /// All segments in the entity's own direction: see [`Geometry::segment_of`].
+    pub fn segments_of(&self, flat: f64) -> impl Iterator<Item = Segment> + '_ {
+        (0..self.segment_count()).filter_map(move |index| self.segment_of(index, flat))
     }
 
     /// True where the geometry is a contour of its own and has no free ends.
@@ -138,9 +150,10 @@ impl Geometry {
         }
     }
 
-    pub fn bounds(&self) -> Bounds {
+    /// The box of all segments, see [`Geometry::segment_of`], or of a text's place.
+    pub fn bounds(&self, flat: f64) -> Bounds {
         let mut bounds = Bounds::EMPTY;
-        self.segments().for_each(|segment| bounds.merge(&segment.bounds()));
+        self.segments_of(flat).for_each(|segment| bounds.merge(&segment.bounds()));
         if let Geometry::Text { at, .. } = self {
             bounds.include(*at);
         }

@@ -30,6 +30,7 @@ pub use nesting::{nesting_depths, winding};
 pub use orientation::{Orientation, orientation, orientation_by_extreme_point, orientation_by_turns};
 pub use outline::{Outline, wire_side};
 
+use crate::geometry::{Segment, Tolerances};
 use names::Names;
 use rustc_hash::{FxHashMap, FxHashSet};
 use slots::Slots;
@@ -59,6 +60,8 @@ const RANK_STEP: u64 = 1 << 24;
 pub struct Drawing {
     /// The unit that the drawing states; `None` where it states none and the settings decide.
     pub unit: Option<Unit>,
+    /// What the settings say of a drawing that states no unit; `None` is millimetres.
+    assumed_unit: Option<Unit>,
     slots: Slots,
     order: Vec<EntityId>,
     /// By id: a number that rises in machining order, so that two entities are compared without a search. None while the
@@ -84,6 +87,29 @@ pub struct Drawing {
 impl Drawing {
     pub fn new(unit: Option<Unit>) -> Drawing {
         Drawing { unit, ..Drawing::default() }
+    }
+
+    /// Says which unit to take where the drawing states none; without a word, that is millimetres.
+    pub fn assume_unit(&mut self, unit: Unit) {
+        self.assumed_unit = Some(unit);
+    }
+
+    /// False where [`Drawing::assume_unit`] would say nothing new.
+    pub fn assumes_another(&self, unit: Unit) -> bool {
+        self.assumed_unit.unwrap_or(Unit::MILLIMETRE) != unit
+    }
+
+    /// [`Tolerances::flat`] in drawing units: what rises less than this above its chord is a line.
+    ///
+    /// [`Tolerances::flat`]: crate::geometry::Tolerances::flat
+    pub fn flat(&self) -> f64 {
+        let unit = self.unit.or(self.assumed_unit).unwrap_or(Unit::MILLIMETRE);
+        Tolerances::default().flat / unit.mm
+    }
+
+    /// Segment `index` of an entity in its own direction.
+    pub fn segment(&self, id: EntityId, index: usize) -> Option<Segment> {
+        self.get(id)?.geometry.segment_of(index, self.flat())
     }
 
     /// The entity, `None` once it has been removed.

@@ -69,6 +69,8 @@ pub struct Document {
     is_binary: bool,
     /// How near arcs lie to the curves that they stand for, in mm; the default where none is set.
     arc_fit: Option<f64>,
+    /// The unit of a drawing that states none.
+    assumed_unit: Option<Unit>,
 }
 
 impl Document {
@@ -139,6 +141,14 @@ impl Document {
         self.is_binary
     }
 
+    /// Says which unit the drawing has where it states none.
+    pub fn assume_unit(&mut self, unit: Unit) {
+        self.assumed_unit = Some(unit);
+        if self.drawing.assumes_another(unit) {
+            Arc::make_mut(&mut self.drawing).assume_unit(unit);
+        }
+    }
+
     pub fn drawing(&self) -> &Arc<Drawing> {
         &self.drawing
     }
@@ -176,6 +186,9 @@ impl Document {
         }
         self.table.used = known.unwrap_or(blocks).used;
         drawing.unit = unit.and_then(unit_of);
+        if let Some(unit) = self.assumed_unit {
+            drawing.assume_unit(unit);
+        }
         if let Some(sentence) = about_unit(unit) {
             let finding = Finding {
                 rule: Rule::Units,

@@ -71,7 +71,7 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
 fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
     let mut bounds = Bounds::EMPTY;
     for (_, entity) in drawing.entities() {
-        entity.geometry.segments().for_each(|segment| bounds.merge(&segment.bounds()));
+        entity.geometry.segments_of(drawing.flat()).for_each(|segment| bounds.merge(&segment.bounds()));
     }
     if !bounds.is_empty() {
         let (min, max) = (in_space(bounds.min), in_space(bounds.max));

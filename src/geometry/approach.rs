@@ -84,6 +84,12 @@ fn facing_lines(a: &Line, b: &Line) -> Option<(Point, Point)> {
     Some((p, b.start + (b.end - b.start) * share))
 }
 
+/// The point of an arc in a direction from its centre; `None` where the arc does not reach there.
+pub fn reached(arc: &Arc, way: Vector) -> Option<Point> {
+    let share = arc.share_of(arc.center + way * arc.radius);
+    (0.0..=1.0).contains(&share).then(|| arc.point_at(share))
+}
+
 fn facing_line_and_arc(line: &Line, arc: &Arc) -> Vec<(Point, Point)> {
     let share = line.share_of(arc.center);
     if !(0.0..=1.0).contains(&share) {
@@ -91,12 +97,10 @@ fn facing_line_and_arc(line: &Line, arc: &Arc) -> Vec<(Point, Point)> {
     }
     let foot = line.start + (line.end - line.start) * share;
     let away = (foot - arc.center).try_normalize(0.0).unwrap_or_else(|| super::left_normal(line.direction()));
-    let on_arc = [away, -away].map(|way| arc.center + way * arc.radius);
-    on_arc.into_iter().filter(|&point| within(&Segment::Arc(*arc), point)).map(|point| (foot, point)).collect()
+    [away, -away].into_iter().filter_map(|way| reached(arc, way)).map(|point| (foot, point)).collect()
 }
 
 fn facing_arcs(a: &Arc, b: &Arc) -> Vec<(Point, Point)> {
-    let (one, other) = (Segment::Arc(*a), Segment::Arc(*b));
     let between = b.center - a.center;
     let mut found = Vec::new();
     if between.norm() <= PARALLEL * a.radius.max(b.radius) {
@@ -107,15 +111,14 @@ fn facing_arcs(a: &Arc, b: &Arc) -> Vec<(Point, Point)> {
         for cut in cuts.windows(2).filter(|cut| cut[1] > cut[0]) {
             let p = a.point_at((cut[0] + cut[1]) / 2.0);
             let way = (p - a.center) / a.radius;
-            found.extend([way, -way].map(|way| b.center + way * b.radius).into_iter().filter(|&q| within(&other, q)).map(|q| (p, q)));
+            found.extend([way, -way].into_iter().filter_map(|way| reached(b, way)).map(|q| (p, q)));
         }
         return found;
     }
     let Some(axis) = between.try_normalize(0.0) else { return found };
     for way in [axis, -axis] {
-        let p = a.center + way * a.radius;
-        if within(&one, p) {
-            found.extend([axis, -axis].map(|way| b.center + way * b.radius).into_iter().filter(|&q| within(&other, q)).map(|q| (p, q)));
+        if let Some(p) = reached(a, way) {
+            found.extend([axis, -axis].into_iter().filter_map(|way| reached(b, way)).map(|q| (p, q)));
         }
     }
     found

@@ -1,6 +1,6 @@
 //! A circular arc, made from a bulge or from a centre, and what can be asked of it.
 
-use super::{Bounds, Point, Vector, direction, left_normal, positive_angle};
+use super::{Bounds, Point, Vector, cross, direction, left_normal, positive_angle};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A circular arc that is travelled from `start` to `end`.
@@ -18,6 +18,10 @@ pub struct Arc {
     pub start: Point,
     pub end: Point,
 }
+
+/// Below this sweep (radians) the centre is so far away that rounding in its coordinates, and in angles about it, would show: places
+/// on such an arc are told from its start.
+const SHALLOW: f64 = 1e-5;
 
 impl Arc {
     /// The arc of a polyline segment with `bulge = tan(sweep / 4)`.
@@ -75,6 +79,15 @@ impl Arc {
         self.radius * self.sweep.abs()
     }
 
+    /// How high the arc rises above its chord, `r (1 − cos(sweep / 2))`; twice the radius for a full turn.
+    pub fn sagitta(&self) -> f64 {
+        2.0 * self.radius * (self.sweep / 4.0).sin().powi(2)
+    }
+
+    fn is_shallow(&self) -> bool {
+        self.sweep.abs() < SHALLOW
+    }
+
     /// The same arc travelled the other way.
     pub fn reversed(&self) -> Arc {
         Arc { start_angle: self.start_angle + self.sweep, sweep: -self.sweep, start: self.end, end: self.start, ..*self }
@@ -85,6 +98,10 @@ impl Arc {
         match share {
             s if s <= 0.0 => self.start,
             s if s >= 1.0 => self.end,
+            s if self.is_shallow() => {
+                let half = self.sweep * s / 2.0;
+                self.start + left_normal(direction(self.start_angle + half)) * (2.0 * self.radius * half.sin())
+            }
             s => self.center + direction(self.start_angle + self.sweep * s) * self.radius,
         }
     }
@@ -98,11 +115,15 @@ impl Arc {
     /// Share of the sweep (0 … 1) at which `point`'s direction from the centre lies, unclamped:
     /// below 0 or above 1 when it lies outside the arc, whichever end is nearer.
     pub fn share_of(&self, point: Point) -> f64 {
-        let angle = (point.y - self.center.y).atan2(point.x - self.center.x);
         let extent = self.sweep.abs();
         if extent == 0.0 {
             return 0.0;
         }
+        if self.is_shallow() {
+            let (out, along) = (self.start - self.center, point - self.start);
+            return cross(out, along).atan2(out.norm_squared() + out.dot(&along)) / self.sweep;
+        }
+        let angle = (point.y - self.center.y).atan2(point.x - self.center.x);
         let travelled = positive_angle((angle - self.start_angle) * self.sweep.signum());
         // What lies past the end is counted from the nearer end.
         let past_middle = extent + (TAU - extent) / 2.0;
@@ -114,13 +135,27 @@ impl Arc {
         let share = self.share_of(point);
         let to_center = (point - self.center).norm();
         if (0.0..=1.0).contains(&share) || to_center == 0.0 {
-            return (to_center - self.radius).abs();
+            return self.rise_of(point).abs();
         }
         (point - self.start).norm().min((point - self.end).norm())
     }
 
+    /// How far `point` lies outside the arc's circle; negative inside.
+    pub fn rise_of(&self, point: Point) -> f64 {
+        let to_center = (point - self.center).norm();
+        if self.is_shallow() {
+            // The difference of two squares, without the digits that the two share.
+            let (out, along) = (self.start - self.center, point - self.start);
+            return (along.norm_squared() + 2.0 * along.dot(&out)) / (to_center + self.radius);
+        }
+        to_center - self.radius
+    }
+
     pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::of_points(&[self.start, self.end]);
+        if self.is_shallow() {
+            return bounds.grown(self.sagitta());
+        }
         // The quarter points that the sweep passes widen the box of the two ends.
         let (low, high) = if self.sweep >= 0.0 {
             (self.start_angle, self.start_angle + self.sweep)

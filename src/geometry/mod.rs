@@ -14,7 +14,7 @@ mod segment;
 mod spline;
 mod tolerances;
 
-pub use approach::{curvature, facing, foot_inside, meetings, shared_length};
+pub use approach::{curvature, facing, foot_inside, meetings, reached, shared_length};
 pub use arc::Arc;
 pub use biarc::{Chain, Curve, Unfit, fit};
 pub use bounds::Bounds;

@@ -52,6 +52,18 @@ impl Segment {
         }
     }
 
+    /// The same segment, a line where it is an arc that rises less than `flat` above its chord: see [`Tolerances::flat`].
+    ///
+    /// What comes of a drawing's numbers goes through this, so that reader, rules, fixes and paths take it for the same. A full turn stays one.
+    ///
+    /// [`Tolerances::flat`]: super::Tolerances::flat
+    pub fn straightened(self, flat: f64) -> Segment {
+        match self {
+            Segment::Arc(arc) if !arc.is_full_turn() && arc.sagitta() < flat => Segment::line(arc.start, arc.end),
+            segment => segment,
+        }
+    }
+
     pub fn start(&self) -> Point {
         match self {
             Segment::Line(line) => line.start,

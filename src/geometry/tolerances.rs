@@ -21,6 +21,8 @@ pub struct Tolerances {
     pub zero_length: f64,
     /// How deep a new arc's disc may dip into a neighbour before the arc counts as cutting it.
     pub clearance: f64,
+    /// An arc that rises less than this above its chord is a line: its bulge is rounding, and its radius means nothing.
+    pub flat: f64,
 }
 
 impl Default for Tolerances {
@@ -35,6 +37,7 @@ impl Default for Tolerances {
             touch: 1e-3,
             zero_length: 1e-9,
             clearance: 1e-7,
+            flat: 1e-6,
         }
     }
 }
@@ -52,6 +55,7 @@ impl Tolerances {
             chords: self.chords / unit_mm,
             zero_length: self.zero_length / unit_mm,
             clearance: self.clearance / unit_mm,
+            flat: self.flat / unit_mm,
         }
     }
 }

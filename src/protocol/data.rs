@@ -91,12 +91,12 @@ impl FindingData {
     pub fn of(drawing: Option<&Drawing>, finding: &Finding) -> FindingData {
         let mut data = FindingData::default();
         if let (Place::Segment { entity, .. } | Place::Entity { entity }, Some(drawing)) = (&finding.place, drawing)
-            && let Some(entity) = drawing.get(*entity)
+            && let Some(found) = drawing.get(*entity)
         {
-            data.handle = Some(entity.handle.to_string());
+            data.handle = Some(found.handle.to_string());
             if let Place::Segment { segment, .. } = finding.place {
                 data.segment = Some(segment);
-                let geometry = entity.geometry.segment(segment);
+                let geometry = drawing.segment(*entity, segment);
                 data.start = geometry.map(|geometry| geometry.start().into());
                 data.end = geometry.map(|geometry| geometry.end().into());
             }

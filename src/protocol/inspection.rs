@@ -73,7 +73,7 @@ impl Inspection {
             if let Some(at) = entity.point_of_arc() {
                 return vec![InspectedSegment { index: 0, shape: SegmentShape::point(at.into()), verdict: Rule::Syntax.name().into() }];
             }
-            let segments = entity.geometry.segments().enumerate().filter(|(_, segment)| segment.length() > zero_length);
+            let segments = entity.geometry.segments_of(drawing.flat()).enumerate().filter(|(_, segment)| segment.length() > zero_length);
             let inspected = segments.map(|(index, segment)| InspectedSegment {
                 index,
                 shape: SegmentShape::from(&segment),

@@ -34,23 +34,26 @@ fn look(one: &Wall, other: &Wall, _same_contour: bool) -> Option<Sight> {
     let (first, second) = (&one.outlook.drawing.get(a.entity)?.geometry, &other.outlook.drawing.get(b.entity)?.geometry);
     let (count, tolerance) = (first.segment_count(), one.outlook.limits.tolerances.same_place);
     let alike = count == second.segment_count();
-    let forward = || b.segment == 0 && (0..count).all(|k| same(first, k, second, k, false, tolerance));
-    let backward = || b.segment + 1 == count && (0..count).all(|k| same(first, k, second, count - 1 - k, true, tolerance));
-    let rings = || first.is_closed() && second.is_closed() && are_one_ring(first, second, b.segment, tolerance);
+    let flat = one.outlook.drawing.flat();
+    let same = |k: usize, l: usize, turned| match (first.segment_of(k, flat), second.segment_of(l, flat)) {
+        (Some(a), Some(b)) => same(a, if turned { b.reversed() } else { b }, tolerance),
+        _ => false,
+    };
+    let forward = || b.segment == 0 && (0..count).all(|k| same(k, k, false));
+    let backward = || b.segment + 1 == count && (0..count).all(|k| same(k, count - 1 - k, true));
+    let rings = || first.is_closed() && second.is_closed() && are_one_ring(first, second, b.segment, tolerance, flat);
     (alike && (forward() || backward()) || rings()).then(Sight::default)
 }
 
-fn same(one: &Geometry, k: usize, other: &Geometry, l: usize, turned: bool, tolerance: f64) -> bool {
-    let (Some(a), Some(b)) = (one.segment(k), other.segment(l)) else { return false };
-    let b = if turned { b.reversed() } else { b };
+fn same(a: Segment, b: Segment, tolerance: f64) -> bool {
     let close = |s: f64| (a.point_at(s) - b.point_at(s)).norm() <= tolerance;
     let kinds = matches!((a, b), (Segment::Line(_), Segment::Line(_)) | (Segment::Arc(_), Segment::Arc(_)));
     kinds && [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().all(close)
 }
 
 /// True when the first of two closed outlines begins on segment `at` of the other, and each lies on the other all along.
-fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64) -> bool {
-    let (Some(begin), Some(under)) = (first.segment(0), second.segment(at)) else { return false };
+fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64, flat: f64) -> bool {
+    let (Some(begin), Some(under)) = (first.segment_of(0, flat), second.segment_of(at, flat)) else { return false };
     let start = begin.start();
     let share = under.share_of(start).clamp(0.0, 1.0);
     let is_on = |segment: &Segment, point: Point| segment.distance_to(point) <= tolerance;
@@ -60,13 +63,13 @@ fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64) 
         return false;
     }
     // A little further on, the one still lies beside the start of the other: most outlines that meet in a point are told apart here.
-    let Some(before) = second.segment((at + second.segment_count() - 1) % second.segment_count().max(1)) else { return false };
+    let Some(before) = second.segment_of((at + second.segment_count() - 1) % second.segment_count().max(1), flat) else { return false };
     let step = [&begin, &under, &before].into_iter().map(Segment::length).fold(f64::INFINITY, f64::min) / 2.0;
     let further = begin.point_at((step / begin.length()).min(1.0));
     if !is_on(&under, further) && !is_on(&before, further) {
         return false;
     }
-    let (one, other) = (Ring::of(first), Ring::of(second));
+    let (one, other) = (Ring::of(first, flat), Ring::of(second, flat));
     let begins_at = other.distance_of(at, share);
     let stretch = other.length() / one.length();
     let lies_on = |ring: &Ring, point: Point, along: f64| ring.at(along).is_some_and(|met| (met - point).norm() <= tolerance);
@@ -84,8 +87,8 @@ struct Ring {
 }
 
 impl Ring {
-    fn of(geometry: &Geometry) -> Ring {
-        let segments: Vec<Segment> = geometry.segments().collect();
+    fn of(geometry: &Geometry, flat: f64) -> Ring {
+        let segments: Vec<Segment> = geometry.segments_of(flat).collect();
         let add = |sum: &mut f64, segment: &Segment| {
             *sum += segment.length();
             Some(*sum)

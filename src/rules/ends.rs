@@ -15,7 +15,7 @@ pub fn end_moved(drawing: &Drawing, place: &ContourSegment, at_end: bool, to: Po
         Geometry::Line { start, .. } if own_end => Some(Change::SetLine { entity, start: *start, end: to }),
         Geometry::Line { end, .. } => Some(Change::SetLine { entity, start: to, end: *end }),
         Geometry::Arc { .. } => {
-            let Segment::Arc(own) = geometry.segment(0)? else { return None };
+            let Segment::Arc(own) = drawing.segment(entity, 0)? else { return None };
             let (start, end) = if own_end { (own.start, to) } else { (to, own.end) };
             let moved = (own.sweep < 1.9 * PI).then(|| Arc::from_bulge(start, end, own.bulge())).flatten()?;
             let (start_angle, end_angle) = (positive_angle(moved.start_angle), positive_angle(moved.start_angle + moved.sweep));

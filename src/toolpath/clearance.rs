@@ -1,6 +1,6 @@
 //! How near a path comes to the walls, for contours of any size.
 
-use crate::geometry::{Arc, Bounds, Line, Point, Segment, Vector, circle_circle, line_circle, line_line};
+use crate::geometry::{Arc, Bounds, Line, Point, Segment, circle_circle, line_circle, line_line, reached};
 
 /// Walls in boxes of boxes over their order along the contour, in which neighbours lie together.
 pub(super) struct Walls {
@@ -79,7 +79,7 @@ fn between_line_and_arc(line: &Line, arc: &Arc) -> f64 {
     }
     let share = line.share_of(arc.center);
     let foot = line.start + along * share;
-    if within(share) && within(arc.share_of(foot)) { ((foot - arc.center).norm() - arc.radius).abs() } else { f64::INFINITY }
+    if within(share) && within(arc.share_of(foot)) { arc.rise_of(foot).abs() } else { f64::INFINITY }
 }
 
 fn between_arcs(a: &Arc, b: &Arc) -> f64 {
@@ -90,10 +90,6 @@ fn between_arcs(a: &Arc, b: &Arc) -> f64 {
     // The nearest inner points of two circles lie on the line of their centres.
     let Some(axis) = (b.center - a.center).try_normalize(0.0) else { return f64::INFINITY };
     let mut nearest = f64::INFINITY;
-    let reached = |arc: &Arc, way: Vector| {
-        let point = arc.center + way * arc.radius;
-        within(arc.share_of(point)).then_some(point)
-    };
     for (on_a, on_b) in [(axis, axis), (axis, -axis), (-axis, axis), (-axis, -axis)] {
         if let (Some(p), Some(q)) = (reached(a, on_a), reached(b, on_b)) {
             nearest = nearest.min((p - q).norm());

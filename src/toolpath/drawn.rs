@@ -27,7 +27,7 @@ pub(super) fn one_path(
     let mut segments: Vec<PathSegment> = Vec::new();
     let mut here = asked.first().copied();
     for (entity, geometry) in drawing.entities().filter(|(id, _)| is_chosen(*id)).map(|(id, entity)| (id, &entity.geometry)) {
-        let pieces: Vec<(usize, Segment)> = geometry.segments().enumerate().collect();
+        let pieces: Vec<(usize, Segment)> = geometry.segments_of(drawing.flat()).enumerate().collect();
         let (first, last) = (pieces.first()?.1.start(), pieces.last()?.1.end());
         let meets = |point: Point| here.is_none_or(|here| (point - here).norm() <= join);
         let pieces = match geometry {

@@ -83,7 +83,7 @@ pub(super) fn offset(wall: &Segment, correction: f64, side: f64, tolerance: f64)
             if radius <= tolerance {
                 return Offset::Runs(Segment::Arc(Arc { radius: 0.0, start: arc.center, end: arc.center, ..*arc }));
             }
-            let out = |point: Point| arc.center + (point - arc.center) * (radius / arc.radius);
+            let out = |point: Point| point + (point - arc.center) * ((radius - arc.radius) / arc.radius);
             Offset::Runs(Segment::Arc(Arc { radius, start: out(arc.start), end: out(arc.end), ..*arc }))
         }
     }

@@ -24,7 +24,7 @@ pub fn hints(document: &Document, range: Range<usize>, unit: Unit) -> Vec<Hint> 
     let mut found = Vec::new();
     for (id, segment) in document.segments_at(range.start..end.max(range.start)) {
         let Some(entity) = document.drawing.get(id) else { continue };
-        let arc = match (&entity.geometry, entity.geometry.segment(segment)) {
+        let arc = match (&entity.geometry, document.drawing.segment(id, segment)) {
             (Geometry::Polyline { .. } | Geometry::Arc { .. }, Some(Segment::Arc(arc))) => arc,
             _ => continue,
         };

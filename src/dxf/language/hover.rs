@@ -93,13 +93,11 @@ fn about_bulge(document: &Document, spot: &Spot<'_>, entity: Option<EntityId>, b
         let start = vertex_at(document, spot.item, spot.line)?.start;
         let from_item = (start - *document.table.lines.get(spot.item)? as usize) as u32;
         let index = document.table.vertices.get(&entity)?.lines.binary_search(&from_item).ok()?;
-        match document.drawing.get(entity)?.geometry.segment(index)? {
-            Segment::Arc(arc) => Some(arc),
-            Segment::Line { .. } => None,
-        }
+        document.drawing.segment(entity, index)
     });
     match arc {
-        Some(arc) => {
+        Some(Segment::Line(_)) => format!("a line: {angle}, which rises less than a millionth of a millimetre above its chord"),
+        Some(Segment::Arc(arc)) => {
             let radius = radius_in(arc.radius, unit);
             format!("{angle}\n\nradius {radius}, centre ({}, {})", rounded(arc.center.x), rounded(arc.center.y))
         }

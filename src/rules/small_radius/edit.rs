@@ -32,7 +32,7 @@ pub fn drawing_edit(drawing: &Drawing, replacements: &[(Travel, Replacement)]) -
             [(replacement.before, replacement.arc.start, true), (replacement.after, replacement.arc.end, false)]
         {
             let segment = travel.segment(position)?;
-            let own = drawing.get(segment.entity)?.geometry.segment(segment.segment)?;
+            let own = drawing.segment(segment.entity, segment.segment)?;
             let known = match fates.get(&(segment.entity, segment.segment)) {
                 Some(Fate::Kept(known)) => *known,
                 Some(Fate::Removed) => return None,
@@ -61,7 +61,7 @@ pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<Drawing
     let (one, other) = (travel.segment(before)?, travel.segment(before + 1)?);
     let drawing = travel.drawing;
     let cut = |place: &ContourSegment, point: Point, at_end: bool| {
-        let own = drawing.get(place.entity)?.geometry.segment(place.segment)?;
+        let own = drawing.segment(place.entity, place.segment)?;
         Some(with_end(own, point, at_end != place.reversed))
     };
     let (first, second) = (cut(&one, arc.start, true)?, cut(&other, arc.end, false)?);
@@ -113,7 +113,7 @@ pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<Drawing
 /// arc is no entity's own.
 pub fn keep_end_points(drawing: &Drawing, segment: &ContourSegment, limits: &Limits) -> Option<(DrawingEdit, f64)> {
     let entity = drawing.get(segment.entity)?;
-    let Segment::Arc(own) = entity.geometry.segment(segment.segment)? else { return None };
+    let Segment::Arc(own) = drawing.segment(segment.entity, segment.segment)? else { return None };
     let chord = own.end - own.start;
     let half = chord.norm() / (2.0 * limits.fix_radius);
     if own.bulge().abs() > 1.0 + 1e-9 || half <= 0.0 || half > 1.0 {
@@ -180,7 +180,7 @@ fn entity_changes(drawing: &Drawing, id: EntityId, fates: &BTreeMap<usize, Fate>
             Fate::Kept(Segment::Line(line)) => Some(vec![Change::SetLine { entity: id, start: line.start, end: line.end }]),
             _ => None,
         },
-        Geometry::Arc { start_angle, end_angle, .. } => match (fates.get(&0)?, geometry.segment(0)?) {
+        Geometry::Arc { start_angle, end_angle, .. } => match (fates.get(&0)?, drawing.segment(id, 0)?) {
             (Fate::Kept(Segment::Arc(arc)), Segment::Arc(old)) => {
                 // An angle that stays is kept as the drawing has it, to the last digit.
                 let kept = (arc.center == old.center)
