@@ -27,6 +27,8 @@ pub enum Rule {
     NearTangent,
     SelfIntersection,
     ArcAsChords,
+    /// A path of the wire that does not hold its proof.
+    UnprovedPath,
     LeadIn,
     UnsupportedEntity,
     Units,
@@ -77,7 +79,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 40] = [
+    pub const ALL: [Rule; 41] = [
         Rule::SmallRadius,
         Rule::SharpCorner,
         Rule::NarrowSlot,
@@ -91,6 +93,7 @@ impl Rule {
         Rule::NearTangent,
         Rule::SelfIntersection,
         Rule::ArcAsChords,
+        Rule::UnprovedPath,
         Rule::LeadIn,
         Rule::UnsupportedEntity,
         Rule::Units,
@@ -135,6 +138,7 @@ impl Rule {
             Rule::NearTangent => "near-tangent",
             Rule::SelfIntersection => "self-intersection",
             Rule::ArcAsChords => "arc-as-chords",
+            Rule::UnprovedPath => "unproved-path",
             Rule::LeadIn => "lead-in",
             Rule::UnsupportedEntity => "unsupported-entity",
             Rule::Units => "units",
@@ -173,6 +177,7 @@ impl Rule {
             | Rule::OffsetCollapse
             | Rule::OpenContour
             | Rule::SelfIntersection
+            | Rule::UnprovedPath
             | Rule::LeadIn
             | Rule::ArcOffRadius
             | Rule::ArcWithoutRadius
@@ -323,6 +328,12 @@ pub enum Detail {
     /// Nothing is left of the outline at this correction.
     OffsetCollapse {
         required: f64,
+        /// A point is left: the wire can stand there, and cuts nothing more.
+        point: bool,
+    },
+    /// The path that the wire would run does not hold its proof, near a point.
+    UnprovedPath {
+        near: Point,
     },
     /// The ends of a contour are `distance` apart.
     OpenContour {

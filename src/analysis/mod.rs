@@ -369,7 +369,7 @@ impl Analysis {
                     continue;
                 }
                 let (rule, index, detail) = match *lost {
-                    Lost::All => (Rule::OffsetCollapse, 0, Detail::OffsetCollapse { required: self.limits.correction }),
+                    Lost::All => (Rule::OffsetCollapse, 0, Detail::OffsetCollapse { required: self.limits.correction, point: false }),
                     Lost::Pocket { near, index } => (Rule::LostPocket, index, Detail::LostPocket { near }),
                 };
                 if report.counts(rule, None)

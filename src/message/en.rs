@@ -36,7 +36,14 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             format!("slot is {width} mm wide, the wire needs {required} mm: it cannot pass without cutting the walls")
         }
         Detail::LostPocket { .. } => "the offset loses this part of the outline: the wire does not reach it".into(),
-        Detail::OffsetCollapse { required } => {
+        Detail::OffsetCollapse { required, point: true } => format!(
+            "at a correction of {} mm a point is left of the outline: the wire is threaded there and cuts nothing more",
+            mm(required * unit_mm)
+        ),
+        Detail::UnprovedPath { .. } => {
+            "no path of the wire along this contour holds its proof here: the contour is drawn finer than the path can be told".into()
+        }
+        Detail::OffsetCollapse { required, point: false } => {
             format!("nothing is left of the outline at a correction of {} mm: the wire does not fit in", mm(required * unit_mm))
         }
         Detail::OpenContour { distance } => format!("contour is open: its ends are {} mm apart", mm(distance * unit_mm)),

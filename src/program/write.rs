@@ -71,8 +71,11 @@ pub fn walk(
     let mut done = 0;
     let mut node: Option<Node> = None;
     for path in paths {
-        let (Some(first), Some(last)) = (path.segments.first(), path.segments.last()) else { continue };
-        let (begin, end) = (first.geometry.start() * steps, last.geometry.end() * steps);
+        // Where the wire can only stand, it is threaded and cuts nothing.
+        let (begin, end) = match (path.segments.first(), path.segments.last()) {
+            (Some(first), Some(last)) => (first.geometry.start() * steps, last.geometry.end() * steps),
+            _ => (path.thread_hole * steps, path.thread_hole * steps),
+        };
         let first_node = node_of(begin)?;
         writer.begin(node, first_node, path.side)?;
         let mut from = first_node;
@@ -98,6 +101,11 @@ pub fn walk(
         node = Some(from);
     }
     Ok(())
+}
+
+/// True where there is anything to cut: not where the wire only stands in each hole.
+pub fn cuts(paths: &[WirePath]) -> bool {
+    paths.is_empty() || paths.iter().any(|path| !path.segments.is_empty())
 }
 
 fn node_of(point: Point) -> Result<Node, ProofError> {

@@ -127,8 +127,8 @@ impl FindingData {
                 data.distance = Some(*width);
                 data.required = Some(*required);
             }
-            Detail::LostPocket { near } => data.at = Some((*near).into()),
-            Detail::OffsetCollapse { required } => data.required = Some(*required),
+            Detail::LostPocket { near } | Detail::UnprovedPath { near } => data.at = Some((*near).into()),
+            Detail::OffsetCollapse { required, .. } => data.required = Some(*required),
             Detail::OpenContour { distance } | Detail::Gap { distance } => data.distance = Some(*distance),
             Detail::Crowded { count } => data.count = Some(*count),
             Detail::DuplicateEntity => {}

@@ -30,17 +30,26 @@ impl Walls {
 
     /// The first wall found to which `path` comes nearer than `distance`.
     pub fn too_near(&self, path: &Segment, distance: f64) -> Option<usize> {
-        let reach = path.bounds().grown(distance);
+        self.find(&path.bounds().grown(distance), |index| distance_between(path, &self.segments[index]) < distance)
+    }
+
+    /// The first wall found that is nearer to a point than `distance`.
+    pub fn nearer(&self, point: Point, distance: f64) -> Option<usize> {
+        self.find(&Bounds::of_disc(point, distance), |index| self.segments[index].distance_to(point) < distance)
+    }
+
+    /// The first segment with a box that touches `reach` of which `is_it` says so.
+    pub fn find(&self, reach: &Bounds, mut is_it: impl FnMut(usize) -> bool) -> Option<usize> {
         let mut waiting = vec![(self.levels.len() - 1, 0..self.levels.last().map_or(0, Vec::len))];
         while let Some((level, range)) = waiting.pop() {
             for index in range {
-                if !self.levels[level][index].touches(&reach) {
+                if !self.levels[level][index].touches(reach) {
                     continue;
                 }
                 if level > 0 {
                     let below = self.levels[level - 1].len();
                     waiting.push((level - 1, index * FAN..((index + 1) * FAN).min(below)));
-                } else if distance_between(path, &self.segments[index]) < distance {
+                } else if is_it(index) {
                     return Some(index);
                 }
             }

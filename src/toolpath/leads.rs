@@ -161,7 +161,9 @@ pub(super) fn path_point(path: &[Element], walls: &[Wall], entry: &Entry, correc
     let wall = &walls.get(entry.wall)?.geometry;
     let wanted = entry.point + normal(wall, entry.share, side) * correction;
     let own = |element: &Element| element.wall == entry.wall && !matches!(element.source, Source::Corner { .. });
-    let Some(index) = path.iter().position(own) else {
+    let away = |index: &usize| path[*index].geometry.distance_to(wanted);
+    let own = (0..path.len()).filter(|&index| own(&path[index])).min_by(|a, b| away(a).total_cmp(&away(b)));
+    let Some(index) = own else {
         // Elements stand in the order of their walls.
         let index = path.iter().position(|element| element.wall > entry.wall).unwrap_or(0);
         return Some((index, path.get(index)?.geometry.start()));

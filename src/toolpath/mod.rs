@@ -1,26 +1,34 @@
 //! The path of the wire's centre: offset, corners, leads, order.
 //!
 //! Each piece of a path remembers the segment of the drawing that it comes from. A path never comes nearer to its contour than the
-//! correction: where an offset would, there is a refusal and no path. Everything is in drawing units; settings are in mm.
+//! correction, lies at it everywhere but on the tips of corners, and leaves out nothing that the wire can reach: `proof`. Where that
+//! cannot be, there is an error finding at the place and no path. Everything is in drawing units; settings are in mm.
 
 mod clearance;
 mod corners;
 mod drawn;
+#[cfg(test)]
+mod families;
 mod leads;
+mod loops;
 mod offset;
 mod order;
+mod proof;
 #[cfg(test)]
 mod tests;
 
 use crate::drawing::{Drawing, EntityId, Outline};
-use crate::finding::{Finding, Rule, Severity, Side};
+use crate::finding::{Detail, Finding, Place, Rule, Severity, Side};
 use crate::geometry::{Point, Segment};
-use crate::settings::{Compensation, Effective};
+use crate::settings::{Compensation, Corner, Effective};
 use clearance::Walls;
-use corners::{Element, Joining, closed_path};
+use corners::{Element, Joining, Raw, with_tips};
 use leads::{Entry, Surroundings, Wanted, default_entry, nearest, off_contour, path_point, thread_hole};
+use loops::Found;
 use offset::{Wall, walls};
 use order::{begin_at, directed, name};
+use proof::{Proof, Unproved};
+use std::sync::OnceLock;
 
 /// Where a piece of the path comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +73,7 @@ pub struct WirePath {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     Sentence(String),
-    /// Findings that the drawing gets only when a path is asked for, such as `lead-in`.
+    /// Refused for the geometry: errors in the drawing, at their places. Some it gets only when a path is asked for, such as `lead-in`.
     Findings(Vec<Finding>),
     /// Nobody wants the path any more.
     Cancelled,
@@ -227,42 +235,131 @@ impl Job<'_> {
         let (contour, turned) = directed(outline, settings.direction);
         let side = if turned { own_side.reversed() } else { own_side }.sign();
         let walls = walls(contour.segments(self.drawing), true, self.units(settings.tolerances.zero_length));
-        let joining = Joining {
-            correction,
-            side,
-            corner: settings.corner,
-            touch: self.units(1e-7),
-            tolerance: self.units(settings.tolerances.report),
-        };
-        let collapsed = |at: Point| {
-            Refusal::Sentence(format!(
-                "the wire with a correction of {:.3} mm does not fit along contour {handle} near ({:.3}, {:.3}): its path would cut into the part",
-                settings.correction, at.x, at.y
-            ))
-        };
-        self.go_on()?;
-        let path = closed_path(&walls, &joining).map_err(collapsed)?;
-        self.go_on()?;
         let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+        let path = match self.laid(&walls, &own, side)? {
+            Ok(Laid::Path(path)) => path,
+            Ok(Laid::Point(point)) => return self.threaded(index, wanted, &walls, correction, point),
+            Err(fault) => return Err(Refusal::Findings(vec![self.no_path(&fault, &walls)])),
+        };
         let clearance = correction - self.units(ROUNDING);
-        for step in path.chunks(STEP) {
-            self.go_on()?;
-            if let Some(wall) = step.iter().find_map(|element| own.too_near(&element.geometry, clearance)) {
-                return Err(collapsed(walls[wall].geometry.point_at(0.5)));
-            }
-        }
-        if !keeps_its_side(&path, &walls, side) {
-            return Err(collapsed(walls[0].geometry.start()));
-        }
         let entry = match self.entry(outline, &walls, wanted)?.or_else(|| default_entry(&walls)) {
             Some(entry) => entry,
             None => return Err(Refusal::Sentence(format!("contour {handle} has no length"))),
         };
-        let (element, begin) = path_point(&path, &walls, &entry, correction, side).ok_or_else(|| collapsed(entry.point))?;
+        let (element, begin) = path_point(&path, &walls, &entry, correction, side)
+            .ok_or_else(|| Refusal::Findings(vec![self.no_path(&Fault::Unproved { wall: entry.wall }, &walls)]))?;
         let severity = settings.severity(Rule::LeadIn).unwrap_or(Severity::Error);
         let surroundings = Surroundings { own: &own, all, clearance, unit_mm: self.unit_mm, severity };
-        let thread = thread_hole(wanted, &entry, begin, &walls, settings, &surroundings).map_err(|fault| Refusal::Findings(vec![fault]))?;
+        let thread = if wanted.thread.is_none() && goes_out_and_back(&path) {
+            // There is no room beside the path.
+            begin
+        } else {
+            thread_hole(wanted, &entry, begin, &walls, settings, &surroundings).map_err(|fault| Refusal::Findings(vec![fault]))?
+        };
         Ok(self.with_leads(index, correction, thread, begin_at(path, element, begin), true))
+    }
+
+    /// The path along a closed contour, proved; `walls` have the wire on the side of that sign.
+    fn laid(&self, walls: &[Wall], own: &Walls, side: f64) -> Result<Result<Laid, Fault>, Refusal> {
+        let correction = self.units(self.settings.correction);
+        let joining = Joining { correction, side, touch: self.units(1e-7), tolerance: self.units(self.settings.tolerances.report) };
+        self.go_on()?;
+        let raw = Raw::new(walls, &joining);
+        let rounding = self.units(ROUNDING);
+        let proof = Proof { walls, raw: &raw, own, correction, rounding, near_raw: OnceLock::new() };
+        let tipped = |path: Vec<(usize, Element)>| {
+            let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
+            Laid::Path(match self.settings.corner {
+                Corner::Intersection => with_tips(path, walls, &joining, own, correction - rounding),
+                Corner::Arc => path,
+            })
+        };
+        self.go_on()?;
+        let found = match &raw.elements[..] {
+            [circle] if circle.geometry.length() > 0.0 => Some(vec![(0, *circle)]),
+            _ => raw.trimmed(),
+        };
+        if let Some(path) = found.filter(|path| keeps_its_side(path, walls, side))
+            && self.holds(&proof, &path)?.is_ok()
+        {
+            return Ok(Ok(tipped(path)));
+        }
+        let mut loops = match loops::find(&proof, self.goes_on) {
+            Found::Loops(loops) => loops,
+            Found::Point(point) => return Ok(Ok(Laid::Point(point))),
+            Found::Nothing => return Ok(Err(Fault::Nothing)),
+            Found::Torn(raw_element) => return Ok(Err(Fault::Unproved { wall: raw.elements[raw_element].wall })),
+            Found::Cancelled => return Err(Refusal::Cancelled),
+        };
+        // The wire is threaded into the largest; outside a punch that is the one round it.
+        let size = |path: &Vec<(usize, Element)>| path.iter().map(|(_, element)| element.geometry.length()).sum::<f64>();
+        loops.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        if let Some((_, lost)) = loops.get(1).and_then(|lost| lost.first()) {
+            return Ok(Err(Fault::Several { near: lost.geometry.point_at(0.5), wall: lost.wall }));
+        }
+        let Some(path) = loops.pop() else { return Ok(Err(Fault::Nothing)) };
+        if !keeps_its_side(&path, walls, side) {
+            return Ok(Err(Fault::Unproved { wall: 0 }));
+        }
+        Ok(self.holds(&proof, &path)?.map(|()| tipped(path)).map_err(|Unproved { wall }| Fault::Unproved { wall }))
+    }
+
+    /// Holds a path against its proof.
+    fn holds(&self, proof: &Proof, path: &[(usize, Element)]) -> Result<Result<(), Unproved>, Refusal> {
+        for pieces in path.chunks(STEP) {
+            self.go_on()?;
+            if let Err(fault) = proof.pieces_hold(pieces) {
+                return Ok(Err(fault));
+            }
+        }
+        let mut by_raw = path.to_vec();
+        let share = |(raw, piece): &(usize, Element)| proof.raw.elements[*raw].geometry.share_of(piece.geometry.start());
+        by_raw.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| share(a).total_cmp(&share(b))));
+        let count = proof.raw.elements.len();
+        for first in (0..count).step_by(STEP) {
+            self.go_on()?;
+            if let Err(fault) = proof.nothing_is_missing(&by_raw, first..(first + STEP).min(count)) {
+                return Ok(Err(fault));
+            }
+        }
+        Ok(Ok(()))
+    }
+
+    /// The finding that stands for a path which cannot be made.
+    fn no_path(&self, fault: &Fault, walls: &[Wall]) -> Finding {
+        let required = self.units(self.settings.correction);
+        let near = |wall: usize| walls.get(wall).map_or_else(Point::origin, |wall| wall.geometry.point_at(0.5));
+        let (rule, detail, wall) = match *fault {
+            Fault::Nothing => (Rule::OffsetCollapse, Detail::OffsetCollapse { required, point: false }, 0),
+            Fault::Several { near, wall } => (Rule::LostPocket, Detail::LostPocket { near }, wall),
+            Fault::Unproved { wall } => (Rule::UnprovedPath, Detail::UnprovedPath { near: near(wall) }, wall),
+        };
+        let place = match walls.get(wall).map(|wall| wall.source) {
+            Some(Source::Segment { entity, segment }) => Place::Segment { entity, segment },
+            _ => Place::Document,
+        };
+        let severity = self.settings.severity(rule).unwrap_or(Severity::Error);
+        Finding { rule, severity, place, detail, related: Vec::new() }
+    }
+
+    /// The path where the wire's centre can only stand: it is threaded there, and cuts nothing more.
+    fn threaded(&self, index: usize, wanted: &Wanted, walls: &[Wall], correction: f64, point: Point) -> Result<WirePath, Refusal> {
+        let join = self.units(self.settings.tolerances.join);
+        if let Some(thread) = wanted.thread.filter(|thread| (thread - point).norm() > join) {
+            let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
+            let place = match walls.get(wall).map(|wall| wall.source) {
+                Some(Source::Segment { entity, segment }) => Place::Segment { entity, segment },
+                _ => Place::Document,
+            };
+            let sentence = format!(
+                "the thread hole ({:.3}, {:.3}) comes nearer to the contour than the correction {:.3} mm: the wire can stand at ({:.3}, {:.3}) alone",
+                thread.x, thread.y, self.settings.correction, point.x, point.y
+            );
+            let severity = self.settings.severity(Rule::LeadIn).unwrap_or(Severity::Error);
+            let detail = Detail::LeadIn(sentence);
+            return Err(Refusal::Findings(vec![Finding { rule: Rule::LeadIn, severity, place, detail, related: Vec::new() }]));
+        }
+        Ok(WirePath { outline: index, correction, thread_hole: point, side: None, segments: Vec::new() })
     }
 
     /// The part's contour, which the control offsets, with the thread hole of the path that comes of it.
@@ -315,12 +412,40 @@ impl Job<'_> {
     }
 }
 
-/// True when a path runs round as its contour does, inside an opening and outside a punch.
-fn keeps_its_side(path: &[Element], walls: &[Wall], side: f64) -> bool {
+/// What a contour gives the wire.
+enum Laid {
+    Path(Vec<Element>),
+    /// The one place where the wire's centre may be.
+    Point(Point),
+}
+
+/// Why a contour has no path, with the wall where that shows.
+#[derive(Clone, Copy, Debug)]
+enum Fault {
+    /// Nowhere along it does the wire fit.
+    Nothing,
+    /// There are several places for the wire with no way from one to the other.
+    Several { near: Point, wall: usize },
+    /// There is a path, but it does not hold its proof.
+    Unproved { wall: usize },
+}
+
+/// True for the path in a slot that is just as wide as the wire: it goes round nothing.
+fn goes_out_and_back(path: &[Element]) -> bool {
+    let Some(origin) = path.first().map(|element| element.geometry.start()) else { return false };
+    let area: f64 = path.iter().map(|element| element.geometry.twice_area(origin)).sum();
+    let length: f64 = path.iter().map(|element| element.geometry.length()).sum();
+    area.abs() <= 1e-9 * length * length
+}
+
+/// True when a path runs round as its contour does, inside an opening and outside a punch. Out and back along a line is no way round.
+fn keeps_its_side(path: &[(usize, Element)], walls: &[Wall], side: f64) -> bool {
     let Some(origin) = walls.first().map(|wall| wall.geometry.start()) else { return false };
     let contour: f64 = walls.iter().map(|wall| wall.geometry.twice_area(origin)).sum();
-    let path: f64 = path.iter().map(|element| element.geometry.twice_area(origin)).sum();
-    let grows = (path - contour) * contour.signum();
+    let area: f64 = path.iter().map(|(_, element)| element.geometry.twice_area(origin)).sum();
+    let elements: Vec<Element> = path.iter().map(|(_, element)| *element).collect();
+    let grows = (area - contour) * contour.signum();
+    let inside = grows * side * contour.signum() <= 0.0;
     // To the left of a counter-clockwise contour lies its inside.
-    path * contour > 0.0 && grows * side * contour.signum() <= 0.0
+    inside && (area * contour > 0.0 || goes_out_and_back(&elements))
 }

@@ -75,15 +75,16 @@ pub(super) fn offset(wall: &Segment, correction: f64, side: f64, tolerance: f64)
             Offset::Runs(Segment::line(start + shift, end + shift))
         }
         Segment::Arc(arc) => {
-            let center_on_wire_side = arc.sweep * side > 0.0;
-            let radius = if center_on_wire_side { arc.radius - correction } else { arc.radius + correction };
+            let shift = if arc.sweep * side > 0.0 { -correction } else { correction };
+            let radius = arc.radius + shift;
             if radius < -tolerance {
                 return Offset::TooTight { center: arc.center };
             }
             if radius <= tolerance {
                 return Offset::Runs(Segment::Arc(Arc { radius: 0.0, start: arc.center, end: arc.center, ..*arc }));
             }
-            let out = |point: Point| point + (point - arc.center) * ((radius - arc.radius) / arc.radius);
+            // Not by the share of the two radii: about a centre that is far away they differ by rounding alone.
+            let out = |point: Point| point + (point - arc.center) * (shift / arc.radius);
             Offset::Runs(Segment::Arc(Arc { radius, start: out(arc.start), end: out(arc.end), ..*arc }))
         }
     }

@@ -240,7 +240,7 @@ fn check_lost(name: &str, entities: &[Geometry], role: Role, rule: Rule, expecte
     let (_, _, findings) = found(entities, role, rule);
     let told = |finding: &Finding| match finding.detail {
         Detail::LostPocket { near } => [near.x.round(), near.y.round()],
-        Detail::OffsetCollapse { required } => [required, required],
+        Detail::OffsetCollapse { required, .. } => [required, required],
         _ => panic!("{finding:?}"),
     };
     assert_eq!(findings.iter().map(told).collect::<Vec<_>>(), expected, "{name} as {role:?}");

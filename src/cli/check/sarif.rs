@@ -89,6 +89,7 @@ fn summary(rule: Rule) -> &'static str {
         Rule::SharpCorner => "A corner that the wire leaves rounded",
         Rule::NarrowSlot => "A slot narrower than the wire's way through it",
         Rule::LostPocket => "The offset loses a part of the outline",
+        Rule::UnprovedPath => "No path of the wire holds its proof here",
         Rule::OffsetCollapse => "Nothing is left of the outline at this correction",
         Rule::OpenContour => "A contour that does not close",
         Rule::Gap => "Two ends that belong together do not meet",

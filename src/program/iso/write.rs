@@ -6,7 +6,7 @@ use super::machine::{CenterRule, Course, MICROMETRE, Machine, Move, Place, Readi
 use crate::finding::Side;
 use crate::geometry::Segment;
 use crate::program::grid::{Node, point_of};
-use crate::program::write::{ProofError, ProvedProgram, Writer, walk, way};
+use crate::program::write::{ProofError, ProvedProgram, Writer, cuts, walk, way};
 use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
 
@@ -27,7 +27,7 @@ pub fn write_with(
     let per_mm = 10_i64.pow(u32::from(profile.decimals.clamp(3, 6)));
     let mut lines = Lines::new(profile, settings.jumps, 1_000_000 / per_mm);
     walk(paths, unit_mm * per_mm as f64, lines.step_um(), go_on, &mut lines)?;
-    lines.finish()
+    lines.finish(cuts(paths))
 }
 
 struct Lines<'a> {
@@ -335,8 +335,9 @@ impl<'a> Lines<'a> {
         }
     }
 
-    fn finish(mut self) -> Result<ProvedProgram, ProofError> {
-        if self.blocks == 0 {
+    /// `cuts` tells that there is more to the paths than places where the wire is threaded.
+    fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
+        if self.blocks == 0 && cuts {
             return Err(ProofError::Mismatch("the path holds no block".into()));
         }
         self.side = None;

@@ -11,7 +11,7 @@ use super::proof::Proof;
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
-use crate::program::write::{ProofError, ProvedProgram, Writer, walk, way};
+use crate::program::write::{ProofError, ProvedProgram, Writer, cuts, walk, way};
 use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{Source, WirePath};
 
@@ -29,7 +29,7 @@ pub fn write_with(
 ) -> Result<ProvedProgram, ProofError> {
     let mut blocks = Blocks::new(settings, None);
     walk(paths, unit_mm * 1000.0, 1.0, go_on, &mut blocks)?;
-    blocks.finish()
+    blocks.finish(cuts(paths))
 }
 
 /// The same for 4B: the part's contour, which the controller offsets by the correction of the settings. Corners between lines get
@@ -46,7 +46,7 @@ pub fn write_four_b(
     let paths: Vec<WirePath> = paths.iter().map(|path| rounded(path, unit_mm * 1000.0, correction, radius)).collect::<Result<_, _>>()?;
     let mut blocks = Blocks::new(settings, Some(Part { correction, side: Side::Left, direction: None }));
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
-    blocks.finish()
+    blocks.finish(cuts(&paths))
 }
 
 /// What a 4B program is proved with beside its blocks.
@@ -182,8 +182,9 @@ impl<'a> Blocks<'a> {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<ProvedProgram, ProofError> {
-        if self.blocks == 0 {
+    /// `cuts` tells that there is more to the paths than places where the wire is threaded.
+    fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
+        if self.blocks == 0 && cuts {
             return Err(ProofError::Mismatch("the path holds no block".into()));
         }
         self.word(Word::End)?;

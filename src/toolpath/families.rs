@@ -1,0 +1,371 @@
+//! Families of contours on which an offset goes wrong easily, held against what the distances themselves say.
+//!
+//! The judge knows nothing of how a path is made: a point is a place of the path when the nearest point of the contour is just the
+//! correction away, and every such point is reached from some point of the contour along its normal.
+
+use super::tests::{at, defaults, drawing, judged, samples, shown};
+use super::{PathSegment, Refusal, WirePath, plan};
+use crate::drawing::{Drawing, Outline, Role, Unit, winding};
+use crate::finding::{Detail, Place, Rule};
+use crate::geometry::{Point, Segment, direction, left_normal, meetings};
+use crate::settings::{Compensation, Corner, Direction, Effective};
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+const C: f64 = 0.1;
+
+fn distance(segments: &[Segment], point: Point) -> f64 {
+    segments.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min)
+}
+
+/// Points on the normals of the contour and round its corners, towards the wire, at the correction.
+fn candidates(walls: &[Segment], side: f64) -> Vec<Point> {
+    let mut points = Vec::new();
+    for (index, wall) in walls.iter().enumerate() {
+        let steps = ((wall.length() / 0.02) as usize).clamp(4, 60);
+        points.extend((0..=steps).map(|step| {
+            // Ends are places of neighbours as well: a little inside of them.
+            let share = (step as f64 / steps as f64).clamp(1e-3, 1.0 - 1e-3);
+            wall.point_at(share) + left_normal(wall.tangent_at(share)) * (side * C)
+        }));
+        let next = &walls[(index + 1) % walls.len()];
+        let (from, to) = (left_normal(wall.end_tangent()) * side, left_normal(next.start_tangent()) * side);
+        let turned = crate::geometry::turn(from, to);
+        if turned * side < 0.0 {
+            let begin = from.y.atan2(from.x);
+            points.extend((1..20).map(|step| wall.end() + direction(begin + turned * f64::from(step) / 20.0) * C));
+        }
+    }
+    points
+}
+
+fn walls_of(drawing: &Drawing, outline: &Outline) -> Vec<Segment> {
+    outline.contour.segments(drawing).map(|segment| segment.geometry).collect()
+}
+
+fn without_leads(path: &WirePath) -> Vec<Segment> {
+    path.segments
+        .iter()
+        .filter(|piece| !matches!(piece.source, super::Source::LeadIn | super::Source::LeadOut))
+        .map(|piece| piece.geometry)
+        .collect()
+}
+
+/// What is wrong with the path of a contour; `None` where it is right, or rightly refused.
+fn wrong(outline: &[[f64; 3]], role: Role, settings: &Effective) -> Option<String> {
+    let (drawing, outlines) = drawing(&[(outline, Some(role))]);
+    let walls = walls_of(&drawing, &outlines[0]);
+    let side = outlines[0].wire_side()?.sign();
+    let is_inside = |point: Point| winding(&drawing, &outlines[0].contour, point) != 0;
+    let is_valid = |&point: &Point| distance(&walls, point) >= C - 1e-10 && is_inside(point) == (role == Role::Opening);
+    let valid: Vec<Point> = candidates(&walls, side).into_iter().filter(is_valid).collect();
+    match plan(&drawing, &outlines, settings, None) {
+        Ok(paths) => {
+            let path = without_leads(&paths[0]);
+            let is_arc_style = settings.corner == Corner::Arc;
+            for point in samples(&path, 0.03) {
+                let away = distance(&walls, point);
+                if away < C - 2e-6 || (is_arc_style && away > C + 2e-6) {
+                    return Some(format!("the path is {away} from the contour at {point:?}"));
+                }
+            }
+            for pair in path.windows(2) {
+                if pair[0].end() != pair[1].start() {
+                    return Some(format!("a gap at {:?}", pair[0].end()));
+                }
+            }
+            // A roll that the tip stands for is not gone round.
+            let slack = if is_arc_style { 3e-6 } else { 4.0 * C };
+            let missing = valid.iter().find(|&&point| distance(&path, point) > slack);
+            if let Some(point) = missing {
+                return Some(format!("{point:?} is missing"));
+            }
+            let program = crate::program::three_b::write(&paths, 1.0, settings);
+            program.err().map(|error| format!("{error:?}"))
+        }
+        Err(Refusal::Findings(found)) => {
+            let rules: Vec<Rule> = found.iter().map(|finding| finding.rule).collect();
+            let loops = std::panic::catch_unwind(|| judged(outline, C * side)).ok()??;
+            match rules[..] {
+                [Rule::LostPocket] if loops.len() != 1 => None,
+                [Rule::OffsetCollapse] if valid.is_empty() || loops.is_empty() => None,
+                _ => Some(format!("refused: {found:?}, the other library has {} loops", loops.len())),
+            }
+        }
+        Err(refusal) => Some(format!("{refusal:?}")),
+    }
+}
+
+/// Threaded on the path, so that leads have no say.
+fn unled(outline: &[[f64; 3]], direction: Direction) -> Effective {
+    Effective { lead_in: 0.0, thread: at(outline[0][0], outline[0][1]), direction, ..defaults() }
+}
+
+/// True where no two segments meet but neighbours in their joint.
+fn is_simple(outline: &[[f64; 3]]) -> bool {
+    let (drawing, outlines) = drawing(&[(outline, Some(Role::Punch))]);
+    let walls = walls_of(&drawing, &outlines[0]);
+    let count = walls.len();
+    let apart = |a: usize, b: usize| {
+        let joint = |one: &Segment, other: &Segment| (one.end() == other.start()).then(|| one.end());
+        let joints = [joint(&walls[a], &walls[b]), joint(&walls[b], &walls[a])];
+        let is_joint = |point: Point| joints.iter().flatten().any(|joint| (joint - point).norm() < 1e-7);
+        let near = |point: Point, on: &Segment| on.distance_to(point) < 1e-4 && !is_joint(point);
+        !meetings(&walls[a], &walls[b]).into_iter().any(|point| !is_joint(point))
+            && ![walls[a].start(), walls[a].end()].into_iter().any(|point| near(point, &walls[b]))
+            && ![walls[b].start(), walls[b].end()].into_iter().any(|point| near(point, &walls[a]))
+    };
+    walls.iter().all(|wall| wall.length() > 1e-4) && (0..count).all(|a| (a + 1..count).all(|b| apart(a, b)))
+}
+
+/// An outline about the origin, into which a hook goes behind one of its corners: back, forth, and on.
+fn hooked() -> impl Strategy<Value = Vec<[f64; 3]>> {
+    let corner = (1.0_f64..6.0, prop_oneof![4 => Just(0.0), 1 => -0.4_f64..0.4]);
+    let size = || prop_oneof![-0.01_f64..0.01, -0.3_f64..0.3];
+    let hook = prop::collection::vec((size(), size(), prop_oneof![4 => Just(0.0), 1 => -0.9_f64..0.9]), 1..4);
+    (prop::collection::vec(corner, 3..8), 0.0..TAU, any::<prop::sample::Index>(), hook).prop_map(|(corners, turned, where_, hook)| {
+        let count = corners.len();
+        let mut outline: Vec<[f64; 3]> = corners
+            .iter()
+            .enumerate()
+            .map(|(index, &(radius, bow))| {
+                let point = direction(turned + TAU * index as f64 / count as f64) * radius;
+                [point.x, point.y, bow]
+            })
+            .collect();
+        let behind = where_.index(count);
+        let [x, y, _] = outline[behind];
+        for (step, (dx, dy, bow)) in hook.into_iter().enumerate() {
+            outline.insert(behind + 1 + step, [x + dx, y + dy, bow]);
+        }
+        outline
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::with_cases(150) })]
+
+    #[test]
+    fn hooks_and_spikes_are_gone_round(outline in hooked(), punch: bool, clockwise: bool, tips: bool) {
+        prop_assume!(is_simple(&outline));
+        let direction = if clockwise { Direction::Cw } else { Direction::Ccw };
+        let corner = if tips { Corner::Intersection } else { Corner::Arc };
+        let settings = Effective { corner, ..unled(&outline, direction) };
+        let found = wrong(&outline, if punch { Role::Punch } else { Role::Opening }, &settings);
+        prop_assert!(found.is_none(), "{}", found.unwrap_or_default());
+    }
+
+    #[test]
+    fn a_bulge_that_is_rounding_changes_nothing(
+        corners in prop::collection::vec(0.5_f64..60.0, 3..8),
+        bulges in prop::collection::vec(prop_oneof![Just(0.0), (-17.0_f64..-6.5).prop_map(|power| 10.0_f64.powf(power))], 8),
+        negative: bool,
+        punch: bool,
+    ) {
+        let count = corners.len();
+        let outline: Vec<[f64; 3]> = corners.iter().enumerate().map(|(index, &radius)| {
+            let point = direction(TAU * index as f64 / count as f64) * radius;
+            [point.x, point.y, if negative { -bulges[index] } else { bulges[index] }]
+        }).collect();
+        let plain: Vec<[f64; 3]> = outline.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
+        prop_assume!(is_simple(&plain));
+        let role = if punch { Role::Punch } else { Role::Opening };
+        let settings = unled(&outline, Direction::AsDrawn);
+        prop_assert_eq!(wrong(&outline, role, &settings), None);
+        prop_assert_eq!(wrong(&plain, role, &settings), None);
+    }
+
+    /// Slots of just twice the correction, anywhere on the plane: the wire goes in and comes back on one line.
+    #[test]
+    fn slots_of_just_the_wire_are_cut(x in -50.0_f64..50.0, turned in 0.0..TAU, depth in 0.5_f64..8.0, round: bool) {
+        let turn = |u: f64, v: f64| {
+            let (sin, cos) = turned.sin_cos();
+            [x + u * cos - v * sin, u * sin + v * cos]
+        };
+        let mut outline: Vec<[f64; 3]> = Vec::new();
+        for (u, v) in [(0.0, 0.0), (10.0, 0.0), (10.0, 3.0), (10.0 + depth, 3.0), (10.0 + depth, 3.0 + 2.0 * C), (10.0, 3.0 + 2.0 * C), (10.0, 6.0), (0.0, 6.0)] {
+            let [x, y] = turn(u, v);
+            outline.push([x, y, if round && (u, v) == (10.0 + depth, 3.0) { 1.0 } else { 0.0 }]);
+        }
+        let settings = unled(&outline, Direction::AsDrawn);
+        prop_assert_eq!(wrong(&outline, Role::Opening, &settings), None);
+        let (drawing, outlines) = drawing(&[(&outline, Some(Role::Opening))]);
+        let paths = plan(&drawing, &outlines, &settings, None);
+        let deep = Point::from(turn(10.0 + depth - C, 3.0 + C));
+        let reached = paths.is_ok_and(|paths| distance(&without_leads(&paths[0]), deep) < 1e-5);
+        prop_assert!(reached);
+    }
+
+    /// A piece too short to have a direction, at a corner or in the middle of a wall, changes nothing.
+    #[test]
+    fn a_speck_in_a_wall_changes_nothing(power in -10.0_f64..-4.5, way in 0.0..TAU, at_corner: bool, bulge in prop_oneof![Just(0.0), -1.0_f64..1.0], punch: bool) {
+        let speck = direction(way) * 10.0_f64.powf(power);
+        let from = if at_corner { Point::new(10.0, 0.0) } else { Point::new(5.0, 0.0) };
+        let mut outline = vec![[0.0, 0.0, 0.0], [from.x, from.y, bulge], [from.x + speck.x, from.y + speck.y, 0.0]];
+        if !at_corner {
+            outline.push([10.0, 0.0, 0.0]);
+        }
+        outline.extend([[10.0, 7.0, 0.0], [0.0, 7.0, 0.0]]);
+        let role = if punch { Role::Punch } else { Role::Opening };
+        let found = wrong(&outline, role, &unled(&outline, Direction::AsDrawn));
+        prop_assert!(found.is_none(), "{}", found.unwrap_or_default());
+    }
+}
+
+/// Outlines that once had a wrong path or none.
+#[test]
+fn what_went_wrong_once() {
+    let noise: &[[f64; 3]] = &[[106.243, 92.283, 0.0], [62.711, 118.832, 1.1e-16], [58.897, 102.747, 0.0], [7.195, 78.15, 0.0]];
+    let spike: &[[f64; 3]] =
+        &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.974, -0.002, 0.0], [1.222, -0.007, 0.0], [1.06, -2.0, 0.0], [0.0, -3.0, 0.0]];
+    let notch: &[[f64; 3]] =
+        &[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 5.0, 0.0], [5.05, 5.0, 0.0], [5.0, 5.5, 0.0], [4.95, 5.0, 0.0], [0.0, 5.0, 0.0]];
+    let bowl: &[[f64; 3]] = &[[100.0, 40.0, 0.0], [0.0, 40.0, 1.0], [0.0, -40.0, 0.0], [0.0, -50.0, 0.0], [100.0, -50.0, 0.0]];
+    for (outline, role) in [(noise, Role::Opening), (spike, Role::Punch), (notch, Role::Opening), (bowl, Role::Punch)] {
+        for direction in [Direction::AsDrawn, Direction::Ccw, Direction::Cw] {
+            for corner in [Corner::Arc, Corner::Intersection] {
+                let settings = Effective { corner, ..unled(outline, direction) };
+                assert_eq!(wrong(outline, role, &settings), None, "{outline:?}");
+            }
+        }
+    }
+}
+
+/// Arcs that are nearly flat, on walls of any length: their centres are up to 1e11 mm away.
+#[test]
+fn arcs_that_are_nearly_flat_are_offset_to_the_nanometre() {
+    for length in [1.0, 30.0, 1000.0] {
+        for power in -6..0 {
+            let bulge = 2.0 * 1.01 * 10.0_f64.powi(power) / length;
+            for bulge in [bulge, -bulge] {
+                let outline =
+                    &[[0.0, 0.0, bulge], [length, 0.1, 0.0], [0.9 * length, 0.7 * length, bulge], [0.1 * length, 0.6 * length, 0.0]];
+                for role in [Role::Opening, Role::Punch] {
+                    assert_eq!(wrong(outline, role, &unled(outline, Direction::AsDrawn)), None, "{outline:?} {role:?}");
+                }
+            }
+        }
+    }
+}
+
+/// What counts as flat is a millionth of a millimetre, in every unit.
+#[test]
+fn flat_is_told_in_millimetres() {
+    for (stated, assumed, mm) in [(Some(25.4), 1.0, 25.4), (None, 25.4, 25.4), (None, 1.0, 1.0), (Some(1.0), 25.4, 1.0)] {
+        for (rise_mm, is_arc) in [(0.9e-6, false), (1.1e-6, true)] {
+            let mut drawing = Drawing::new(stated.map(|mm| Unit { mm }));
+            drawing.assume_unit(Unit { mm: assumed });
+            let (length, rise) = (10.0, rise_mm / mm);
+            let vertices = vec![crate::drawing::Vertex::new(0.0, 0.0, 2.0 * rise / length), crate::drawing::Vertex::new(length, 0.0, 0.0)];
+            let polyline = drawing.push(super::tests::entity("A", crate::drawing::Geometry::Polyline { closed: false, vertices }));
+            let (radius, half) = (length * length / (8.0 * rise), 4.0 * rise / length);
+            let geometry = crate::drawing::Geometry::Arc {
+                center: Point::new(0.0, radius),
+                radius,
+                start_angle: -PI / 2.0 - half,
+                end_angle: -PI / 2.0 + half,
+            };
+            let arc = drawing.push(super::tests::entity("B", geometry));
+            for id in [polyline, arc] {
+                let segment = drawing.segment(id, 0).expect("a segment");
+                assert_eq!(segment.as_arc().is_some(), is_arc, "{segment:?}");
+            }
+        }
+    }
+}
+
+/// A hole that holds just the wire's centre: it is threaded, and cuts nothing.
+#[test]
+fn where_the_wire_can_only_stand_it_is_threaded() {
+    let side = 2.0 * C;
+    let square: &[[f64; 3]] = &[[3.0, 0.0, 0.0], [3.0 + side, 0.0, 0.0], [3.0 + side, side, 0.0], [3.0, side, 0.0]];
+    let circle: &[[f64; 3]] = &[[3.0, C, 1.0], [3.0 + side, C, 1.0]];
+    let hexagon: Vec<[f64; 3]> = (0..6)
+        .map(|step| {
+            let corner = direction(TAU * f64::from(step) / 6.0) * (C / (PI / 6.0).cos());
+            [3.0 + C + corner.x, C + corner.y, 0.0]
+        })
+        .collect();
+    for outline in [square, circle, &hexagon] {
+        let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
+        let paths = plan(&drawing, &outlines, &defaults(), None).expect("a path");
+        assert!(paths[0].segments.is_empty(), "{}", shown(&paths[0]));
+        assert!((paths[0].thread_hole - Point::new(3.0 + C, C)).norm() < 1e-6, "{paths:?}");
+        let program = crate::program::three_b::write(&paths, 1.0, &defaults()).expect("a program");
+        assert_eq!((program.blocks, program.text.as_str()), (0, "DD\n"));
+        let elsewhere = Effective { thread: at(3.05, 0.05), ..defaults() };
+        assert!(matches!(plan(&drawing, &outlines, &elsewhere, None), Err(Refusal::Findings(found)) if found[0].rule == Rule::LeadIn));
+    }
+}
+
+/// A slot that is just as wide as the wire, alone: out and back once.
+#[test]
+fn a_slot_of_the_wire_alone_is_cut_out_and_back() {
+    let slot: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [8.0, 2.0 * C, 0.0], [0.0, 2.0 * C, 0.0]];
+    let round: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [8.0, 0.0, 1.0], [8.0, 2.0 * C, 0.0], [0.0, 2.0 * C, 1.0]];
+    for (outline, from, to) in [(slot, C, 8.0 - C), (round, 0.0, 8.0)] {
+        let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
+        let path = plan(&drawing, &outlines, &defaults(), None).expect("a path").remove(0);
+        let pieces: Vec<PathSegment> = path.segments.clone();
+        let length: f64 = pieces.iter().map(|piece| piece.geometry.length()).sum();
+        assert!((length - 2.0 * (to - from)).abs() < 1e-6, "{}", shown(&path));
+        assert!(pieces.iter().all(|piece| (piece.geometry.end().y - C).abs() < 1e-9), "{}", shown(&path));
+        assert!(crate::program::three_b::write(&[path], 1.0, &defaults()).is_ok());
+    }
+}
+
+/// What has no path is an error at its place.
+#[test]
+fn a_refusal_for_the_geometry_is_an_error_at_its_place() {
+    let square: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0], [0.0, 10.0, 0.0]];
+    let bottle: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [10.0, 0.0, 0.0],
+        [10.0, 5.0, 0.0],
+        [5.05, 5.0, 0.0],
+        [5.05, 6.0, 0.0],
+        [8.0, 6.0, 0.0],
+        [8.0, 9.0, 0.0],
+        [2.0, 9.0, 0.0],
+        [2.0, 6.0, 0.0],
+        [4.95, 6.0, 0.0],
+        [4.95, 5.0, 0.0],
+        [0.0, 5.0, 0.0],
+    ];
+    for (outline, correction, rule) in [(square, 5.5, Rule::OffsetCollapse), (bottle, 0.1, Rule::LostPocket)] {
+        let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
+        for compensation in [Compensation::Path, Compensation::Controller] {
+            let settings = Effective { correction, compensation, ..defaults() };
+            match plan(&drawing, &outlines, &settings, None) {
+                Err(Refusal::Findings(found)) => {
+                    assert_eq!(found[0].rule, rule);
+                    assert!(matches!(found[0].place, Place::Segment { .. }));
+                    if let Detail::LostPocket { near } = found[0].detail {
+                        assert!(near.y > 6.0, "{near:?}");
+                    }
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tip_that_would_come_near_a_wall_is_rolled_about() {
+    // The wall at x = 10.35 leaves room for the roll about (10, 5), but not for the tip.
+    let outline: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [10.0, 5.0, 0.0],
+        [0.0, 10.0, 0.0],
+        [0.0, 12.0, 0.0],
+        [10.205, 12.0, 0.0],
+        [10.205, -2.0, 0.0],
+        [0.0, -2.0, 0.0],
+        [-3.0, -2.0, 0.0],
+        [-3.0, 0.0, 0.0],
+    ];
+    for corner in [Corner::Arc, Corner::Intersection] {
+        let settings = Effective { corner, ..unled(outline, Direction::AsDrawn) };
+        assert_eq!(wrong(outline, Role::Opening, &settings), None);
+    }
+}

@@ -1,0 +1,184 @@
+//! The path found from all places where raw offsets cross, for contours on which cutting neighbour with neighbour is not enough.
+//!
+//! Every raw element is cut where another one crosses it; what keeps clear of the walls stays, and is followed from end to end
+//! in the order of the contour. What comes of it are the edges of all regions in which the wire's centre may be.
+
+use super::corners::{Element, between, close_up};
+use super::proof::Proof;
+use crate::geometry::{Point, Segment};
+use rustc_hash::FxHashMap;
+
+/// A stretch of a raw element that keeps clear of all walls, between two nodes.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    raw: usize,
+    from: usize,
+    to: usize,
+    is_alive: bool,
+}
+
+/// Closed ways of pieces, each with the index of its raw element.
+pub(super) type Loops = Vec<Vec<(usize, Element)>>;
+
+/// What there is for the wire's centre.
+pub(super) enum Found {
+    /// All closed ways.
+    Loops(Loops),
+    /// None, but it can stand here.
+    Point(Point),
+    Nothing,
+    /// Pieces do not lead on from each other at this raw element.
+    Torn(usize),
+    Cancelled,
+}
+
+/// Elements that are looked at between two questions whether the path is still wanted.
+const STEP: usize = 256;
+
+pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
+    let mut nodes = Nodes { cell: 8.0 * proof.rounding, near: 0.2 * proof.rounding, points: Vec::new(), cells: FxHashMap::default() };
+    let mut stretches: Vec<Stretch> = Vec::new();
+    let clear = |point: Point| proof.own.nearer(point, proof.correction - proof.rounding).is_none();
+    let mut stand = None;
+    for (raw, element) in proof.raw.elements.iter().enumerate() {
+        if raw % STEP == 0 && !goes_on() {
+            return Found::Cancelled;
+        }
+        let geometry = &element.geometry;
+        let cuts = proof.cuts(raw, geometry);
+        let mut last = nodes.at(geometry.start());
+        let mut share = 0.0;
+        for &cut in &cuts[1..] {
+            let node = nodes.at(if cut == 1.0 { geometry.end() } else { geometry.point_at(cut) });
+            // Both ends of a full turn are one node.
+            let runs = node != last || (cut - share) * geometry.length() > 8.0 * proof.rounding;
+            if runs {
+                if clear(geometry.point_at((share + cut) / 2.0)) {
+                    stretches.push(Stretch { raw, from: last, to: node, is_alive: true });
+                }
+                share = cut;
+            }
+            last = node;
+        }
+        if stand.is_none() && stretches.is_empty() {
+            stand = cuts.iter().map(|&cut| geometry.point_at(cut)).find(|&point| clear(point));
+        }
+    }
+    prune(&mut stretches, nodes.points.len());
+    match (followed(proof, &stretches, &nodes), stand) {
+        (Err(raw), _) => Found::Torn(raw),
+        (Ok(loops), _) if !loops.is_empty() => Found::Loops(loops),
+        (_, Some(point)) => Found::Point(point),
+        _ => Found::Nothing,
+    }
+}
+
+/// Takes out what nothing leads to or from: stretches that are clear only by what counts as rounding.
+fn prune(stretches: &mut [Stretch], nodes: usize) {
+    let (mut coming, mut going) = (vec![0_u32; nodes], vec![0_u32; nodes]);
+    let mut at: Vec<Vec<u32>> = vec![Vec::new(); nodes];
+    for (index, stretch) in stretches.iter().enumerate() {
+        coming[stretch.to] += 1;
+        going[stretch.from] += 1;
+        at[stretch.from].push(index as u32);
+        at[stretch.to].push(index as u32);
+    }
+    let mut waiting: Vec<usize> = (0..nodes).filter(|&node| (coming[node] == 0) != (going[node] == 0)).collect();
+    while let Some(node) = waiting.pop() {
+        if coming[node] > 0 && going[node] > 0 {
+            continue;
+        }
+        for &index in &at[node] {
+            let stretch = &mut stretches[index as usize];
+            if std::mem::replace(&mut stretch.is_alive, false) {
+                going[stretch.from] -= 1;
+                coming[stretch.to] -= 1;
+                waiting.extend([stretch.from, stretch.to].into_iter().filter(|&other| other != node));
+            }
+        }
+    }
+}
+
+/// The stretches one after another: each leads on to the next one in the order of the contour that begins where it ends, so that
+/// ways that touch are one. Where it does not come out, the raw element.
+fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops, usize> {
+    let alive: Vec<usize> = (0..stretches.len()).filter(|&index| stretches[index].is_alive).collect();
+    let mut beginning: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
+    for &index in &alive {
+        beginning.entry(stretches[index].from).or_default().push(index);
+    }
+    let mut is_done = vec![false; stretches.len()];
+    let mut loops = Loops::new();
+    for &first in &alive {
+        if is_done[first] {
+            continue;
+        }
+        let mut pieces: Vec<(usize, Element)> = Vec::new();
+        let mut here = first;
+        loop {
+            if std::mem::replace(&mut is_done[here], true) {
+                return Err(stretches[here].raw);
+            }
+            let Stretch { raw, from, to, .. } = stretches[here];
+            append(proof, &mut pieces, raw, nodes.points[from], nodes.points[to]);
+            let Some(next) = beginning.get(&to).and_then(|list| list.get(list.partition_point(|&other| other <= here)).or(list.first()))
+            else {
+                return Err(raw);
+            };
+            here = *next;
+            if here == first {
+                break;
+            }
+        }
+        let head = pieces.first().map(|(_, element)| element.geometry.start());
+        if let (Some(head), Some((_, last))) = (head, pieces.last_mut()) {
+            close_up(last, head);
+        }
+        loops.push(pieces);
+    }
+    Ok(loops)
+}
+
+/// Adds a stretch of a raw element, to the last piece where that is the stretch before it.
+fn append(proof: &Proof, pieces: &mut Vec<(usize, Element)>, raw: usize, start: Point, end: Point) {
+    let element = proof.raw.elements[raw];
+    let start = match pieces.last() {
+        Some((last, piece)) if *last == raw && piece.geometry.end() == start => {
+            let begun = piece.geometry.start();
+            pieces.pop();
+            begun
+        }
+        _ => start,
+    };
+    let geometry = match element.geometry {
+        Segment::Arc(arc) if arc.is_full_turn() && start == end => element.geometry,
+        whole => between(&whole, start, end),
+    };
+    pieces.push((raw, Element { geometry, ..element }));
+}
+
+/// Points that are told apart only when they are further from each other than rounding.
+struct Nodes {
+    cell: f64,
+    near: f64,
+    points: Vec<Point>,
+    cells: FxHashMap<(i64, i64), Vec<usize>>,
+}
+
+impl Nodes {
+    fn at(&mut self, point: Point) -> usize {
+        let place = |offset: f64| (((point.x + offset) / self.cell).floor() as i64, ((point.y + offset) / self.cell).floor() as i64);
+        let (low, high) = (place(-self.near), place(self.near));
+        for x in low.0..=high.0 {
+            for y in low.1..=high.1 {
+                let known = self.cells.get(&(x, y)).into_iter().flatten();
+                if let Some(&node) = known.into_iter().find(|&&node| (self.points[node] - point).norm() <= self.near) {
+                    return node;
+                }
+            }
+        }
+        self.points.push(point);
+        self.cells.entry(place(0.0)).or_default().push(self.points.len() - 1);
+        self.points.len() - 1
+    }
+}

@@ -1,0 +1,154 @@
+//! Whether a path is that of the wire: nowhere nearer to the contour than the correction, everywhere at it, and nothing missing.
+//!
+//! A place of the wire's centre lies on the edge of where it may be when no wall is nearer than the correction and one is just
+//! that far away. Every such place is on the raw offset of a wall or on the way round a corner. So a path is right when all of it is
+//! such places, and when of what was cut off the raw elements none is.
+
+use super::clearance::Walls;
+use super::corners::{Element, Raw, meetings};
+use super::offset::Wall;
+use crate::geometry::{Point, Segment};
+use std::sync::OnceLock;
+
+/// What the offset of one contour is held against. Lengths in drawing units.
+pub(super) struct Proof<'a> {
+    pub walls: &'a [Wall],
+    pub raw: &'a Raw,
+    /// The walls once more, to ask what is near.
+    pub own: &'a Walls,
+    pub correction: f64,
+    /// How far a path may be off by rounding.
+    pub rounding: f64,
+    /// The raw elements, to ask what is near.
+    pub near_raw: OnceLock<Walls>,
+}
+
+/// The path cannot be vouched for, near this wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Unproved {
+    pub wall: usize,
+}
+
+impl Proof<'_> {
+    /// Some pieces of a path: nowhere nearer to a wall than the correction, and at it from their own.
+    pub fn pieces_hold(&self, pieces: &[(usize, Element)]) -> Result<(), Unproved> {
+        for (_, element) in pieces {
+            let geometry = &element.geometry;
+            if let Some(wall) = self.own.too_near(geometry, self.correction - self.rounding) {
+                return Err(Unproved { wall });
+            }
+            let own = &self.walls[element.wall].geometry;
+            let is_off = |point: Point| own.distance_to(point) > self.correction + self.rounding;
+            if [0.0, 0.5, 1.0].iter().any(|&share| is_off(geometry.point_at(share))) {
+                return Err(Unproved { wall: element.wall });
+            }
+        }
+        Ok(())
+    }
+
+    /// Nothing that was cut off is a place of the path: what is left out of the raw elements `range` is too near to some wall.
+    /// `by_raw` are all pieces of the path in the order of the raw elements.
+    pub fn nothing_is_missing(&self, by_raw: &[(usize, Element)], range: std::ops::Range<usize>) -> Result<(), Unproved> {
+        let mut next = by_raw.partition_point(|(raw, _)| *raw < range.start);
+        for index in range {
+            let element = &self.raw.elements[index];
+            let length = element.geometry.length();
+            let first = next;
+            while by_raw.get(next).is_some_and(|(raw, _)| *raw == index) {
+                next += 1;
+            }
+            let beside = [first.checked_sub(1).unwrap_or(by_raw.len().saturating_sub(1)), next % by_raw.len().max(1)];
+            let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
+            let mut done = 0.0;
+            let shares = |piece: &(usize, Element)| {
+                let share = |point| element.geometry.share_of(point).clamp(0.0, 1.0);
+                match piece.1.geometry {
+                    // Both ends of a full turn are one point.
+                    Segment::Arc(arc) if arc.is_full_turn() => (0.0, 1.0),
+                    geometry => (share(geometry.start()), share(geometry.end())),
+                }
+            };
+            for (from, to) in by_raw[first..next].iter().map(shares).chain([(1.0, 1.0)]) {
+                if (from - done) * length > 2.0 * self.rounding && self.is_missing(index, done, from, beside, &by_raw[first..next]) {
+                    return Err(Unproved { wall: element.wall });
+                }
+                done = to;
+            }
+        }
+        Ok(())
+    }
+
+    /// True when a stretch of a raw element has places of the path in it that lie beside what is there of the path.
+    fn is_missing(&self, index: usize, from: f64, to: f64, beside: [Option<&Element>; 2], same: &[(usize, Element)]) -> bool {
+        let stretch = self.raw.elements[index].geometry.part(from, to);
+        // Most is cut off at a corner, by the wall that comes next.
+        let takes_all = |element: &&Element| {
+            let wall = &self.walls[element.wall].geometry;
+            matches!(wall, Segment::Line(_)) && is_all_within(&stretch, wall, self.correction)
+        };
+        if beside.iter().flatten().any(takes_all) {
+            return false;
+        }
+        let is_there = |point: Point| {
+            let of_path = beside.into_iter().flatten().chain(same.iter().map(|(_, element)| element));
+            let mut distances = of_path.map(|element| element.geometry.distance_to(point));
+            distances.any(|distance| distance <= 2.0 * self.rounding)
+        };
+        let cuts = self.cuts(index, &stretch);
+        cuts.windows(2).any(|pair| {
+            let middle = stretch.point_at((pair[0] + pair[1]) / 2.0);
+            (pair[1] - pair[0]) * stretch.length() > 2.0 * self.rounding
+                && self.own.nearer(middle, self.correction - 1e-3 * self.rounding).is_none()
+                && !is_there(middle)
+        })
+    }
+
+    /// Shares of a stretch of a raw element at which other raw elements cross it or end on it, with 0 and 1, rising. Between two of
+    /// them either all places keep clear of the walls or none.
+    pub fn cuts(&self, index: usize, stretch: &Segment) -> Vec<f64> {
+        let length = stretch.length();
+        let mut cuts = vec![0.0, 1.0];
+        let slack = self.rounding * 1e-2;
+        let is_on = |segment: &Segment, point: Point| {
+            let share = segment.share_of(point);
+            let beyond = (-share).max(share - 1.0) * segment.length();
+            beyond <= slack
+        };
+        let mut cut_by = |other: usize| {
+            let segment = &self.raw.elements[other].geometry;
+            if other == index || segment.length() == 0.0 {
+                return false;
+            }
+            let crossings = meetings(stretch, segment).into_iter().filter(|&point| is_on(segment, point));
+            let ends = [segment.start(), segment.end()].into_iter().filter(|&end| stretch.distance_to(end) <= slack);
+            let points = crossings.chain(ends).filter(|&point| is_on(stretch, point));
+            cuts.extend(points.map(|point| stretch.share_of(point).clamp(0.0, 1.0)));
+            false
+        };
+        let near_raw = self.near_raw.get_or_init(|| Walls::new(self.raw.elements.iter().map(|element| element.geometry).collect()));
+        if length > 0.0 {
+            near_raw.find(&stretch.bounds().grown(slack), &mut cut_by);
+        }
+        cuts.sort_by(f64::total_cmp);
+        cuts
+    }
+}
+
+/// True when a stretch lies within `distance` of a straight wall, all but its ends nearer than that.
+///
+/// The distance from a line is convex: it is nowhere larger than at the corners of what the stretch lies within.
+fn is_all_within(stretch: &Segment, wall: &Segment, distance: f64) -> bool {
+    let within = |point: Point| wall.distance_to(point) <= distance * (1.0 + 1e-9);
+    let apex = match stretch {
+        Segment::Line(_) => None,
+        Segment::Arc(arc) if arc.sweep.abs() > 2.0 => return false,
+        Segment::Arc(arc) => {
+            let middle = arc.point_at(0.5) - arc.center;
+            Some(arc.center + middle / (arc.sweep / 2.0).cos())
+        }
+    };
+    wall.distance_to(stretch.point_at(0.5)) < distance * (1.0 - 1e-7)
+        && within(stretch.start())
+        && within(stretch.end())
+        && apex.is_none_or(within)
+}
