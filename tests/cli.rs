@@ -532,3 +532,18 @@ fn a_new_drawing_holds_the_contours_and_the_path_of_the_wire() {
     let segments = contour["entities"][0]["segments"].as_array().unwrap().len();
     assert_eq!((layers("DIE"), layers("WIRE")), (1, segments + 3));
 }
+
+/// A line costs what it is long, whatever stands in it: each of these took minutes when every word looked at the rest of the line.
+#[test]
+fn one_long_line_is_formatted_as_fast_as_many_short_ones() {
+    let desk = Desk::new();
+    for (ending, piece) in
+        [("3b", "D "), ("3b", "B"), ("3b", "b1000b0b1000gxl1"), ("3b", "1.5 "), ("3b", "ab B1 "), ("iso", "g01x1y1 "), ("iso", "(a)")]
+    {
+        desk.write(&format!("long.{ending}"), piece.repeat(200_000 / piece.len()));
+        let begun = std::time::Instant::now();
+        let ended = desk.run(&format!("format --check --layout aligned long.{ending}"));
+        assert!(matches!(ended.code, Some(0 | 1)), "{piece:?}: {ended:?}");
+        assert!(begun.elapsed() < std::time::Duration::from_secs(60), "{piece:?} took {:?}", begun.elapsed());
+    }
+}

@@ -28,12 +28,20 @@ namespace Wedm.Core
         {
             if (!string.IsNullOrWhiteSpace(setting))
             {
-                return File.Exists(setting)
-                    ? setting
+                if (!IsFull(setting.Trim()))
+                {
+                    throw new ServerMissingException("the setting WEDM_SERVER is \"" + setting + "\", expected a full path");
+                }
+                return File.Exists(setting.Trim())
+                    ? setting.Trim()
                     : throw new ServerMissingException("the setting WEDM_SERVER names \"" + setting + "\", and there is no such file");
             }
             foreach (var folder in Folders(besides, searchPath, home))
             {
+                if (!IsFull(folder))
+                {
+                    continue;
+                }
                 string candidate;
                 try
                 {
@@ -51,6 +59,21 @@ namespace Wedm.Core
             throw new ServerMissingException(
                 ProgramName + " was not found beside the plugin (" + besides + "), on the PATH or in .cargo/bin: install it with \"cargo install --path .\" "
                 + "in a checkout of wedm, or copy " + ProgramName + " into that folder, or set WEDM_SERVER to its full path");
+        }
+
+        /// <summary>
+        /// Whether a path leads to one place from wherever CAD works. What is relative leads into the folder of the drawing, and what begins with
+        /// a drive or a slash alone, on Windows, to where the last one was: a program there is anybody's.
+        /// </summary>
+        private static bool IsFull(string path)
+        {
+            bool IsSeparator(char character) => character == '\\' || character == '/';
+            if (!IsWindows)
+            {
+                return path.Length > 0 && path[0] == '/';
+            }
+            var hasDrive = path.Length > 2 && char.IsLetter(path[0]) && path[1] == ':' && IsSeparator(path[2]);
+            return hasDrive || (path.Length > 2 && IsSeparator(path[0]) && IsSeparator(path[1]));
         }
 
         private static IEnumerable<string> Folders(string besides, string searchPath, string home)

@@ -44,6 +44,26 @@ namespace Wedm.Tests
         }
 
         [Test]
+        public void A_relative_folder_of_the_path_is_passed_over()
+        {
+            var before = Directory.GetCurrentDirectory();
+            Directory.SetCurrentDirectory(_root);
+            try
+            {
+                foreach (var relative in new[] { "path", ".", "./path", " path ", "\"path\"", "../" + Path.GetFileName(_root) + "/path" })
+                {
+                    Assert.Throws<ServerMissingException>(() => ServerLocator.Find(null, "", relative + Path.PathSeparator, ""), relative);
+                    Assert.AreEqual(In("beside"), ServerLocator.Find(null, "", relative + Path.PathSeparator + Path.Combine(_root, "beside"), ""));
+                }
+                Assert.Throws<ServerMissingException>(() => ServerLocator.Find(Path.Combine("path", ServerLocator.ProgramName), "", "", ""));
+            }
+            finally
+            {
+                Directory.SetCurrentDirectory(before);
+            }
+        }
+
+        [Test]
         public void A_missing_server_is_said_with_the_way_to_get_it()
         {
             var fault = Assert.Throws<ServerMissingException>(() => ServerLocator.Find(null, Path.Combine(_root, "empty"), "", _root));

@@ -105,6 +105,31 @@ def test_no_server_at_all_is_given_up() -> None:
         pass
 
 
+def test_a_wrong_settings_file_is_a_warning(data: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    (tmp_path / "wedm.toml").write_text("margin = 0.002\ncorrection = -2\n", encoding="utf-8")
+    (tmp_path / "plate.dxf").write_bytes((data / "tight.dxf").read_bytes())
+    with Server() as server:
+        server.diagnostics(server.open(tmp_path / "plate.dxf"))
+        server.settings(server.open([Polyline(TIGHT, handle="2A")]))
+    said = [record.getMessage() for record in caplog.records if record.name == "wedm_client"]
+    assert len(said) == 1 and "wedm.toml:2: " in said[0] and "correction is -2" in said[0]
+
+
+def test_a_relative_folder_of_the_path_is_passed_over(nowhere: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (nowhere / "bin").mkdir(parents=True, exist_ok=True)
+    program = nowhere / "bin" / "wedm"
+    program.write_text("#!/bin/sh\n", encoding="utf-8")
+    program.chmod(0o755)
+    monkeypatch.chdir(nowhere)
+    monkeypatch.setenv("PATH", os.pathsep.join(["bin", ".", ""]))
+    with pytest.raises(ServerNotFound):
+        find()
+    with pytest.raises(ServerNotFound):
+        find("wedm")
+    monkeypatch.setenv("PATH", os.pathsep.join(["bin", str(nowhere / "bin")]))
+    assert find() == [str(program)]
+
+
 def rules(server: Server, drawing: Any) -> list[str]:
     return [f"{one.handle} {one.rule}" for one in server.diagnostics(drawing) if one.severity == "error"]
 

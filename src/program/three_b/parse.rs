@@ -46,6 +46,13 @@ impl Words<'_> {
         (is("D") || is("A")).then_some(Word::Pause)
     }
 
+    /// The letters and digits that `text` begins with, as far as a word may reach.
+    pub(super) fn letters_of<'t>(&self, text: &'t [u8]) -> &'t [u8] {
+        let longest = self.pause.len().max(self.end.len()).max(2);
+        let near = &text[..text.len().min(longest + 1)];
+        &near[..near.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(near.len())]
+    }
+
     /// True for the two words that the settings name.
     fn is_own(&self, word: &[u8]) -> bool {
         [self.pause, self.end].iter().any(|own| word.eq_ignore_ascii_case(own.as_bytes()))
@@ -499,7 +506,7 @@ pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
 
 /// Whether text has enough of a block to be taken for a broken one.
 fn wants_to_be_a_block(text: &[u8]) -> bool {
-    let code = &text[..text.iter().position(|&byte| byte == b';').unwrap_or(text.len()).min(160)];
+    let code = before_comment(&text[..text.len().min(160)]);
     let followed_by = |first: &[u8], fits: fn(u8) -> bool| {
         let mut count = 0;
         for (at, byte) in code.iter().enumerate() {
@@ -528,9 +535,14 @@ pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
     two_numbers(before_comment(value))
 }
 
-/// What stands before a `;`.
+/// Nothing that is looked for from one place of a line on is longer, names and coordinates among spaces included: a line of a megabyte is
+/// read as fast as one of its length may be.
+const FARTHEST: usize = 1024;
+
+/// What stands before a `;`, of a longer text its first [`FARTHEST`] bytes.
 pub(super) fn before_comment(text: &[u8]) -> &[u8] {
-    text.split(|&byte| byte == b';').next().unwrap_or_default()
+    let near = &text[..text.len().min(FARTHEST)];
+    &near[..memchr::memchr(b';', near).unwrap_or(near.len())]
 }
 
 /// `x , y` or `x y`, and nothing else, mm.
@@ -540,6 +552,9 @@ pub(super) fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
 
 /// `x , y`, `x y`, `X=x Y=y`, in brackets or not, and nothing else.
 fn stated_point(text: &[u8]) -> Option<StatedPoint> {
+    if text.len() >= FARTHEST {
+        return None;
+    }
     let text = std::str::from_utf8(text).ok()?;
     let is_between =
         |c: char| matches!(c, ',' | '(' | ')' | '[' | ']' | '=' | ':' | 'X' | 'Y' | 'x' | 'y' | '|') || c.is_ascii_whitespace();

@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
+#include <QStringList>
 
 namespace wedm {
 
@@ -27,6 +28,17 @@ bool runs(const QString &path)
     return file.isFile() && file.isExecutable();
 }
 
+/// The folders of PATH. A relative one leads wherever LibreCAD was started, as in the folder of a drawing: it is passed over.
+QStringList foldersOfPath()
+{
+    QStringList folders;
+    for (const QString &folder : qEnvironmentVariable("PATH").split(QDir::listSeparator(), Qt::SkipEmptyParts)) {
+        if (QDir::isAbsolutePath(folder))
+            folders += folder;
+    }
+    return folders;
+}
+
 } // namespace
 
 QString findProgram(const ProgramSearch &search, QString *message)
@@ -44,7 +56,8 @@ QString findProgram(const ProgramSearch &search, QString *message)
         if (!search.pluginFolder.isEmpty() && runs(beside))
             return beside;
     }
-    const QString onPath = QStandardPaths::findExecutable(NAME);
+    const QStringList folders = foldersOfPath();
+    const QString onPath = folders.isEmpty() ? QString() : QStandardPaths::findExecutable(NAME, folders);
     if (!onPath.isEmpty())
         return onPath;
     // A desktop starts programs without the PATH of the user's shell, so cargo's folder is asked by name.

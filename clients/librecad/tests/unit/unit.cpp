@@ -328,6 +328,14 @@ private slots:
             return found.isEmpty() ? message : found;
         };
         const QString nowhere = look("");
+        // A relative folder of PATH leads wherever LibreCAD was started.
+        const QString workedIn = QDir::currentPath();
+        QDir::setCurrent(path.path());
+        QDir(path.path()).mkpath("bin");
+        QFile::copy("/bin/true", path.filePath("bin/wedm"));
+        qputenv("PATH", "bin:./bin::" + path.path().toLocal8Bit());
+        const QString relative = look("");
+        QDir::setCurrent(workedIn);
         const QString ofCargo = home.filePath(".cargo/bin/wedm");
         QDir(home.path()).mkpath(".cargo/bin");
         QDir(beside.path()).mkpath("wedm-server");
@@ -343,6 +351,7 @@ private slots:
         qputenv("HOME", oldHome);
         QCOMPARE(found, places);
         QCOMPARE(set, QString("/bin/true"));
+        QCOMPARE(relative, nowhere);
         QVERIFY2(nowhere.contains("cargo install") && nowhere.contains(beside.path()), qPrintable(nowhere));
         QVERIFY2(wrong.contains("/no/such/wedm") && wrong.contains("cargo install"), qPrintable(wrong));
     }

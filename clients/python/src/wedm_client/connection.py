@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import collections
+import logging
 import os
 import threading
 from collections.abc import Callable, Coroutine, Mapping, Sequence
@@ -25,6 +26,8 @@ PROTOCOL = 1
 
 CONTENT_MODIFIED = -32801
 REQUEST_FAILED = -32803
+
+LOG = logging.getLogger("wedm_client")
 
 T = TypeVar("T")
 

@@ -41,7 +41,7 @@ def find(command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | No
     for candidate in beside:
         if os.access(candidate, os.X_OK) and candidate.is_file():
             return [str(candidate)]
-    on_path = shutil.which("wedm")
+    on_path = _on_path("wedm")
     if on_path is not None:
         return [on_path]
     installed = Path.home() / ".cargo/bin" / name
@@ -52,7 +52,14 @@ def find(command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | No
 
 
 def _program(named: str, by: str) -> str:
-    found = shutil.which(os.path.expanduser(named))
+    is_bare = not os.path.dirname(named)
+    found = _on_path(named) if is_bare else shutil.which(os.path.expanduser(named))
     if found is None:
         raise ServerNotFound(f"{by} names {named}, and there is no program there; {HOW_TO_GET_IT}")
     return found
+
+
+def _on_path(name: str) -> str | None:
+    """A program in a folder of the PATH. One that is relative leads wherever somebody works: it is passed over."""
+    folders = [folder for folder in os.environ.get("PATH", "").split(os.pathsep) if os.path.isabs(folder)]
+    return next((found for folder in folders if (found := shutil.which(os.path.join(folder, name))) is not None), None)

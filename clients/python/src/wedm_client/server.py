@@ -21,7 +21,7 @@ from typing import Any, Literal, Union
 from lsprotocol import types
 
 from . import cad
-from .connection import CONTENT_MODIFIED, Connection, Died, Loop
+from .connection import CONTENT_MODIFIED, LOG, Connection, Died, Loop
 from .convert import converted
 from .documents import LANGUAGES, Document, Drawing, TextDocument, read_text
 from .entities import Change, Delete, Put, Splice, change_from_json
@@ -75,7 +75,8 @@ class Server:
     """A language server of wedm, as a context manager.
 
     :param command: the program, or the program with its arguments; without it see :func:`wedm_client.find`.
-    :param settings: settings for all documents; a ``wedm.toml`` above a file wins over them.
+    :param settings: settings for all documents; a ``wedm.toml`` above a file wins over them. What is wrong in one is a warning of
+        the logger ``wedm_client``.
     :param folder: where ``wedm.toml`` is looked for on behalf of drawings that are no files; the current folder by default.
     :param timeout: seconds that an answer may take.
     :raises ServerNotFound: there is no program.
@@ -103,6 +104,7 @@ class Server:
         self._documents: dict[str, Document] = {}
         self._published: dict[str, _Published] = {}
         self._closed_at: dict[str, int] = {}
+        self._warned: set[str] = set()
         self._connection: Connection | None = None
         self._loop: Loop | None = None
         self._deaths: list[float] = []
@@ -575,9 +577,20 @@ class Server:
     def _publish(self, connection: Connection, params: Mapping[str, Any]) -> None:
         with self._state:
             # What a server that has died still had in its pipe is about documents that were opened anew since.
-            if connection is self._connection and params["uri"] in self._documents:
+            if params["uri"] not in self._documents:
+                self._warn_of(params)
+            elif connection is self._connection:
                 self._published[params["uri"]] = _Published(params.get("version"), params["diagnostics"])
                 self._state.notify_all()
+
+    def _warn_of(self, params: Mapping[str, Any]) -> None:
+        """What is wrong in a ``wedm.toml``, which nobody has opened, is said once."""
+        for diagnostic in params["diagnostics"]:
+            line = diagnostic["range"]["start"]["line"] + 1
+            said = f"{params['uri']}:{line}: {diagnostic['message']}"
+            if params["uri"].endswith("/wedm.toml") and said not in self._warned:
+                self._warned.add(said)
+                LOG.warning("%s", said)
 
     def _resend(self, uri: str) -> dict[str, Any]:
         with self._state:

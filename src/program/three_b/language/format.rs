@@ -273,13 +273,14 @@ impl Writer<'_> {
         }
         let mut head = Vec::with_capacity(64);
         let mut last_block = None;
+        let mut ordinal = self.ordinal;
         for (index, (item, &stated)) in self.items.iter().zip(self.stated).enumerate() {
             if index > 0 {
                 head.extend_from_slice(line_end.as_bytes());
             }
             match item {
                 Item::Block { block, number, range, part, .. } => {
-                    let ordinal = self.ordinal + 1 + self.blocks_before(index);
+                    ordinal += 1;
                     let numbers = (*number, ordinal);
                     self.push_block(&mut head, (block, part.as_ref()), numbers, stated, self.coordinates_behind(line, range.end))?;
                     last_block = Some(block);
@@ -309,10 +310,6 @@ impl Writer<'_> {
         let formed = Formed { from, head: String::from_utf8(head).ok()?, kept };
         let is_same = formed.from == from && end == line.len() && line.get(from..formed.kept.start) == Some(formed.head.as_bytes());
         (!is_same && self.reads_the_same(line, &formed)).then_some(formed)
-    }
-
-    fn blocks_before(&self, index: usize) -> u64 {
-        count_blocks(&self.items[..index])
     }
 
     fn push_number(&self, head: &mut Vec<u8>, number: u32) -> Option<()> {
@@ -361,7 +358,7 @@ impl Writer<'_> {
 
     /// The coordinates as they stand behind a block that ends at `end`.
     fn coordinates_behind<'l>(&self, line: &'l [u8], end: usize) -> &'l [u8] {
-        let piece = self.pieces.iter().find(|piece| piece.range.start >= end);
+        let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.range.start < end));
         piece.filter(|piece| piece.field == Field::Coordinates).and_then(|piece| line.get(piece.range.clone())).unwrap_or_default()
     }
 

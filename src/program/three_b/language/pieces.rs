@@ -199,7 +199,7 @@ impl Cutter<'_> {
 
     /// True when the letters and digits at the cursor are a pause or end word.
     fn is_word(&self, words: &Words<'_>) -> bool {
-        words.meaning(alphanumeric(&self.line[self.at..])).is_some()
+        words.meaning(words.letters_of(&self.line[self.at..])).is_some()
     }
 
     /// The number of a row: `12 `, `12.`, `12:`, `12)`, `(12)`, with a block behind it.
@@ -230,8 +230,9 @@ impl Cutter<'_> {
     }
 
     fn word(&mut self, words: &Words<'_>, rest: &[u8], start: usize) -> Field {
-        if let Some(word) = words.meaning(alphanumeric(rest)) {
-            self.at += alphanumeric(rest).len();
+        let letters = words.letters_of(rest);
+        if let Some(word) = words.meaning(letters) {
+            self.at += letters.len();
             self.block = Expected::Nothing;
             return match word {
                 Word::Pause => Field::Pause,
@@ -274,10 +275,6 @@ impl Cutter<'_> {
         self.at = start + length.max(1);
         Field::Strange
     }
-}
-
-fn alphanumeric(text: &[u8]) -> &[u8] {
-    &text[..text.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(text.len())]
 }
 
 #[cfg(test)]
