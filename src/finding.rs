@@ -575,6 +575,21 @@ pub enum FixKind {
     },
     /// A block becomes one that ends at the coordinates behind it.
     FollowCoordinates,
+    /// X and Y of a block change places.
+    ExchangeXAndY,
+    /// A block that cannot be read becomes `block`.
+    RestoreBlock {
+        block: String,
+    },
+    /// One of two equal blocks goes.
+    DeleteTwin,
+    /// Two blocks in a row change places.
+    ExchangeBlocks,
+    /// A block that is lost is put back: its ends are `length` mm apart.
+    InsertBlock {
+        length: f64,
+        is_arc: bool,
+    },
     /// The `B` that is lost is put back.
     InsertB,
     /// `B25` becomes `N25`.

@@ -138,6 +138,15 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::SetMotion { name } => format!("Set Z to {name}"),
         FixKind::SetCoordinates { at: [x, y] } => format!("Set the coordinates to where the block ends ({x:.3}, {y:.3})"),
         FixKind::FollowCoordinates => "Change the block to end at its coordinates".into(),
+        FixKind::ExchangeXAndY => "Exchange X and Y".into(),
+        FixKind::RestoreBlock { block } => {
+            format!("Write the block as {}", block.split_whitespace().collect::<String>())
+        }
+        FixKind::DeleteTwin => "Delete the block, which stands twice".into(),
+        FixKind::ExchangeBlocks => "Exchange the two blocks".into(),
+        FixKind::InsertBlock { length, is_arc } => {
+            format!("Put the lost {} of {} mm in", if *is_arc { "arc" } else { "line" }, mm(*length))
+        }
         FixKind::InsertB => "Put the lost B back".into(),
         FixKind::NumberWithN => "Write the block number with N".into(),
         FixKind::ZeroForO => "Write a zero for the letter O".into(),

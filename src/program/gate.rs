@@ -92,7 +92,7 @@ fn speaks_for_itself(rule: Rule) -> bool {
 
 /// True for a repair that draws what nobody wrote.
 fn invents(kind: &FixKind) -> bool {
-    matches!(kind, FixKind::Close { .. })
+    matches!(kind, FixKind::Close { .. } | FixKind::InsertBlock { .. })
 }
 
 /// Each of so many edits is made for itself; more are made as one, from the first to the last.
@@ -116,7 +116,7 @@ fn edited(program: &Document, edits: &[TextEdit]) -> Document {
 }
 
 /// True where one key more, less, another or two exchanged make one text of the other.
-pub(super) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
+pub(in crate::program) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
     let head = found.iter().zip(meant).take_while(|(a, b)| a == b).count();
     let (a, b) = (&found[head..], &meant[head..]);
     let tail = a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count();

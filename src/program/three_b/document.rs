@@ -5,6 +5,7 @@
 
 mod fixes;
 mod judge;
+mod repairs;
 mod report;
 mod sections;
 mod walk;

@@ -15,6 +15,7 @@ mod parse;
 mod part;
 mod proof;
 pub mod refactor;
+mod repair;
 mod rules;
 mod run;
 #[cfg(test)]

@@ -16,8 +16,22 @@ use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
 impl Document {
-    /// The fixes of one finding, the preferred one first.
+    /// The fixes of one finding, the preferred one first: what explains the whole contour before what the finding alone suggests.
     pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+        let mut fixes = self.contour_fixes(finding);
+        let found = fixes.len();
+        for fix in self.fixes_of(finding) {
+            if fixes.iter().all(|known| known.edit != fix.edit) {
+                fixes.push(fix);
+            }
+        }
+        if found > 0 {
+            fixes[1..].iter_mut().for_each(|fix| (fix.preferred, fix.in_fix_all) = (false, false));
+        }
+        fixes
+    }
+
+    fn fixes_of(&self, finding: &Finding) -> Vec<TextFix> {
         let Place::Text { range } = &finding.place else { return Vec::new() };
         let fault = match &finding.detail {
             Detail::Program(fault) => fault,
@@ -65,7 +79,7 @@ impl Document {
     }
 
     /// The coordinates that stand behind the block before, or those of the start.
-    fn stated_before(&self, at: At) -> Option<StatedPoint> {
+    pub(super) fn stated_before(&self, at: At) -> Option<StatedPoint> {
         (0..=at.run).rev().find_map(|run| {
             let of = self.runs.get(run)?;
             let end = if run == at.run { at.entry } else { of.entries.len() };

@@ -1,0 +1,534 @@
+//! Which one slip explains what is wrong with a contour, and what undoes it.
+//!
+//! A slip is what a hand or a bad line makes of a program: a digit, X for Y, a lost letter, a block twice, lost or exchanged with the
+//! next. Each that could have been is undone and the contour looked at again: does it close, do the coordinates and the numbers behind
+//! and before the blocks agree, does it run on smoothly. What explains more, with less, stands before the rest.
+//!
+//! The search is bounded by the blocks of the contour: nothing is looked for in longer ones.
+
+mod loose;
+mod slips;
+
+pub(super) use loose::{Loose, loose};
+pub(super) use slips::{Digits, Number, Slip, is_sound};
+
+use super::block::{Block, Motion};
+use super::decode::meant;
+use super::encode::encode;
+use super::parse::StatedPoint;
+use super::rules::Limits;
+use super::rules::not_closed::{is_closed, tolerance};
+use super::rules::path_crosses_itself::crossings;
+use super::rules::position_mismatch::mismatch;
+use super::run::{Move, Sum, travel_of};
+use crate::geometry::{Point, Segment, Vector, turn};
+use crate::program::grid::Node;
+use slips::{Wanted, blocks_to, solved, straight, tangents, with};
+
+/// Contours of fewer blocks say too little, contours of more cost too long to try.
+pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 3..=1000;
+
+/// How far coordinates of three decimals may lie from where a block ends, µm.
+const STATED: f64 = 4.0;
+
+/// Blocks that meet within this angle run smoothly into each other, radians: two degrees, what rounding to µm makes of a small arc.
+const SMOOTH: f64 = 0.035;
+
+/// Repairs that are looked at to the end, and those that are handed out.
+const LOOKED_AT: usize = 400;
+const HANDED_OUT: usize = 4;
+
+/// How much more the second best repair has to ask for, for the best to be sure.
+const CLEARLY: f64 = 0.4;
+
+/// A block of a contour as it stands in the text.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    /// `None` where it cannot be read.
+    pub block: Option<Block>,
+    /// What is left of it then.
+    pub loose: Option<Loose>,
+    /// X, Y and J as they are written.
+    pub digits: [Vec<u8>; 3],
+    pub travel: Move,
+    pub stated: Option<StatedPoint>,
+    pub number: Option<u32>,
+    /// A rule finds a fault in the block for itself.
+    pub is_faulty: bool,
+}
+
+/// What is done to the blocks of a contour, by their index.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Change {
+    Replace { index: usize, block: Block, slip: Slip },
+    /// One of two equal blocks goes.
+    Delete { index: usize },
+    /// The block changes places with the next one.
+    Exchange { index: usize },
+    /// A block comes before another one.
+    Insert { index: usize, block: Block },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Repair {
+    pub change: Change,
+    /// It leaves nothing to be said, and no other one is as likely.
+    pub is_sure: bool,
+    /// Nothing is left to be said of the contour.
+    pub is_whole: bool,
+}
+
+/// What speaks against a contour.
+#[derive(Clone, Copy, Debug, Default)]
+struct Against {
+    unread: usize,
+    faulty: usize,
+    off: usize,
+    out_of_turn: usize,
+    is_open: bool,
+}
+
+impl Against {
+    fn count(&self) -> usize {
+        self.unread + self.faulty + self.off + self.out_of_turn + usize::from(self.is_open)
+    }
+}
+
+/// How the blocks of a contour meet.
+#[derive(Clone, Copy, Debug, Default)]
+struct Joints {
+    smooth: i32,
+    /// Where the wire runs back on the way that it came.
+    doubled: i32,
+    /// Sum of all turns, radians.
+    turns: f64,
+}
+
+/// A block on its way, changed or not.
+#[derive(Clone, Copy)]
+struct Item {
+    travel: Move,
+    is_arc: bool,
+    stated: Option<StatedPoint>,
+    number: Option<u32>,
+    is_unread: bool,
+    is_faulty: bool,
+    tangents: Option<[Vector; 2]>,
+    block: Option<Block>,
+}
+
+/// A contour that something is wrong with.
+pub(super) struct Path<'a> {
+    pub pieces: &'a [Piece],
+    /// What is stated before its first block.
+    pub start: Option<StatedPoint>,
+    pub limits: &'a Limits,
+}
+
+/// What kind of fault is looked for beside wrong blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scope {
+    /// Blocks that are wrong, and blocks twice.
+    Blocks,
+    /// Blocks that are lost or exchanged, too.
+    All,
+}
+
+/// The repairs of a contour, the most likely one first.
+pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
+    let search = Search::of(path);
+    if search.before.count() == 0 && scope == Scope::Blocks {
+        return Vec::new();
+    }
+    let mut found = search.changes(scope);
+    found.truncate(LOOKED_AT);
+    let mut judged: Vec<(usize, f64, Change, Move)> = found.into_iter().filter_map(|(change, cost)| search.judged(change, cost)).collect();
+    judged.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    // Of those that lead the same way the first is the plainest.
+    let mut kept: Vec<(usize, f64, Change, Move)> = Vec::new();
+    let mut crosses_now = None;
+    for (left, cost, change, by) in judged {
+        if kept.len() == HANDED_OUT {
+            break;
+        }
+        if kept.iter().any(|(.., known, to)| at(known) == at(&change) && to.minus(by).is_within(2.5) && is_alike(known, &change)) {
+            continue;
+        }
+        let crosses = search.crosses(Some(&change));
+        let now = *crosses_now.get_or_insert_with(|| search.crosses(None));
+        if crosses && (!now || matches!(change, Change::Exchange { .. })) {
+            continue;
+        }
+        kept.push((left, cost, change, by));
+    }
+    let best = kept.first().map(|(left, cost, ..)| (*left, *cost));
+    let rival = kept.get(1).filter(|(left, ..)| Some(*left) == best.map(|best| best.0)).map(|(_, cost, ..)| *cost);
+    let is_clear = best.is_some_and(|(_, cost)| rival.is_none_or(|rival| rival - cost >= CLEARLY));
+    let made = kept.into_iter().enumerate().map(|(nth, (left, _, change, _))| Repair {
+        change,
+        is_sure: nth == 0 && is_clear && !matches!(change, Change::Insert { .. }),
+        is_whole: left == 0,
+    });
+    made.collect()
+}
+
+fn at(change: &Change) -> usize {
+    match change {
+        Change::Replace { index, .. } | Change::Delete { index } | Change::Exchange { index } | Change::Insert { index, .. } => *index,
+    }
+}
+
+/// True for two changes of one block into lines, or into arcs of one turn.
+fn is_alike(one: &Change, other: &Change) -> bool {
+    let kind = |change: &Change| match change {
+        Change::Replace { block, .. } => Some(std::mem::discriminant(&block.motion)),
+        _ => None,
+    };
+    let radius = |change: &Change| match change {
+        Change::Replace { block, .. } if !matches!(block.motion, Motion::Line(_)) => (block.x as f64).hypot(block.y as f64),
+        _ => 0.0,
+    };
+    std::mem::discriminant(one) == std::mem::discriminant(other) && kind(one) == kind(other) && (radius(one) - radius(other)).abs() <= 3.0
+}
+
+struct Search<'a> {
+    path: &'a Path<'a>,
+    items: Vec<Item>,
+    before: Against,
+    joints: Joints,
+    arcs: usize,
+    /// The usual step of the numbers, where the blocks have numbers.
+    step: Option<u32>,
+    /// The way out is the way in backwards.
+    is_mirrored: bool,
+}
+
+impl<'a> Search<'a> {
+    fn of(path: &'a Path<'a>) -> Search<'a> {
+        let item = |piece: &Piece| Item {
+            travel: piece.travel,
+            is_arc: piece.block.is_some_and(|block| !matches!(block.motion, Motion::Line(_))),
+            stated: piece.stated,
+            number: piece.number,
+            is_unread: piece.block.is_none(),
+            is_faulty: piece.is_faulty,
+            tangents: piece.block.as_ref().and_then(tangents),
+            block: piece.block,
+        };
+        let items: Vec<Item> = path.pieces.iter().map(item).collect();
+        let steps = items.windows(2).filter_map(|pair| pair[1].number?.checked_sub(pair[0].number?)).filter(|step| *step > 0);
+        let is_line = |item: &Item| !item.is_arc && !item.is_unread;
+        let is_mirrored = match &items[..] {
+            [first, _, .., last] => is_line(first) && is_line(last) && first.travel.plus(last.travel).is_within(3.0),
+            _ => false,
+        };
+        let mut search = Search {
+            path,
+            step: steps.min(),
+            arcs: items.iter().filter(|item| item.is_arc || item.is_unread).count(),
+            items,
+            before: Against::default(),
+            joints: Joints::default(),
+            is_mirrored,
+        };
+        search.before = search.against(&search.items);
+        search.joints = joints(&search.items);
+        search
+    }
+
+    fn against(&self, items: &[Item]) -> Against {
+        let mut against = Against { unread: 0, faulty: 0, off: 0, out_of_turn: 0, is_open: false };
+        let mut before = self.path.start;
+        let mut last = None;
+        let mut sum = Sum::default();
+        for item in items {
+            against.unread += usize::from(item.is_unread);
+            against.faulty += usize::from(item.is_faulty);
+            if let (Some(from), Some(to)) = (&before, &item.stated) {
+                against.off += usize::from(item.is_unread || mismatch(from, &item.travel, to).is_some());
+            }
+            before = item.stated;
+            if let (Some(last), Some(own), Some(step)) = (last, item.number, self.step) {
+                against.out_of_turn += usize::from(own != u32::saturating_add(last, step));
+            }
+            last = item.number.or(last);
+            sum = sum.then(&Sum {
+                blocks: 1,
+                arcs: usize::from(item.is_arc),
+                travel: item.travel,
+                first: Some(item.travel),
+                last: Some(item.travel),
+                ..Sum::default()
+            });
+        }
+        against.is_open = against.unread == 0 && !is_closed(&sum);
+        against
+    }
+
+    /// The stated points about a block, where both are there.
+    fn stated(&self, index: usize) -> Option<(StatedPoint, StatedPoint)> {
+        let before = match index.checked_sub(1) {
+            Some(before) => self.items.get(before)?.stated,
+            None => self.path.start,
+        };
+        before.zip(self.items.get(index)?.stated)
+    }
+
+    /// Where a block has to lead for all to be right.
+    fn wanted(&self, index: usize) -> Vec<(Wanted, bool)> {
+        let item = &self.items[index];
+        if let Some((from, to)) = self.stated(index) {
+            let is_off = item.is_unread || item.is_faulty || mismatch(&from, &item.travel, &to).is_some();
+            let by = [0, 1].map(|axis| (to.at[axis] - from.at[axis]) * 1000.0);
+            return if is_off { vec![(Wanted { by, near: STATED }, true)] } else { Vec::new() };
+        }
+        let others_unread = self.before.unread - usize::from(item.is_unread);
+        let others_faulty = self.before.faulty - usize::from(item.is_faulty);
+        let ends = index == 0 || index + 1 == self.items.len();
+        if others_unread + others_faulty > 0 || (ends && self.is_mirrored && !item.is_faulty) {
+            return Vec::new();
+        }
+        let near = tolerance(self.arcs);
+        let total = self.items.iter().fold(Move::default(), |sum, item| sum.plus(item.travel));
+        let mut wanted: Vec<(Wanted, bool)> = Vec::new();
+        let mut take = |by: Move| {
+            let by = by.meant_um();
+            let is_known = wanted.iter().any(|(known, _)| (known.by[0] - by[0]).hypot(known.by[1] - by[1]) < 1.0);
+            if !is_known && self.items.len() >= 3 {
+                wanted.push((Wanted { by, near }, false));
+            }
+        };
+        let mut node = Move::default();
+        for lead in 0..=index.min(2) {
+            if lead == 0 || !self.is_mirrored {
+                take(item.travel.plus(node).minus(total));
+            }
+            node = node.plus(self.items[lead].travel);
+        }
+        if let (Some(first), Some(last)) = (self.items.first(), self.items.last())
+            && !self.is_mirrored
+            && self.items.len() >= 5
+            && index > 0
+            && index + 1 < self.items.len()
+        {
+            take(item.travel.plus(first.travel).minus(total.minus(last.travel)));
+        }
+        wanted
+    }
+
+    /// All changes that may explain it, and what each asks for.
+    fn changes(&self, scope: Scope) -> Vec<(Change, f64)> {
+        let mut found = Vec::new();
+        for index in 0..self.items.len() {
+            self.replacements(index, &mut found);
+            let (Some(own), Some(next)) = (self.items[index].block, self.items.get(index + 1).and_then(|next| next.block)) else {
+                continue;
+            };
+            let numbers = (self.items[index].number, self.items[index + 1].number);
+            if own == next && (numbers.0 == numbers.1 || self.before.off > 0) {
+                found.push((Change::Delete { index: index + 1 }, 0.8));
+            }
+        }
+        if scope == Scope::All {
+            self.exchanges(&mut found);
+            self.insertions(&mut found);
+        }
+        found
+    }
+
+    fn replacements(&self, index: usize, found: &mut Vec<(Change, f64)>) {
+        let piece = &self.path.pieces[index];
+        let mut take = |block: Block, slip: Slip, cost: f64| found.push((Change::Replace { index, block, slip }, cost));
+        let wanted = self.wanted(index);
+        let Some(block) = &piece.block else {
+            let Some(loose) = &piece.loose else { return };
+            let readings = loose.readings();
+            for (wanted, _) in &wanted {
+                for reading in &readings {
+                    let slip = Slip::Unread { keys: reading.keys };
+                    let cost = 0.4 * reading.keys as f64;
+                    let made = match reading.unknown {
+                        None => Some(reading.block),
+                        Some(number) => solved(&reading.block, number, wanted).map(|(value, _)| with(&reading.block, number, value)),
+                    };
+                    if let Some(made) = made.filter(|made| wanted.is_met(made) && is_sound(made, self.path.limits)) {
+                        take(made, slip, cost);
+                    }
+                }
+            }
+            // What it says by itself, where nothing says where it leads.
+            for reading in readings.iter().filter(|reading| reading.unknown.is_none()) {
+                if is_sound(&reading.block, self.path.limits) {
+                    take(reading.block, Slip::Unread { keys: reading.keys }, 0.4 * reading.keys as f64 + 0.2);
+                }
+            }
+            return;
+        };
+        for (wanted, is_stated) in &wanted {
+            for (changed, slip) in blocks_to(block, &piece.digits, wanted, self.path.limits) {
+                let cost = match slip {
+                    Slip::Number(Number::J, Digits::Any) => 1.6,
+                    Slip::Number(_, Digits::Any) => 2.6,
+                    _ => 1.0,
+                };
+                take(changed, slip, cost);
+            }
+            if let Some(line) = straight(wanted).filter(|line| *is_stated && line != block) {
+                take(line, Slip::Coordinates, 3.0);
+            }
+        }
+    }
+
+    fn exchanges(&self, found: &mut Vec<(Change, f64)>) {
+        for index in 0..self.items.len().saturating_sub(1) {
+            let (own, next) = (&self.items[index], &self.items[index + 1]);
+            let is_out_of_turn = own.number.zip(next.number).is_some_and(|(own, next)| own > next);
+            let is_off = self.stated(index).is_some_and(|(from, to)| mismatch(&from, &own.travel, &to).is_some());
+            let may_be = is_out_of_turn || is_off || (self.before.count() == 0 && own.number.is_none() && own.stated.is_none());
+            if may_be && own.block.is_some() && next.block.is_some() && own.block != next.block {
+                found.push((Change::Exchange { index }, 1.2));
+            }
+        }
+    }
+
+    fn insertions(&self, found: &mut Vec<(Change, f64)>) {
+        if self.before.unread + self.before.faulty > 0 {
+            return;
+        }
+        let total = self.items.iter().fold(Move::default(), |sum, item| sum.plus(item.travel)).meant_um();
+        let lead = self.items[0].travel.meant_um();
+        let mut gaps = vec![total.map(|um| -um)];
+        if !self.is_mirrored {
+            gaps.push([lead[0] - total[0], lead[1] - total[1]]);
+        }
+        let is_number_lost = |index: usize| {
+            let numbers = index.checked_sub(1).and_then(|before| self.items[before].number).zip(self.items.get(index).and_then(|item| item.number));
+            numbers.zip(self.step).is_some_and(|((before, own), step)| own == before.saturating_add(2 * step))
+        };
+        let lost: Vec<usize> = (1..self.items.len()).filter(|index| is_number_lost(*index)).collect();
+        for index in 0..=self.items.len() {
+            let stated = if index < self.items.len() { self.stated(index) } else { None };
+            let off = stated.filter(|(from, to)| mismatch(from, &self.items[index].travel, to).is_some());
+            if let Some((from, to)) = off {
+                let own = self.items[index].travel.meant_um();
+                let gap = [0, 1].map(|axis| (to.at[axis] - from.at[axis]) * 1000.0 - own[axis]);
+                self.insert(index, gap, found);
+            } else if self.before.is_open && (lost.is_empty() || lost.contains(&index)) && self.before.off == 0 {
+                gaps.iter().for_each(|gap| self.insert(index, *gap, found));
+            }
+        }
+    }
+
+    /// The arc that runs smoothly between its neighbours, and the line.
+    fn insert(&self, index: usize, gap: [f64; 2], found: &mut Vec<(Change, f64)>) {
+        let across = Vector::new(gap[0], gap[1]);
+        if across.norm() < 10.0 {
+            return;
+        }
+        let wanted = Wanted { by: gap, near: STATED };
+        let before = index.checked_sub(1).and_then(|before| self.items[before].tangents).map(|tangents| tangents[1]);
+        let behind = self.items.get(index).and_then(|item| item.tangents).map(|tangents| tangents[0]);
+        if let (Some(from), Some(to)) = (before, behind) {
+            let (into, out) = (turn(from, across), turn(across, to));
+            let half = (into + out) / 2.0;
+            if (into - out).abs() <= SMOOTH && half.abs() > SMOOTH && half.abs() < 2.9 {
+                let (start, end) = (Point::origin(), Point::new(gap[0].round(), gap[1].round()));
+                let arc = Segment::from_bulge(start, end, (half / 2.0).tan());
+                let mut blocks = Vec::new();
+                let node = Node { x: gap[0].round() as i64, y: gap[1].round() as i64 };
+                let made = encode(&arc, Node { x: 0, y: 0 }, node, self.path.limits.largest(), &mut blocks);
+                if let (Some(()), [one]) = (made, &blocks[..]) {
+                    found.push((Change::Insert { index, block: one.block }, 1.5));
+                }
+            }
+        }
+        if let Some(line) = straight(&wanted) {
+            found.push((Change::Insert { index, block: line }, 2.5));
+        }
+    }
+
+    /// The blocks with a change made.
+    fn with(&self, change: &Change) -> Vec<Item> {
+        let mut items = self.items.clone();
+        let new = |block: &Block, old: Option<&Item>| Item {
+            travel: travel_of(block),
+            is_arc: !matches!(block.motion, Motion::Line(_)),
+            stated: old.and_then(|old| old.stated),
+            number: old.and_then(|old| old.number),
+            is_unread: false,
+            is_faulty: false,
+            tangents: tangents(block),
+            block: Some(*block),
+        };
+        match change {
+            Change::Replace { index, block, .. } => items[*index] = new(block, self.items.get(*index)),
+            Change::Delete { index } => {
+                items.remove(*index);
+            }
+            Change::Exchange { index } => items.swap(*index, *index + 1),
+            Change::Insert { index, block } => {
+                let mut item = new(block, None);
+                let before = index.checked_sub(1).and_then(|before| self.items.get(before));
+                item.number = before.and_then(|before| before.number).zip(self.step).map(|(number, step)| number.saturating_add(step));
+                let from = before.map_or(self.path.start, |before| before.stated);
+                item.stated = from.map(|from| {
+                    let [x, y] = item.travel.meant_um();
+                    StatedPoint { at: [from.at[0] + x / 1000.0, from.at[1] + y / 1000.0], decimals: from.decimals }
+                });
+                items.insert(*index, item);
+            }
+        }
+        items
+    }
+
+    /// What is left against the contour, what the change asks for, and where the changed block leads; `None` for what explains nothing.
+    fn judged(&self, change: Change, cost: f64) -> Option<(usize, f64, Change, Move)> {
+        let items = self.with(&change);
+        let after = self.against(&items);
+        let (left, was) = (after.count(), self.before.count());
+        let joints = joints(&items);
+        let gain = joints.smooth - self.joints.smooth;
+        let doubled = joints.doubled - self.joints.doubled;
+        let is_better = match change {
+            // Where nothing else is wrong it has to run on better.
+            Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && doubled <= 0,
+            Change::Replace { slip: Slip::Unread { .. }, .. } => left < was || (left == was && after.is_open),
+            _ => left < was && after.unread <= self.before.unread && after.faulty <= self.before.faulty && after.off <= self.before.off,
+        };
+        let is_stated = self.before.off > after.off;
+        if !is_better || (doubled > 0 && !is_stated && !matches!(change, Change::Replace { slip: Slip::Unread { .. }, .. })) {
+            return None;
+        }
+        let gain = f64::from(gain.clamp(-2, 2));
+        let turns = (joints.turns - self.joints.turns).clamp(-3.0, 3.0);
+        let weighed = if is_stated { cost } else { cost - 0.6 * gain + 0.3 * turns + 1.5 * f64::from(doubled) };
+        let by = items.get(at(&change)).map_or(Move::default(), |item| item.travel);
+        Some((left, weighed, change, by))
+    }
+
+    /// Whether the way crosses itself.
+    fn crosses(&self, change: Option<&Change>) -> bool {
+        let items = change.map_or_else(|| self.items.clone(), |change| self.with(change));
+        let mut at = Move::default();
+        let mut pieces = Vec::with_capacity(items.len());
+        for item in &items {
+            let [x, y] = at.meant_um();
+            let start = Point::new(x, y);
+            pieces.push(item.block.and_then(|block| meant(&block, start)).unwrap_or(Segment::line(start, start)));
+            at = at.plus(item.travel);
+        }
+        !crossings(&pieces, self.arcs).is_empty()
+    }
+}
+
+fn joints(items: &[Item]) -> Joints {
+    let mut joints = Joints::default();
+    for pair in items.windows(2) {
+        let (Some([_, from]), Some([to, _])) = (pair[0].tangents, pair[1].tangents) else { continue };
+        let angle = turn(from, to).abs();
+        joints.smooth += i32::from(angle <= SMOOTH);
+        joints.doubled += i32::from(angle >= std::f64::consts::PI - SMOOTH);
+        joints.turns += angle;
+    }
+    joints
+}

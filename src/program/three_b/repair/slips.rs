@@ -1,0 +1,191 @@
+//! The blocks that one slip makes of a block, as far as they lead where the path wants.
+
+use super::super::block::{Block, CountingAxis, Motion, Quadrant};
+use super::super::decode::meant;
+use super::super::encode::{counted, line_block};
+use super::super::rules::{self, Counts, Limits};
+use super::super::run::{Move, travel_of};
+use crate::finding::Rule;
+use crate::geometry::{Arc, Point, Segment, Vector};
+use crate::program::gate::is_slip;
+use crate::program::grid::Node;
+
+/// A number of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) enum Number {
+    X,
+    Y,
+    J,
+}
+
+/// What a repair of a block changes in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) enum Slip {
+    /// Z: the quadrant, the turn, or a line for an arc.
+    Motion,
+    Axis,
+    /// X and Y stand for each other.
+    Exchanged,
+    /// One digit of a number, or any other value of it.
+    Number(Number, Digits),
+    /// All that leads to the coordinates behind the block.
+    Coordinates,
+    /// A block that cannot be read; `keys` are put in or taken out.
+    Unread { keys: usize },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) enum Digits {
+    One,
+    Any,
+}
+
+/// Where a block has to lead, µm, and how near.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wanted {
+    pub by: [f64; 2],
+    pub near: f64,
+}
+
+impl Wanted {
+    pub fn is_met(&self, block: &Block) -> bool {
+        let own = Move { machine: self.by.map(|um| um.round() as i64), meant: self.by.map(|um| (um * 1e3).round() as i64) };
+        travel_of(block).minus(own).is_within(self.near)
+    }
+
+    fn end(&self) -> Point {
+        Point::new(self.by[0], self.by[1])
+    }
+}
+
+/// True for a block in which no rule finds a fault.
+pub(in super::super) fn is_sound(block: &Block, limits: &Limits) -> bool {
+    let is_fault = |sight: &rules::Sight| sight.rule != Rule::SmallRadius && !matches!(sight.counts, Counts::IfInside { .. });
+    !rules::look(block, None, limits).iter().any(is_fault)
+}
+
+const QUADRANTS: [Quadrant; 4] = [Quadrant::First, Quadrant::Second, Quadrant::Third, Quadrant::Fourth];
+
+pub(super) fn motions() -> impl Iterator<Item = Motion> {
+    let kinds: [fn(Quadrant) -> Motion; 3] = [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
+    kinds.into_iter().flat_map(|kind| QUADRANTS.map(kind))
+}
+
+pub(super) fn other(axis: CountingAxis) -> CountingAxis {
+    match axis {
+        CountingAxis::X => CountingAxis::Y,
+        CountingAxis::Y => CountingAxis::X,
+    }
+}
+
+/// The sound blocks that differ from one by a slip and lead where it is wanted. `digits` are its numbers as they are written.
+pub(super) fn blocks_to(block: &Block, digits: &[Vec<u8>; 3], wanted: &Wanted, limits: &Limits) -> Vec<(Block, Slip)> {
+    let mut found = Vec::new();
+    let mut take = |changed: Block, slip: Slip| {
+        if changed != *block && wanted.is_met(&changed) && is_sound(&changed, limits) {
+            found.push((changed, slip));
+        }
+    };
+    for motion in motions() {
+        take(Block { motion, ..*block }, Slip::Motion);
+    }
+    take(Block { axis: other(block.axis), ..*block }, Slip::Axis);
+    take(Block { x: block.y, y: block.x, ..*block }, Slip::Exchanged);
+    for number in [Number::X, Number::Y, Number::J] {
+        for (value, how) in values(block, number, digits, wanted) {
+            let changed = with(block, number, value);
+            // A full turn comes of no number that was not nearly written.
+            if how == Digits::One || !is_full_turn(&changed) {
+                take(changed, Slip::Number(number, how));
+            }
+        }
+    }
+    found
+}
+
+fn is_full_turn(block: &Block) -> bool {
+    meant(block, Point::origin()).as_ref().and_then(Segment::as_arc).is_some_and(Arc::is_full_turn)
+}
+
+pub(super) fn with(block: &Block, number: Number, value: i64) -> Block {
+    match number {
+        Number::X => Block { x: value, ..*block },
+        Number::Y => Block { y: value, ..*block },
+        Number::J => Block { j: value, ..*block },
+    }
+}
+
+/// Values of a number with which a block may lead where it is wanted: those that are one digit from what is written first.
+fn values(block: &Block, number: Number, digits: &[Vec<u8>; 3], wanted: &Wanted) -> Vec<(i64, Digits)> {
+    let written = match number {
+        Number::X => &digits[0],
+        Number::Y => &digits[1],
+        Number::J => &digits[2],
+    };
+    let Some((value, within)) = solved(block, number, wanted) else { return Vec::new() };
+    let near = (value - within).max(0)..=value.saturating_add(within);
+    let mut slips: Vec<i64> = near.filter(|value| is_slip(written, value.to_string().as_bytes())).collect();
+    slips.sort_by_key(|slip| slip.abs_diff(value));
+    slips.into_iter().map(|slip| (slip, Digits::One)).chain([(value, Digits::Any)]).collect()
+}
+
+/// How far round a solved value one is looked for that is nearly written, µm.
+const ROUND: i64 = 40;
+
+/// The value of a number that leads where it is wanted, and how far it is uncertain, µm.
+pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(i64, i64)> {
+    let [dx, dy] = wanted.by;
+    let whole = |value: f64| (value.is_finite() && (0.0..1e12).contains(&value)).then_some(value.round() as i64);
+    match (block.motion, number) {
+        (Motion::Line(_), Number::X) => Some((whole(dx.abs())?, wanted.near.ceil() as i64)),
+        (Motion::Line(_), Number::Y) => Some((whole(dy.abs())?, wanted.near.ceil() as i64)),
+        (Motion::Line(_), Number::J) => {
+            let along = if block.axis == CountingAxis::X { dx } else { dy };
+            let larger = block.x.max(block.y);
+            // The projection where it leads there, without what the others have added up to.
+            let near = (along.abs() - larger as f64).abs() <= wanted.near;
+            Some((if near { larger } else { whole(along.abs())? }, 0))
+        }
+        (Motion::Clockwise(quadrant) | Motion::CounterClockwise(quadrant), Number::X | Number::Y) => {
+            // |d + s P|² = |P|²: the end is as far from the centre as the start.
+            let (sx, sy) = quadrant.signs();
+            let (own, other, known) = match number {
+                Number::X => (sx * dx, sy * dy, block.y as f64),
+                _ => (sy * dy, sx * dx, block.x as f64),
+            };
+            let chord = dx * dx + dy * dy;
+            if own.abs() < 1.0 || chord < 1.0 {
+                return None;
+            }
+            let value = whole(-(chord + 2.0 * other * known) / (2.0 * own))?;
+            let radius = (value as f64).hypot(known);
+            let within = (wanted.near * radius / own.abs()).ceil() as i64;
+            Some((value, within.clamp(2, ROUND)))
+        }
+        (_, Number::J) => {
+            let Some(Segment::Arc(arc)) = meant(&Block { j: 1, ..*block }, Point::origin()) else { return None };
+            let end = wanted.end();
+            if ((end - arc.center).norm() - arc.radius).abs() > wanted.near {
+                return None;
+            }
+            let turns_left = matches!(block.motion, Motion::CounterClockwise(_));
+            let about = Arc::about(arc.center, arc.start, end, turns_left);
+            if wanted.by.iter().all(|um| um.abs() <= wanted.near) {
+                return Some(((4.0 * arc.radius).round() as i64, 2));
+            }
+            Some((counted(&about, block.axis).round() as i64, 4))
+        }
+    }
+}
+
+/// The straight block that leads there.
+pub(super) fn straight(wanted: &Wanted) -> Option<Block> {
+    let [x, y] = wanted.by.map(|um| um.round() as i64);
+    ((x, y) != (0, 0)).then(|| line_block(Node { x: 0, y: 0 }, Node { x, y }))
+}
+
+/// The tangents of a block at its ends.
+pub(super) fn tangents(block: &Block) -> Option<[Vector; 2]> {
+    let segment = meant(block, Point::origin())?;
+    Some([segment.start_tangent(), segment.end_tangent()])
+}
