@@ -134,7 +134,7 @@ fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
 
 type TextFix = Fix<Vec<TextEdit>>;
 
-/// The repairs of a finding, those that pass the gate before those that do not. None of these is preferred or made without asking.
+/// The repairs of a finding, those that pass the gate before those that do not, which are neither preferred nor made without asking.
 pub(super) fn gated(program: &Document, finding: &Finding, mut fixes: Vec<TextFix>) -> Vec<TextFix> {
     if program.text().len() > TRIED || fixes.is_empty() {
         fixes.iter_mut().filter(|fix| invents(&fix.kind)).for_each(refuse);
@@ -143,14 +143,14 @@ pub(super) fn gated(program: &Document, finding: &Finding, mut fixes: Vec<TextFi
     let before = Standing::of(program);
     let (mut good, mut bad) = (Vec::new(), Vec::new());
     for mut fix in fixes {
-        let passes = !invents(&fix.kind) && {
-            let after = Standing::of(&edited(program, &fix.edit));
-            before.allows(&after, speaks_for_itself(finding.rule), is_by_a_slip(program, &fix.edit))
-        };
+        let after = Standing::of(&edited(program, &fix.edit));
+        let passes = before.allows(&after, speaks_for_itself(finding.rule), is_by_a_slip(program, &fix.edit));
+        if !passes || invents(&fix.kind) {
+            refuse(&mut fix);
+        }
         if passes {
             good.push(fix);
         } else {
-            refuse(&mut fix);
             bad.push(fix);
         }
     }

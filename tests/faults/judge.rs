@@ -55,8 +55,8 @@ struct Act {
     is_rapid: bool,
     side: Option<Side>,
     by: Vector,
-    /// From the start to the centre, and the turn.
-    bend: Option<(Vector, f64)>,
+    /// Of an arc, from its start to places on it: what it is, however small the arc is beside its circle.
+    bend: Option<[Vector; 3]>,
 }
 
 /// Where the machine goes.
@@ -67,7 +67,7 @@ fn acts(document: &Document) -> Vec<Act> {
     let act = |(index, step): (usize, &program::trace::Step)| {
         let by = step.meant();
         let bend = match &step.ideal {
-            Some(Segment::Arc(arc)) => Some((arc.center - arc.start, arc.sweep)),
+            Some(segment @ Segment::Arc(arc)) => Some([0.25, 0.5, 0.75].map(|share| segment.point_at(share) - arc.start)),
             _ => None,
         };
         let is_still = by.norm() < 1e-6 && bend.is_none();
@@ -85,7 +85,7 @@ fn is_same(one: &[Act], other: &[Act]) -> bool {
         let is_near = |a: Vector, b: Vector| (a - b).norm() <= SAME;
         let bends = match (a.bend, b.bend) {
             (None, None) => true,
-            (Some((a, from)), Some((b, to))) => is_near(a, b) && ((from - to) * a.norm()).abs() <= 3.0 * SAME,
+            (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| is_near(*a, b)),
             _ => false,
         };
         (a.contour, a.is_rapid, a.side) == (b.contour, b.is_rapid, b.side) && is_near(a.by, b.by) && bends

@@ -6,7 +6,7 @@ use super::super::layout::{push_end_point, push_fields, push_to_comment_column};
 use super::super::parse::{StatedPoint, before_comment, two_numbers};
 use super::super::repair::{BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs};
 use super::super::rules::{TextFix, axis_of, motion_name};
-use super::super::run::{Move, What};
+use super::super::run::{Entry, Move, What};
 use super::{At, Document, Section};
 use crate::finding::{Axis, Finding, Fix, FixKind, Place, Rule};
 use crate::program::grid::Node;
@@ -37,13 +37,23 @@ impl Document {
         let Some(section) = self.section_of(at) else { return Vec::new() };
         let Some((places, pieces)) = self.pieces_of(&section) else { return Vec::new() };
         let start = places.first().and_then(|first| self.stated_before(*first));
-        let found = repairs(&Path { pieces: &pieces, start, limits: &self.limits }, scope);
+        let number = places.first().and_then(|first| self.number_before(*first));
+        let found = repairs(&Path { pieces: &pieces, start, number, limits: &self.limits }, scope);
         let fix = |(nth, repair): (usize, &Repair)| {
             let (kind, mut edit) = self.edit_of(&repair.change, &places, &pieces)?;
             edit.sort_by_key(|edit| edit.range.start);
             Some(Fix { kind, preferred: nth == 0, in_fix_all: repair.is_sure, edit })
         };
         found.iter().enumerate().filter_map(fix).collect()
+    }
+
+    /// The last number before a block.
+    fn number_before(&self, at: At) -> Option<u32> {
+        (0..=at.run).rev().find_map(|run| {
+            let of = self.runs.get(run)?;
+            let end = if run == at.run { at.entry } else { of.entries.len() };
+            of.entries.get(..end)?.iter().rev().find_map(Entry::number)
+        })
     }
 
     /// The entry that a range lies in or before.
@@ -174,9 +184,10 @@ impl Document {
         let found = text.get(own.clone())?;
         let is_spaced = found.contains(&b' ');
         let number = |index: usize| pieces.get(index).and_then(|piece| piece.number);
-        let step = places.len().checked_sub(1).and_then(|last| {
-            (0..last).filter_map(|at| number(at + 1)?.checked_sub(number(at)?)).filter(|step| *step > 0).min()
-        });
+        let step = places
+            .len()
+            .checked_sub(1)
+            .and_then(|last| (0..last).filter_map(|at| number(at + 1)?.checked_sub(number(at)?)).filter(|step| *step > 0).min());
         let mut made = Vec::new();
         if let Some(number) = number(model).zip(step).map(|(own, step)| if index == 0 { own } else { own.saturating_add(step) }) {
             made.extend_from_slice(&renumbered(text.get(line.start..own.start)?, number));

@@ -38,6 +38,9 @@ const SMOOTH: f64 = 0.035;
 const LOOKED_AT: usize = 400;
 const HANDED_OUT: usize = 4;
 
+/// What each µm asks for by which a repair leads beside where it should.
+const MISS: f64 = 0.2;
+
 /// How much more the second best repair has to ask for, for the best to be sure.
 const CLEARLY: f64 = 0.4;
 
@@ -60,13 +63,24 @@ pub(super) struct Piece {
 /// What is done to the blocks of a contour, by their index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Change {
-    Replace { index: usize, block: Block, slip: Slip },
+    Replace {
+        index: usize,
+        block: Block,
+        slip: Slip,
+    },
     /// One of two equal blocks goes.
-    Delete { index: usize },
+    Delete {
+        index: usize,
+    },
     /// The block changes places with the next one.
-    Exchange { index: usize },
+    Exchange {
+        index: usize,
+    },
     /// A block comes before another one.
-    Insert { index: usize, block: Block },
+    Insert {
+        index: usize,
+        block: Block,
+    },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,8 +134,9 @@ struct Item {
 /// A contour that something is wrong with.
 pub(super) struct Path<'a> {
     pub pieces: &'a [Piece],
-    /// What is stated before its first block.
+    /// What is stated before its first block, and the last number there.
     pub start: Option<StatedPoint>,
+    pub number: Option<u32>,
     pub limits: &'a Limits,
 }
 
@@ -148,7 +163,7 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
     let mut kept: Vec<(usize, f64, Change, Move)> = Vec::new();
     let mut crosses_now = None;
     for (left, cost, change, by) in judged {
-        if kept.len() == HANDED_OUT {
+        if kept.len() == HANDED_OUT || kept.first().is_some_and(|(best, ..)| left > *best) {
             break;
         }
         if kept.iter().any(|(.., known, to)| at(known) == at(&change) && to.minus(by).is_within(2.5) && is_alike(known, &change)) {
@@ -166,10 +181,19 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
     let is_clear = best.is_some_and(|(_, cost)| rival.is_none_or(|rival| rival - cost >= CLEARLY));
     let made = kept.into_iter().enumerate().map(|(nth, (left, _, change, _))| Repair {
         change,
-        is_sure: nth == 0 && is_clear && !matches!(change, Change::Insert { .. }),
+        is_sure: nth == 0 && is_clear && may_be_sure(&change, left),
         is_whole: left == 0,
     });
     made.collect()
+}
+
+/// What lays a new way is never sure, and what goes by the coordinates alone only where nothing else is wrong.
+fn may_be_sure(change: &Change, left: usize) -> bool {
+    match change {
+        Change::Insert { .. } => false,
+        Change::Replace { slip: Slip::Coordinates, .. } => left == 0,
+        _ => true,
+    }
 }
 
 fn at(change: &Change) -> usize {
@@ -239,7 +263,9 @@ impl<'a> Search<'a> {
     fn against(&self, items: &[Item]) -> Against {
         let mut against = Against { unread: 0, faulty: 0, off: 0, out_of_turn: 0, is_open: false };
         let mut before = self.path.start;
-        let mut last = None;
+        // Counting may begin anew in each contour.
+        let first = items.iter().find_map(|item| item.number);
+        let mut last = self.path.number.filter(|before| first.is_some_and(|first| first > *before));
         let mut sum = Sum::default();
         for item in items {
             against.unread += usize::from(item.is_unread);
@@ -366,12 +392,21 @@ impl<'a> Search<'a> {
         };
         for (wanted, is_stated) in &wanted {
             for (changed, slip) in blocks_to(block, &piece.digits, wanted, self.path.limits) {
+                let is_line = |block: &Block| matches!(block.motion, Motion::Line(_));
                 let cost = match slip {
                     Slip::Number(Number::J, Digits::Any) => 1.6,
                     Slip::Number(_, Digits::Any) => 2.6,
+                    // What is written like a line is one.
+                    Slip::Motion if is_line(block) != is_line(&changed) && block.j == block.x.max(block.y) => {
+                        if is_line(&changed) {
+                            0.9
+                        } else {
+                            2.2
+                        }
+                    }
                     _ => 1.0,
                 };
-                take(changed, slip, cost);
+                take(changed, slip, cost + MISS * wanted.miss(&changed));
             }
             if let Some(line) = straight(wanted).filter(|line| *is_stated && line != block) {
                 take(line, Slip::Coordinates, 3.0);
@@ -402,7 +437,8 @@ impl<'a> Search<'a> {
             gaps.push([lead[0] - total[0], lead[1] - total[1]]);
         }
         let is_number_lost = |index: usize| {
-            let numbers = index.checked_sub(1).and_then(|before| self.items[before].number).zip(self.items.get(index).and_then(|item| item.number));
+            let numbers =
+                index.checked_sub(1).and_then(|before| self.items[before].number).zip(self.items.get(index).and_then(|item| item.number));
             numbers.zip(self.step).is_some_and(|((before, own), step)| own == before.saturating_add(2 * step))
         };
         let lost: Vec<usize> = (1..self.items.len()).filter(|index| is_number_lost(*index)).collect();
@@ -493,6 +529,7 @@ impl<'a> Search<'a> {
             // Where nothing else is wrong it has to run on better.
             Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && doubled <= 0,
             Change::Replace { slip: Slip::Unread { .. }, .. } => left < was || (left == was && after.is_open),
+            Change::Insert { .. } => left == 0,
             _ => left < was && after.unread <= self.before.unread && after.faulty <= self.before.faulty && after.off <= self.before.off,
         };
         let is_stated = self.before.off > after.off;

@@ -31,7 +31,9 @@ pub(in super::super) enum Slip {
     /// All that leads to the coordinates behind the block.
     Coordinates,
     /// A block that cannot be read; `keys` are put in or taken out.
-    Unread { keys: usize },
+    Unread {
+        keys: usize,
+    },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +53,12 @@ impl Wanted {
     pub fn is_met(&self, block: &Block) -> bool {
         let own = Move { machine: self.by.map(|um| um.round() as i64), meant: self.by.map(|um| (um * 1e3).round() as i64) };
         travel_of(block).minus(own).is_within(self.near)
+    }
+
+    /// How far a block ends from there, µm.
+    pub fn miss(&self, block: &Block) -> f64 {
+        let [x, y] = travel_of(block).meant_um();
+        (x - self.by[0]).hypot(y - self.by[1])
     }
 
     fn end(&self) -> Point {
@@ -94,8 +102,9 @@ pub(super) fn blocks_to(block: &Block, digits: &[Vec<u8>; 3], wanted: &Wanted, l
     for number in [Number::X, Number::Y, Number::J] {
         for (value, how) in values(block, number, digits, wanted) {
             let changed = with(block, number, value);
-            // A full turn comes of no number that was not nearly written.
-            if how == Digits::One || !is_full_turn(&changed) {
+            // A full turn, or a line in another scale, comes of no number that was not nearly written.
+            let is_scaled = number == Number::J && matches!(block.motion, Motion::Line(_)) && value != block.x.max(block.y);
+            if how == Digits::One || !(is_scaled || is_full_turn(&changed)) {
                 take(changed, Slip::Number(number, how));
             }
         }
@@ -124,9 +133,16 @@ fn values(block: &Block, number: Number, digits: &[Vec<u8>; 3], wanted: &Wanted)
     };
     let Some((value, within)) = solved(block, number, wanted) else { return Vec::new() };
     let near = (value - within).max(0)..=value.saturating_add(within);
-    let mut slips: Vec<i64> = near.filter(|value| is_slip(written, value.to_string().as_bytes())).collect();
+    let mut slips: Vec<i64> = near.filter(|value| is_likely(written, value.to_string().as_bytes())).collect();
     slips.sort_by_key(|slip| slip.abs_diff(value));
     slips.into_iter().map(|slip| (slip, Digits::One)).chain([(value, Digits::Any)]).collect()
+}
+
+/// True for a slip that hands make: a digit more is one that is doubled.
+fn is_likely(written: &[u8], meant: &[u8]) -> bool {
+    let doubled = |at: usize| written.get(at) == written.get(at + 1) || (at > 0 && written.get(at - 1) == written.get(at));
+    let one_more = || written.iter().zip(meant).take_while(|(a, b)| a == b).count();
+    is_slip(written, meant) && (written.len() <= meant.len() || doubled(one_more()))
 }
 
 /// How far round a solved value one is looked for that is nearly written, µm.

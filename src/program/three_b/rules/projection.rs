@@ -1,6 +1,7 @@
 //! How the J of a line stands to its X and Y.
 
 use super::{J_TOLERANCE, Seen};
+use crate::program::three_b::block::{Block, CountingAxis, Motion};
 
 /// What J of a line says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,14 +12,23 @@ pub(super) enum Length {
     Ratio,
     /// The length of the line itself.
     Euclid,
-    /// Nothing of these. `is_certain` where it cannot be a ratio either: nobody takes out a factor between 1 and 2 of a line along an axis.
+    /// Nothing of these. `is_certain` where it cannot be a ratio either: nobody takes out a factor of a line along an axis that is not whole.
     Misfit { is_certain: bool },
 }
 
 pub(super) fn length(seen: &Seen) -> Length {
-    let (x, y, j) = (seen.block.x, seen.block.y, seen.block.j);
+    length_of(seen.block)
+}
+
+/// True for a line whose J is neither a projection nor the scale of a ratio.
+pub(super) fn is_misfit(block: &Block) -> bool {
+    matches!(block.motion, Motion::Line(_)) && matches!(length_of(block), Length::Misfit { .. })
+}
+
+fn length_of(block: &Block) -> Length {
+    let Block { x, y, j, axis, .. } = *block;
     let larger = x.max(y);
-    let counted = if seen.axis() == crate::finding::Axis::X { x } else { y };
+    let counted = if axis == CountingAxis::X { x } else { y };
     let near = |a: f64| (j as f64 - a).abs() <= J_TOLERANCE;
     if larger == 0 || near(larger as f64) || (counted > 0 && near(counted as f64)) {
         return Length::Projection;
@@ -29,7 +39,9 @@ pub(super) fn length(seen: &Seen) -> Length {
     if j < larger {
         return Length::Misfit { is_certain: true };
     }
-    if j >= 2 * larger - J_TOLERANCE as i64 {
+    // A common factor that was taken out is a whole number.
+    let factor = (j + larger / 2) / larger;
+    if factor >= 2 && near((factor * larger) as f64) {
         return Length::Ratio;
     }
     Length::Misfit { is_certain: x == 0 || y == 0 }

@@ -1,10 +1,11 @@
 //! `too-many-digits`: a number that the controller has no digits for.
 
+use super::projection::is_misfit;
 use super::{Seen, Sight, Site, Spot, TextFix, one_edit};
 use crate::finding::{FixKind, ProgramFault};
 use crate::geometry::Point;
 use crate::program::three_b::block::Node;
-use crate::program::three_b::decode::meant;
+use crate::program::three_b::decode::{DecodeFault, decode, meant};
 use crate::program::three_b::encode::{encode, snap};
 use crate::program::three_b::layout::push_fields;
 use crate::settings::Layout;
@@ -20,6 +21,10 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
 const MOST_PIECES: usize = 64;
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+    // Where J contradicts X and Y a digit is wrong, not the block too long.
+    if decode(&site.block, Point::origin()) == Err(DecodeFault::WrongLength) || is_misfit(&site.block) {
+        return Vec::new();
+    }
     let Some(segment) = meant(&site.block, Point::origin()).filter(|segment| segment.length() <= site.largest as f64 * MOST_PIECES as f64)
     else {
         return Vec::new();
