@@ -25,8 +25,8 @@ use crate::geometry::{Point, Segment, Vector, turn};
 use crate::program::grid::Node;
 use slips::{Wanted, blocks_to, solved, straight, tangents, with};
 
-/// Contours of fewer blocks say too little, contours of more cost too long to try.
-pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 3..=1000;
+/// Contours of more blocks cost too long to try.
+pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 
 /// How far coordinates of three decimals may lie from where a block ends, µm.
 const STATED: f64 = 4.0;
@@ -138,6 +138,8 @@ pub(super) struct Path<'a> {
     pub start: Option<StatedPoint>,
     pub number: Option<u32>,
     pub limits: &'a Limits,
+    /// It has to come back to where it began.
+    pub closes: bool,
 }
 
 /// What kind of fault is looked for beside wrong blocks.
@@ -159,32 +161,49 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
     found.truncate(LOOKED_AT);
     let mut judged: Vec<(usize, f64, Change, Move)> = found.into_iter().filter_map(|(change, cost)| search.judged(change, cost)).collect();
     judged.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    // Of those that lead the same way the first is the plainest.
+    // Of those that lead the same way the first is the plainest; what crosses itself as before comes last.
     let mut kept: Vec<(usize, f64, Change, Move)> = Vec::new();
-    let mut crosses_now = None;
+    let mut crossing: Vec<(usize, f64, Change, Move)> = Vec::new();
+    let mut is_either = false;
+    let crosses_now = !judged.is_empty() && search.crosses(None);
     for (left, cost, change, by) in judged {
         if kept.len() == HANDED_OUT || kept.first().is_some_and(|(best, ..)| left > *best) {
             break;
         }
-        if kept.iter().any(|(.., known, to)| at(known) == at(&change) && to.minus(by).is_within(2.5) && is_alike(known, &change)) {
+        let is_known = |(_, _, known, to): &(usize, f64, Change, Move)| {
+            at(known) == at(&change) && to.minus(by).is_within(2.5) && is_alike(known, &change)
+        };
+        if let Some(known) = kept.iter().position(is_known) {
+            // Two numbers of one block that may each be wrong: which is not known.
+            is_either |= known == 0 && field(&kept[0].2) != field(&change) && cost - kept[0].1 < CLEARLY;
             continue;
         }
-        let crosses = search.crosses(Some(&change));
-        let now = *crosses_now.get_or_insert_with(|| search.crosses(None));
-        if crosses && (!now || matches!(change, Change::Exchange { .. })) {
-            continue;
+        if search.crosses(Some(&change)) {
+            let is_as_before = crosses_now && !matches!(change, Change::Exchange { .. }) && crossing.len() < HANDED_OUT;
+            crossing.extend(is_as_before.then_some((left, cost, change, by)));
+        } else {
+            kept.push((left, cost, change, by));
         }
-        kept.push((left, cost, change, by));
+    }
+    if kept.is_empty() {
+        let made = crossing.into_iter().map(|(left, _, change, _)| Repair { change, is_sure: false, is_whole: left == 0 });
+        return made.collect();
     }
     let best = kept.first().map(|(left, cost, ..)| (*left, *cost));
     let rival = kept.get(1).filter(|(left, ..)| Some(*left) == best.map(|best| best.0)).map(|(_, cost, ..)| *cost);
     let is_clear = best.is_some_and(|(_, cost)| rival.is_none_or(|rival| rival - cost >= CLEARLY));
     let made = kept.into_iter().enumerate().map(|(nth, (left, _, change, _))| Repair {
         change,
-        is_sure: nth == 0 && is_clear && may_be_sure(&change, left),
+        is_sure: nth == 0 && is_clear && !is_either && may_be_sure(&change, left),
         is_whole: left == 0,
     });
     made.collect()
+}
+
+/// What a block asks for that is read with so many keys more or less: one that is written like a line is no arc.
+fn restored(block: &Block, keys: usize) -> f64 {
+    let is_like_a_line = block.j == block.x.max(block.y) && !matches!(block.motion, Motion::Line(_));
+    0.4 * keys as f64 + if is_like_a_line { 0.8 } else { 0.0 }
 }
 
 /// What lays a new way is never sure, and what goes by the coordinates alone only where nothing else is wrong.
@@ -193,6 +212,14 @@ fn may_be_sure(change: &Change, left: usize) -> bool {
         Change::Insert { .. } => false,
         Change::Replace { slip: Slip::Coordinates, .. } => left == 0,
         _ => true,
+    }
+}
+
+/// The number that a repair changes.
+fn field(change: &Change) -> Option<Number> {
+    match change {
+        Change::Replace { slip: Slip::Number(number, _), .. } => Some(*number),
+        _ => None,
     }
 }
 
@@ -241,11 +268,7 @@ impl<'a> Search<'a> {
         };
         let items: Vec<Item> = path.pieces.iter().map(item).collect();
         let steps = items.windows(2).filter_map(|pair| pair[1].number?.checked_sub(pair[0].number?)).filter(|step| *step > 0);
-        let is_line = |item: &Item| !item.is_arc && !item.is_unread;
-        let is_mirrored = match &items[..] {
-            [first, _, .., last] => is_line(first) && is_line(last) && first.travel.plus(last.travel).is_within(3.0),
-            _ => false,
-        };
+        let is_mirrored = is_mirrored(&items);
         let mut search = Search {
             path,
             step: steps.min(),
@@ -287,7 +310,7 @@ impl<'a> Search<'a> {
                 ..Sum::default()
             });
         }
-        against.is_open = against.unread == 0 && !is_closed(&sum);
+        against.is_open = self.path.closes && against.unread == 0 && !is_closed(&sum);
         against
     }
 
@@ -311,7 +334,7 @@ impl<'a> Search<'a> {
         let others_unread = self.before.unread - usize::from(item.is_unread);
         let others_faulty = self.before.faulty - usize::from(item.is_faulty);
         let ends = index == 0 || index + 1 == self.items.len();
-        if others_unread + others_faulty > 0 || (ends && self.is_mirrored && !item.is_faulty) {
+        if !self.path.closes || others_unread + others_faulty > 0 || (ends && self.is_mirrored && !item.is_faulty) {
             return Vec::new();
         }
         let near = tolerance(self.arcs);
@@ -372,20 +395,19 @@ impl<'a> Search<'a> {
             for (wanted, _) in &wanted {
                 for reading in &readings {
                     let slip = Slip::Unread { keys: reading.keys };
-                    let cost = 0.4 * reading.keys as f64;
                     let made = match reading.unknown {
                         None => Some(reading.block),
                         Some(number) => solved(&reading.block, number, wanted).map(|(value, _)| with(&reading.block, number, value)),
                     };
                     if let Some(made) = made.filter(|made| wanted.is_met(made) && is_sound(made, self.path.limits)) {
-                        take(made, slip, cost);
+                        take(made, slip, restored(&made, reading.keys) + MISS * wanted.miss(&made));
                     }
                 }
             }
             // What it says by itself, where nothing says where it leads.
             for reading in readings.iter().filter(|reading| reading.unknown.is_none()) {
                 if is_sound(&reading.block, self.path.limits) {
-                    take(reading.block, Slip::Unread { keys: reading.keys }, 0.4 * reading.keys as f64 + 0.2);
+                    take(reading.block, Slip::Unread { keys: reading.keys }, restored(&reading.block, reading.keys) + 1.0);
                 }
             }
             return;
@@ -538,7 +560,8 @@ impl<'a> Search<'a> {
         }
         let gain = f64::from(gain.clamp(-2, 2));
         let turns = (joints.turns - self.joints.turns).clamp(-3.0, 3.0);
-        let weighed = if is_stated { cost } else { cost - 0.6 * gain + 0.3 * turns + 1.5 * f64::from(doubled) };
+        let leads = if !self.is_mirrored && is_mirrored(&items) { 0.8 } else { 0.0 };
+        let weighed = if is_stated { cost } else { cost - leads - 0.6 * gain + 0.3 * turns + 1.5 * f64::from(doubled) };
         let by = items.get(at(&change)).map_or(Move::default(), |item| item.travel);
         Some((left, weighed, change, by))
     }
@@ -555,6 +578,15 @@ impl<'a> Search<'a> {
             at = at.plus(item.travel);
         }
         !crossings(&pieces, self.arcs).is_empty()
+    }
+}
+
+/// True where the way out is the way in backwards.
+fn is_mirrored(items: &[Item]) -> bool {
+    let is_line = |item: &Item| !item.is_arc && !item.is_unread;
+    match items {
+        [first, _, .., last] => is_line(first) && is_line(last) && first.travel.plus(last.travel).is_within(3.0),
+        _ => false,
     }
 }
 
