@@ -5,7 +5,7 @@ use super::super::fields::{Fields, fields_of};
 use super::super::layout::{push_end_point, push_fields, push_to_comment_column};
 use super::super::parse::{StatedPoint, before_comment, two_numbers};
 use super::super::repair::{BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs};
-use super::super::rules::{TextFix, axis_of, motion_name, not_closed};
+use super::super::rules::{TextFix, axis_of, motion_name};
 use super::super::run::{Entry, Move, What};
 use super::{At, Document, Section};
 use crate::finding::{Axis, Finding, Fix, FixKind, Place, Rule};
@@ -38,10 +38,9 @@ impl Document {
         let Some((places, pieces)) = self.pieces_of(&section) else { return Vec::new() };
         let start = places.first().and_then(|first| self.stated_before(*first));
         let number = places.first().and_then(|first| self.number_before(*first));
-        // A way between contours leads on, and so does a contour that another one behind a pause closes.
-        let closes =
-            !section.is_jump && (not_closed::is_closed(&section.sum) || !self.closes(&self.view, &section) || section.sum.unread > 0);
-        let found = repairs(&Path { pieces: &pieces, start, number, limits: &self.limits, closes }, scope);
+        let is_closed = self.closes(&self.view, &section) && section.sum.unread == 0;
+        let path = Path { pieces: &pieces, start, number, limits: &self.limits, is_jump: section.is_jump, is_closed };
+        let found = repairs(&path, scope);
         let fix = |(nth, repair): (usize, &Repair)| {
             let (kind, mut edit) = self.edit_of(&repair.change, &places, &pieces)?;
             edit.sort_by_key(|edit| edit.range.start);

@@ -17,13 +17,13 @@ use super::decode::meant;
 use super::encode::encode;
 use super::parse::StatedPoint;
 use super::rules::Limits;
-use super::rules::not_closed::{is_closed, tolerance};
 use super::rules::path_crosses_itself::crossings;
 use super::rules::position_mismatch::mismatch;
-use super::run::{Move, Sum, travel_of};
+use super::run::{Move, travel_of};
 use crate::geometry::{Point, Segment, Vector, turn};
+use crate::program::closing::{HeldWay, Node as WayNode, Writing, closing, tolerance};
 use crate::program::grid::Node;
-use slips::{Wanted, blocks_to, solved, straight, tangents, with};
+use slips::{Wanted, blocks_to, solved, straight, with};
 
 /// Contours of more blocks cost too long to try.
 pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
@@ -127,8 +127,15 @@ struct Item {
     number: Option<u32>,
     is_unread: bool,
     is_faulty: bool,
-    tangents: Option<[Vector; 2]>,
+    /// What it means, from the origin.
+    way: Option<Segment>,
     block: Option<Block>,
+}
+
+impl Item {
+    fn tangents(&self) -> Option<[Vector; 2]> {
+        self.way.map(|way| [way.start_tangent(), way.end_tangent()])
+    }
 }
 
 /// A contour that something is wrong with.
@@ -138,8 +145,10 @@ pub(super) struct Path<'a> {
     pub start: Option<StatedPoint>,
     pub number: Option<u32>,
     pub limits: &'a Limits,
-    /// It has to come back to where it began.
-    pub closes: bool,
+    /// It leads from one contour to the next.
+    pub is_jump: bool,
+    /// Nothing is said of where it ends, for what it comes to with others.
+    pub is_closed: bool,
 }
 
 /// What kind of fault is looked for beside wrong blocks.
@@ -252,6 +261,8 @@ struct Search<'a> {
     step: Option<u32>,
     /// The way out is the way in backwards.
     is_mirrored: bool,
+    /// It has to come back to where it began.
+    closes: bool,
 }
 
 impl<'a> Search<'a> {
@@ -263,7 +274,7 @@ impl<'a> Search<'a> {
             number: piece.number,
             is_unread: piece.block.is_none(),
             is_faulty: piece.is_faulty,
-            tangents: piece.block.as_ref().and_then(tangents),
+            way: piece.block.as_ref().and_then(|block| meant(block, Point::origin())),
             block: piece.block,
         };
         let items: Vec<Item> = path.pieces.iter().map(item).collect();
@@ -277,40 +288,37 @@ impl<'a> Search<'a> {
             before: Against::default(),
             joints: Joints::default(),
             is_mirrored,
+            closes: !path.is_jump,
         };
         search.before = search.against(&search.items);
+        if search.before.is_open && path.is_closed {
+            (search.before.is_open, search.closes) = (false, false);
+        }
         search.joints = joints(&search.items);
         search
     }
 
     fn against(&self, items: &[Item]) -> Against {
         let mut against = Against { unread: 0, faulty: 0, off: 0, out_of_turn: 0, is_open: false };
-        let mut before = self.path.start;
+        let (mut before, mut off_before): (_, Option<[f64; 2]>) = (self.path.start, None);
         // Counting may begin anew in each contour.
         let first = items.iter().find_map(|item| item.number);
         let mut last = self.path.number.filter(|before| first.is_some_and(|first| first > *before));
-        let mut sum = Sum::default();
         for item in items {
             against.unread += usize::from(item.is_unread);
             against.faulty += usize::from(item.is_faulty);
-            if let (Some(from), Some(to)) = (&before, &item.stated) {
-                against.off += usize::from(item.is_unread || mismatch(from, &item.travel, to).is_some());
-            }
+            let off = before.as_ref().zip(item.stated.as_ref()).and_then(|(from, to)| mismatch(from, &item.travel, to));
+            // One end point that is off on its own is off once there and once back.
+            let goes_back = off.zip(off_before).is_some_and(|([x, y], [a, b])| (a + x).abs() <= STATED && (b + y).abs() <= STATED);
+            against.off += usize::from(off.is_some() && !goes_back);
+            off_before = off.filter(|_| !goes_back);
             before = item.stated;
             if let (Some(last), Some(own), Some(step)) = (last, item.number, self.step) {
                 against.out_of_turn += usize::from(own != u32::saturating_add(last, step));
             }
             last = item.number.or(last);
-            sum = sum.then(&Sum {
-                blocks: 1,
-                arcs: usize::from(item.is_arc),
-                travel: item.travel,
-                first: Some(item.travel),
-                last: Some(item.travel),
-                ..Sum::default()
-            });
         }
-        against.is_open = self.path.closes && against.unread == 0 && !is_closed(&sum);
+        against.is_open = self.closes && against.unread == 0 && !is_closed(items);
         against
     }
 
@@ -334,7 +342,7 @@ impl<'a> Search<'a> {
         let others_unread = self.before.unread - usize::from(item.is_unread);
         let others_faulty = self.before.faulty - usize::from(item.is_faulty);
         let ends = index == 0 || index + 1 == self.items.len();
-        if !self.path.closes || others_unread + others_faulty > 0 || (ends && self.is_mirrored && !item.is_faulty) {
+        if !self.closes || others_unread + others_faulty > 0 || (ends && self.is_mirrored && !item.is_faulty) {
             return Vec::new();
         }
         let near = tolerance(self.arcs);
@@ -484,8 +492,8 @@ impl<'a> Search<'a> {
             return;
         }
         let wanted = Wanted { by: gap, near: STATED };
-        let before = index.checked_sub(1).and_then(|before| self.items[before].tangents).map(|tangents| tangents[1]);
-        let behind = self.items.get(index).and_then(|item| item.tangents).map(|tangents| tangents[0]);
+        let before = index.checked_sub(1).and_then(|before| self.items[before].tangents()).map(|tangents| tangents[1]);
+        let behind = self.items.get(index).and_then(|item| item.tangents()).map(|tangents| tangents[0]);
         if let (Some(from), Some(to)) = (before, behind) {
             let (into, out) = (turn(from, across), turn(across, to));
             let half = (into + out) / 2.0;
@@ -515,7 +523,7 @@ impl<'a> Search<'a> {
             number: old.and_then(|old| old.number),
             is_unread: false,
             is_faulty: false,
-            tangents: tangents(block),
+            way: meant(block, Point::origin()),
             block: Some(*block),
         };
         match change {
@@ -569,16 +577,34 @@ impl<'a> Search<'a> {
     /// Whether the way crosses itself.
     fn crosses(&self, change: Option<&Change>) -> bool {
         let items = change.map_or_else(|| self.items.clone(), |change| self.with(change));
-        let mut at = Move::default();
-        let mut pieces = Vec::with_capacity(items.len());
-        for item in &items {
-            let [x, y] = at.meant_um();
-            let start = Point::new(x, y);
-            pieces.push(item.block.and_then(|block| meant(&block, start)).unwrap_or(Segment::line(start, start)));
-            at = at.plus(item.travel);
-        }
+        let pieces: Vec<Segment> = ways(&items).into_iter().map(|(way, _)| way).collect();
         !crossings(&pieces, self.arcs).is_empty()
     }
+}
+
+/// What each block means where it is meant to begin, and where it leads to.
+fn ways(items: &[Item]) -> Vec<(Segment, Move)> {
+    let mut at = Move::default();
+    let mut ways = Vec::with_capacity(items.len());
+    for item in items {
+        let [x, y] = at.meant_um();
+        let start = Point::new(x, y);
+        at = at.plus(item.travel);
+        ways.push((item.way.map_or(Segment::line(start, start), |way| way.moved(Vector::new(x, y))), at));
+    }
+    ways
+}
+
+fn is_closed(items: &[Item]) -> bool {
+    let node = |at: &Move| {
+        let ([x, y], [stands_x, stands_y]) = (at.meant_um(), at.machine);
+        WayNode { stands: Point::new(stands_x as f64, stands_y as f64), meant: Point::new(x, y) }
+    };
+    let mut way = HeldWay::from(node(&Move::default()), Writing::default());
+    for (item, (piece, end)) in items.iter().zip(ways(items)) {
+        way.push(piece, item.is_arc, node(&end));
+    }
+    closing(&way).is_none_or(|closing| closing.closed)
 }
 
 /// True where the way out is the way in backwards.
@@ -593,7 +619,7 @@ fn is_mirrored(items: &[Item]) -> bool {
 fn joints(items: &[Item]) -> Joints {
     let mut joints = Joints::default();
     for pair in items.windows(2) {
-        let (Some([_, from]), Some([to, _])) = (pair[0].tangents, pair[1].tangents) else { continue };
+        let (Some([_, from]), Some([to, _])) = (pair[0].tangents(), pair[1].tangents()) else { continue };
         let angle = turn(from, to).abs();
         joints.smooth += i32::from(angle <= SMOOTH);
         joints.doubled += i32::from(angle >= std::f64::consts::PI - SMOOTH);

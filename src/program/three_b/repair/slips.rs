@@ -6,7 +6,7 @@ use super::super::encode::{counted, line_block};
 use super::super::rules::{self, Counts, Limits};
 use super::super::run::{Move, travel_of};
 use crate::finding::Rule;
-use crate::geometry::{Arc, Point, Segment, Vector};
+use crate::geometry::{Arc, Point, Segment};
 use crate::program::gate::is_slip;
 use crate::program::grid::Node;
 
@@ -198,10 +198,4 @@ pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(
 pub(super) fn straight(wanted: &Wanted) -> Option<Block> {
     let [x, y] = wanted.by.map(|um| um.round() as i64);
     ((x, y) != (0, 0)).then(|| line_block(Node { x: 0, y: 0 }, Node { x, y }))
-}
-
-/// The tangents of a block at its ends.
-pub(super) fn tangents(block: &Block) -> Option<[Vector; 2]> {
-    let segment = meant(block, Point::origin())?;
-    Some([segment.start_tangent(), segment.end_tangent()])
 }
