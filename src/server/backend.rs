@@ -71,6 +71,11 @@ impl Backend {
         self.mailbox.tell(name, about, act);
     }
 
+    fn tell_change(&self, name: &'static str, about: Arc<str>, act: impl FnOnce(&mut State) + Send + 'static) {
+        self.flags.taken.fetch_add(1, Ordering::Relaxed);
+        self.mailbox.tell_change(name, about, act);
+    }
+
     /// Hands a request over and waits for its answer.
     async fn ask<T: Send + 'static>(
         &self,
@@ -160,7 +165,7 @@ impl Backend {
         match SentChanges::read(params) {
             Ok(sent) => {
                 let about = sent.uri.clone();
-                self.tell(method::DID_CHANGE_DRAWING, Some(about), move |state| drawings::change(state, sent));
+                self.tell_change(method::DID_CHANGE_DRAWING, about, move |state| drawings::change(state, sent));
             }
             Err(reason) => self.log(format!("{} was ignored: {reason}", method::DID_CHANGE_DRAWING)),
         }
@@ -212,8 +217,11 @@ impl Backend {
 
     async fn settings(&self, params: Value) -> Result<Value> {
         let (params, _) = read::<protocol::DrawingName>(params)?;
-        let about: Arc<str> = params.uri.as_str().into();
-        let in_force = self.look(method::SETTINGS, about, move |state| Ok(settings::settings(state, &params.uri))).await?;
+        // What holds for a document does not hang on what it holds: nobody waits for its judging.
+        let act = move |state: &mut State, reply: Reply<protocol::SettingsInForce>| {
+            let _ = reply.send(Ok(settings::settings(state, &params.uri)));
+        };
+        let in_force = self.ask(method::SETTINGS, None, act).await?;
         serde_json::to_value(in_force).map_err(|error| internal(error.to_string()))
     }
 
@@ -289,7 +297,7 @@ impl LanguageServer for Backend {
     async fn did_change(&self, params: DidChangeTextDocumentParams) {
         let uri = shared(&params.text_document.uri);
         let version = params.text_document.version.into();
-        self.tell("textDocument/didChange", Some(uri.clone()), move |state| {
+        self.tell_change("textDocument/didChange", uri.clone(), move |state| {
             texts::change(state, &uri, version, params.content_changes);
         });
     }
@@ -447,7 +455,8 @@ impl LanguageServer for Backend {
     }
 
     async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
-        self.ask("workspace/executeCommand", None, move |state, reply| {
+        let about = params.arguments.first().and_then(|argument| argument.get("uri")?.as_str()).map(Arc::from);
+        self.ask("workspace/executeCommand", about, move |state, reply| {
             if params.command == method::SCALE_COMMAND {
                 scale::execute(state, params.arguments, reply);
             } else {

@@ -1,13 +1,12 @@
 //! Drawings without text: opened, changed by splices, closed, and asked for anew when a change does not fit.
 
 use super::client::Weight;
-use super::open::{Content, Open, Remains};
+use super::judge::Task;
+use super::open::Open;
 use super::state::State;
-use super::transport::panic_text;
 use crate::drawing::Drawing;
 use crate::protocol::{self, DrawingChange, ResendDrawing, Resent, method};
 use serde_json::Value;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 /// A drawing as it came, with the reason where it is not sound.
@@ -32,13 +31,17 @@ pub(super) fn open(state: &mut State, sent: Sent) {
     let Sent { uri, drawing } = sent;
     match drawing {
         Ok((version, drawing)) => {
-            let settings = state.settings_for(&uri);
-            let stamp = state.next_stamp();
             state.log_if_open(&uri);
-            state.insert(Open::drawing(uri, version, drawing, &settings, stamp));
+            insert(state, uri, version, drawing);
         }
         Err(reason) => refuse(state, &uri, &format!("the drawing {uri} is not sound: {reason}")),
     }
+}
+
+fn insert(state: &mut State, uri: Arc<str>, version: i64, drawing: Drawing) {
+    let settings = state.settings_for(&uri);
+    let stamp = state.next_stamp();
+    state.insert(Open::new(uri, version, Task::Drawing(Box::new(drawing)), settings, stamp));
 }
 
 /// Changes as they came, with the reason where they cannot be read.
@@ -60,44 +63,22 @@ impl SentChanges {
 
 pub(super) fn change(state: &mut State, sent: SentChanges) {
     let SentChanges { uri, changes } = sent;
-    let applied = catch_unwind(AssertUnwindSafe(|| changes.and_then(|(version, changes)| apply(state, &uri, version, changes))));
-    let applied = applied.unwrap_or_else(|panic| {
-        // The drawing may hold half of the changes now: only the client knows the whole.
-        state.rebuild(&uri);
-        Err(format!("internal error: {}", panic_text(&*panic)))
-    });
-    if let Err(reason) = applied {
-        refuse(state, &uri, &format!("a change of the drawing {uri} does not apply: {reason}"));
+    let is_open = state.documents.get(&uri).is_some_and(|open| open.is_drawing);
+    match changes {
+        Ok((version, changes)) if is_open => state.add_task(&uri, Task::ChangeDrawing { version, changes }),
+        Ok(_) => does_not_apply(state, &uri, "there is no such drawing open"),
+        Err(reason) => does_not_apply(state, &uri, &reason),
     }
 }
 
-fn apply(state: &mut State, uri: &Arc<str>, version: i64, changes: Vec<DrawingChange>) -> Result<(), String> {
-    let settings = match state.documents.get(uri).map(|open| &open.content) {
-        Some(Content::Read(document)) => document.settings().clone(),
-        _ => state.settings_for(uri),
-    };
-    let open = state.documents.get_mut(uri).filter(|open| open.is_drawing()).ok_or("there is no such drawing open")?;
-    if version <= open.version {
-        return Err(format!("version {version} is not newer than {}", open.version));
-    }
-    match &mut open.content {
-        Content::Read(document) => {
-            Arc::make_mut(document).edit_drawing(|drawing| protocol::apply(drawing, changes)).ok_or("there is no such drawing open")??;
-        }
-        Content::Damaged(Remains::Drawing(drawing)) => {
-            protocol::apply(Arc::make_mut(drawing), changes)?;
-            open.rebuild(&settings);
-        }
-        _ => return Err("there is no such drawing open".into()),
-    }
-    open.version = version;
-    state.mark_dirty(uri);
-    Ok(())
+/// A change of a drawing was not made.
+pub(super) fn does_not_apply(state: &mut State, uri: &Arc<str>, reason: &str) {
+    refuse(state, uri, &format!("a change of the drawing {uri} does not apply: {reason}"));
 }
 
 pub(super) fn close(state: &mut State, uri: &Arc<str>) {
     state.resending.remove(uri);
-    let is_open = state.documents.get(uri).is_some_and(Open::is_drawing);
+    let is_open = state.documents.get(uri).is_some_and(|open| open.is_drawing);
     if !is_open || !state.close(uri) {
         state.client.log(Weight::Warning, format!("the drawing {uri} was closed without being open"));
     }
@@ -111,7 +92,8 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
     }
     let params = ResendDrawing { uri: uri.to_string() };
     let uri = uri.clone();
-    state.client.ask(method::RESEND_DRAWING, params, move |state, answer| {
+    let about = uri.clone();
+    let take = move |state: &mut State, answer: Result<Value, String>| {
         // A drawing that was closed meanwhile stays closed.
         if !state.resending.remove(&uri) {
             return;
@@ -122,6 +104,9 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
         if let Err(reason) = drawing {
             state.client.log(Weight::Warning, format!("the drawing {uri} was not sent again as it should be: {reason}"));
         }
+    };
+    state.client.ask(method::RESEND_DRAWING, params, move |state, answer| {
+        state.in_turn(method::RESEND_DRAWING, about, move |state| take(state, answer));
     });
 }
 
@@ -134,9 +119,6 @@ fn resent_drawing(state: &mut State, uri: &Arc<str>, resent: Resent) -> Result<(
     if let Some(open) = state.documents.get(uri).filter(|open| open.version > version) {
         return Err(format!("version {version} is older than {}", open.version));
     }
-    let drawing = drawing.into_core()?;
-    let settings = state.settings_for(uri);
-    let stamp = state.next_stamp();
-    state.insert(Open::drawing(uri.clone(), version, drawing, &settings, stamp));
+    insert(state, uri.clone(), version, drawing.into_core()?);
     Ok(())
 }

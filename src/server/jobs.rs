@@ -1,6 +1,7 @@
 //! Long work beside the state thread: a few threads that take jobs in order, over snapshots that nobody changes.
 
-use super::state::Mailbox;
+use super::judge::{Job as JudgeJob, Judged};
+use super::state::{Mailbox, State};
 use super::transport::{Writer, panic_text};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -70,32 +71,81 @@ impl Drop for Progress {
 
 type Job = Box<dyn FnOnce() + Send>;
 
-#[derive(Default)]
-struct Queue {
-    jobs: Mutex<VecDeque<Job>>,
-    filled: Condvar,
-    /// Nobody hands in more: the threads end.
-    ended: AtomicBool,
+/// Threads that take jobs in their order: as many as there are jobs, up to a number.
+#[derive(Clone)]
+struct Pool {
+    shared: Arc<(Mutex<Bench>, Condvar)>,
+    name: &'static str,
+    most: usize,
 }
 
-/// The worker threads.
+#[derive(Default)]
+struct Bench {
+    jobs: VecDeque<Job>,
+    threads: usize,
+    /// Threads that wait for a job.
+    idle: usize,
+    /// Nobody hands in more: the threads end.
+    is_ended: bool,
+}
+
+/// A thread that has had nothing to do for this long ends.
+const REST: Duration = Duration::from_secs(10);
+
+impl Pool {
+    fn new(name: &'static str, most: usize) -> Pool {
+        Pool { shared: Arc::default(), name, most }
+    }
+
+    fn push(&self, job: Job) {
+        let mut bench = self.shared.0.lock().unwrap_or_else(PoisonError::into_inner);
+        bench.jobs.push_back(job);
+        if bench.idle < bench.jobs.len() && bench.threads < self.most {
+            let shared = self.shared.clone();
+            match std::thread::Builder::new().name(self.name.into()).spawn(move || work(&shared)) {
+                Ok(_) => bench.threads += 1,
+                Err(error) => tracing::error!("a worker cannot be started: {error}"),
+            }
+        }
+        drop(bench);
+        self.shared.1.notify_one();
+    }
+
+    fn end(&self) {
+        let mut bench = self.shared.0.lock().unwrap_or_else(PoisonError::into_inner);
+        bench.is_ended = true;
+        bench.jobs.clear();
+        drop(bench);
+        self.shared.1.notify_all();
+    }
+}
+
+/// The worker threads: those that answer requests, and those that judge documents, which wait for no request.
 #[derive(Clone)]
 pub(super) struct Workers {
-    queue: Arc<Queue>,
+    requests: Pool,
+    judges: Pool,
     mailbox: Mailbox,
     writer: Writer,
 }
 
+/// Documents that are judged side by side: the system shares the processors out among them.
+const MOST_JUDGED: usize = 16;
+
 impl Workers {
-    /// Starts the threads: two at least, so that one long job does not hold up a short one.
-    pub fn start(mailbox: Mailbox, writer: Writer) -> std::io::Result<Workers> {
-        let queue = Arc::new(Queue::default());
-        let count = std::thread::available_parallelism().map_or(2, usize::from).clamp(2, 4);
-        for number in 0..count {
-            let queue = queue.clone();
-            std::thread::Builder::new().name(format!("wedm-worker-{number}")).spawn(move || work(&queue))?;
-        }
-        Ok(Workers { queue, mailbox, writer })
+    pub fn new(mailbox: Mailbox, writer: Writer) -> Workers {
+        let count = std::thread::available_parallelism().map_or(2, usize::from);
+        // Two at least, so that one long job does not hold up a short one.
+        Workers { requests: Pool::new("wedm-worker", count.clamp(2, 4)), judges: Pool::new("wedm-judge", MOST_JUDGED), mailbox, writer }
+    }
+
+    /// Takes a document through what has come for it and hands it back to `then` on the state thread, whatever comes.
+    pub fn judge(&self, job: JudgeJob, then: impl FnOnce(&mut State, Judged) + Send + 'static) {
+        let mailbox = self.mailbox.clone();
+        self.judges.push(Box::new(move || {
+            let judged = job.run();
+            mailbox.tell("judging", None, move |state| then(state, judged));
+        }));
     }
 
     /// Runs `job` on a worker, unless it is cancelled before its turn, and hands what came of it, or the text of its panic,
@@ -105,7 +155,7 @@ impl Workers {
         name: &'static str,
         cancel: Cancel,
         job: impl FnOnce(&Cancel) -> T + Send + 'static,
-        then: impl FnOnce(&mut super::state::State, Result<T, String>) + Send + 'static,
+        then: impl FnOnce(&mut State, Result<T, String>) + Send + 'static,
     ) {
         let (mailbox, writer) = (self.mailbox.clone(), self.writer.clone());
         let job: Job = Box::new(move || {
@@ -124,32 +174,35 @@ impl Workers {
                 mailbox.tell(name, None, move |state| then(state, result));
             }
         });
-        self.queue.jobs.lock().unwrap_or_else(PoisonError::into_inner).push_back(job);
-        self.queue.filled.notify_one();
+        self.requests.push(job);
     }
 }
 
 impl Workers {
     /// Ends each thread behind the job that it is at.
     pub fn end(&self) {
-        let jobs = self.queue.jobs.lock().unwrap_or_else(PoisonError::into_inner);
-        self.queue.ended.store(true, Ordering::Relaxed);
-        drop(jobs);
-        self.queue.filled.notify_all();
+        self.requests.end();
+        self.judges.end();
     }
 }
 
-fn work(queue: &Queue) {
+fn work((bench, filled): &(Mutex<Bench>, Condvar)) {
     loop {
-        let mut jobs = queue.jobs.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut guard = bench.lock().unwrap_or_else(PoisonError::into_inner);
         let job = loop {
-            match jobs.pop_front() {
-                _ if queue.ended.load(Ordering::Relaxed) => return,
-                Some(job) => break job,
-                None => jobs = queue.filled.wait(jobs).unwrap_or_else(PoisonError::into_inner),
+            if let Some(job) = guard.jobs.pop_front() {
+                break job;
+            }
+            guard.idle += 1;
+            let (woken, timeout) = filled.wait_timeout(guard, REST).unwrap_or_else(PoisonError::into_inner);
+            guard = woken;
+            guard.idle -= 1;
+            if guard.is_ended || (timeout.timed_out() && guard.jobs.is_empty()) {
+                guard.threads -= 1;
+                return;
             }
         };
-        drop(jobs);
+        drop(guard);
         if catch_unwind(AssertUnwindSafe(job)).is_err() {
             tracing::error!("a worker's job panicked outside its guard");
         }

@@ -6,9 +6,11 @@
 mod backend;
 mod client;
 mod config;
+mod content;
 mod convert;
 mod drawings;
 mod jobs;
+mod judge;
 mod open;
 mod parent;
 mod requests;

@@ -1,17 +1,12 @@
 //! An open document: what the client sent, what was made of it, and what the client has been told.
 
-use super::convert;
+use super::content::Content;
+use super::judge::Task;
 use super::requests::language::token_memory::TokenMemory;
-use super::transport::panic_text;
-use crate::document::{Document, Source};
-use crate::drawing::Drawing;
-use crate::program::{self, Language};
-use crate::protocol::{Diagnostic, Range};
-use crate::settings::{Effective, FILE_NAME, from_toml};
-use crate::text::{Encoding, SourceText};
-use crate::{dxf, finding::Rule};
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use crate::document::Document;
+use crate::program::Language;
+use crate::settings::{Effective, FILE_NAME};
+use crate::text::SourceText;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Weak};
 
@@ -46,33 +41,28 @@ impl Kind {
     }
 }
 
-pub(super) enum Content {
-    /// Shared with workers: an edit while one still looks at it costs a copy.
-    Read(Arc<Document>),
-    Settings(SourceText),
-    Foreign,
-    /// Reading or judging it panicked: the text or drawing is kept, and tried again with the next change.
-    Damaged(Remains),
-}
-
-pub(super) enum Remains {
-    Text { kind: Kind, text: SourceText },
-    Drawing(Arc<Drawing>),
-}
-
 pub(super) struct Open {
     /// The client's own spelling.
     pub uri: Arc<str>,
+    /// Of the content.
     pub version: i64,
     pub content: Content,
+    /// A drawing of a CAD program, not a text.
+    pub is_drawing: bool,
+    /// What holds for it.
+    pub settings: Arc<Effective>,
+    /// What the content is yet to be taken through, in its order.
+    pub tasks: Vec<Task>,
+    /// It is to be judged and published.
+    pub is_dirty: bool,
     /// Differs after every change: what was made for another stamp is out of date.
     pub stamp: u64,
     /// Number of findings at the last publish.
     pub findings: usize,
     /// The client has been told something since the opening.
     pub published: bool,
-    /// The client has to be told something.
-    pub dirty: bool,
+    /// The last look at it took long.
+    pub is_slow: bool,
     /// The copy of the text that requests look at, while any of them does.
     shot: Weak<Shot>,
     /// The semantic tokens that the client holds.
@@ -93,34 +83,28 @@ impl Shot {
 }
 
 impl Open {
-    pub fn text(uri: Arc<str>, version: i64, kind: Kind, text: String, settings: &Arc<Effective>, stamp: u64) -> Open {
-        let content = match kind {
-            Kind::Settings => Content::Settings(SourceText::new(text.into_bytes())),
-            Kind::Foreign => Content::Foreign,
-            Kind::Dxf | Kind::Program(_) => read_text(kind, text.into_bytes(), settings),
+    /// A document that is yet to be read: its first task brings the text or drawing.
+    pub fn new(uri: Arc<str>, version: i64, first: Task, settings: Arc<Effective>, stamp: u64) -> Open {
+        let is_drawing = matches!(first, Task::Drawing(_));
+        let (content, tasks) = match first {
+            Task::Text { kind: Kind::Settings, text } => (Content::Settings(SourceText::new(text.into_bytes())), Vec::new()),
+            Task::Text { kind: Kind::Foreign, .. } => (Content::Foreign, Vec::new()),
+            first => (Content::Foreign, vec![first]),
         };
-        Open { uri, version, content, stamp, findings: 0, published: false, dirty: true, shot: Weak::new(), tokens: Arc::default() }
-    }
-
-    pub fn drawing(uri: Arc<str>, version: i64, drawing: Drawing, settings: &Arc<Effective>, stamp: u64) -> Open {
         Open {
             uri,
             version,
-            content: judge_drawing(Arc::new(drawing), settings),
+            content,
+            is_drawing,
+            settings,
+            tasks,
+            is_dirty: false,
             stamp,
             findings: 0,
             published: false,
-            dirty: true,
+            is_slow: false,
             shot: Weak::new(),
             tokens: Arc::default(),
-        }
-    }
-
-    pub fn is_drawing(&self) -> bool {
-        match &self.content {
-            Content::Read(document) => matches!(document.source(), Source::Cad(_)),
-            Content::Damaged(remains) => matches!(remains, Remains::Drawing(_)),
-            Content::Settings(_) | Content::Foreign => false,
         }
     }
 
@@ -129,7 +113,7 @@ impl Open {
         if let Some(shot) = self.shot.upgrade().filter(|shot| !shot.is_outdated()) {
             return Some(shot);
         }
-        let text = self.source_text()?.clone();
+        let text = self.content.source_text()?.clone();
         let shot = Arc::new(Shot { text, outdated: AtomicBool::new(false) });
         self.shot = Arc::downgrade(&shot);
         Some(shot)
@@ -151,152 +135,8 @@ impl Open {
         }
     }
 
-    pub fn source_text(&self) -> Option<&SourceText> {
-        match &self.content {
-            Content::Read(document) => document.text(),
-            Content::Settings(text) | Content::Damaged(Remains::Text { text, .. }) => Some(text),
-            Content::Foreign | Content::Damaged(Remains::Drawing(_)) => None,
-        }
-    }
-
-    /// Replaces bytes of the text, whatever else comes of it.
-    pub fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str, settings: &Arc<Effective>) {
-        match &mut self.content {
-            Content::Settings(text) => text.replace(range, replacement),
-            Content::Foreign | Content::Damaged(Remains::Drawing(_)) => {}
-            Content::Damaged(Remains::Text { kind, text }) => {
-                let kind = *kind;
-                text.replace(range, replacement);
-                let bytes = text.bytes().to_vec();
-                self.content = read_text(kind, bytes, settings);
-            }
-            Content::Read(document) => {
-                let before = document.text().map_or(0, SourceText::len);
-                let edited = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).edit_text(range.clone(), replacement)));
-                if let Err(panic) = edited {
-                    report(&*panic);
-                    let (kind, mut text) = text_of(document);
-                    // The panic came before the text was touched, or behind that.
-                    let done = text.len() == before - range.len() + replacement.len()
-                        && text.bytes().get(range.start..range.start + replacement.len()) == Some(replacement.as_bytes());
-                    if !done {
-                        text.replace(range, replacement);
-                    }
-                    self.content = read_text(kind, text.bytes().to_vec(), settings);
-                }
-            }
-        }
-    }
-
-    /// Drops everything derived and makes it again from the text or drawing.
-    pub fn rebuild(&mut self, settings: &Arc<Effective>) {
-        let content = std::mem::replace(&mut self.content, Content::Foreign);
-        self.content = match content {
-            Content::Read(document) => match document.source() {
-                Source::Cad(drawing) => judge_drawing(drawing.clone(), settings),
-                _ => {
-                    let (kind, text) = text_of(&document);
-                    read_text(kind, text.bytes().to_vec(), settings)
-                }
-            },
-            Content::Damaged(Remains::Text { kind, text }) => read_text(kind, text.bytes().to_vec(), settings),
-            Content::Damaged(Remains::Drawing(drawing)) => judge_drawing(drawing, settings),
-            other @ (Content::Settings(_) | Content::Foreign) => other,
-        };
-        self.dirty = true;
-    }
-
-    pub fn set_settings(&mut self, settings: &Arc<Effective>) {
-        match &mut self.content {
-            Content::Read(document) if document.settings() != settings => {
-                let set = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).set_settings(settings.clone())));
-                self.dirty = true;
-                if let Err(panic) = set {
-                    report(&*panic);
-                    self.rebuild(settings);
-                }
-            }
-            Content::Damaged(_) => self.rebuild(settings),
-            _ => {}
-        }
-    }
-
-    /// What the client is shown now.
-    pub fn diagnostics(&mut self, encoding: Encoding, shows_related: bool) -> Vec<Diagnostic> {
-        let uri = shows_related.then_some(&*self.uri);
-        match &mut self.content {
-            Content::Read(document) => match catch_unwind(AssertUnwindSafe(|| convert::publish_of(Arc::make_mut(document), encoding, uri)))
-            {
-                Ok((diagnostics, count)) => {
-                    self.findings = count;
-                    diagnostics
-                }
-                Err(panic) => {
-                    report(&*panic);
-                    let settings = document.settings().clone();
-                    self.rebuild(&settings);
-                    vec![internal_error()]
-                }
-            },
-            Content::Settings(text) => {
-                let (_, errors) = from_toml(&text.as_str_lossy());
-                convert::settings_diagnostics(text, &errors, encoding)
-            }
-            Content::Foreign => Vec::new(),
-            Content::Damaged(_) => vec![internal_error()],
-        }
-    }
-}
-
-fn text_of(document: &Document) -> (Kind, SourceText) {
-    let kind = document.program().map_or(Kind::Dxf, |program| Kind::Program(program.language()));
-    (kind, document.text().cloned().unwrap_or_default())
-}
-
-fn read_text(kind: Kind, kept: Vec<u8>, settings: &Arc<Effective>) -> Content {
-    let read = catch_unwind(AssertUnwindSafe(|| {
-        let bytes = kept.clone();
-        let source = match kind {
-            Kind::Program(language) => Source::Program(program::Document::read(language, bytes, settings)),
-            _ => Source::Dxf(dxf::Document::read(bytes)),
-        };
-        Arc::new(Document::new(source, settings.clone()))
-    }));
-    match read {
-        Ok(document) => Content::Read(document),
-        Err(panic) => {
-            report(&*panic);
-            Content::Damaged(Remains::Text { kind, text: SourceText::new(kept) })
-        }
-    }
-}
-
-fn judge_drawing(drawing: Arc<Drawing>, settings: &Arc<Effective>) -> Content {
-    let kept = drawing.clone();
-    let judged = catch_unwind(AssertUnwindSafe(|| Arc::new(Document::new(Source::Cad(drawing), settings.clone()))));
-    match judged {
-        Ok(document) => Content::Read(document),
-        Err(panic) => {
-            report(&*panic);
-            Content::Damaged(Remains::Drawing(kept))
-        }
-    }
-}
-
-fn report(panic: &(dyn Any + Send)) {
-    tracing::error!("a document could not be read or judged: {}", panic_text(panic));
-}
-
-fn internal_error() -> Diagnostic {
-    Diagnostic {
-        range: Range::default(),
-        severity: 1,
-        code: Rule::Syntax.name().into(),
-        code_description: None,
-        source: "wedm".into(),
-        message: "internal error: the document could not be judged; its text is kept and is tried again with the next change".into(),
-        related_information: None,
-        data: None,
+    pub fn is_away(&self) -> bool {
+        matches!(self.content, Content::Away)
     }
 }
 

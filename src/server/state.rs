@@ -5,13 +5,16 @@
 
 use super::client::{self, Abilities, Client, Weight};
 use super::config::{self, Config, ProjectFile, Search};
+use super::content::Content;
 use super::jobs::Workers;
-use super::open::{Content, Open};
+use super::judge::{Job, Judged, Task};
+use super::open::Open;
 use super::transport::{Publish, Writer, panic_text};
 use crate::protocol::Diagnostic;
 use crate::settings::Effective;
 use crate::text::{Encoding, SourceText};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,6 +36,8 @@ struct Message {
     name: &'static str,
     /// The document that the message is about.
     about: Option<Arc<str>>,
+    /// It changes that document and looks at nothing in it.
+    changes: bool,
     act: Box<dyn FnOnce(&mut State) + Send>,
 }
 
@@ -45,7 +50,12 @@ pub(super) struct Mailbox {
 impl Mailbox {
     /// Hands `act` to the state thread. Nothing happens once that has ended.
     pub fn tell(&self, name: &'static str, about: Option<Arc<str>>, act: impl FnOnce(&mut State) + Send + 'static) {
-        let _ = self.sender.send(Message { name, about, act: Box::new(act) });
+        let _ = self.sender.send(Message { name, about, changes: false, act: Box::new(act) });
+    }
+
+    /// The same for what changes a document and looks at nothing in it: several of these are judged together.
+    pub fn tell_change(&self, name: &'static str, about: Arc<str>, act: impl FnOnce(&mut State) + Send + 'static) {
+        let _ = self.sender.send(Message { name, about: Some(about), changes: true, act: Box::new(act) });
     }
 }
 
@@ -57,12 +67,14 @@ pub(super) struct State {
     pub documents: FxHashMap<Arc<str>, Open>,
     /// Drawings that the client has been asked to send again.
     pub resending: FxHashSet<Arc<str>>,
-    /// Documents that have to be published, in the order in which they changed.
+    /// Documents that have to be judged and published, in the order in which they changed.
     dirty: Vec<Arc<str>>,
-    /// The same, to be asked.
-    is_dirty: FxHashSet<Arc<str>>,
     /// Open texts of project files, by their paths.
     settings_texts: FxHashMap<PathBuf, Arc<str>>,
+    /// What came about documents that a worker has, in its order.
+    waiting: FxHashMap<Arc<str>, VecDeque<Message>>,
+    /// Documents that a worker has.
+    away: usize,
     /// Files on disk whose errors the client is shown.
     shown_files: FxHashSet<PathBuf>,
     stamp: u64,
@@ -73,7 +85,7 @@ pub(super) struct State {
 pub(super) fn start(writer: Writer) -> std::io::Result<Mailbox> {
     let (sender, receiver) = sync_channel(QUEUE);
     let mailbox = Mailbox { sender };
-    let workers = Workers::start(mailbox.clone(), writer.clone())?;
+    let workers = Workers::new(mailbox.clone(), writer.clone());
     let state = State {
         client: Client::new(writer),
         config: Config::default(),
@@ -82,8 +94,9 @@ pub(super) fn start(writer: Writer) -> std::io::Result<Mailbox> {
         documents: FxHashMap::default(),
         resending: FxHashSet::default(),
         dirty: Vec::new(),
-        is_dirty: FxHashSet::default(),
         settings_texts: FxHashMap::default(),
+        waiting: FxHashMap::default(),
+        away: 0,
         shown_files: FxHashSet::default(),
         stamp: 0,
         stopped: None,
@@ -115,11 +128,13 @@ impl State {
                 self.handle(message);
             }
             client::expire(&mut self);
-            self.publish_dirty();
+            self.judge_dirty();
             if began.elapsed() > LONG_TURN {
                 tracing::info!("a turn that began with {name} took {} ms", began.elapsed().as_millis());
             }
-            if let Some(done) = self.stopped.take() {
+            if self.away == 0
+                && let Some(done) = self.stopped.take()
+            {
                 self.workers.end();
                 let _ = done.send(());
                 return;
@@ -127,8 +142,16 @@ impl State {
         }
     }
 
+    /// Acts on a message, or lets it wait where a worker has its document: what comes about one document is done in its order.
     fn handle(&mut self, message: Message) {
-        let Message { name, about, act } = message;
+        match message.about.clone().filter(|uri| self.waiting.contains_key(uri) || self.is_busy(uri, message.changes)) {
+            Some(uri) => self.waiting.entry(uri).or_default().push_back(message),
+            None => self.act_on(message),
+        }
+    }
+
+    fn act_on(&mut self, message: Message) {
+        let Message { name, about, act, .. } = message;
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| act(self))) {
             tracing::error!("{name} panicked: {}", panic_text(&*panic));
             self.client.log(Weight::Warning, format!("internal error in {name}: {}", panic_text(&*panic)));
@@ -136,6 +159,19 @@ impl State {
                 self.rebuild(&uri);
             }
         }
+    }
+
+    /// Does `act` when what has come about a document before is done.
+    pub fn in_turn(&mut self, name: &'static str, about: Arc<str>, act: impl FnOnce(&mut State) + Send + 'static) {
+        self.handle(Message { name, about: Some(about), changes: false, act: Box::new(act) });
+    }
+
+    /// True where a worker has a document. One that has changed is judged before anybody looks at it.
+    fn is_busy(&mut self, uri: &Arc<str>, changes: bool) -> bool {
+        if !changes && self.documents.get(uri).is_some_and(|open| !open.is_away() && !open.tasks.is_empty()) {
+            self.judge(uri);
+        }
+        self.documents.get(uri).is_some_and(Open::is_away)
     }
 
     /// Answers when everything before has been handled and published; then the threads end.
@@ -150,30 +186,40 @@ impl State {
 
     /// Drops what was derived from a document, never its text, and derives it again.
     pub fn rebuild(&mut self, uri: &Arc<str>) {
-        let settings = self.settings_for(uri);
+        if self
+            .documents
+            .get(uri)
+            .is_some_and(|open| matches!(open.content, Content::Settings(_) | Content::Foreign) && open.tasks.is_empty())
+        {
+            self.mark_dirty(uri);
+        } else {
+            self.add_task(uri, Task::Rebuild);
+        }
+    }
+
+    /// Has something done to a document, and has it judged.
+    pub fn add_task(&mut self, uri: &Arc<str>, task: Task) {
         if let Some(open) = self.documents.get_mut(uri) {
-            open.rebuild(&settings);
+            open.tasks.push(task);
             self.mark_dirty(uri);
         }
     }
 
+    /// Something of a document has changed: it is published anew.
     pub fn mark_dirty(&mut self, uri: &Arc<str>) {
         let stamp = self.next_stamp();
         if let Some(open) = self.documents.get_mut(uri) {
             open.set_stamp(stamp);
-            open.dirty = true;
-            // Ours is the document's own copy of the name: one allocation for each document.
-            let uri = open.uri.clone();
-            if self.is_dirty.insert(uri.clone()) {
-                self.dirty.push(uri);
+            if !std::mem::replace(&mut open.is_dirty, true) {
+                // Ours is the document's own copy of the name: one allocation for each document.
+                self.dirty.push(open.uri.clone());
             }
         }
     }
 
-    /// Puts a document in its place; what stood there is told of for the last time.
+    /// Puts a document in its place.
     pub fn insert(&mut self, open: Open) {
         let uri = open.uri.clone();
-        self.publish(&uri);
         if matches!(open.content, Content::Settings(_))
             && let Some(path) = config::path_of(&uri)
         {
@@ -191,7 +237,6 @@ impl State {
 
     /// Closes a document; false when it is not open.
     pub fn close(&mut self, uri: &Arc<str>) -> bool {
-        self.publish(uri);
         let Some(open) = self.documents.remove(uri) else { return false };
         if matches!(open.content, Content::Settings(_)) {
             self.settings_texts.retain(|_, other| other != uri);
@@ -200,22 +245,75 @@ impl State {
         true
     }
 
-    fn publish_dirty(&mut self) {
-        self.is_dirty.clear();
+    fn judge_dirty(&mut self) {
         for uri in std::mem::take(&mut self.dirty) {
-            self.publish(&uri);
+            if self.documents.get(&uri).is_some_and(|open| open.is_dirty && !open.is_away()) {
+                self.judge(&uri);
+            }
         }
     }
 
-    /// Publishes a document that has changed since it was published last.
-    fn publish(&mut self, uri: &Arc<str>) {
-        let (encoding, shows_related) = (self.encoding, self.client.abilities.related_information);
-        let Some(open) = self.documents.get_mut(uri).filter(|open| open.dirty) else { return };
-        open.dirty = false;
-        let owed = !std::mem::replace(&mut open.published, true);
-        let publish =
-            Publish { uri: open.uri.clone(), version: Some(open.version), diagnostics: open.diagnostics(encoding, shows_related), owed };
-        self.client.writer().publish(publish);
+    /// Takes a document through what has come for it: here where that is little, else on a worker.
+    fn judge(&mut self, uri: &Arc<str>) {
+        let Some(open) = self.documents.get_mut(uri) else { return };
+        open.is_dirty = false;
+        let job = Job {
+            uri: open.uri.clone(),
+            version: open.version,
+            content: std::mem::replace(&mut open.content, Content::Away),
+            tasks: std::mem::take(&mut open.tasks),
+            settings: open.settings.clone(),
+            encoding: self.encoding,
+            shows_related: self.client.abilities.related_information,
+            is_slow: open.is_slow,
+        };
+        if job.is_small() {
+            let judged = job.run();
+            self.take_back(judged);
+        } else {
+            self.away += 1;
+            self.workers.judge(job, |state, judged| {
+                state.away -= 1;
+                let uri = judged.uri.clone();
+                state.take_back(judged);
+                state.go_on(&uri);
+            });
+        }
+    }
+
+    /// Takes back a document and tells the client of it.
+    fn take_back(&mut self, judged: Judged) {
+        let Judged { uri, version, content, told, is_slow, remarks, refused } = judged;
+        let Some(open) = self.documents.get_mut(&uri) else { return };
+        (open.version, open.content, open.is_slow) = (version, content, is_slow);
+        if let Some((diagnostics, findings)) = told {
+            open.findings = findings;
+            let owed = !std::mem::replace(&mut open.published, true);
+            self.client.writer().publish(Publish { uri: uri.clone(), version: Some(version), diagnostics, owed });
+        }
+        // What came while it was away.
+        if open.is_dirty {
+            self.dirty.push(uri.clone());
+        }
+        for remark in remarks {
+            self.client.log(Weight::Warning, remark);
+        }
+        for reason in refused {
+            super::drawings::does_not_apply(self, &uri, &reason);
+        }
+    }
+
+    /// Acts on what has waited for a document, until a worker has it again.
+    fn go_on(&mut self, uri: &Arc<str>) {
+        let Some(mut waiting) = self.waiting.remove(uri) else { return };
+        while let Some(message) = waiting.pop_front() {
+            if self.is_busy(uri, message.changes) {
+                waiting.push_front(message);
+                self.waiting.insert(uri.clone(), waiting);
+                return;
+            }
+            self.act_on(message);
+        }
     }
 
     /// The settings that hold for a document, its project's file read anew.
@@ -232,7 +330,7 @@ impl State {
 
     /// The text of a project's file that the client holds open.
     fn opened_text(&self, file: &Path) -> Option<SourceText> {
-        self.documents.get(self.settings_texts.get(file)?)?.source_text().cloned()
+        self.documents.get(self.settings_texts.get(file)?)?.content.source_text().cloned()
     }
 
     /// Shows the errors of a file that the client does not hold open itself.
@@ -287,13 +385,11 @@ impl State {
                     settings
                 }
             };
-            let Some(open) = self.documents.get_mut(&uri) else { continue };
-            let was_dirty = std::mem::take(&mut open.dirty);
-            open.set_settings(&settings);
-            let changed = open.dirty;
-            open.dirty |= was_dirty;
-            if changed {
-                self.mark_dirty(&uri);
+            if let Some(open) = self.documents.get_mut(&uri).filter(|open| open.settings != settings) {
+                open.settings = settings;
+                if !matches!(open.content, Content::Settings(_)) {
+                    self.add_task(&uri, Task::Settings);
+                }
             }
         }
     }

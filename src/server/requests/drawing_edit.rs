@@ -37,7 +37,7 @@ pub(in crate::server) fn execute(state: &mut State, command: &str, mut arguments
 
 fn check(state: &mut State, edit: &DrawingEdit) -> Result<(), Error> {
     let open = state.document(&edit.uri)?;
-    if !open.is_drawing() {
+    if !open.is_drawing {
         return Err(Error::invalid_params(format!("{} is a text, expected a drawing", edit.uri)));
     }
     if open.version != edit.version {

@@ -23,7 +23,7 @@ pub(in crate::server) fn document_symbol(state: &mut State, uri: Uri, errand: Er
         return;
     }
     let snapshot = state.documents.get(uri.as_str()).and_then(|open| match &open.content {
-        crate::server::open::Content::Read(document) => document.snapshot(),
+        crate::server::content::Content::Read(document) => document.snapshot(),
         _ => None,
     });
     let name = uri.as_str().to_owned();

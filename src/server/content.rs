@@ -1,0 +1,172 @@
+//! What a document comes to: its source and what was made of it, and what is done to it. All of it may run on a worker.
+
+use super::convert;
+use super::open::Kind;
+use super::transport::panic_text;
+use crate::document::{Document, Source};
+use crate::drawing::Drawing;
+use crate::dxf;
+use crate::finding::Rule;
+use crate::program;
+use crate::protocol::{self, Diagnostic, DrawingChange, Range};
+use crate::settings::{Effective, from_toml};
+use crate::text::{Encoding, SourceText};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+pub(super) enum Content {
+    /// Shared with workers: an edit while one still looks at it costs a copy.
+    Read(Arc<Document>),
+    Settings(SourceText),
+    Foreign,
+    /// Not read yet, or reading or judging it panicked: the text or drawing is kept, and tried again with the next change.
+    Unread(Remains),
+    /// A worker has it.
+    Away,
+}
+
+pub(super) enum Remains {
+    Text { kind: Kind, text: SourceText },
+    Drawing(Arc<Drawing>),
+}
+
+impl Content {
+    pub fn source_text(&self) -> Option<&SourceText> {
+        match self {
+            Content::Read(document) => document.text(),
+            Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => Some(text),
+            Content::Foreign | Content::Away | Content::Unread(Remains::Drawing(_)) => None,
+        }
+    }
+
+    /// Replaces bytes of the text. One that has not been read is not read for it.
+    pub fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str) {
+        match self {
+            Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => text.replace(range, replacement),
+            Content::Foreign | Content::Away | Content::Unread(Remains::Drawing(_)) => {}
+            Content::Read(document) => {
+                let before = document.text().map_or(0, SourceText::len);
+                let edited = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).edit_text(range.clone(), replacement)));
+                if let Err(panic) = edited {
+                    report(&*panic);
+                    let (kind, mut text) = text_of(document);
+                    // The panic came before the text was touched, or behind that.
+                    let done = text.len() == before - range.len() + replacement.len()
+                        && text.bytes().get(range.start..range.start + replacement.len()) == Some(replacement.as_bytes());
+                    if !done {
+                        text.replace(range, replacement);
+                    }
+                    *self = Content::Unread(Remains::Text { kind, text });
+                }
+            }
+        }
+    }
+
+    /// Makes changes of a drawing. An error says why nothing was changed, and whether it was a panic: then the drawing may hold half of
+    /// them, and only the client knows the whole.
+    pub fn change_drawing(&mut self, changes: Vec<DrawingChange>) -> Result<(), String> {
+        let changed = catch_unwind(AssertUnwindSafe(|| match &mut *self {
+            Content::Read(document) => {
+                Arc::make_mut(document).edit_drawing(|drawing| protocol::apply(drawing, changes)).unwrap_or(Err(no_drawing()))
+            }
+            Content::Unread(Remains::Drawing(drawing)) => protocol::apply(Arc::make_mut(drawing), changes).map(|_| ()),
+            _ => Err(no_drawing()),
+        }));
+        changed.unwrap_or_else(|panic| {
+            report(&*panic);
+            self.forget();
+            Err(format!("internal error: {}", panic_text(&*panic)))
+        })
+    }
+
+    pub fn set_settings(&mut self, settings: &Arc<Effective>) {
+        if let Content::Read(document) = self
+            && document.settings() != settings
+            && let Err(panic) = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).set_settings(settings.clone())))
+        {
+            report(&*panic);
+            self.forget();
+        }
+    }
+
+    /// Drops everything that was derived from the text or drawing.
+    pub fn forget(&mut self) {
+        if let Content::Read(document) = self {
+            let remains = match document.source() {
+                Source::Cad(drawing) => Remains::Drawing(drawing.clone()),
+                _ => {
+                    let (kind, text) = text_of(document);
+                    Remains::Text { kind, text }
+                }
+            };
+            *self = Content::Unread(remains);
+        }
+    }
+
+    /// Reads what has not been read.
+    pub fn read(&mut self, settings: &Arc<Effective>) {
+        let Content::Unread(remains) = self else { return };
+        let read = catch_unwind(AssertUnwindSafe(|| {
+            let source = match &*remains {
+                Remains::Text { kind: Kind::Program(language), text } => {
+                    Source::Program(program::Document::read(*language, text.bytes().to_vec(), settings))
+                }
+                Remains::Text { text, .. } => Source::Dxf(dxf::Document::read(text.bytes().to_vec())),
+                Remains::Drawing(drawing) => Source::Cad(drawing.clone()),
+            };
+            Arc::new(Document::new(source, settings.clone()))
+        }));
+        match read {
+            Ok(document) => *self = Content::Read(document),
+            Err(panic) => report(&*panic),
+        }
+    }
+
+    /// What the client is shown now, and how many findings there are in all.
+    pub fn diagnostics(&mut self, encoding: Encoding, related_of: Option<&str>, settings: &Arc<Effective>) -> (Vec<Diagnostic>, usize) {
+        match self {
+            Content::Read(document) => {
+                let found = catch_unwind(AssertUnwindSafe(|| convert::publish_of(Arc::make_mut(document), encoding, related_of)));
+                found.unwrap_or_else(|panic| {
+                    report(&*panic);
+                    self.forget();
+                    self.read(settings);
+                    (vec![internal_error()], 1)
+                })
+            }
+            Content::Settings(text) => {
+                let (_, errors) = from_toml(&text.as_str_lossy());
+                (convert::settings_diagnostics(text, &errors, encoding), 0)
+            }
+            Content::Foreign | Content::Away => (Vec::new(), 0),
+            Content::Unread(_) => (vec![internal_error()], 1),
+        }
+    }
+}
+
+fn no_drawing() -> String {
+    "there is no such drawing open".into()
+}
+
+fn text_of(document: &Document) -> (Kind, SourceText) {
+    let kind = document.program().map_or(Kind::Dxf, |program| Kind::Program(program.language()));
+    (kind, document.text().cloned().unwrap_or_default())
+}
+
+fn report(panic: &(dyn Any + Send)) {
+    tracing::error!("a document could not be read or judged: {}", panic_text(panic));
+}
+
+fn internal_error() -> Diagnostic {
+    Diagnostic {
+        range: Range::default(),
+        severity: 1,
+        code: Rule::Syntax.name().into(),
+        code_description: None,
+        source: "wedm".into(),
+        message: "internal error: the document could not be judged; its text is kept and is tried again with the next change".into(),
+        related_information: None,
+        data: None,
+    }
+}

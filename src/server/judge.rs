@@ -1,0 +1,187 @@
+//! A document taken through what has come for it, and judged: at once where that is little, else on a worker, so that no document
+//! waits for another.
+
+use super::content::{Content, Remains};
+use super::convert;
+use super::open::Kind;
+use crate::document::Source;
+use crate::drawing::Drawing;
+use crate::program::Language;
+use crate::protocol::{Diagnostic, DrawingChange};
+use crate::settings::Effective;
+use crate::text::{Encoding, SourceText};
+use ls_types::TextDocumentContentChangeEvent;
+use memchr::memmem;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What is to be done to a document.
+pub(super) enum Task {
+    /// It is this text.
+    Text { kind: Kind, text: String },
+    /// It is this drawing.
+    Drawing(Box<Drawing>),
+    /// The client has changed its text.
+    Change { version: i64, changes: Vec<TextDocumentContentChangeEvent> },
+    /// The client has changed its drawing.
+    ChangeDrawing { version: i64, changes: Vec<DrawingChange> },
+    /// Other settings hold for it.
+    Settings,
+    /// What was derived from it is in doubt.
+    Rebuild,
+}
+
+/// A document on its way through what has come for it.
+pub(super) struct Job {
+    pub uri: Arc<str>,
+    pub version: i64,
+    pub content: Content,
+    pub tasks: Vec<Task>,
+    pub settings: Arc<Effective>,
+    pub encoding: Encoding,
+    /// The client shows the other places of a finding.
+    pub shows_related: bool,
+    /// The last look at it took long.
+    pub is_slow: bool,
+}
+
+/// What came of it.
+pub(super) struct Judged {
+    pub uri: Arc<str>,
+    pub version: i64,
+    pub content: Content,
+    /// What the client is told and how many findings there are in all; `None` where nothing has changed.
+    pub told: Option<(Vec<Diagnostic>, usize)>,
+    /// Looking took long.
+    pub is_slow: bool,
+    /// For the client's log.
+    pub remarks: Vec<String>,
+    /// Why changes of a drawing were not made.
+    pub refused: Vec<String>,
+}
+
+/// Bytes of a text, or segments of a drawing, that are judged at once: handing them over costs as much.
+const SMALL_TEXT: usize = 16 * 1024;
+const SMALL_DRAWING: usize = 500;
+/// Changes, of one message and in all, that are made at once.
+const FEW: usize = 16;
+
+/// A look that takes longer than this is long: several changes that wait are made in one then.
+const LONG: Duration = Duration::from_millis(100);
+
+/// What a drawing or program may grow by beyond its own length.
+const MULTIPLIERS_IN_DXF: [&[u8]; 4] = [b"INSERT", b"SPLINE", b"ELLIPSE", b"HATCH"];
+const MULTIPLIERS_IN_ISO: [&[u8]; 2] = [b"98", b"L"];
+
+impl Job {
+    /// True where little is to be done, whatever the document says.
+    pub fn is_small(&self) -> bool {
+        let kind = self.kind();
+        let is_small_text = |text: &[u8]| is_small_text(kind, text);
+        let own = match &self.content {
+            Content::Read(document) => match document.source() {
+                Source::Cad(drawing) => is_small_drawing(drawing),
+                Source::Dxf(text) => is_small_text(text.text().bytes()),
+                Source::Program(program) => is_small_text(program.text().bytes()),
+            },
+            Content::Unread(Remains::Text { text, .. }) => is_small_text(text.bytes()),
+            Content::Unread(Remains::Drawing(drawing)) => is_small_drawing(drawing),
+            Content::Settings(_) | Content::Foreign | Content::Away => true,
+        };
+        let is_small_task = |task: &Task| match task {
+            Task::Text { text, .. } => is_small_text(text.as_bytes()),
+            Task::Drawing(drawing) => is_small_drawing(drawing),
+            Task::Change { changes, .. } => changes.len() <= FEW && changes.iter().all(|change| is_small_text(change.text.as_bytes())),
+            Task::ChangeDrawing { changes, .. } => changes.len() <= FEW,
+            Task::Settings | Task::Rebuild => true,
+        };
+        own && self.tasks.len() <= FEW && self.tasks.iter().all(is_small_task)
+    }
+
+    fn kind(&self) -> Kind {
+        let of_content = match &self.content {
+            Content::Read(document) => document.program().map_or(Kind::Dxf, |program| Kind::Program(program.language())),
+            Content::Unread(Remains::Text { kind, .. }) => *kind,
+            _ => Kind::Foreign,
+        };
+        let of_task = |task: &Task| match task {
+            Task::Text { kind, .. } => Some(*kind),
+            _ => None,
+        };
+        self.tasks.iter().rev().find_map(of_task).unwrap_or(of_content)
+    }
+
+    pub fn run(self) -> Judged {
+        let began = Instant::now();
+        let Job { uri, mut version, mut content, tasks, settings, encoding, shows_related, is_slow } = self;
+        let (mut remarks, mut refused) = (Vec::new(), Vec::new());
+        let changes = tasks.iter().filter(|task| matches!(task, Task::Change { .. } | Task::ChangeDrawing { .. })).count();
+        if is_slow && changes > 1 {
+            // All of them cost one look then, not one each.
+            content.forget();
+        }
+        // Without a task it is only to be published.
+        let mut is_changed = tasks.is_empty();
+        for task in tasks {
+            let refusals = refused.len();
+            match task {
+                Task::Text { kind, text } => content = Content::Unread(Remains::Text { kind, text: SourceText::new(text.into_bytes()) }),
+                Task::Drawing(drawing) => content = Content::Unread(Remains::Drawing(Arc::new(*drawing))),
+                Task::Change { version: newer, changes } => {
+                    if newer < version {
+                        remarks.push(format!("{uri} was changed to version {newer}, which is older than {version}: applied all the same"));
+                    }
+                    version = version.max(newer);
+                    change(&mut content, changes, encoding);
+                }
+                Task::ChangeDrawing { version: newer, .. } if newer <= version => {
+                    refused.push(format!("version {newer} is not newer than {version}"));
+                }
+                Task::ChangeDrawing { version: newer, changes } => match content.change_drawing(changes) {
+                    Ok(()) => version = newer,
+                    Err(reason) => refused.push(reason),
+                },
+                Task::Settings => content.set_settings(&settings),
+                Task::Rebuild => content.forget(),
+            }
+            is_changed |= refused.len() == refusals;
+        }
+        // What a panic has left is read again.
+        is_changed |= matches!(content, Content::Unread(_));
+        content.read(&settings);
+        let related_of = shows_related.then_some(&*uri);
+        let told = is_changed.then(|| content.diagnostics(encoding, related_of, &settings));
+        Judged { version, content, told, is_slow: began.elapsed() > LONG, remarks, refused, uri }
+    }
+}
+
+/// Makes the changes of one message in a text.
+pub(super) fn change(content: &mut Content, changes: Vec<TextDocumentContentChangeEvent>, encoding: Encoding) {
+    for change in changes {
+        let length = content.source_text().map_or(0, SourceText::len);
+        let range = match (change.range, content.source_text()) {
+            (Some(range), Some(text)) => convert::bytes_of(text, range, encoding),
+            _ => 0..length,
+        };
+        content.edit_text(range, &change.text);
+    }
+}
+
+fn is_small_text(kind: Kind, text: &[u8]) -> bool {
+    let multipliers: &[&[u8]] = match kind {
+        Kind::Dxf => &MULTIPLIERS_IN_DXF,
+        Kind::Program(Language::Iso) => &MULTIPLIERS_IN_ISO,
+        _ => &[],
+    };
+    text.len() <= SMALL_TEXT && !multipliers.iter().any(|word| memmem::find(text, word).is_some())
+}
+
+fn is_small_drawing(drawing: &Drawing) -> bool {
+    let mut left = SMALL_DRAWING;
+    drawing.entities().all(|(_, entity)| {
+        let count = entity.geometry.segment_count().max(1);
+        let fits = count <= left;
+        left = left.saturating_sub(count);
+        fits
+    })
+}
