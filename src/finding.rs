@@ -2,8 +2,10 @@
 //!
 //! The sentence that a person reads is made from it in [`crate::message`]; the protocol's form in `server`.
 
+mod not_judged;
 mod program_fault;
 
+pub use not_judged::NotJudged;
 pub use program_fault::{Axis, ProgramFault};
 
 use crate::drawing::{DrawingEdit, EntityId, Visibility};
@@ -74,6 +76,8 @@ pub enum Rule {
     Syntax,
     /// A value in `wedm.toml` or in the client's settings that does not fit.
     Settings,
+    /// A part of the document was left out: it would have taken too much.
+    NotJudged,
     /// Stands for the findings beyond the 500 of one publish.
     More,
 }
@@ -120,6 +124,7 @@ impl Rule {
         Rule::BlockNumber,
         Rule::Syntax,
         Rule::Settings,
+        Rule::NotJudged,
         Rule::More,
     ];
 
@@ -165,6 +170,7 @@ impl Rule {
             Rule::BlockNumber => "block-number",
             Rule::Syntax => "syntax",
             Rule::Settings => "settings",
+            Rule::NotJudged => "not-judged",
             Rule::More => "more",
         }
     }
@@ -205,7 +211,8 @@ impl Rule {
             | Rule::TextAfterEnd
             | Rule::BlockNumber
             | Rule::PositionMismatch
-            | Rule::PathCrossesItself => Severity::Warning,
+            | Rule::PathCrossesItself
+            | Rule::NotJudged => Severity::Warning,
             Rule::UnsupportedEntity | Rule::AmbiguousCenter | Rule::MachineDependent | Rule::More => Severity::Information,
             Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
@@ -348,10 +355,7 @@ pub enum Detail {
     Overlap {
         length: f64,
     },
-    /// So much lies on or across each other that `count` stretches of contours were not compared with what is near them.
-    Crowded {
-        count: usize,
-    },
+    NotJudged(NotJudged),
     ShortSegment {
         length: f64,
     },

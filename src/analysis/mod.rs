@@ -6,8 +6,8 @@ mod repair;
 mod report;
 
 use crate::drawing::{
-    Chains, ContourIndex, ContourKey, ContourSegment, Delta, Drawing, DrawingEdit, EntityId, Outline, RUN, Role, Touched, nesting_depths,
-    stated_role,
+    Chains, Contour, ContourIndex, ContourKey, ContourSegment, Delta, Drawing, DrawingEdit, EntityId, Outline, RUN, Role, Touched,
+    nesting_depths, stated_role,
 };
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::{Bounds, Point};
@@ -91,8 +91,10 @@ impl Analysis {
             outlines: OnceLock::new(),
             tally: OnceLock::new(),
         };
-        let keys: Vec<ContourKey> = analysis.chains.keys().collect();
-        analysis.pairs.begin();
+        // In machining order: where not all is compared, it is the same that is left out, however the drawing came about.
+        let keys = analysis.in_machining_order(drawing).to_vec();
+        let segments = keys.iter().filter_map(|&key| analysis.chains.get(key)).map(Contour::len).sum();
+        analysis.pairs = Pairs::new(&analysis.settings.budget, segments);
         analysis.known.reserve(keys.len());
         analysis.learn(drawing, &keys);
         analysis
@@ -100,6 +102,15 @@ impl Analysis {
 
     /// Looks again at what `delta` touched. Same result as a fresh [`Analysis::new`].
     pub fn update(&mut self, drawing: &Drawing, delta: &Delta) {
+        if self.pairs.is_within_budget() {
+            self.look_at_touched(drawing, delta);
+        }
+        if !self.pairs.is_within_budget() {
+            *self = Analysis::new(drawing, self.settings.clone());
+        }
+    }
+
+    fn look_at_touched(&mut self, drawing: &Drawing, delta: &Delta) {
         self.tally = OnceLock::new();
         let limits = Limits::new(&self.settings, self.settings.unit_of(drawing).mm);
         if limits != self.limits || delta.touched.contains(&Touched::All) || self.is_most(delta) {
@@ -109,7 +120,6 @@ impl Analysis {
         if !delta.touched.is_empty() {
             self.outlines = OnceLock::new();
         }
-        self.pairs.begin();
         let mut moved = Vec::new();
         let asleep = self.asleep.take();
         match (asleep, delta.touched.as_slice()) {
@@ -216,8 +226,10 @@ impl Analysis {
         if self.is_most(delta) {
             return Analysis::new(drawing, self.settings.clone());
         }
+        // What is only tried does not ask for a look at everything.
         let mut analysis = self.clone();
-        analysis.update(drawing, delta);
+        analysis.pairs.refill();
+        analysis.look_at_touched(drawing, delta);
         analysis
     }
 

@@ -2,10 +2,10 @@
 
 use super::report::Report;
 use crate::drawing::{ContourIndex, ContourKey, ContourSegment, Drawing, EntityId};
-use crate::finding::{Detail, Place, Rule, Severity, Side};
+use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::{Bounds, Grid, Point, Segment, left_normal};
 use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Wall};
-use crate::settings::Effective;
+use crate::settings::{Budget, Effective};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 
@@ -32,16 +32,8 @@ struct Seen {
     blocked: bool,
 }
 
-/// More than this is not sought: a drawing in which so much lies on or across each other is no drawing to cut yet, and
-/// thousands of copies in one place would be compared for ever. Where that happened is reported.
-const MOST_SEEN: usize = 20_000;
-
-/// Looks that comparing may take for each segment that is looked at, and in all beside that: a segment held against another is one, as
-/// are four boxes of the grid. Thousands of circles about one point come near each other everywhere without being seen, and would be
-/// compared for ever. Where that happened is reported.
-const LOOKS_OF_A_SEGMENT: u64 = 128;
+/// What a look of the budget is: a segment held against another one, or so many boxes of the grid.
 const BOXES_OF_A_LOOK: u64 = 4;
-const LOOKS: u64 = 50_000_000;
 /// What the rules take for two segments that come near each other, in looks.
 const LOOKS_OF_A_PAIR: u64 = 16;
 
@@ -68,21 +60,38 @@ pub struct Pairs {
     uncompared: FxHashSet<RunId>,
     /// The farthest that a rule reaches.
     reach: f64,
-    /// Looks that are left, for comparing and for asking whether discs are empty, until [`Pairs::begin`] gives new ones.
+    /// Looks that there were when all was looked at last, and those that are left of them: for comparing, and for asking whether discs
+    /// are empty.
+    granted: u64,
     left: u64,
     left_to_ask: u64,
+    most_seen: usize,
 }
 
 impl Pairs {
-    /// Gives the looks that one change of the drawing may take, however many contours it touches.
-    pub fn begin(&mut self) {
-        (self.left, self.left_to_ask) = (LOOKS, LOOKS);
+    /// Nothing seen yet, and what a look at a drawing of so many segments may take, with all that is edited in it afterwards.
+    pub fn new(budget: &Budget, segments: usize) -> Pairs {
+        let granted = budget.looks.saturating_add(budget.looks_of_a_segment.saturating_mul(segments as u64));
+        Pairs { granted, left: granted, left_to_ask: granted, most_seen: budget.most_seen, ..Pairs::default() }
+    }
+
+    /// Gives the looks anew, for an edit that is only tried.
+    pub fn refill(&mut self) {
+        (self.left, self.left_to_ask) = (self.granted, self.granted);
+    }
+
+    /// True while what has been seen, edit by edit, is what a look at everything sees. Each pair that there is has been looked at once at
+    /// least: where that took no more than half of what there was, a look at everything comes to its end, too. Else what is left out
+    /// hangs on the order in which things are looked at: all has to be looked at.
+    pub fn is_within_budget(&self) -> bool {
+        let half = self.granted / 2;
+        self.uncompared.is_empty() && self.seen_count < self.most_seen && self.left >= half && self.left_to_ask >= half
     }
 
     /// True when nothing that has been seen between others depends on this contour, and all that is sought has been.
     pub fn may_spare(&self, key: ContourKey) -> bool {
         let depends = |each: &Seen| each.disc.is_some() && each.one.0 != key && each.other.0 != key;
-        self.uncompared.is_empty() && self.seen_count < MOST_SEEN && !self.seen.values().flatten().any(depends)
+        self.uncompared.is_empty() && self.seen_count < self.most_seen && !self.seen.values().flatten().any(depends)
     }
 
     /// Forgets a contour as it was when it was looked at last.
@@ -140,16 +149,14 @@ impl Pairs {
                 self.disturb(&bounds);
             }
         }
-        let new: FxHashSet<RunId> = runs.iter().copied().collect();
+        // Their order is that of the contours, whatever the numbers by which these are known.
+        let new: FxHashMap<RunId, usize> = runs.iter().enumerate().map(|(at, &run)| (run, at)).collect();
         let (mut near, mut found) = (Vec::new(), Vec::new());
-        let segments: usize = runs.iter().filter_map(|&(key, run)| Some(outlook(key)?.index.range_of(run as usize).len())).sum();
-        let more = LOOKS_OF_A_SEGMENT.saturating_mul(segments as u64);
-        let mut left = self.left.saturating_add(more);
-        self.left_to_ask = self.left_to_ask.saturating_add(more);
+        let mut left = self.left;
         let mut kept = Kept { outlook, walls: FxHashMap::default() };
-        for &run in runs {
+        for (at, &run) in runs.iter().enumerate() {
             let Some(own) = outlook(run.0) else { continue };
-            if self.seen_count >= MOST_SEEN || left == 0 {
+            if self.seen_count >= self.most_seen || left == 0 {
                 self.uncompared.insert(run);
                 continue;
             }
@@ -157,7 +164,7 @@ impl Pairs {
             near.clear();
             let looked = self.grid.near(&area, |other| {
                 // Two new runs are looked at once.
-                if run <= other || !new.contains(&other) {
+                if new.get(&other).is_none_or(|&its| at <= its) {
                     near.push(other);
                 }
             });
@@ -177,7 +184,7 @@ impl Pairs {
                         .any(|(wall, bounds)| bounds.grown(self.reach).touches(&theirs) && passes(wall.geometry(), &theirs, self.reach))
             });
             for &other in &near {
-                if self.seen_count >= MOST_SEEN || left == 0 {
+                if self.seen_count >= self.most_seen || left == 0 {
                     self.uncompared.insert(run);
                     break;
                 }
@@ -212,7 +219,19 @@ impl Pairs {
         let mut asked: Vec<(RunId, RunId)> =
             partners.flat_map(|(&run, partners)| partners.iter().map(move |&partner| ordered(run, partner))).collect();
         // In the order along the contours, so that what is kept of one pair serves the next.
-        asked.sort_unstable();
+        let mut ranks: FxHashMap<ContourKey, u64> = FxHashMap::default();
+        let outlook = kept.outlook;
+        let mut rank = |key: ContourKey| {
+            *ranks.entry(key).or_insert_with(|| {
+                let first = outlook(key).and_then(|it| Some(it.drawing.rank(it.contour.pieces.first()?.entity)));
+                first.unwrap_or(u64::MAX)
+            })
+        };
+        let mut place = |(key, run): RunId| (rank(key), key, run);
+        asked.sort_by_cached_key(|&(one, other)| {
+            let (one, other) = (place(one), place(other));
+            if one <= other { (one, other) } else { (other, one) }
+        });
         asked.dedup();
         for pair in asked {
             let Some(mut seen) = self.seen.remove(&pair) else { continue };
@@ -273,7 +292,7 @@ impl Pairs {
 
     /// Says where segments have not been compared.
     fn report_uncompared(&self, drawing: &Drawing, outlook: Outlooks, report: &mut Report) {
-        if self.uncompared.is_empty() || !report.counts(Rule::Overlap, None) {
+        if self.uncompared.is_empty() || !report.counts(Rule::NotJudged, None) {
             return;
         }
         let first = self.uncompared.iter().filter_map(|&(key, run)| outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start));
@@ -282,7 +301,8 @@ impl Pairs {
             _ => None,
         };
         if let Some(place) = first.min_by_key(rank) {
-            report.add(Rule::Overlap, None, place, Detail::Crowded { count: self.uncompared.len() }, Vec::new());
+            let left_out = NotJudged::Pairs { count: self.uncompared.len() };
+            report.add(Rule::NotJudged, None, place, Detail::NotJudged(left_out), Vec::new());
         }
     }
 

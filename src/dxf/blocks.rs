@@ -11,6 +11,7 @@ use super::place;
 use super::shape::{Affine, Shape};
 use super::space::{FLAT, Lies, Space, Vector3, in_space};
 use crate::drawing::{Color, Geometry, Kind, Visibility};
+use crate::finding::NotJudged;
 use crate::geometry::Point;
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
@@ -18,7 +19,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// All block references of a document together draw at most this many segments, and are copied at most this often.
-const MOST_SEGMENTS: u64 = 1_000_000;
+const MOST_SEGMENTS: u64 = 200_000;
 /// Blocks within blocks.
 const DEEPEST: usize = 64;
 /// Why a part of a block is not drawn where it is put.
@@ -80,6 +81,14 @@ pub(super) struct Drawn {
     pub(super) parts: Vec<Part>,
     /// What is not cut, and why: how many of which kind.
     pub(super) left_out: BTreeMap<(Kind, &'static str), usize>,
+}
+
+/// Why a reference draws nothing.
+#[derive(Clone, Debug)]
+pub(super) enum Undrawn {
+    /// What is damaged.
+    Damaged(String),
+    TooMuch(NotJudged),
 }
 
 /// Blocks in the order of the text.
@@ -158,27 +167,23 @@ impl Blocks {
     }
 
     /// What a reference in the modelspace draws; curves are fitted within `tolerance`. An error says why it draws nothing.
-    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64, states: &mut LayerStates) -> Result<Drawn, String> {
+    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64, states: &mut LayerStates) -> Result<Drawn, Undrawn> {
         let Some(&block) = self.by_name.get(&insert.block) else {
-            return Err("the block is not in the file: nothing is drawn for this INSERT".into());
+            return Err(Undrawn::Damaged("the block is not in the file: nothing is drawn for this INSERT".into()));
         };
         if let Some(why) = self.refused.get(&block) {
-            return Err(why.clone());
+            return Err(Undrawn::Damaged(why.clone()));
         }
         let size = match self.size_of(block, &mut Vec::new()) {
             Ok(size) => size,
             Err(why) => {
                 self.refused.insert(block, why.clone());
-                return Err(why);
+                return Err(Undrawn::Damaged(why));
             }
         };
         let all = insert.copies().saturating_mul(size.segments.saturating_add(1));
         if self.drawn.saturating_add(all) > MOST_SEGMENTS {
-            return Err(format!(
-                "this INSERT draws {} copies, {all} segments in all, more than the {MOST_SEGMENTS} that the references of a file may \
-                 come to: nothing is drawn for it",
-                insert.copies()
-            ));
+            return Err(Undrawn::TooMuch(NotJudged::Reference { copies: insert.copies(), segments: all, most: MOST_SEGMENTS }));
         }
         self.drawn += all;
         let mut drawn = Drawn::default();

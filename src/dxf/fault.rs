@@ -1,6 +1,6 @@
 //! Findings of the reader, and how a value is quoted in their sentences.
 
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
 use std::ops::Range;
 
 /// A fault that makes text unreadable.
@@ -11,6 +11,17 @@ pub(super) fn damage(findings: &mut Vec<Finding>, range: Range<usize>, sentence:
 /// Something odd that was read all the same.
 pub(super) fn oddity(findings: &mut Vec<Finding>, range: Range<usize>, sentence: String) {
     push(findings, range, Severity::Warning, sentence);
+}
+
+/// A part of the drawing that would take too much: a program of what is left would lack it.
+pub(super) fn left_out(findings: &mut Vec<Finding>, range: Range<usize>, what: NotJudged) {
+    findings.push(Finding {
+        rule: Rule::NotJudged,
+        severity: Severity::Error,
+        place: Place::Text { range },
+        detail: Detail::NotJudged(what),
+        related: Vec::new(),
+    });
 }
 
 pub(super) fn push(findings: &mut Vec<Finding>, range: Range<usize>, severity: Severity, sentence: String) {

@@ -43,7 +43,7 @@ use crate::drawing::{Drawing, Entity, EntityId, Handle, Kind, Unit, Visibility};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use crate::text::SourceText;
-use blocks::{Blocks, Drawn, Part};
+use blocks::{Blocks, Drawn, Part, Undrawn};
 use code_page::CodePage;
 use entity::{Look, Outcome, Paint};
 use insert::Insert;
@@ -452,9 +452,13 @@ impl Reading {
         let blocks = self.known.as_mut().unwrap_or(&mut self.blocks);
         let Drawn { parts, left_out } = match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
             Ok(drawn) => drawn,
-            Err(sentence) => {
+            Err(why) => {
                 item.became = Became::Damaged;
-                return fault::damage(findings, lines.trimmed_range(insert.name_line), sentence);
+                let range = lines.trimmed_range(insert.name_line);
+                return match why {
+                    Undrawn::Damaged(sentence) => fault::damage(findings, range, sentence),
+                    Undrawn::TooMuch(what) => fault::left_out(findings, range, what),
+                };
             }
         };
         if let (true, Some(((_, why), _))) = (parts.is_empty(), left_out.first_key_value()) {

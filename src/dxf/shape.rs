@@ -64,7 +64,7 @@ impl Shape {
         match self {
             Shape::Plain(geometry) => geometry.segment_count().max(1) as u64,
             Shape::Ellipse(_) => 64,
-            Shape::Spline(spline) => 8 * spline.point_count() as u64,
+            Shape::Spline(spline) => 24 * spline.point_count() as u64,
         }
     }
 

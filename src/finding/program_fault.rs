@@ -135,10 +135,6 @@ pub enum ProgramFault {
         at: [f64; 2],
         other: usize,
     },
-    /// So much of a contour of so many blocks lies on one place that crossings were not looked for in all of it.
-    PathOnItself {
-        blocks: usize,
-    },
 }
 
 impl ProgramFault {
@@ -173,7 +169,7 @@ impl ProgramFault {
                 Rule::BlockNumber
             }
             ProgramFault::PositionMismatch { .. } => Rule::PositionMismatch,
-            ProgramFault::PathCrossesItself { .. } | ProgramFault::PathOnItself { .. } => Rule::PathCrossesItself,
+            ProgramFault::PathCrossesItself { .. } => Rule::PathCrossesItself,
         }
     }
 }

@@ -31,7 +31,7 @@ pub enum Unfit {
 
 /// Arcs that a curve may become, and beside that for each of its pieces up to the one at hand. A curve of a die takes some dozens; one
 /// whose coordinates leave no digits for the tolerance, or whose points lie at random over metres, would take a million from a line of text.
-const MOST_ARCS: usize = 2_000;
+const MOST_ARCS: usize = 500;
 const MOST_ARCS_OF_A_PIECE: usize = 48;
 /// The tolerance for which these hold; a finer one takes more, by the cube root.
 const USUAL: f64 = 1e-3;

@@ -2,7 +2,7 @@
 
 use super::readable;
 use crate::drawing::Visibility;
-use crate::finding::{CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, ProgramFault, Side, SmallRadius};
+use crate::finding::{CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, NotJudged, ProgramFault, Side, SmallRadius};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
 ///
@@ -50,9 +50,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         Detail::Gap { distance } => format!("ends do not meet: they are {} mm apart, within the join tolerance", mm(distance * unit_mm)),
         Detail::DuplicateEntity => "entity lies in the same place as another: the wire would cut it twice".into(),
         Detail::Overlap { length } => format!("segment runs on another one over {} mm", mm(length * unit_mm)),
-        Detail::Crowded { count } => format!(
-            "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them"
-        ),
+        Detail::NotJudged(what) => not_judged(what),
         Detail::ShortSegment { length: 0.0 } => "segment has no length: it is a point, and is not cut".into(),
         Detail::ShortSegment { length } => format!("segment is only {} mm long: controllers stumble over it", mm(length * unit_mm)),
         Detail::NearTangent { turn } => {
@@ -255,13 +253,28 @@ fn program(fault: &ProgramFault) -> String {
             x / 1000.0,
             y / 1000.0
         ),
-        ProgramFault::PathOnItself { blocks } => {
-            format!("so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it")
-        }
         ProgramFault::PathCrossesItself { at: [x, y], other } => format!(
             "the wire crosses its own path of line {} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two",
             other + 1
         ),
+    }
+}
+
+/// What was left out, and why.
+fn not_judged(what: &NotJudged) -> String {
+    match what {
+        NotJudged::Pairs { count } => format!(
+            "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them"
+        ),
+        NotJudged::Crossings { blocks } => {
+            format!("so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it")
+        }
+        NotJudged::Reference { copies, segments, most } => format!(
+            "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it"
+        ),
+        NotJudged::Calls { lines, calls } => {
+            format!("the calls of subprograms come to more than {lines} lines or {calls} calls: what would run from here on is not judged")
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::drawing::Point;
 use crate::drawing::Drawing;
-use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, ProgramFault, Side, SmallRadius};
+use crate::finding::{Detail, Finding, IsoFault, NoFix, NotJudged, Place, ProgramFault, Side, SmallRadius};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -130,7 +130,7 @@ impl FindingData {
             Detail::LostPocket { near } | Detail::UnprovedPath { near } => data.at = Some((*near).into()),
             Detail::OffsetCollapse { required, .. } => data.required = Some(*required),
             Detail::OpenContour { distance } | Detail::Gap { distance } => data.distance = Some(*distance),
-            Detail::Crowded { count } => data.count = Some(*count),
+            Detail::NotJudged(what) => data.count = left_out(what),
             Detail::DuplicateEntity => {}
             Detail::Overlap { length } | Detail::ShortSegment { length } => data.length = Some(*length),
             Detail::Size { size } => data.length = Some(*size),
@@ -170,7 +170,6 @@ impl FindingData {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
             ProgramFault::PathCrossesItself { at, .. } => self.at = Some(crate::geometry::Point::from(at).into()),
-            ProgramFault::PathOnItself { blocks } => self.count = Some(blocks),
             _ => {}
         }
     }
@@ -210,6 +209,15 @@ impl FindingData {
 
     pub fn is_empty(&self) -> bool {
         *self == FindingData::default()
+    }
+}
+
+/// How much was left out, where that is counted.
+fn left_out(what: &NotJudged) -> Option<usize> {
+    match *what {
+        NotJudged::Pairs { count } | NotJudged::Crossings { blocks: count } => Some(count),
+        NotJudged::Reference { copies, .. } => usize::try_from(copies).ok(),
+        NotJudged::Calls { .. } => None,
     }
 }
 

@@ -1,7 +1,9 @@
 //! Settings with every default filled in.
 
 use super::profile::DEFAULT_PROFILE;
-use super::{Compensation, Corner, Direction, Jumps, Layout, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting};
+use super::{
+    Budget, Compensation, Corner, Direction, Jumps, Layout, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting,
+};
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
@@ -43,6 +45,7 @@ pub struct Effective {
     pub end: String,
     pub pause: String,
     pub tolerances: Tolerances,
+    pub budget: Budget,
 }
 
 impl Effective {
@@ -101,6 +104,7 @@ impl Effective {
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),
             tolerances: Tolerances { arc_fit: settings.arc_fit.unwrap_or(Tolerances::default().arc_fit), ..Tolerances::default() },
+            budget: Budget::default(),
         }
     }
 

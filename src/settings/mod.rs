@@ -2,6 +2,7 @@
 //!
 //! Each level holds only what somebody set. Keys are camelCase in JSON and kebab-case in `wedm.toml`.
 
+mod budget;
 mod effective;
 mod from_json;
 mod from_toml;
@@ -9,6 +10,7 @@ mod profile;
 mod reader;
 mod value;
 
+pub use budget::Budget;
 pub use effective::Effective;
 pub use from_json::from_json;
 pub use from_toml::{FILE_NAME, from_toml, read_file};

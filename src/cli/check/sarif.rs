@@ -125,6 +125,7 @@ fn summary(rule: Rule) -> &'static str {
         Rule::BlockNumber => "A block number that stands twice",
         Rule::Syntax => "The file is damaged",
         Rule::Settings => "A setting does not fit",
+        Rule::NotJudged => "A part that was left out, since it would have taken too much",
         Rule::More => "Stands for further findings",
     }
 }

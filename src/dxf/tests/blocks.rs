@@ -117,12 +117,12 @@ fn what_would_never_end_is_refused() {
         (
             SLOT,
             "2 SLOT 70 30000 71 30000",
-            r#"error at "SLOT": this INSERT draws 900000000 copies, 2700000000 segments in all, more than the 1000000 that the references of a file may come to: nothing is drawn for it"#,
+            r#"error at "SLOT": this INSERT draws 900000000 copies, 2700000000 segments in all, more than the 200000 that the references of a file may come to: nothing is drawn for it"#,
         ),
         (
             &*tower,
             "2 N0",
-            r#"error at "N0": this INSERT draws 1 copies, 3221225471 segments in all, more than the 1000000 that the references of a file may come to: nothing is drawn for it"#,
+            r#"error at "N0": this INSERT draws 1 copies, 3221225471 segments in all, more than the 200000 that the references of a file may come to: nothing is drawn for it"#,
         ),
         (&*deep, "2 N0", r#"error at "N0": blocks within blocks are more than 64 deep here: nothing is drawn for this INSERT"#),
     ] {

@@ -3,7 +3,7 @@
 use super::document::Document;
 use super::machine::Place;
 use super::stretch::Stretch;
-use crate::finding::{Detail, Finding, Place as Where, ProgramFault, Severity};
+use crate::finding::{Detail, Finding, NotJudged, Place as Where, ProgramFault, Rule, Severity};
 use crate::geometry::Segment;
 use crate::program::three_b::{Displacement, Found, Known, PathStretch, search};
 use std::ops::Range;
@@ -55,14 +55,11 @@ impl Crossings {
             }
             let moves = moves_of(document, cut);
             if let Some(last) = place(moves.saturating_sub(1)).filter(|_| found.is_crowded) {
-                let fault = ProgramFault::PathOnItself { blocks: moves };
-                let rule = fault.rule();
-                let detail = Detail::Program(Box::new(fault));
                 findings.push(Finding {
-                    rule,
+                    rule: Rule::NotJudged,
                     severity: Severity::Information,
                     place: Where::Text { range: last },
-                    detail,
+                    detail: Detail::NotJudged(NotJudged::Crossings { blocks: moves }),
                     related: Vec::new(),
                 });
             }

@@ -20,7 +20,7 @@ use std::ops::Range;
 use std::sync::{Arc, LazyLock};
 
 /// Lines that are run together: an edit costs as many, and a program has as many fewer stretches.
-const STRETCH: usize = 128;
+pub(super) const STRETCH: usize = 128;
 
 /// Lines that are looked through for the places of the control's table that a program uses.
 const LOOKED_AT: usize = 2_000;

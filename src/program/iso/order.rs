@@ -1,6 +1,7 @@
 //! The order in which the lines of a program run: from the first to the last, or through the subprograms that `M98 P…` calls.
 
 use super::block::{Stop, read_line};
+use super::document::STRETCH;
 use crate::text::SourceText;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -8,11 +9,11 @@ use std::ops::Range;
 /// Subprograms within each other; more than controls take.
 const DEEPEST: usize = 16;
 
-/// A program runs at most so many lines, or eight times those it has.
-const MOST_LINES: usize = 1_000_000;
+/// A program runs at most so many lines, and twice those it has.
+const MOST_LINES: usize = 100_000;
 
 /// A program calls subprograms at most so often.
-const MOST_CALLS: usize = 20_000;
+pub(super) const MOST_CALLS: usize = 20_000;
 
 /// The lines of a program in the order in which they run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -22,12 +23,17 @@ pub struct Order {
     pub missing: Vec<(usize, u32)>,
     /// The line at which the calls were no longer followed: they go too deep or never end.
     pub endless: Option<usize>,
+    /// The line at which nothing more was run, since it would have been too much.
+    pub left_out: Option<usize>,
+    /// How many lines may run in all.
+    pub most_lines: usize,
 }
 
 /// Follows the calls of a program that has some.
 pub fn order(text: &SourceText) -> Order {
-    let mut walk =
-        Walk { text, labels: labels(text), order: Order::default(), left: MOST_LINES.max(text.line_count() * 8), calls: MOST_CALLS };
+    let most_lines = MOST_LINES + 2 * text.line_count();
+    let order = Order { most_lines, ..Order::default() };
+    let mut walk = Walk { text, labels: labels(text), order, left: most_lines, calls: MOST_CALLS };
     walk.run(0, 0);
     walk.order
 }
@@ -62,7 +68,8 @@ impl Walk<'_> {
         let mut line = first;
         while line < self.text.line_count() {
             if self.left == 0 {
-                self.order.endless.get_or_insert(line);
+                self.push(begun..line);
+                self.order.left_out.get_or_insert(line.saturating_sub(1));
                 return false;
             }
             self.left -= 1;
@@ -70,7 +77,7 @@ impl Walk<'_> {
             let block = read_line(&self.text.bytes()[range], 0, |_| {});
             line += 1;
             if let Some(number) = block.call {
-                self.order.lines.push(begun..line);
+                self.push(begun..line);
                 begun = line;
                 let times = if self.labels.contains_key(&number) { block.repeat.unwrap_or(1) } else { 1 };
                 for _ in 0..times {
@@ -80,12 +87,18 @@ impl Walk<'_> {
                 }
             }
             if block.stop == Some(Stop::End) || block.returns {
-                self.order.lines.push(begun..line);
+                self.push(begun..line);
                 return block.stop.is_none();
             }
         }
-        self.order.lines.push(begun..line);
+        self.push(begun..line);
         true
+    }
+
+    /// Lines that run one after another, in stretches: where they lie on themselves is looked for stretch by stretch.
+    fn push(&mut self, lines: Range<usize>) {
+        let stretches = lines.clone().step_by(STRETCH).map(|first| first..(first + STRETCH).min(lines.end));
+        self.order.lines.extend(stretches);
     }
 
     fn call(&mut self, number: u32, from: usize, depth: usize) -> bool {
@@ -93,6 +106,10 @@ impl Walk<'_> {
             Some(&line) if depth < DEEPEST && self.calls > 0 => {
                 self.calls -= 1;
                 self.run(line, depth + 1)
+            }
+            Some(_) if depth < DEEPEST => {
+                self.order.left_out.get_or_insert(from);
+                false
             }
             Some(_) => {
                 self.order.endless.get_or_insert(from);

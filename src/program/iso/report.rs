@@ -4,9 +4,10 @@ use super::block::{Code, Motion, read_line, word_range};
 use super::cuts::{Cut, cuts};
 use super::document::{Document, Limits, Placed, Table};
 use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
+use super::order::MOST_CALLS;
 use super::stretch::{Fault, Run, RunSide, Stretch, Tight};
 use super::word::WordFault;
-use crate::finding::{Detail, Finding, IsoFault, NoFix, Place, Rule, Severity, Side, SmallRadius};
+use crate::finding::{Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::{Arc, cross};
 use crate::program::closing::tolerance;
 use crate::settings::{Compensation, SideSetting};
@@ -49,6 +50,7 @@ pub(super) fn findings(document: &Document) -> Vec<Finding> {
     report.calls();
     if let (false, Some(words)) = (is_ended, last_words)
         && report.moves > 0
+        && report.is_whole()
     {
         let word = document.limits.end.clone();
         report.add(Rule::MissingEnd, words, IsoFault::NoEnd { word });
@@ -151,6 +153,11 @@ impl<'a> Report<'a> {
         }
     }
 
+    /// False where a part of the program was not run, since it would have been too much.
+    fn is_whole(&self) -> bool {
+        self.document.order().is_none_or(|order| order.left_out.is_none())
+    }
+
     /// Judges the cuts, each with what goes on behind the stop at its tab.
     fn follow(&mut self) {
         let document = self.document;
@@ -204,6 +211,10 @@ impl<'a> Report<'a> {
     /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
     fn judge(&mut self, cut: &Cut) {
         let run = &cut.run;
+        if run.open && !self.is_whole() {
+            // What is cut short says nothing of the whole.
+            return;
+        }
         let closed = self.closed(cut);
         if let (Err(distance), true) = (closed, run.whole) {
             let fragment = run.moves < FEWEST_MOVES;
@@ -409,6 +420,10 @@ impl<'a> Report<'a> {
         if let Some(line) = order.endless {
             let range = self.text.line_range(line);
             self.push(Rule::MachineDependent, Severity::Warning, range, Detail::Iso(IsoFault::EndlessCalls));
+        }
+        if let Some(line) = order.left_out {
+            let what = NotJudged::Calls { lines: order.most_lines, calls: MOST_CALLS };
+            self.push(Rule::NotJudged, Rule::NotJudged.default_severity(), self.text.line_range(line), Detail::NotJudged(what));
         }
     }
 

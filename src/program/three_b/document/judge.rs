@@ -9,7 +9,7 @@ use super::super::run::{BlockEntry, Entry, Move, Numbering, Part, What, may_cros
 use super::sections::joined;
 use super::way::SectionWay;
 use super::{At, Document, PartAt, Section, View};
-use crate::finding::{Detail, Finding, Place, ProgramFault, Rule, Severity};
+use crate::finding::{Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
 use crate::program::closing::{closing, gap, is_tab};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -163,8 +163,13 @@ impl Document {
                 }
             }
             if let Some(last) = self.last_block_of(&section).filter(|_| found.is_crowded) {
-                let fault = ProgramFault::PathOnItself { blocks: section.sum.blocks };
-                findings.push(Finding { severity: Severity::Information, ..finding(self.range_of(last, &view.starts), fault) });
+                findings.push(Finding {
+                    rule: Rule::NotJudged,
+                    severity: Severity::Information,
+                    place: Place::Text { range: self.range_of(last, &view.starts) },
+                    detail: Detail::NotJudged(NotJudged::Crossings { blocks: section.sum.blocks }),
+                    related: Vec::new(),
+                });
             }
         }
         let whole_pairs: usize = view.outer.iter().map(|section| section.parts[1].0 - section.parts[0].0).sum();
