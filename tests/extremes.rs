@@ -20,6 +20,11 @@ fn three_b(text: &str) -> Document {
     Document::new(Source::Program(program::Document::read(Language::ThreeB, text.as_bytes().to_vec(), &settings)), settings)
 }
 
+fn iso(text: &str) -> Document {
+    let settings = Arc::new(Effective::default());
+    Document::new(Source::Program(program::Document::read(Language::Iso, text.as_bytes().to_vec(), &settings)), settings)
+}
+
 /// The rules of all findings; every fix of each is asked for, and that of all.
 fn rules(mut document: Document) -> Vec<&'static str> {
     let (findings, _) = document.findings(usize::MAX);
@@ -103,6 +108,48 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
     assert_eq!(lines(500), [""; 0]);
     let [sentence] = &lines(24_000)[..] else { panic!("one finding is expected") };
     assert!(sentence.contains("not compared"), "{sentence}");
+}
+
+/// Few lines that ask for much: what each comes to, in counted steps, and that what was left out is said.
+#[test]
+fn what_a_few_lines_ask_for_is_bounded_in_steps() {
+    let circle = "0\nCIRCLE\n10\n0\n20\n0\n40\n0.4\n";
+    let block = |name: &str, holds: &str| format!("0\nBLOCK\n2\n{name}\n10\n0\n20\n0\n{holds}0\nENDBLK\n");
+    let array = |name: &str, side: usize, step: f64| {
+        format!("0\nINSERT\n2\n{name}\n10\n0\n20\n0\n70\n{side}\n71\n{side}\n44\n{step}\n45\n{step}\n")
+    };
+    let drawn = |blocks: &str, entities: &str| {
+        dxf(&format!("0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"))
+    };
+    let deep = block("A", circle) + &block("B", &array("A", 9, 1.0)) + &block("C", &array("B", 9, 0.1)) + &block("D", &array("C", 9, 0.0));
+    let points: String = (0..60).map(|at| format!("10\n{}\n20\n{}\n", at * 37 % 101, at * 53 % 97)).collect();
+    let knots: String = (0..64usize).map(|knot| format!("40\n{}\n", knot.clamp(3, 60) - 3)).collect();
+    let curve = block("S", &format!("0\nSPLINE\n70\n8\n71\n3\n72\n64\n73\n60\n{knots}{points}"));
+    for (name, mut document) in [
+        ("one array", drawn(&block("A", circle), &array("A", 30_000, 1.0))),
+        ("arrays in each other", drawn(&deep, &array("D", 9, 0.0))),
+        ("an array behind another", drawn(&block("A", circle), &(array("A", 100, 1.0) + &array("A", 300, 1.0)))),
+        ("an array of curves", drawn(&curve, &array("S", 100, 0.01))),
+    ] {
+        let segments: usize = document.drawing().unwrap().entities().map(|(_, entity)| entity.geometry.segment_count()).sum();
+        assert!(segments <= 200_000, "{name}: {segments} segments");
+        assert!(said(&mut document).iter().any(|(rule, _)| *rule == "not-judged"), "{name}");
+    }
+    let calls = |body: &str, times: usize| format!("G91\n{}M02\nO1\n{body}M99\n", "M98 P1 L9999\n".repeat(times));
+    let levels: String = (1..12).map(|level| format!("O{level}\nG01X1.\nM98 P{} L9999\nM99\n", level + 1)).collect();
+    for (name, text) in [
+        ("many calls", calls("G01X1.\n", 10)),
+        ("long subprogram", calls(&"G01X1.\nG01X-1.\n".repeat(50), 1)),
+        ("calls in each other", format!("G91\nM98 P1 L9999\nM02\n{levels}O12\nG01Y1.\nM99\n")),
+    ] {
+        let mut document = iso(&text);
+        let steps = document.program().unwrap().trace().steps.len();
+        assert!(steps <= 100_000 + 2 * text.lines().count() + 2, "{name}: {steps} steps");
+        let said = said(&mut document);
+        assert!(said.iter().any(|(rule, _)| *rule == "not-judged"), "{name}: {said:?}");
+        // What is cut short says nothing of the whole.
+        assert!(said.iter().all(|(rule, _)| *rule != "missing-end"), "{name}: {said:?}");
+    }
 }
 
 #[test]

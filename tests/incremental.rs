@@ -9,7 +9,7 @@ use wedm::drawing::{Chains, Contour, Delta, Drawing, Entity, EntityId, Geometry,
 use wedm::dxf;
 use wedm::finding::Place;
 use wedm::geometry::Point;
-use wedm::settings::{Effective, Settings, SideSetting};
+use wedm::settings::{Budget, Effective, Settings, SideSetting};
 
 #[derive(Clone, Debug)]
 enum Edit {
@@ -424,6 +424,55 @@ proptest! {
             document.edit_text(range, new);
             let mut fresh = Document::new(Source::Dxf(dxf::Document::read(text.clone().into_bytes())), settings.clone());
             prop_assert_eq!(shown(&mut document), shown(&mut fresh), "{}", text);
+        }
+    }
+}
+
+/// What is found, entities by their place in the machining order: that of another drawing with the same entities is the same.
+fn found(drawing: &Drawing, mut analysis: Analysis) -> Vec<String> {
+    let order: std::collections::HashMap<EntityId, usize> = drawing.order().iter().enumerate().map(|(at, &id)| (id, at)).collect();
+    let place = |place: &Place| match *place {
+        Place::Segment { entity, segment } => format!("{:?}/{segment}", order.get(&entity)),
+        _ => String::new(),
+    };
+    let (findings, _) = analysis.findings(drawing, usize::MAX);
+    let said = |finding: &wedm::finding::Finding| {
+        let related: Vec<String> = finding.related.iter().map(place).collect();
+        format!("{:?} {} {:?} {:?}", finding.rule, place(&finding.place), finding.detail, related)
+    };
+    findings.iter().map(said).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// More lies on and across each other than is compared: what is left out hangs on the drawing alone.
+    #[test]
+    fn what_is_left_out_is_what_is_left_out_afresh(
+        start in proptest::collection::vec((geometry(), role()), 0..40),
+        edits in proptest::collection::vec(proptest::collection::vec(edit(), 1..3), 1..10),
+        budget in (0..4000u64, 0..200usize),
+        side in 0..2usize,
+    ) {
+        let budget = Budget { looks: budget.0, looks_of_a_segment: 4, most_seen: budget.1 };
+        let side = [SideSetting::Both, SideSetting::Opening][side];
+        let settings = Effective::of(&Settings { correction: Some(0.3), side: Some(side), ..Settings::default() });
+        let settings = Arc::new(Effective { budget, ..settings });
+        let mut drawing = Drawing::new(None);
+        for (geometry, role) in start {
+            drawing.push(entity(geometry, role));
+        }
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        for batch in edits {
+            let touched = batch.iter().filter_map(|edit| apply(&mut drawing, edit)).collect();
+            analysis.update(&drawing, &Delta { touched });
+            let mut again = Drawing::new(None);
+            for &id in drawing.order() {
+                again.push(drawing.get(id).unwrap().clone());
+            }
+            let now = found(&drawing, analysis.clone());
+            prop_assert_eq!(&now, &found(&drawing, Analysis::new(&drawing, settings.clone())));
+            prop_assert_eq!(&now, &found(&again, Analysis::new(&again, settings.clone())));
         }
     }
 }
