@@ -48,7 +48,7 @@ pub(super) fn findings(document: &Document) -> Vec<String> {
             let sentence = match &finding.detail {
                 Detail::Syntax(sentence) | Detail::Units(sentence) => sentence.clone(),
                 Detail::UnsupportedEntity { kind, count, why } => format!("{count} {kind}: {why}"),
-                Detail::Unseen { .. } => crate::message::en::sentence(finding, 1.0),
+                Detail::Unseen { .. } | Detail::NotJudged(_) => crate::message::en::sentence(finding, 1.0),
                 other => format!("{other:?}"),
             };
             let severity = match finding.severity {
