@@ -83,7 +83,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 41] = [
+    pub const ALL: [Rule; 42] = [
         Rule::SmallRadius,
         Rule::SharpCorner,
         Rule::NarrowSlot,
