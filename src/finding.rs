@@ -11,6 +11,7 @@ pub use program_fault::{Axis, ProgramFault};
 use crate::drawing::{DrawingEdit, EntityId, Visibility};
 use crate::geometry::Point;
 use crate::text::TextEdit;
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// The rules by the names that users see. Order is that of the documentation.
@@ -216,6 +217,20 @@ impl Rule {
             Rule::UnsupportedEntity | Rule::AmbiguousCenter | Rule::MachineDependent | Rule::More => Severity::Information,
             Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
+    }
+}
+
+impl Place {
+    fn is_of(&self, entities: &FxHashSet<EntityId>) -> bool {
+        matches!(self, Place::Segment { entity, .. } | Place::Entity { entity } if entities.contains(entity))
+    }
+}
+
+impl Finding {
+    /// True for what is said of one of the `entities`, of all where there are none named, and of the document as a whole or its text.
+    pub fn concerns(&self, entities: Option<&FxHashSet<EntityId>>) -> bool {
+        let of_entities = |entities| self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities));
+        matches!(self.place, Place::Text { .. } | Place::Document) || entities.is_none_or(of_entities)
     }
 }
 

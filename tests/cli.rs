@@ -419,6 +419,23 @@ fn a_program_decodes_to_where_it_began_and_lands_in_its_file() {
     check(&desk, "generate tight.dxf --side opening --force", 0, &["DD"]);
 }
 
+/// Errors of contours that are not cut do not stand in the way of those that are.
+#[test]
+fn only_what_is_cut_refuses_a_program() {
+    let desk = Desk::new();
+    let hole = |handle: &str, x: f64, radius: f64| format!("0\nCIRCLE\n5\n{handle}\n8\n0\n10\n{x}\n20\n0\n40\n{radius}\n");
+    let holes = [hole("2A", 0.0, 5.0), hole("2B", 20.0, 0.05), hole("2C", 30.0, 0.1)].concat();
+    desk.write(
+        "holes.dxf",
+        format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{holes}0\nENDSEC\n0\nEOF\n"),
+    );
+    check(&desk, "generate holes.dxf --side opening", 1, &["!error[small-radius]", "!has 1 error"]);
+    check(&desk, "generate holes.dxf --side opening --handle 2B", 1, &["!error[small-radius]"]);
+    check(&desk, "generate holes.dxf --side opening --handle 2A", 0, &["DD", "!1 contour"]);
+    check(&desk, "generate holes.dxf --side opening --handle 2C --handle 2A", 0, &["D\n", "!warning[offset-collapse]", "!2 contours"]);
+    check(&desk, "check holes.dxf --side opening", 1, &["warning[offset-collapse]", "1 error"]);
+}
+
 #[test]
 fn settings_come_from_the_project_then_the_option_file_then_the_options() {
     let desk = Desk::new();

@@ -14,7 +14,8 @@ use crate::geometry::{Bounds, Point};
 use crate::rules::lost_pocket::{self, Lost};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
 use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall, units};
-use crate::settings::{Effective, SideSetting};
+use crate::settings::{Compensation, Effective, SideSetting};
+use crate::toolpath;
 use known::Known;
 use pairs::{Pairs, RunId};
 use repair::Can;
@@ -44,6 +45,16 @@ struct Loud {
     faults: Option<(Option<Side>, usize)>,
 }
 
+/// What the offset of a contour loses.
+#[derive(Clone, Debug)]
+struct Answer {
+    /// What was asked: the side, and whether there is a neck.
+    asked: (Side, bool),
+    lost: Vec<Lost>,
+    /// What stands against a path, where nothing is lost; `None` while that has not been asked.
+    misfit: Option<Option<Box<Finding>>>,
+}
+
 /// What is known of one drawing under one set of settings.
 #[derive(Clone, Debug)]
 pub struct Analysis {
@@ -64,7 +75,7 @@ pub struct Analysis {
     /// Whether a fix was found for a fault, and the region that the answer depends on.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
     /// What the offset of a contour loses, for a side and with or without a neck.
-    lost: FxHashMap<ContourKey, ((Side, bool), Vec<Lost>)>,
+    lost: FxHashMap<ContourKey, Answer>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// What there is to be said in all, once it has been asked for.
@@ -353,7 +364,8 @@ impl Analysis {
     /// What the offsets of contours with a known wire side lose.
     fn report_lost_pockets(&mut self, drawing: &Drawing, ordered: &[ContourKey], sides: &[Option<Side>], report: &mut Report) {
         let is_on = |rule| self.settings.severity(rule).is_some();
-        if !(is_on(Rule::LostPocket) || is_on(Rule::OffsetCollapse)) || sides.iter().all(Option::is_none) {
+        let of_rules = [Rule::LostPocket, Rule::OffsetCollapse, Rule::UnprovedPath].into_iter().any(is_on);
+        if !of_rules || sides.iter().all(Option::is_none) {
             return;
         }
         // Without the rules that see them, a neck is taken for granted, and a crossing for none.
@@ -362,13 +374,21 @@ impl Analysis {
         for (&key, &side) in ordered.iter().zip(sides) {
             let Some(side) = side.filter(|_| !crossed.contains(&key)) else { continue };
             let asked = (side, necks.as_ref().is_none_or(|necks| necks.contains(&key)));
-            if self.lost.get(&key).is_none_or(|(answered, _)| *answered != asked) {
+            if self.lost.get(&key).is_none_or(|answer| answer.asked != asked) {
                 let Some(outlook) = self.outlook(drawing, key) else { continue };
                 let lost = lost_pocket::look(&outlook, side, asked.1);
-                self.lost.insert(key, (asked, lost));
+                self.lost.insert(key, Answer { asked, lost, misfit: None });
             }
-            let (Some((_, lost)), Some(outlook)) = (self.lost.get(&key), self.outlook(drawing, key)) else { continue };
-            let slots = if lost.is_empty() || necks.is_none() { Vec::new() } else { self.pairs.slots_of(key) };
+            // Fixes are held against each other by what is cheap to know.
+            if report.shows_findings() && self.lost.get(&key).is_some_and(|answer| answer.lost.is_empty() && answer.misfit.is_none()) {
+                let misfit = self.misfit(drawing, key, side).map(Box::new);
+                if let Some(answer) = self.lost.get_mut(&key) {
+                    answer.misfit = Some(misfit);
+                }
+            }
+            let (Some(Answer { lost, misfit, .. }), Some(outlook)) = (self.lost.get(&key), self.outlook(drawing, key)) else { continue };
+            let misfit = misfit.iter().flatten().next();
+            let slots = if lost.is_empty() && misfit.is_none() || necks.is_none() { Vec::new() } else { self.pairs.slots_of(key) };
             // What a slot is told of is not told again as what is lost in it.
             let is_told = |near: Point, index: usize| {
                 slots.iter().any(|(walls, disc)| match disc {
@@ -390,7 +410,32 @@ impl Analysis {
                     report.add(rule, None, place, detail, Vec::new());
                 }
             }
+            if let Some(Finding { rule, severity, place, detail, .. }) = misfit.map(Box::as_ref) {
+                let index = match *place {
+                    Place::Segment { entity, segment } => self.chains.index_of(entity, segment).map(|(_, index)| index),
+                    _ => None,
+                };
+                let near = |near: Point| is_told(near, index.unwrap_or(usize::MAX));
+                if !matches!(*detail, Detail::LostPocket { near: at } if near(at)) && report.counts(*rule, Some(*severity)) {
+                    report.add(*rule, Some(*severity), place.clone(), detail.clone(), Vec::new());
+                }
+            }
         }
+    }
+
+    /// What stands against a path of the wire on `side` of a contour; `None` for one that is too long to ask at every edit, that is the
+    /// wire's path itself, or of whose arcs each says so.
+    fn misfit(&self, drawing: &Drawing, key: ContourKey, side: Side) -> Option<Finding> {
+        let (contour, known) = (self.chains.get(key)?, self.known.get(&key)?);
+        if !contour.closed || contour.len() > lost_pocket::MOST_SEGMENTS || self.settings.compensation == Compensation::None {
+            return None;
+        }
+        if known.index.tight().count() == contour.len() {
+            return None;
+        }
+        let twice_area = known.index.twice_area();
+        let role = if side.sign() * twice_area > 0.0 { Role::Opening } else { Role::Punch };
+        toolpath::misfit(drawing, &Outline { contour: contour.clone(), role, twice_area }, &self.settings)
     }
 
     /// Arcs below the correction in one contour.

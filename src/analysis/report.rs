@@ -74,6 +74,11 @@ impl Report {
         Report { settings, limit, kept: BTreeMap::new(), count: 0, tally: Tally::default() }
     }
 
+    /// False where findings are only counted.
+    pub fn shows_findings(&self) -> bool {
+        self.limit > 0
+    }
+
     /// True where the settings take a contour as the path of the wire.
     pub fn is_for_a_path(&self) -> bool {
         self.settings.compensation == Compensation::None

@@ -4,7 +4,7 @@ use super::options::{Common, Program};
 use super::output::{self, counted, styled};
 use super::{Failure, Verdict, files, report};
 use crate::document::Document;
-use crate::finding::{Finding, Severity};
+use crate::finding::{Detail, Finding, Severity};
 use crate::program::{Format, ProofError, ProvedProgram};
 use crate::settings::Settings;
 use crate::toolpath::{self, Refusal, WirePath};
@@ -52,8 +52,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let last = Settings { program: Some(arguments.program.settings()), ..arguments.common.settings() };
     let opened = files::open_drawing(path, &arguments.common, &last)?;
     files::refuse_faulty_settings(&opened)?;
-    let mut document = opened.document;
-    if !arguments.force && refused_for_errors(arguments, &mut document) {
+    let document = opened.document;
+    let concerned = concerned(arguments, &document);
+    if !arguments.force && refused_for_errors(arguments, &document, &concerned) {
         return Ok(Verdict::Errors);
     }
     let Some(paths) = planned(arguments, &document)? else { return Ok(Verdict::Errors) };
@@ -72,14 +73,23 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         Err(error) => return Err(Failure(format!("{}: internal error, no program is written: {error}", path.display()))),
     };
     output::write(arguments.output.as_deref(), program.text.as_bytes())?;
+    let stands = |finding: &&Finding| matches!(finding.detail, Detail::OffsetCollapse { point: true, .. });
+    concerned.iter().filter(stands).for_each(|finding| output::say(&format!("{}\n", report::row(path, &document, finding).rendered())));
     summarise(arguments, &program, paths.len());
     Ok(Verdict::Clean)
 }
 
-/// True when errors stand in the drawing; they are listed then.
-fn refused_for_errors(arguments: &Arguments, document: &mut Document) -> bool {
-    let mut rows = report::rows(&arguments.path, document);
-    rows.retain(|row| row.severity == Severity::Error);
+/// What is said of the contours that are cut.
+fn concerned(arguments: &Arguments, document: &Document) -> Vec<Finding> {
+    let handles = (!arguments.handle.is_empty()).then_some(arguments.handle.as_slice());
+    let entities = document.snapshot().and_then(|snapshot| toolpath::entities_of(&snapshot.drawing, &snapshot.outlines, handles));
+    document.all_findings().iter().filter(|finding| finding.concerns(entities.as_ref())).cloned().collect()
+}
+
+/// True when errors stand in the contours that are cut; they are listed then.
+fn refused_for_errors(arguments: &Arguments, document: &Document, concerned: &[Finding]) -> bool {
+    let errors = concerned.iter().filter(|finding| finding.severity == Severity::Error).take(report::MOST);
+    let rows: Vec<report::Row> = errors.map(|finding| report::row(&arguments.path, document, finding)).collect();
     if rows.is_empty() {
         return false;
     }

@@ -60,7 +60,7 @@ fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, 
 }
 
 /// More findings of one file are counted: a drawing of millions of faults would take gigabytes to tell of, and nobody reads them.
-const MOST: usize = 100_000;
+pub const MOST: usize = 100_000;
 
 /// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
 pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {

@@ -6,9 +6,9 @@
 use super::tests::{at, defaults, drawing, judged, samples, shown};
 use super::{PathSegment, Refusal, WirePath, plan};
 use crate::drawing::{Drawing, Outline, Role, Unit, winding};
-use crate::finding::{Detail, Place, Rule};
+use crate::finding::{Detail, Place, Rule, Severity};
 use crate::geometry::{Point, Segment, direction, left_normal, meetings};
-use crate::settings::{Compensation, Corner, Direction, Effective};
+use crate::settings::{Compensation, Corner, Direction, Effective, SideSetting};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -63,7 +63,8 @@ fn wrong(outline: &[[f64; 3]], role: Role, settings: &Effective) -> Option<Strin
         Ok(paths) => {
             let path = without_leads(&paths[0]);
             let is_arc_style = settings.corner == Corner::Arc;
-            for point in samples(&path, 0.03) {
+            let length: f64 = path.iter().map(Segment::length).sum();
+            for point in samples(&path, (length / 400.0).max(0.01)) {
                 let away = distance(&walls, point);
                 if away < C - 2e-6 || (is_arc_style && away > C + 2e-6) {
                     return Some(format!("the path is {away} from the contour at {point:?}"));
@@ -311,6 +312,28 @@ fn a_slot_of_the_wire_alone_is_cut_out_and_back() {
         assert!((length - 2.0 * (to - from)).abs() < 1e-6, "{}", shown(&path));
         assert!(pieces.iter().all(|piece| (piece.geometry.end().y - C).abs() < 1e-9), "{}", shown(&path));
         assert!(crate::program::three_b::write(&[path], 1.0, &defaults()).is_ok());
+    }
+}
+
+/// What stands against a path stands in the drawing as well; what only lets the wire stand is a warning there.
+#[test]
+fn what_has_no_path_is_found_before_one_is_asked_for() {
+    let side = 2.0 * C;
+    let hole: &[[f64; 3]] = &[[3.0, C, 1.0], [3.0 + side, C, 1.0]];
+    let slot: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [8.0, side, 0.0], [0.0, side, 0.0]];
+    let triangle: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [0.32, 0.0, 0.0], [0.16, 0.277, 0.0]];
+    for (outline, expected) in
+        [(hole, vec![(Rule::OffsetCollapse, Severity::Warning)]), (slot, vec![]), (triangle, vec![(Rule::OffsetCollapse, Severity::Error)])]
+    {
+        let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
+        let settings = Effective { side: SideSetting::Opening, ..defaults() };
+        let mut analysis = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(settings.clone()));
+        let (findings, count) = analysis.findings(&drawing, usize::MAX);
+        assert_eq!(findings.len(), count);
+        let told = findings.iter().filter(|finding| ![Rule::SharpCorner, Rule::SmallRadius].contains(&finding.rule));
+        assert_eq!(told.map(|finding| (finding.rule, finding.severity)).collect::<Vec<_>>(), expected);
+        let refused = plan(&drawing, &outlines, &settings, None).is_err();
+        assert_eq!(refused, expected.iter().any(|(_, severity)| *severity == Severity::Error));
     }
 }
 

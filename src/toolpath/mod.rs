@@ -28,6 +28,7 @@ use loops::Found;
 use offset::{Wall, walls};
 use order::{begin_at, directed, name};
 use proof::{Proof, Unproved};
+use rustc_hash::FxHashSet;
 use std::sync::OnceLock;
 
 /// Where a piece of the path comes from.
@@ -153,6 +154,30 @@ pub fn plan_while(
         }
     }
     if findings.is_empty() { Ok(paths) } else { Err(Refusal::Findings(findings)) }
+}
+
+/// The entities of the contours that hold one of `handles`; `None` where none is named, which means all.
+pub fn entities_of(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>) -> Option<FxHashSet<EntityId>> {
+    let holders = handles?.iter().filter_map(|handle| order::outline_of(drawing, outlines, handle).ok());
+    Some(holders.flat_map(|outline| outlines[outline].contour.pieces.iter().map(|piece| piece.entity)).collect())
+}
+
+/// What stands against a path along one contour under the settings' correction, as a finding: an error where there is none, a
+/// warning where the wire can only stand. `None` where there is a path, and where the side of the wire is not known.
+pub fn misfit(drawing: &Drawing, outline: &Outline, settings: &Effective) -> Option<Finding> {
+    let side = outline.wire_side()?.sign();
+    let job = Job { drawing, outlines: &[], settings, unit_mm: settings.unit_of(drawing).mm, goes_on: &|| true };
+    let walls = walls(outline.contour.segments(drawing), true, job.units(settings.tolerances.zero_length));
+    let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+    match job.laid(&walls, &own, side).ok()? {
+        Ok(Laid::Path(_)) => None,
+        Ok(Laid::Point(_)) => {
+            let finding = job.no_path(&Fault::Nothing, &walls);
+            let detail = Detail::OffsetCollapse { required: job.units(settings.correction), point: true };
+            Some(Finding { severity: settings.severity_over(Rule::OffsetCollapse, Severity::Warning)?, detail, ..finding })
+        }
+        Err(fault) => Some(job.no_path(&fault, &walls)),
+    }
 }
 
 /// What all contours of one request have in common.

@@ -18,6 +18,22 @@ fn a_drawing_with_errors_is_refused_with_the_list_unless_forced() {
     client.shut_down();
 }
 
+/// Errors of contours that are not cut do not stand in the way of those that are.
+#[test]
+fn only_what_is_cut_refuses_a_program() {
+    let mut client = Client::start();
+    client.open_drawing(URI, json!([tight_plate("2A"), wide_plate("2B")]));
+    let mut generate = |handles: Value| {
+        let params = json!({ "uri": URI, "format": "3b", "handles": handles, "options": { "side": "opening" } });
+        client.request("wedm/generate", params)
+    };
+    assert_eq!(generate(json!(["2B"])).unwrap()["warnings"], json!([]));
+    for handles in [json!(null), json!(["2A"]), json!(["2B", "2A"])] {
+        assert_eq!(generate(handles).unwrap_err()["data"]["diagnostics"][0]["data"]["handle"], "2A");
+    }
+    client.shut_down();
+}
+
 #[test]
 fn a_program_is_handed_out_with_its_proof() {
     let mut client = Client::start();

@@ -10,7 +10,7 @@ use crate::server::jobs::{Cancel, Progress};
 use crate::server::state::State;
 use crate::settings::Effective;
 use crate::text::Encoding;
-use crate::toolpath::plan_while;
+use crate::toolpath::{entities_of, plan_while};
 use serde::Deserialize;
 use serde_json::Value;
 use std::sync::Arc;
@@ -65,7 +65,10 @@ fn prepare(state: &mut State, params: &Params) -> Result<Job> {
 impl Job {
     fn run(self, cancel: &Cancel, progress: &Progress) -> Result<Vec<u8>> {
         let task = Task::new(self.document.clone(), self.options.clone())?;
-        let findings = self.findings(&task);
+        let handles = self.handles.as_deref();
+        let entities = entities_of(&task.drawing, &task.outlines, handles);
+        let mut findings = self.findings(&task);
+        findings.retain(|finding| finding.concerns(entities.as_ref()));
         let diagnostics = |wanted: &dyn Fn(Severity) -> bool| -> Vec<Diagnostic> {
             let wanted = findings.iter().filter(|finding| wanted(finding.severity)).take(convert::PUBLISH_LIMIT);
             wanted.map(|finding| convert::diagnostic(&self.document, finding, self.encoding, None)).collect()
@@ -80,7 +83,6 @@ impl Job {
         }
         stop_if(cancel)?;
         progress.report("laying the wire's path");
-        let handles = self.handles.as_deref();
         let settings = self.format.settings(&task.settings);
         let paths = plan_while(&task.drawing, &task.outlines, &settings, handles, &|| !cancel.is_cancelled())
             .map_err(|reason| refusal(&task, reason, self.encoding))?;
