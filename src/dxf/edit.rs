@@ -6,6 +6,7 @@
 use super::Document;
 use super::entity::{Outcome, Read, mirror};
 use super::foreign;
+use super::frame;
 use super::lexer::{LOOKAHEAD, Lexer};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
@@ -54,7 +55,7 @@ impl Document {
         let range = range.start.min(end)..end;
         let vertex = self.vertex_zone(&range);
         let sleeper = self.sleeper_about(&range);
-        let zone = self.item_zone(&range);
+        let zone = self.item_zone(&range).filter(|zone| !self.holds_frame(zone));
         let (old_lines, old_length) = (self.text.line_count(), self.text.len());
         self.text.replace(range.clone(), replacement);
         let lines = self.text.line_count() as i64 - old_lines as i64;
@@ -141,6 +142,14 @@ impl Document {
         Some(ItemZone { first: self.table.item_at(line)?, end_line: self.text.line_of(range.end) })
     }
 
+    /// True where a text with a frame stands in a zone, or at its end: what it says holds for another entity.
+    fn holds_frame(&self, zone: &ItemZone) -> bool {
+        let lines = Lines::new(&self.text);
+        let last = || self.table.item_at(zone.end_line).map_or(0, |item| item + 1);
+        let range = || self.table.lines_of(zone.first, lines.count()).start..self.table.lines_of(last(), lines.count()).end;
+        !self.table.frames.is_empty() && frame::is_named_in(lines, range())
+    }
+
     /// Reads the items from the zone's first on until one begins where one began before.
     fn reread_items(&mut self, zone: &ItemZone, lines: i64, bytes: i64) -> Option<Delta> {
         let first = zone.first;
@@ -173,10 +182,13 @@ impl Document {
             if known && self.table.items.get(next).is_some_and(|item| item.context == context) {
                 return Some((read, next));
             }
-            let Some(item) = read_item(&mut lexer, context, self.table.fit_tolerance, &mut self.layers, findings) else {
+            let Some(mut item) = read_item(&mut lexer, context, self.table.fit_tolerance, &mut self.layers, findings) else {
                 return Some((read, self.table.items.len()));
             };
             context = item.after;
+            if let Said::Entity(outcome) = item.said {
+                item.said = Said::Entity(frame::without_frames(outcome, &self.table.frames));
+            }
             read.push(item);
         }
     }
@@ -216,7 +228,8 @@ impl Document {
         // What a block holds, and what a reference draws, reaches beyond the zone.
         let of_block = |item: &ReadItem| item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)));
         let was_of_block = |item: &Item| item.context == Context::Blocks || matches!(item.became, Became::Parts { .. });
-        if read.iter().any(of_block) || old.iter().any(was_of_block) {
+        let names_frame = |item: &ReadItem| item.said.entity().is_some_and(|read| !read.frames.is_empty());
+        if read.iter().any(of_block) || old.iter().any(was_of_block) || read.iter().any(names_frame) {
             return None;
         }
         let mut ordinal = match unnamed {

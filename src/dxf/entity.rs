@@ -10,7 +10,7 @@ use super::number::{self, Code, Number};
 use super::shape::Shape;
 use super::space::{FLAT, Lies, Space, Vector3, in_space as at_height};
 use super::strings::{words_of_mtext, words_of_text};
-use super::{curve, insert, plain};
+use super::{curve, frame, insert, plain};
 use crate::drawing::{Color, Geometry, Handle, Kind, Vertex};
 use crate::finding::Finding;
 use crate::geometry::{Point, radians};
@@ -27,6 +27,8 @@ pub(super) struct Read {
     pub(super) shape: Shape,
     pub(super) lies: Lies,
     pub(super) vertices: Option<VertexLines>,
+    /// Handles of the entities that are the frame of this text.
+    pub(super) frames: Vec<u64>,
 }
 
 /// What an entity says of how it looks.
@@ -71,6 +73,7 @@ pub(super) const NOT_CUT: &str = "this kind of entity is not cut";
 pub(super) const PAPER_SPACE: &str = "it lies in paper space";
 pub(super) const TILTED: &str = "its plane is tilted against the drawing's plane";
 pub(super) const NOT_PLANE: &str = "its points differ in z";
+pub(super) const FRAME: &str = "it is the frame of a text";
 pub(super) const MESH: &str = "it is a mesh";
 pub(super) const OUTSIDE: &str = "it stands outside of the section ENTITIES";
 
@@ -251,7 +254,8 @@ impl Common {
         findings: &mut Vec<Finding>,
     ) -> Outcome {
         let look = self.look(lexer);
-        Outcome::Entity(Read { handle: self.handle(lexer, findings), layer: self.layer(lexer, layers), look, kind, shape, lies, vertices })
+        let (handle, layer) = (self.handle(lexer, findings), self.layer(lexer, layers));
+        Outcome::Entity(Read { handle, layer, look, kind, shape, lies, vertices, frames: Vec::new() })
     }
 }
 
@@ -491,7 +495,11 @@ fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings
     let content = layers.text(&content);
     let words = if kind == Kind::LongText { words_of_mtext(&content) } else { words_of_text(&content) };
     let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
-    common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None, findings)
+    let frames = if kind == Kind::LongText { frame::handles(lexer.lines, start.line..lexer.at()) } else { Vec::new() };
+    match common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None, findings) {
+        Outcome::Entity(read) => Outcome::Entity(Read { frames, ..read }),
+        other => other,
+    }
 }
 
 /// A POINT marks a start as a text "O" does. Its place is in world coordinates.
@@ -508,7 +516,7 @@ fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<
 }
 
 /// The line of the last value of `code` among the entity's own tags; the name's line where there is none.
-fn value_line_of(start: Tag, lexer: &Lexer, code: i16) -> usize {
+pub(super) fn value_line_of(start: Tag, lexer: &Lexer, code: i16) -> usize {
     let mut found = start.value_line();
     let mut line = start.line + 2;
     while line + 1 < lexer.lines.count() {

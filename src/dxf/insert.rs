@@ -1,7 +1,7 @@
 //! INSERT: which block it draws, where, how often and how it is stretched.
 
-use super::entity::{Common, Look, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers};
-use super::fault::{damage, quoted};
+use super::entity::{Common, Look, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers, value_line_of};
+use super::fault::{damage, oddity, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::space::{Space, Vector3, in_space};
@@ -81,6 +81,13 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings:
     let Some(system) = system else { return Outcome::Unsupported("INSERT".into(), TILTED) };
     let [_, _, x_scale, y_scale, rotation, column_step, row_step, height, z_scale] = numbers.values;
     // A scale of 0 would flatten the block; programs write it where they mean that none is set.
+    for (code, axis, value) in [(41, 'x', x_scale), (42, 'y', y_scale), (43, 'z', z_scale)] {
+        if value == Some(0.0) {
+            let place = lexer.lines.trimmed_range(value_line_of(start, lexer, code));
+            let sentence = format!("group code {code} ({axis} scale) of INSERT is 0, expected any other number: 1 is read");
+            oddity(findings, place, sentence);
+        }
+    }
     let scale = |value: Option<f64>| value.filter(|&value| value != 0.0).unwrap_or(1.0);
     let along = turned(rotation.unwrap_or(0.0));
     let across = left_normal(along);

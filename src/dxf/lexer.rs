@@ -2,7 +2,7 @@
 //!
 //! Whether the text is out of step is decided by what follows: never by more than [`LOOKAHEAD`] lines of it.
 
-use super::fault::{damage, quoted};
+use super::fault::{damage, oddity, quoted};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
 use crate::finding::Finding;
@@ -13,6 +13,8 @@ pub(super) const LOOKAHEAD: usize = 2 * (WINDOW + SETTLING) + 4;
 const WINDOW: usize = 8;
 /// Tags that are passed over, once the text is in step, to reach a sound one.
 const SETTLING: usize = 2;
+/// Empty lines in a row that may stand between two records.
+const EMPTY_LINES: usize = 16;
 
 /// A group code and the line it stands on; the value stands on the next line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,9 +104,34 @@ impl<'a> Lexer<'a> {
                     damage(findings, self.lines.trimmed_range(line), format!("group code {code} is out of range, expected -5 to 1071"));
                     self.at = line + 2;
                 }
-                Code::OutOfRange | Code::NotANumber => self.recover(line, findings),
+                Code::OutOfRange | Code::NotANumber => match self.behind_empty_lines(line) {
+                    Some(record) => self.pass_over_empty_lines(line, record, findings),
+                    None => self.recover(line, findings),
+                },
             }
         }
+    }
+
+    /// The line of the record that begins behind empty lines, which `line` is the first of.
+    fn behind_empty_lines(&self, line: usize) -> Option<usize> {
+        let is_empty = |line: &usize| *line < self.lines.count() && self.lines.trimmed(*line).is_empty();
+        let record = line + (line..line + EMPTY_LINES).take_while(is_empty).count();
+        let begins = record > line
+            && record + 1 < self.lines.count()
+            && number::code(self.lines.content(record)) == Code::Known(0)
+            && is_name(self.lines.content(record + 1));
+        begins.then_some(record)
+    }
+
+    /// Empty lines between two records take nothing from either.
+    fn pass_over_empty_lines(&mut self, line: usize, record: usize, findings: &mut Vec<Finding>) {
+        let sentence = match record - line {
+            1 => "an empty line stands where a group code is expected: it is passed over".to_owned(),
+            count => format!("{count} empty lines stand where a group code is expected: they are passed over"),
+        };
+        oddity(findings, self.lines.range(line), sentence);
+        self.at = record;
+        self.consumed = record;
     }
 
     /// True when the value of `tag`, which does not fit its code, is the next code: a line is missing or extra.

@@ -16,6 +16,7 @@ mod edit;
 mod entity;
 mod fault;
 mod foreign;
+mod frame;
 mod insert;
 mod johab;
 pub mod language;
@@ -52,6 +53,7 @@ use layers::Layers;
 use lexer::Lexer;
 use lines::Lines;
 use reader::{ReadItem, Said, range_key, read_item};
+use rustc_hash::FxHashSet;
 use shape::Shape;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -171,11 +173,18 @@ impl Document {
         }
         let mut reading = Reading::default();
         self.read_items(&mut reading);
+        if !reading.frames.is_empty() {
+            // A frame may stand before its text.
+            self.findings.clear();
+            *self.table = Table { frames: reading.frames, ..Table::default() };
+            reading = Reading::default();
+            self.read_items(&mut reading);
+        }
         if reading.early {
             reading.states = std::mem::take(&mut self.table.states);
             // Blocks, or parts of them, that stand behind what refers to them.
             self.findings.clear();
-            *self.table = Table::default();
+            *self.table = Table { frames: std::mem::take(&mut self.table.frames), ..Table::default() };
             self.table.states = std::mem::take(&mut reading.states);
             reading = Reading { known: Some(reading.blocks.unasked()), ..Reading::default() };
             self.read_items(&mut reading);
@@ -250,6 +259,12 @@ impl Document {
                     }
                 }
                 Said::Entity(outcome) => {
+                    let outcome = frame::without_frames(outcome, &table.frames);
+                    if let Outcome::Entity(read) = &outcome
+                        && table.frames.is_empty()
+                    {
+                        reading.frames.extend(&read.frames);
+                    }
                     reading.ordinal += usize::from(context == Context::Entities);
                     match outcome {
                         Outcome::Damaged => item.became = Became::Damaged,
@@ -400,6 +415,8 @@ struct Reading {
     known: Option<Blocks>,
     /// What is known of the layers once all has been read.
     states: LayerStates,
+    /// Handles of what is the frame of a text.
+    frames: FxHashSet<u64>,
     /// Something in the modelspace refers to a block.
     refers: bool,
     /// A block was asked for before all blocks were read: what it draws is not known yet.

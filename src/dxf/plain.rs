@@ -67,6 +67,7 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
         shape: Shape::Plain(geometry),
         lies: Lies::Level(height),
         vertices: None,
+        frames: Vec::new(),
     };
     Some((read, next))
 }

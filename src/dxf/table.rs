@@ -3,7 +3,7 @@
 use super::entity::VertexLines;
 use super::layer_table::{LayerEntry, LayerStates};
 use crate::drawing::EntityId;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The section in which a record stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,6 +136,8 @@ pub(super) struct Table {
     pub(super) fit_tolerance: f64,
     /// Sections ENTITIES.
     pub(super) sections: usize,
+    /// Handles of what is the frame of a text.
+    pub(super) frames: FxHashSet<u64>,
 }
 
 impl Table {

@@ -160,3 +160,87 @@ fn one_fault_is_one_finding_and_harms_no_neighbour() {
         check(&dxf(&format!("{LINE} {tags}")), &[line], &[finding]);
     }
 }
+
+#[test]
+fn an_empty_line_between_records_takes_nothing_from_either() {
+    let lines = |count: usize| {
+        let line = |at: usize| format!("0\nLINE\n10\n{at}\n20\n0\n11\n{at}\n21\n5\n");
+        let text = dxf("");
+        let (head, tail) = text.split_once("\n\n").unwrap();
+        let empty = "\n".repeat(count);
+        format!("{head}\n{empty}{}{empty}{tail}", (1..5).map(line).collect::<Vec<_>>().join(&empty))
+    };
+    let four: Vec<String> = (1..5).map(|at| format!("LINE #{at} on 0: {at} 0 to {at} 5")).collect();
+    for (text, count, said) in [
+        (lines(0), 0, ""),
+        (lines(1), 5, "warning at \"\": an empty line stands where a group code is expected: it is passed over"),
+        (lines(1).replace('\n', "\r\n"), 5, "warning at \"\": an empty line stands where a group code is expected: it is passed over"),
+        (
+            lines(1).replace("\n\n", "\n  \n"),
+            5,
+            "warning at \"  \": an empty line stands where a group code is expected: it is passed over",
+        ),
+        (lines(2), 5, "warning at \"\": 2 empty lines stand where a group code is expected: they are passed over"),
+        (lines(3), 5, "warning at \"\": 3 empty lines stand where a group code is expected: they are passed over"),
+    ] {
+        let document = Document::read(text.clone().into_bytes());
+        assert_eq!(entities(&document), four, "in {text}");
+        assert_eq!(findings(&document), vec![said; count], "in {text}");
+    }
+    // Also within what has records of its own.
+    let polyline = "0 POLYLINE 66 1 _ 0 VERTEX 10 1 20 2 _ 0 VERTEX 10 3 20 4 _ 0 SEQEND _ 0 CIRCLE 10 1 20 2 40 3";
+    let text = dxf(polyline).replace("_\n", "\n");
+    assert_eq!(entities(&Document::read(text.into_bytes())), ["POLYLINE #1 on 0: 1 2 0, 3 4 0", "CIRCLE #2 on 0: 1 2 R3"]);
+}
+
+#[test]
+fn the_frame_of_a_text_is_no_contour() {
+    let polyline = |handle: &str| format!("0 LWPOLYLINE 5 {handle} 90 4 70 1 10 0 20 0 10 9 20 0 10 9 20 4 10 0 20 4");
+    let text = "0 MTEXT 5 B 10 1 20 2 40 3 1 O 1001 ACAD 1000 ACAD_MTEXT_TEXT_BORDERS_BEGIN 1070 80 1070 16 1070 5 1005 A8 1070 5 1005 0a9 \
+                1000 ACAD_MTEXT_TEXT_BORDERS_END 1005 AA";
+    let circle = "0 CIRCLE 5 C 10 1 20 2 40 3";
+    let frame = |count: &str| format!("information at \"LWPOLYLINE\": {count} LWPOLYLINE: it is the frame of a text");
+    let expected = ["MTEXT B on 0: 1 2 O", "CIRCLE C on 0: 1 2 R3"];
+    check(&dxf(&format!("{text} {circle} {} {}", polyline("A8"), polyline("A9"))), &expected, &[&frame("2")]);
+    check(&dxf(&format!("{} {text} {circle}", polyline("A8"))), &expected, &[&frame("1")]);
+    // Another polyline, and one that other data name, are contours.
+    let contour = "LWPOLYLINE AA on 0: 0 0 0, 9 0 0, 9 4 0, 0 4 0 closed";
+    check(&dxf(&format!("{text} {circle} {}", polyline("AA"))), &[expected[0], expected[1], contour], &[]);
+    // After edits of the text and of the frame it is as if read afresh.
+    let whole = dxf(&format!("{circle} {} {text} {}", polyline("A8"), polyline("AA")));
+    for (from, to) in [
+        ("BORDERS_BEGIN", "BORDERS_ENDED"),
+        ("5\nA8", "5\nA7"),
+        ("1005\nA8", "1005\nAA"),
+        ("0\nMTEXT", "0\nTEXT"),
+        ("20\n4\n0", "20\n5\n0"),
+    ] {
+        let at = whole.find(from).unwrap();
+        let mut document = Document::read(whole.clone().into_bytes());
+        document.edit(at..at + from.len(), to);
+        let fresh = Document::read(whole.replacen(from, to, 1).into_bytes());
+        assert_eq!((entities(&document), findings(&document)), (entities(&fresh), findings(&fresh)), "{to}");
+        document.edit(at..at + to.len(), from);
+        let fresh = Document::read(whole.clone().into_bytes());
+        assert_eq!((entities(&document), findings(&document)), (entities(&fresh), findings(&fresh)), "{from} again");
+    }
+}
+
+#[test]
+fn a_scale_of_nothing_is_said_to_be_one() {
+    let text = |scale: &str| {
+        let block = "0 SECTION 2 BLOCKS 0 BLOCK 2 B 10 0 20 0 0 CIRCLE 10 0 20 0 40 3 0 ENDBLK 0 ENDSEC";
+        let all = format!(
+            "0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC {block} 0 SECTION 2 ENTITIES 0 INSERT 5 A 2 B 10 1 20 2 {scale} 0 ENDSEC 0 EOF"
+        );
+        all.split_whitespace().map(|tag| format!("{tag}\n")).collect::<String>()
+    };
+    let said = |code: usize, axis: char| {
+        format!("warning at \"0\": group code {code} ({axis} scale) of INSERT is 0, expected any other number: 1 is read")
+    };
+    let circle = "CIRCLE A on 0: 1 2 R3";
+    check(&text(""), &[circle], &[]);
+    check(&text("41 1 42 1 43 1"), &[circle], &[]);
+    check(&text("41 0 42 0"), &[circle], &[&said(41, 'x'), &said(42, 'y')]);
+    check(&text("43 0"), &[circle], &[&said(43, 'z')]);
+}
