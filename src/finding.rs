@@ -347,6 +347,11 @@ pub enum Detail {
     LostPocket {
         near: Point,
     },
+    /// The wire comes no further between two walls: what lies beyond stays uncut, `near` the farthest by so much.
+    DeadEnd {
+        near: Point,
+        uncut: f64,
+    },
     /// Nothing is left of the outline at this correction.
     OffsetCollapse {
         required: f64,

@@ -315,7 +315,10 @@ impl Picture<'_> {
             let Some(entity) = self.drawing.get(id) else { continue };
             let Some(geometry) = entity.geometry.segment_of(segment, self.drawing.flat()) else { continue };
             let point = match finding.detail {
-                Detail::SelfIntersection { at, .. } | Detail::LostPocket { near: at } | Detail::UnprovedPath { near: at } => Some(at),
+                Detail::SelfIntersection { at, .. }
+                | Detail::LostPocket { near: at }
+                | Detail::UnprovedPath { near: at }
+                | Detail::DeadEnd { near: at, .. } => Some(at),
                 // Seen where the segment begins in the direction of travel.
                 Detail::SharpCorner { .. } | Detail::NearTangent { .. } | Detail::Gap { .. } => {
                     Some(if reversed.contains(&id) { geometry.end() } else { geometry.start() })

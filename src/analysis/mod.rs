@@ -1,5 +1,6 @@
 //! Drawing → contours → findings, and what of it may be reused after an edit.
 
+mod dead_ends;
 mod known;
 mod pairs;
 mod repair;
@@ -294,6 +295,7 @@ impl Analysis {
             None => analysis.roles(drawing, &[key]).first().copied().unwrap_or(Role::Both),
         };
         let side_of = |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
+        let ends = self.dead_ends(drawing, &|key| side_of(self, key));
         let loud: Vec<(ContourKey, Option<Side>)> = self.loud_in_order(drawing).into_iter().map(|key| (key, side_of(self, key))).collect();
         for &(key, wire_side) in &loud {
             self.report_small_radii(drawing, key, wire_side, &mut report);
@@ -302,13 +304,15 @@ impl Analysis {
             if self.loud.get(&key).is_some_and(|loud| loud.has_facts)
                 && let (Some(known), Some(outlook)) = (self.known.get(&key), self.outlook(drawing, key))
             {
-                known.report(&outlook, wire_side, &mut report);
+                let depth = |index: usize, side: Side| ends.depth(key, index, side);
+                known.report(&outlook, wire_side, &depth, &mut report);
             }
         }
         let as_a_whole = |key: &ContourKey| self.loud.get(key).is_some_and(|loud| loud.as_a_whole);
         self.report_contours(drawing, loud.iter().map(|(key, _)| *key).filter(as_a_whole), &mut report);
         self.report_size(drawing, &mut report);
         self.pairs.report(drawing, &|key| self.outlook(drawing, key), &|key| side_of(self, key), &mut report);
+        self.report_dead_ends(drawing, &ends, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();
             let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();

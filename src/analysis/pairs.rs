@@ -4,7 +4,7 @@ use super::report::Report;
 use crate::drawing::{ContourIndex, ContourKey, ContourSegment, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::{Bounds, Grid, Point, Segment, left_normal};
-use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Wall};
+use crate::rules::{Limits, Outlook, PAIR_RULES, PairRule, Sight, Wall};
 use crate::settings::{Budget, Effective};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
@@ -27,8 +27,9 @@ struct Seen {
     other: SegmentId,
     sides: (Option<Side>, Option<Side>),
     mildest: Option<Severity>,
-    /// A disc that must be empty, and whether something reaches into it.
+    /// A disc that must be empty, of the contour's own segments or of all, and whether something reaches into it.
     disc: Option<(Point, f64)>,
+    own_disc: bool,
     blocked: bool,
 }
 
@@ -90,7 +91,7 @@ impl Pairs {
 
     /// True when nothing that has been seen between others depends on this contour, and all that is sought has been.
     pub fn may_spare(&self, key: ContourKey) -> bool {
-        let depends = |each: &Seen| each.disc.is_some() && each.one.0 != key && each.other.0 != key;
+        let depends = |each: &Seen| each.disc.is_some() && !each.own_disc && each.one.0 != key && each.other.0 != key;
         self.uncompared.is_empty() && self.seen_count < self.most_seen && !self.seen.values().flatten().any(depends)
     }
 
@@ -236,7 +237,9 @@ impl Pairs {
         for pair in asked {
             let Some(mut seen) = self.seen.remove(&pair) else { continue };
             for each in &mut seen {
-                each.blocked = each.disc.is_some_and(|disc| left == 0 || self.reaches_into(kept, limits, disc, &mut left));
+                each.blocked = each
+                    .disc
+                    .is_some_and(|disc| left == 0 || self.reaches_into(kept, limits, disc, each.own_disc.then_some(each.one.0), &mut left));
             }
             if left == 0 && seen.iter().any(|each| each.disc.is_some()) {
                 self.uncompared.insert(pair.0);
@@ -246,12 +249,23 @@ impl Pairs {
         self.left_to_ask = left;
     }
 
-    /// True when some segment reaches into a disc by more than rounding.
-    fn reaches_into(&self, kept: &mut Kept, limits: &Limits, (center, radius): (Point, f64), left: &mut u64) -> bool {
+    /// True when some segment, of one contour or of all, reaches into a disc by more than rounding.
+    fn reaches_into(
+        &self,
+        kept: &mut Kept,
+        limits: &Limits,
+        (center, radius): (Point, f64),
+        of: Option<ContourKey>,
+        left: &mut u64,
+    ) -> bool {
         let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
-        let looked = self.grid.near(&area, |run| near.push(run));
+        let looked = self.grid.near(&area, |run| {
+            if of.is_none_or(|key| run.0 == key) {
+                near.push(run);
+            }
+        });
         *left = left.saturating_sub(looked / BOXES_OF_A_LOOK);
         near.into_iter().any(|run| {
             kept.walls_of(run).is_some_and(|walls| {
@@ -272,6 +286,25 @@ impl Pairs {
         let own =
             |each: &&Seen| PAIR_RULES[each.rule].rule == Rule::NarrowSlot && each.one.0 == key && each.other.0 == key && !each.blocked;
         self.seen.values().flatten().filter(own).map(|each| ([each.one.1, each.other.1], each.disc)).collect()
+    }
+
+    /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour.
+    pub fn slots(&self) -> FxHashMap<ContourKey, Vec<([usize; 2], Option<Side>)>> {
+        let mut slots: FxHashMap<ContourKey, Vec<([usize; 2], Option<Side>)>> = FxHashMap::default();
+        for each in self.seen.values().flatten() {
+            if PAIR_RULES[each.rule].rule == Rule::NarrowSlot && each.one.0 == each.other.0 && !each.blocked {
+                slots.entry(each.one.0).or_default().push(([each.one.1, each.other.1], each.sides.0.or(each.sides.1)));
+            }
+        }
+        slots
+    }
+
+    /// What `lost-pocket` has seen between two segments of one contour: the contour, the two, the side of the wire, and the centre of the
+    /// disc that touches them. In no order.
+    pub fn dead_ends(&self) -> impl Iterator<Item = (ContourKey, [usize; 2], Side, Point)> + '_ {
+        let of_rule = |each: &&Seen| PAIR_RULES[each.rule].rule == Rule::LostPocket && !each.blocked;
+        let told = |each: &Seen| Some((each.one.0, [each.one.1, each.other.1], each.sides.0?, each.disc?.0));
+        self.seen.values().flatten().filter(of_rule).filter_map(told)
     }
 
     /// Entities that lie in the same place as another.
@@ -315,6 +348,7 @@ impl Pairs {
         for each in self.seen.values().flatten() {
             let ends = |(key, index): SegmentId| outlook(key)?.segment(index as isize).map(|segment| (segment.entity, segment.segment));
             if !each.blocked
+                && PAIR_RULES[each.rule].pair_by_pair
                 && concerned(each.one.0, each.sides.0)
                 && concerned(each.other.0, each.sides.1)
                 && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
@@ -523,12 +557,11 @@ impl Look<'_> {
             if is_double && PAIR_RULES[rule].silent_for_doubles && own.0 != theirs.0 {
                 continue;
             }
-            if one.1.grown(reach).touches(&other.1)
-                && let Some(sight) = (PAIR_RULES[rule].look)(&one.0, &other.0, own.0 == theirs.0)
-            {
-                is_double |= PAIR_RULES[rule].rule == Rule::DuplicateEntity;
-                let (sides, mildest, disc) = (sight.sides, sight.mildest, sight.disc);
-                found.push(Seen { rule, one: own, other: theirs, sides, mildest, disc, blocked: false });
+            if one.1.grown(reach).touches(&other.1) {
+                for Sight { sides, disc, own_disc, mildest } in (PAIR_RULES[rule].look)(&one.0, &other.0, own.0 == theirs.0) {
+                    is_double |= PAIR_RULES[rule].rule == Rule::DuplicateEntity;
+                    found.push(Seen { rule, one: own, other: theirs, sides, mildest, disc, own_disc, blocked: false });
+                }
             }
         }
     }

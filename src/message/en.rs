@@ -36,6 +36,9 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             format!("slot is {width} mm wide, the wire needs {required} mm: it cannot pass without cutting the walls")
         }
         Detail::LostPocket { .. } => "the offset loses this part of the outline: the wire does not reach it".into(),
+        Detail::DeadEnd { uncut, .. } => {
+            format!("the wire does not reach this part of the outline: {} mm stay uncut", mm(uncut * unit_mm))
+        }
         Detail::OffsetCollapse { required, point: true } => format!(
             "at a correction of {} mm a point is left of the outline: the wire is threaded there and cuts nothing more",
             mm(required * unit_mm)
@@ -100,6 +103,7 @@ pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> Strin
     let place = segment.map_or_else(|| handle.to_string(), |segment| format!("{handle}, segment {segment}"));
     match finding.detail {
         Detail::NarrowSlot { .. } => format!("the facing wall: {place}"),
+        Detail::DeadEnd { .. } => format!("the wire comes no further than here: {place}"),
         Detail::DuplicateEntity => format!("the same place: {place}"),
         Detail::Overlap { .. } => format!("runs on this one: {place}"),
         Detail::SelfIntersection { touches: true, .. } => format!("touches this one: {place}"),

@@ -64,7 +64,8 @@ pub struct FindingData {
     /// Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<f64>,
-    /// How much of a corner the wire leaves standing.
+    /// How much the wire leaves standing in a corner, or of a part that it does not reach: the distance of the farthest point from
+    /// what is cut.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncut: Option<f64>,
     /// The point where two segments meet, or near which a part is lost.
@@ -128,6 +129,10 @@ impl FindingData {
                 data.required = Some(*required);
             }
             Detail::LostPocket { near } | Detail::UnprovedPath { near } => data.at = Some((*near).into()),
+            Detail::DeadEnd { near, uncut } => {
+                data.at = Some((*near).into());
+                data.uncut = Some(*uncut);
+            }
             Detail::OffsetCollapse { required, .. } => data.required = Some(*required),
             Detail::OpenContour { distance } | Detail::Gap { distance } => data.distance = Some(*distance),
             Detail::NotJudged(what) => data.count = left_out(what),

@@ -12,17 +12,18 @@ use crate::geometry::{Point, Segment};
 pub const RULE: PairRule = PairRule {
     rule: Rule::DuplicateEntity,
     reach: |limits| limits.tolerances.same_place,
-    look,
+    look: |one, other, _| if are_doubles(one, other).unwrap_or(false) { vec![Sight::default()] } else { Vec::new() },
     detail: |_, _, _| Some(Detail::DuplicateEntity),
     fixes,
     one_per_place: false,
     silent_for_doubles: false,
     warning_when_side_unknown: false,
+    pair_by_pair: true,
 };
 
 /// Seen at the first segment of each of the two entities, once for a pair of entities. Closed ones may begin anywhere and have their
 /// vertices elsewhere: they are seen at the first segment of the earlier one and that of the other which it begins on.
-fn look(one: &Wall, other: &Wall, _same_contour: bool) -> Option<Sight> {
+fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     let (a, b) = (one.segment, other.segment);
     if a.entity == b.entity || a.segment != 0 {
         return None;
@@ -42,7 +43,7 @@ fn look(one: &Wall, other: &Wall, _same_contour: bool) -> Option<Sight> {
     let forward = || b.segment == 0 && (0..count).all(|k| same(k, k, false));
     let backward = || b.segment + 1 == count && (0..count).all(|k| same(k, count - 1 - k, true));
     let rings = || first.is_closed() && second.is_closed() && are_one_ring(first, second, b.segment, tolerance, flat);
-    (alike && (forward() || backward()) || rings()).then(Sight::default)
+    Some(alike && (forward() || backward()) || rings())
 }
 
 fn same(a: Segment, b: Segment, tolerance: f64) -> bool {

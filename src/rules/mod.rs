@@ -4,9 +4,11 @@
 //! It knows nothing of text, of protocols, or of how a sentence about it reads.
 
 mod arc_as_chords;
+pub mod dead_end;
 mod duplicate_entity;
 mod ends;
 mod gap;
+mod locus;
 pub mod lost_pocket;
 mod narrow_slot;
 mod near_tangent;
@@ -160,6 +162,8 @@ pub struct Sight {
     pub sides: (Option<Side>, Option<Side>),
     /// A disc (centre, radius) that no segment of the drawing may reach into, else there is nothing to see.
     pub disc: Option<(Point, f64)>,
+    /// Only the contour's own segments count there.
+    pub own_disc: bool,
     /// Where the case is milder than the rule.
     pub mildest: Option<Severity>,
 }
@@ -171,7 +175,7 @@ pub struct PairRule {
     pub reach: fn(&Limits) -> f64,
     /// Looks at two segments, the one of the earlier entity first; the flag tells that they are of one contour.
     /// What it sees may depend only on the two and on the [`NEIGHBOURS`] that follow and precede each in its contour.
-    pub look: fn(&Wall, &Wall, bool) -> Option<Sight>,
+    pub look: fn(&Wall, &Wall, bool) -> Vec<Sight>,
     pub detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
     pub fixes: fn(&Wall, &Wall) -> Vec<Fix>,
     /// What neighbouring pairs see is one thing: the narrowest stands for all.
@@ -180,10 +184,12 @@ pub struct PairRule {
     pub silent_for_doubles: bool,
     /// At most a warning where the wire side is not known.
     pub warning_when_side_unknown: bool,
+    /// Each pair that sees something is a finding; else whoever asks for what was seen makes the findings of it.
+    pub pair_by_pair: bool,
 }
 
 /// How many segments before and behind a segment a pair rule may look at.
 pub const NEIGHBOURS: usize = 4;
 
 /// Every rule on pairs of segments; `duplicate-entity` first, which others are silent for.
-pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE, overlap::RULE, self_intersection::RULE, narrow_slot::RULE];
+pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE, overlap::RULE, self_intersection::RULE, narrow_slot::RULE, dead_end::RULE];

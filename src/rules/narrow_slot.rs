@@ -13,9 +13,11 @@ pub const RULE: PairRule = PairRule {
     rule: Rule::NarrowSlot,
     reach: |limits| 2.0 * limits.correction,
     look: |one, other, same_contour| {
-        let slot = narrowest(one, other, same_contour)?;
-        let center = slot.from + (slot.to - slot.from) * 0.5;
-        Some(Sight { sides: slot.sides, disc: Some((center, slot.width / 2.0)), mildest: None })
+        let sight = |slot: Slot| {
+            let center = slot.from + (slot.to - slot.from) * 0.5;
+            Sight { sides: slot.sides, disc: Some((center, slot.width / 2.0)), ..Sight::default() }
+        };
+        narrowest(one, other, same_contour).map(sight).into_iter().collect()
     },
     detail: |one, other, same_contour| {
         let Slot { width, .. } = narrowest(one, other, same_contour)?;
@@ -25,6 +27,7 @@ pub const RULE: PairRule = PairRule {
     one_per_place: true,
     silent_for_doubles: false,
     warning_when_side_unknown: true,
+    pair_by_pair: true,
 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]

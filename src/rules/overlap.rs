@@ -18,17 +18,18 @@ pub const RULE: PairRule = PairRule {
     one_per_place: false,
     silent_for_doubles: true,
     warning_when_side_unknown: false,
+    pair_by_pair: true,
 };
 
-fn look(one: &Wall, other: &Wall, same_contour: bool) -> Option<Sight> {
+fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
     let tolerances = &one.outlook.limits.tolerances;
     let length = shared(one, other);
     if length <= tolerances.same_place {
-        return None;
+        return Vec::new();
     }
     // Ends that are joined within the tolerance may reach past each other.
     let joined = Joints::of(one, other, same_contour, tolerances.touch).neighbours && length <= tolerances.join;
-    (!joined).then(Sight::default)
+    if joined { Vec::new() } else { vec![Sight::default()] }
 }
 
 fn shared(one: &Wall, other: &Wall) -> f64 {

@@ -13,9 +13,10 @@ pub const RULE: PairRule = PairRule {
     rule: Rule::SelfIntersection,
     reach: |limits| limits.tolerances.touch,
     look: |one, other, same_contour| {
-        let contact = contact(one, other, same_contour)?;
         let both_closed = one.outlook.contour.closed && other.outlook.contour.closed;
-        Some(Sight { mildest: (contact.touches && !both_closed).then_some(Severity::Warning), ..Sight::default() })
+        let sight =
+            |contact: Contact| Sight { mildest: (contact.touches && !both_closed).then_some(Severity::Warning), ..Sight::default() };
+        contact(one, other, same_contour).map(sight).into_iter().collect()
     },
     detail: |one, other, same_contour| {
         let Contact { at, touches } = contact(one, other, same_contour)?;
@@ -25,6 +26,7 @@ pub const RULE: PairRule = PairRule {
     one_per_place: false,
     silent_for_doubles: true,
     warning_when_side_unknown: false,
+    pair_by_pair: true,
 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,6 +4,7 @@
 //! so that the drawing says what comes off the machine. Corners between chords that `arc-as-chords` takes for an arc are none.
 
 use super::arc_as_chords::{self, are_between_chords};
+use super::dead_end::corner_depth;
 use super::small_radius::{Travel, fillet};
 use super::{Fact, LocalRule, Outlook, other_at_joint};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
@@ -48,16 +49,19 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     }
 }
 
-/// Left with R, the last pass's correction; uncut is what stands between the arc and the corner, `R (1 / cos(θ/2) − 1)`,
-/// and no more than the shorter of the two segments.
+/// Left with R, the last pass's correction; uncut is what stands between the arc and the corner, `R (1 / cos(θ/2) − 1)` between
+/// long walls, and no more than the shorter of the two segments.
 fn detail(outlook: &Outlook, fact: Fact, count: Option<usize>) -> Option<Detail> {
     let index = fact.index as isize;
     let turn = outlook.turn_at(fact.index as usize)?;
     let (before, behind) = (outlook.segment(index - 1)?, outlook.segment(index)?);
     let radius = outlook.limits.last_correction;
-    let half = (turn / 2.0).cos();
-    let shorter = before.geometry.length().min(behind.geometry.length());
-    let uncut = if half * (radius + shorter) > radius { radius * (1.0 / half - 1.0) } else { shorter };
+    let of_long_walls = || {
+        let half = (turn / 2.0).cos();
+        let shorter = before.geometry.length().min(behind.geometry.length());
+        if half * (radius + shorter) > radius { radius * (1.0 / half - 1.0) } else { shorter }
+    };
+    let uncut = corner_depth(outlook, fact.index as usize, radius).unwrap_or_else(of_long_walls);
     Some(Detail::SharpCorner { turn: if behind.reversed { -turn } else { turn }, radius, uncut, count })
 }
 

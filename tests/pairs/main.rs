@@ -1,6 +1,7 @@
 //! The rules on pairs of segments.
 
 mod cases;
+mod dead_ends;
 mod outlines;
 #[path = "../support/star.rs"]
 mod star;

@@ -2,8 +2,9 @@
 
 use super::Travel;
 use crate::finding::NoFix;
-use crate::geometry::{Arc, Bounds, Point, Segment, circle_circle, left_normal, line_circle, line_line, positive_angle};
+use crate::geometry::{Arc, Bounds, Point, Segment, positive_angle};
 use crate::rules::Limits;
+use crate::rules::locus::Locus;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -92,12 +93,6 @@ enum Hold {
     Vertex,
 }
 
-/// Where the centre may lie.
-enum Locus {
-    Line { point: Point, direction: crate::geometry::Vector },
-    Circle { center: Point, radius: f64 },
-}
-
 struct Search<'a> {
     travel: &'a Travel<'a>,
     limits: &'a Limits,
@@ -122,7 +117,7 @@ impl<'a> Search<'a> {
         let (Some(first), Some(second)) = (self.locus(one, one.end(), at_start), self.locus(other, other.start(), at_end)) else {
             return Vec::new();
         };
-        meet(&first, &second).into_iter().filter_map(|center| self.arc_about(center, one, at_start, other, at_end)).collect()
+        first.meet(&second).into_iter().filter_map(|center| self.arc_about(center, one, at_start, other, at_end)).collect()
     }
 
     fn search(&mut self) -> Result<Replacement, NoFix> {
@@ -205,7 +200,7 @@ impl<'a> Search<'a> {
                     continue;
                 };
                 let vertices = [at_start, at_end].iter().filter(|&&hold| hold == Hold::Vertex).count();
-                for center in meet(&first, &second) {
+                for center in first.meet(&second) {
                     // Where both neighbours are one segment, its two ends must not be cut off past each other.
                     let same = (after - before) as usize == self.travel.len();
                     if let Some(arc) = self.arc_about(center, &one, at_start, &other, at_end)
@@ -237,17 +232,9 @@ impl<'a> Search<'a> {
     /// Where the centre may lie so that the new arc is held by a neighbour, or by the vertex at its end.
     fn locus(&self, neighbour: &Segment, vertex: Point, hold: Hold) -> Option<Locus> {
         let radius = self.limits.fix_radius;
-        match (hold, neighbour) {
-            (Hold::Vertex, _) => Some(Locus::Circle { center: vertex, radius }),
-            (Hold::Neighbour, Segment::Line(line)) => {
-                let direction = line.direction();
-                (line.length() > self.limits.tolerances.zero_length)
-                    .then(|| Locus::Line { point: line.start + left_normal(direction) * radius, direction })
-            }
-            (Hold::Neighbour, Segment::Arc(arc)) if arc.sweep > 0.0 => {
-                (arc.radius > radius).then_some(Locus::Circle { center: arc.center, radius: arc.radius - radius })
-            }
-            (Hold::Neighbour, Segment::Arc(arc)) => Some(Locus::Circle { center: arc.center, radius: arc.radius + radius }),
+        match hold {
+            Hold::Vertex => Some(Locus::about(vertex, radius)),
+            Hold::Neighbour => Locus::beside(neighbour, 1.0, radius, self.limits.tolerances.zero_length),
         }
     }
 
@@ -328,13 +315,4 @@ fn farthest(segment: &Segment, center: Point) -> Vec<Point> {
         }
     }
     points
-}
-
-fn meet(one: &Locus, other: &Locus) -> Vec<Point> {
-    match (one, other) {
-        (Locus::Line { point: p, direction: u }, Locus::Line { point: q, direction: v }) => line_line(*p, *u, *q, *v).into_iter().collect(),
-        (Locus::Line { point, direction }, Locus::Circle { center, radius })
-        | (Locus::Circle { center, radius }, Locus::Line { point, direction }) => line_circle(*point, *direction, *center, *radius),
-        (Locus::Circle { center: a, radius: ra }, Locus::Circle { center: b, radius: rb }) => circle_circle(*a, *ra, *b, *rb),
-    }
 }

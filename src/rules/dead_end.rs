@@ -1,0 +1,358 @@
+//! `lost-pocket`, seen where it begins: a disc of the correction that touches two walls and comes no further between them.
+//!
+//! What lies beyond, along the contour from the one wall to the other, the wire never cuts. A single sharp corner is such an end, too, and
+//! is left as `sharp-corner` says, with R (1 / cos(θ/2) − 1). More than that is an error, whatever shape it has: the end of a slot
+//! that tapers, a chamfer or a fillet in chords that is smaller than the wire, a V between walls that face each other and that the
+//! wire does not come into at all. An arc below the correction is `small-radius`, as long as that tells of all that is left.
+
+use super::arc_as_chords::are_between_chords;
+use super::locus::Locus;
+use super::sharp_corner::inner_side;
+use super::wall::{Corner, Wall};
+use super::{Limits, NEIGHBOURS, Outlook, PairRule, Sight, small_radius};
+use crate::finding::{Rule, Side};
+use crate::geometry::{Point, Segment, Vector, cross, left_normal, turn};
+use std::f64::consts::FRAC_PI_2;
+
+pub const RULE: PairRule = PairRule {
+    rule: Rule::LostPocket,
+    reach: |limits| 2.0 * limits.correction,
+    look,
+    // Said of what lies between the two, by `left`.
+    detail: |_, _, _| None,
+    fixes: |_, _| Vec::new(),
+    one_per_place: false,
+    silent_for_doubles: false,
+    warning_when_side_unknown: false,
+    pair_by_pair: false,
+};
+
+/// Less than this, mm, is what rounding to three decimals makes of a contour.
+const LEAST_MM: f64 = 5e-4;
+
+/// A turn (radians) above which the two walls of a corner face each other.
+const FACING: f64 = FRAC_PI_2 + 1e-3;
+
+/// A turn (radians) below which two segments are one wall.
+const SMOOTH: f64 = 1e-6;
+
+/// A wall that a disc touches: at a place of it, or at the vertex that it starts in.
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    index: usize,
+    at_vertex: bool,
+    /// From the place towards the disc's centre.
+    normal: Vector,
+}
+
+/// A disc of the correction that touches two walls of a contour, with what lies beyond it.
+#[derive(Clone, Copy, Debug)]
+pub struct DeadEnd {
+    pub center: Point,
+    radius: f64,
+    side: Side,
+    /// In the direction of travel, what lies beyond the disc goes from the one to the other.
+    from: Touch,
+    to: Touch,
+    /// How many segments further the second is.
+    steps: usize,
+}
+
+/// What the wire leaves beyond a dead end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Left {
+    /// How far the farthest point of the contour lies from what is cut.
+    pub depth: f64,
+    pub near: Point,
+    /// The segment that the wire stays farthest from.
+    pub index: usize,
+}
+
+/// The disc that the wire's centre carries: an arc of the correction, and a slot twice as wide, it still follows.
+fn radius(limits: &Limits) -> f64 {
+    limits.correction - limits.tolerances.report
+}
+
+/// How far a wall may reach into a disc by rounding.
+fn slack(limits: &Limits, radius: f64) -> f64 {
+    (1e-6 * radius).max(limits.tolerances.clearance)
+}
+
+fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
+    let mut sights = Vec::new();
+    let limits = one.outlook.limits;
+    let radius = radius(limits);
+    if !same_contour || radius <= limits.tolerances.touch {
+        return sights;
+    }
+    for side in [Side::Left, Side::Right] {
+        let of_one = loci(one, side, radius);
+        for locus in loci(other, side, radius).iter().flatten() {
+            for center in of_one.iter().flatten().flat_map(|own| own.meet(locus)) {
+                if let Some(end) = DeadEnd::between(one, other, side, center)
+                    && end.is_clear_nearby(one, other)
+                    && end.may_matter(&one.outlook)
+                {
+                    let disc = Some((center, radius));
+                    sights.push(Sight { sides: (Some(side), Some(side)), disc, own_disc: true, mildest: None });
+                }
+            }
+        }
+    }
+    sights
+}
+
+/// Where a disc may lie that touches a wall, or the vertex that it starts in.
+fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
+    let along = Locus::beside(wall.geometry(), side.sign(), radius, wall.outlook.limits.tolerances.zero_length);
+    [along, start_of(wall).filter(|corner| is_tip(corner, side)).map(|corner| Locus::about(corner.at, radius))]
+}
+
+/// The vertex that a wall starts in.
+fn start_of(wall: &Wall) -> Option<Corner> {
+    wall.corners().next()
+}
+
+/// True for a vertex that the contour turns away from the wire in.
+fn is_tip(corner: &Corner, side: Side) -> bool {
+    let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else { return false };
+    turn(incoming.end_tangent(), outgoing.start_tangent()) * side.sign() < -SMOOTH
+}
+
+/// How a disc on one side of a wall touches it, if it does.
+fn touch(wall: &Wall, side: Side, center: Point, radius: f64) -> Option<Touch> {
+    let slack = slack(wall.outlook.limits, radius);
+    let geometry = wall.geometry();
+    let share = geometry.share_of(center);
+    let rounding = 1e-9 / geometry.length();
+    let place = foot(geometry, center, share);
+    let away = center - place;
+    let touches = |distance: f64| (distance - radius).abs() <= slack;
+    if (-rounding..=1.0 + rounding).contains(&share)
+        && touches(away.norm())
+        && left_normal(geometry.tangent_at(share)).dot(&away) * side.sign() > 0.0
+    {
+        return Some(Touch { index: wall.index, at_vertex: false, normal: away / away.norm() });
+    }
+    let corner = start_of(wall).filter(|corner| is_tip(corner, side))?;
+    let away = center - corner.at;
+    let normal = away.try_normalize(0.0)?;
+    (touches(away.norm()) && corner.is_nearest(normal)).then_some(Touch { index: wall.index, at_vertex: true, normal })
+}
+
+/// The place of a segment's line or circle nearest to `point`, which lies at `share` of it.
+fn foot(segment: &Segment, point: Point, share: f64) -> Point {
+    match segment {
+        Segment::Line(line) => line.start + (line.end - line.start) * share,
+        Segment::Arc(arc) => (point - arc.center).try_normalize(0.0).map_or(arc.start, |away| arc.center + away * arc.radius),
+    }
+}
+
+impl DeadEnd {
+    /// The end that a disc about `center` makes between two walls of a contour. `None` where it does not touch both, where it may
+    /// go on, and for a single corner that is as deep as any of its kind.
+    pub fn between(one: &Wall, other: &Wall, side: Side, center: Point) -> Option<DeadEnd> {
+        let (outlook, limits) = (&one.outlook, one.outlook.limits);
+        let radius = radius(limits);
+        let (first, second) = (touch(one, side, center, radius)?, touch(other, side, center, radius)?);
+        let spin = cross(first.normal, second.normal) * side.sign();
+        // Walls right opposite to each other let it pass.
+        if spin.abs() < 1e-9 {
+            return None;
+        }
+        let (from, to) = if spin > 0.0 { (first, second) } else { (second, first) };
+        let count = outlook.contour.len();
+        let steps = if outlook.contour.closed { (to.index + count - from.index) % count } else { to.index.checked_sub(from.index)? };
+        let end = DeadEnd { center, radius, side, from, to, steps };
+        match end.joints().count() {
+            0 => None,
+            1 => (end.is_between_tips() && end.joints().any(|joint| end.turn_at(outlook, joint) > FACING)).then_some(end),
+            _ => Some(end),
+        }
+    }
+
+    /// The segments whose starts are the joints between the two places that the disc touches.
+    fn joints(&self) -> impl Iterator<Item = isize> + use<> {
+        let first = self.from.index as isize + 1;
+        first..first + (self.steps - usize::from(self.to.at_vertex && self.steps > 0)) as isize
+    }
+
+    /// The segments that lie wholly beyond the disc.
+    fn segments(&self) -> impl Iterator<Item = isize> + use<> {
+        let from = self.from.index as isize;
+        from + isize::from(!self.from.at_vertex)..from + self.steps as isize
+    }
+
+    fn is_between_tips(&self) -> bool {
+        self.from.at_vertex && self.to.at_vertex
+    }
+
+    /// True when two segments of the contour, by their indices, both lie in what is beyond the disc, or touch it.
+    pub fn holds(&self, count: usize, segments: [usize; 2]) -> bool {
+        let along = |index: usize| (index + count - self.from.index) % count.max(1);
+        segments.into_iter().all(|index| along(index) <= self.steps)
+    }
+
+    /// The turn (radians) towards the wire in the joint where a segment starts.
+    fn turn_at(&self, outlook: &Outlook, joint: isize) -> f64 {
+        let (Some(before), Some(behind)) = (outlook.segment(joint - 1), outlook.segment(joint)) else { return 0.0 };
+        turn(before.geometry.end_tangent(), behind.geometry.start_tangent()) * self.side.sign()
+    }
+
+    /// True when no segment beside the two walls reaches into the disc.
+    fn is_clear_nearby(&self, one: &Wall, other: &Wall) -> bool {
+        let least = self.radius - slack(one.outlook.limits, self.radius);
+        let reach = NEIGHBOURS as isize;
+        let mut near = [one, other].into_iter().flat_map(|wall| (-reach..=reach).filter_map(|steps| wall.beside(steps)));
+        near.all(|segment| segment.distance_to(self.center) >= least)
+    }
+
+    /// False where a look at a few segments tells that no more is left than in a single corner.
+    fn may_matter(&self, outlook: &Outlook) -> bool {
+        self.steps > NEIGHBOURS || self.is_more_than_a_corner(outlook, false)
+    }
+
+    /// How far a point is from what the wire cuts with its centre here.
+    fn depth(&self, point: Point) -> f64 {
+        (point - self.center).norm() - self.radius
+    }
+
+    /// The depth of the joint where a segment starts, where that lies beyond the disc.
+    pub fn depths<'a>(&'a self, outlook: &'a Outlook) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let count = outlook.contour.len().max(1);
+        self.joints().filter_map(move |joint| Some((joint as usize % count, self.depth(outlook.segment(joint)?.geometry.start()))))
+    }
+
+    pub fn side(&self) -> Side {
+        self.side
+    }
+
+    /// The two segments that the disc touches.
+    pub fn walls(&self) -> [usize; 2] {
+        [self.from.index, self.to.index]
+    }
+
+    /// Points of what lies beyond the disc among which the deepest is.
+    fn points<'a>(&'a self, outlook: &'a Outlook) -> impl Iterator<Item = (isize, Point)> + 'a {
+        let joints = self.joints().filter_map(|joint| Some((joint, outlook.segment(joint)?.geometry.start())));
+        let bellies = self.segments().filter_map(|index| {
+            let Segment::Arc(arc) = outlook.segment(index)?.geometry else { return None };
+            let away = (arc.center - self.center).try_normalize(0.0)?;
+            let point = arc.center + away * arc.radius;
+            (0.0..=1.0).contains(&arc.share_of(point)).then_some((index, point))
+        });
+        joints.chain(bellies)
+    }
+
+    /// What is left beyond the disc, where that is more than `sharp-corner` and `small-radius` tell of.
+    pub fn left(&self, outlook: &Outlook) -> Option<Left> {
+        if !self.is_more_than_a_corner(outlook, true) {
+            return None;
+        }
+        let rank = |index: isize| {
+            let segment = outlook.segment(index)?;
+            Some((outlook.drawing.rank(segment.entity), segment.segment))
+        };
+        let points: Vec<(isize, f64, Point)> = self.points(outlook).map(|(at, point)| (at, self.depth(point), point)).collect();
+        let depth = points.iter().map(|point| point.1).fold(0.0, f64::max);
+        // Which of equally deep points is named does not hang on where the contour begins, or which way it runs.
+        let named = |least: f64| move |value: &f64| *value >= least - 1e-9;
+        let near = points.iter().filter(|point| named(depth)(&point.1)).min_by_key(|point| rank(point.0))?.2;
+        let missed = |index: isize| outlook.segment(index).map_or(0.0, |segment| segment.geometry.distance_to(self.center));
+        let most = self.segments().map(missed).fold(0.0, f64::max);
+        let index = self.segments().filter(|&index| named(most)(&missed(index))).min_by_key(|&index| rank(index))?;
+        Some(Left { depth, near, index: index as usize % outlook.contour.len().max(1) })
+    }
+
+    /// Whether more is left than each single corner explains, and than is said of each arc below the correction: a wall between two
+    /// corners that the wire does not come to, and a corner that is deeper than its own turn tells.
+    /// With `spares_chords`, corners between the chords of an arc that the wire can follow are none.
+    fn is_more_than_a_corner(&self, outlook: &Outlook, spares_chords: bool) -> bool {
+        let limits = outlook.limits;
+        let least = LEAST_MM / limits.unit_mm;
+        let told = |index: isize| {
+            let segment = outlook.segment(index)?;
+            small_radius::check(&segment, Some(self.side), limits).map(|told| told.stock_left)
+        };
+        let told = self.segments().filter_map(told).fold(None, |most: Option<f64>, stock| Some(most.map_or(stock, |most| most.max(stock))));
+        let is_deeper = |depth: f64| self.points(outlook).any(|(_, point)| self.depth(point) > depth + least);
+        if let Some(told) = told {
+            // Nothing but arcs that bend about the wire are a run, which `small-radius` mends as one.
+            let is_of_run = |index: isize| {
+                let segment = outlook.segment(index).map(|segment| segment.geometry);
+                segment.is_some_and(|segment| segment.as_arc().is_some_and(|arc| arc.sweep * self.side.sign() > 0.0))
+            };
+            return is_deeper(told) && !self.segments().all(is_of_run);
+        }
+        let corners: Vec<(isize, f64)> = self.joints().filter_map(|joint| self.corner_at(outlook, joint, spares_chords)).collect();
+        let faces = |&(_, turn): &(isize, f64)| turn > FACING;
+        if self.is_between_tips() && corners.iter().any(faces) && is_deeper(0.0) {
+            return true;
+        }
+        let (Some(&(first, _)), Some(&(last, _))) = (corners.first(), corners.last()) else { return false };
+        let is_missed = |index: isize| {
+            let distance = outlook.segment(index).map_or(0.0, |segment| segment.geometry.distance_to(self.center));
+            distance - self.radius > least
+        };
+        let is_beyond = |&(joint, turn): &(isize, f64)| {
+            let share = self.radius * (1.0 / (turn / 2.0).cos() - 1.0);
+            outlook.segment(joint).is_some_and(|segment| self.depth(segment.geometry.start()) > share + least)
+        };
+        (first..last).any(is_missed) && corners.iter().any(|corner| faces(corner) || is_beyond(corner))
+    }
+
+    /// The joint where a segment starts with its turn, if it is a corner that turns towards the wire.
+    fn corner_at(&self, outlook: &Outlook, joint: isize, spares_chords: bool) -> Option<(isize, f64)> {
+        let turn = self.turn_at(outlook, joint);
+        inner_side(turn).filter(|&side| side == Side::Left)?;
+        let (before, behind) = (outlook.segment(joint - 1)?.geometry, outlook.segment(joint)?.geometry);
+        if spares_chords && before.length().max(behind.length()) >= 2.0 * self.radius * (turn / 2.0).tan() {
+            let index = joint as usize % outlook.contour.len().max(1);
+            if are_between_chords(outlook, index..index + 1).contains(&true) {
+                return None;
+            }
+        }
+        Some((joint, turn))
+    }
+}
+
+/// How many segments on either side of a corner may hold the disc that stands in it.
+const HOLDING: isize = 8;
+
+/// What stays of the corner where the segment at `index` begins beside a disc of `radius`, on the side that the contour turns to: less
+/// than of an endless corner where the walls are short or fall back. `None` where what is near does not tell.
+pub fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
+    let count = outlook.contour.len();
+    let wall = |index: isize| {
+        let index = if outlook.contour.closed { index.rem_euclid(count as isize) } else { index };
+        Wall::new(outlook, usize::try_from(index).ok()?)
+    };
+    let index = index as isize;
+    let (before, behind) = (wall(index - 1)?, wall(index)?);
+    let turned = turn(before.geometry().end_tangent(), behind.geometry().start_tangent());
+    let (side, at) = (if turned > 0.0 { Side::Left } else { Side::Right }, behind.geometry().start());
+    let least = radius - slack(outlook.limits, radius);
+    let reach = HOLDING.min(count as isize / 2);
+    let depth_of = |one: &Wall, other: &Wall, center: Point| {
+        let depth = (at - center).norm() - radius;
+        let is_held = depth >= 0.0 && touch(one, side, center, radius).is_some() && touch(other, side, center, radius).is_some();
+        let is_clear = || (-2 * reach..=2 * reach).filter_map(|steps| behind.beside(steps)).all(|near| near.distance_to(center) >= least);
+        (is_held && is_clear()).then_some(depth)
+    };
+    // Most corners have walls that are long enough.
+    let along = |wall: &Wall| Locus::beside(wall.geometry(), side.sign(), radius, outlook.limits.tolerances.zero_length);
+    let centers = along(&before)?.meet(&along(&behind)?).into_iter();
+    if let Some(depth) = centers.filter_map(|center| depth_of(&before, &behind, center)).min_by(f64::total_cmp) {
+        return Some(depth);
+    }
+    // A wall holds the disc, or the tip that it starts in does: behind the corner a tip may end the last wall.
+    let early: Vec<Wall> = (1..=reach).filter_map(|steps| wall(index - steps)).collect();
+    let late: Vec<Wall> = (0..=reach).filter_map(|steps| wall(index + steps)).collect();
+    let pairs = early.iter().flat_map(|one| late.iter().map(move |other| (one, other)));
+    let depths = pairs.flat_map(|(one, other)| {
+        let (own, theirs) = (loci(one, side, radius), loci(other, side, radius));
+        let centers = own.into_iter().flatten().flat_map(move |own| theirs.into_iter().flatten().flat_map(move |locus| own.meet(&locus)));
+        centers.filter_map(|center| depth_of(one, other, center)).collect::<Vec<_>>()
+    });
+    depths.min_by(f64::total_cmp)
+}

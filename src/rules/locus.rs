@@ -1,0 +1,44 @@
+//! Where the centre of a disc may lie that touches something: a line or a circle.
+
+use crate::geometry::{Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line};
+
+#[derive(Clone, Copy, Debug)]
+pub enum Locus {
+    Line { point: Point, direction: Vector },
+    Circle { center: Point, radius: f64 },
+}
+
+impl Locus {
+    /// Of discs of `radius` that touch what carries a segment, on its left where `side` is +1, on its right where it is −1. `None` for
+    /// a line no longer than `zero_length`, and inside an arc that is no larger than the disc.
+    pub fn beside(segment: &Segment, side: f64, radius: f64, zero_length: f64) -> Option<Locus> {
+        match segment {
+            Segment::Line(line) => {
+                let direction = line.direction();
+                let point = line.start + left_normal(direction) * (radius * side);
+                (line.length() > zero_length).then_some(Locus::Line { point, direction })
+            }
+            Segment::Arc(arc) if arc.sweep * side > 0.0 => {
+                (arc.radius > radius).then_some(Locus::Circle { center: arc.center, radius: arc.radius - radius })
+            }
+            Segment::Arc(arc) => Some(Locus::Circle { center: arc.center, radius: arc.radius + radius }),
+        }
+    }
+
+    /// Of discs of `radius` with `point` on their edge.
+    pub fn about(point: Point, radius: f64) -> Locus {
+        Locus::Circle { center: point, radius }
+    }
+
+    /// The centres that lie on both.
+    pub fn meet(&self, other: &Locus) -> Vec<Point> {
+        match (self, other) {
+            (Locus::Line { point: p, direction: u }, Locus::Line { point: q, direction: v }) => {
+                line_line(*p, *u, *q, *v).into_iter().collect()
+            }
+            (Locus::Line { point, direction }, Locus::Circle { center, radius })
+            | (Locus::Circle { center, radius }, Locus::Line { point, direction }) => line_circle(*point, *direction, *center, *radius),
+            (Locus::Circle { center: a, radius: ra }, Locus::Circle { center: b, radius: rb }) => circle_circle(*a, *ra, *b, *rb),
+        }
+    }
+}
