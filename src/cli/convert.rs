@@ -140,10 +140,10 @@ fn converted(
             output::complain(&format!("{}: {sentence}", arguments.path.display()));
             Ok(None)
         }
-        // Errors that were passed over: what comes of them is theirs.
-        Err(error) if report::has_errors(document) => {
+        // What comes of errors that were passed over is theirs.
+        Err(error) if arguments.force || report::has_errors(document) => {
             let path = arguments.path.display();
-            output::complain(&format!("{path}: the program has errors, and no other could be proved for it: {error}"));
+            output::complain(&format!("{path}: no other program could be proved for this one, and none is written: {error}"));
             Ok(None)
         }
         Err(error) => Err(Failure(format!("{}: internal error, nothing is written: {error}", arguments.path.display()))),

@@ -65,9 +65,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             output::complain(&format!("{}: {sentence}", path.display()));
             return Ok(Verdict::Errors);
         }
-        // Errors that were passed over with --force: what comes of them is theirs.
-        Err(error) if report::has_errors(&document) => {
-            output::complain(&format!("{}: the drawing has errors, and no program could be proved for it: {error}", path.display()));
+        // What comes of errors that were passed over is theirs.
+        Err(error) if arguments.force || report::has_errors(&document) => {
+            output::complain(&format!("{}: no program could be proved for this drawing, and none is written: {error}", path.display()));
             return Ok(Verdict::Errors);
         }
         Err(error) => return Err(Failure(format!("{}: internal error, no program is written: {error}", path.display()))),

@@ -45,6 +45,14 @@ impl fmt::Display for ProofError {
 
 impl std::error::Error for ProofError {}
 
+/// Said of paths that are shorter than a step of the grid.
+pub(super) const NOTHING_TO_WRITE: &str = "the path is shorter than the smallest step of a program: nothing of it can be written";
+
+/// No number of a program reaches `point`, which is in steps of its grid.
+pub(super) fn too_far_out(point: Point) -> ProofError {
+    ProofError::Refused(format!("the path passes {:.0}, {:.0} steps of the grid, too far out for a program", point.x, point.y))
+}
+
 /// How far apart two pieces of a path may be that belong together, µm.
 const GAP: f64 = 1.5;
 
@@ -109,7 +117,7 @@ pub fn cuts(paths: &[WirePath]) -> bool {
 }
 
 fn node_of(point: Point) -> Result<Node, ProofError> {
-    snap(point).ok_or_else(|| ProofError::Mismatch(format!("the path passes {point:?} µm, too far out for a program")))
+    snap(point).ok_or_else(|| too_far_out(point))
 }
 
 /// The way between two paths.

@@ -6,7 +6,7 @@ use super::machine::{CenterRule, Course, MICROMETRE, Machine, Move, Place, Readi
 use crate::finding::Side;
 use crate::geometry::Segment;
 use crate::program::grid::{Node, point_of};
-use crate::program::write::{ProofError, ProvedProgram, Writer, cuts, walk, way};
+use crate::program::write::{NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, walk, way};
 use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
 
@@ -338,7 +338,7 @@ impl<'a> Lines<'a> {
     /// `cuts` tells that there is more to the paths than places where the wire is threaded.
     fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
         if self.blocks == 0 && cuts {
-            return Err(ProofError::Mismatch("the path holds no block".into()));
+            return Err(ProofError::Refused(NOTHING_TO_WRITE.into()));
         }
         self.side = None;
         self.fixed(&self.profile.end, self.zero)?;

@@ -7,7 +7,7 @@
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line, turn};
 use crate::program::grid::{best_center, point_of, snap};
-use crate::program::write::{ProofError, scaled};
+use crate::program::write::{ProofError, scaled, too_far_out};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use std::f64::consts::PI;
 
@@ -52,7 +52,7 @@ pub(super) fn rounded(path: &WirePath, scale: f64, correction: f64, radius: f64)
     // The lines and arcs are those of the part, begun where the wire is.
     let beside = left_normal(first.geometry.start_tangent()) * (side.sign() * correction);
     let (Some(from), Some(to)) = (snap(entry), snap(entry + beside)) else {
-        return Err(ProofError::Mismatch(format!("the path passes {entry:?} µm, too far out for a program")));
+        return Err(too_far_out(entry));
     };
     let by = point_of(to) - point_of(from);
     let thread = path.thread_hole * scale;

@@ -11,7 +11,7 @@ use super::proof::Proof;
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
-use crate::program::write::{ProofError, ProvedProgram, Writer, cuts, walk, way};
+use crate::program::write::{NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, walk, way};
 use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{Source, WirePath};
 
@@ -185,7 +185,7 @@ impl<'a> Blocks<'a> {
     /// `cuts` tells that there is more to the paths than places where the wire is threaded.
     fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
         if self.blocks == 0 && cuts {
-            return Err(ProofError::Mismatch("the path holds no block".into()));
+            return Err(ProofError::Refused(NOTHING_TO_WRITE.into()));
         }
         self.word(Word::End)?;
         let text = String::from_utf8(self.out).map_err(|_| ProofError::Mismatch("the program is not text".into()))?;

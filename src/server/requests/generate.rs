@@ -97,9 +97,9 @@ impl Job {
         let program = self.format.write(&paths, task.unit_mm(), &task.settings, &mut go_on).map_err(|error| match error {
             ProofError::Refused(sentence) => refused(sentence),
             ProofError::Cancelled => Error::request_cancelled(),
-            // With `force` the errors were passed over; what comes of them is theirs.
-            ProofError::Mismatch(reason) if errors > 0 => {
-                let message = format!("the drawing has errors, and no program could be proved for it: {reason}");
+            // What comes of errors that were passed over is theirs.
+            ProofError::Mismatch(reason) if self.force => {
+                let message = format!("no program could be proved for this drawing: {reason}");
                 refused_with(message, diagnostics(&|severity| severity == Severity::Error))
             }
             ProofError::Mismatch(reason) => internal(format!("the program does not hold its proof: {reason}")),
