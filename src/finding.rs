@@ -573,6 +573,10 @@ pub enum FixKind {
     AddEnd {
         word: String,
     },
+    /// Letters and digits that only look like those of a program become plain ones.
+    PlainLetters,
+    /// Decimal commas become points.
+    DecimalPoints,
     /// What stands behind the end of a program goes.
     DeleteBehindEnd,
     /// J of a block becomes `j`, µm.

@@ -233,6 +233,42 @@ fn wedm(folder: &Path, arguments: &str) -> (i32, String, String) {
 }
 
 #[test]
+fn the_correction_is_never_lost_without_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    put("part.4b", "B10000B0B10000GXL1\nB10000B0B40000B10000GYDDNR1\nB10000B0B10000GXL3\nDD\n");
+    let square = "G01 X5. Y0.\nY5.\nX-5.\nY-5.\nX5.\nY0.\n";
+    put("side.iso", &format!("G92 X0 Y0\nG90\nG41 D1\n{square}G40\nG01 X0.\nM02\n"));
+    put("late.iso", &format!("G92 X0 Y0\nG90\nG01 X1. Y0.\nG41 D1\n{square}G40\nG01 X1. Y0.\nX0.\nM02\n"));
+    put("own.iso", &format!("H1=155\nG92 X0 Y0\nG90\nG41 H1\n{square}G40\nG01 X0.\nM02\n"));
+    put("mixed.iso", "G92 X0 Y0\nG90\nG01 X5. Y0.\nY5.\nG41 D1\nG01 X-5.\nY-5.\nX5.\nG40\nG01 Y0.\nX0.\nM02\n");
+    for (from, to, said) in [
+        ("part.4b", "iso", "line 2: a 4B program holds the part's contour"),
+        ("part.4b", "3b", "line 2: a 4B program holds the part's contour"),
+        ("side.iso", "3b", "cannot leave the correction to the controller"),
+        ("late.iso", "3b", "cannot leave the correction to the controller"),
+        ("mixed.iso", "3b", "the correction is switched within the contour"),
+        ("mixed.iso", "iso", "the correction is switched within the contour"),
+        ("own.iso", "4b", "the program's own correction H1 is 0.155 mm"),
+    ] {
+        let (code, out, errors) = wedm(folder.path(), &format!("convert {from} --force --format {to} -o out.{to}"));
+        assert_eq!(code, 1, "{from} to {to}: {out}{errors}");
+        assert!(errors.contains(said), "{from} to {to}: {errors}");
+        assert!(!folder.path().join(format!("out.{to}")).exists());
+    }
+    for (from, to, said) in [
+        ("part.4b", "dxf", "the correction is not in them"),
+        ("late.iso", "dxf", "the correction is not in them"),
+        ("own.iso", "iso --profile generic", "H1 = 0.155 mm"),
+    ] {
+        let (code, out, errors) = wedm(folder.path(), &format!("convert {from} --force --format {to} -o out.x"));
+        let all = format!("{out}{errors}");
+        assert_eq!(code, 0, "{from} to {to}: {all}");
+        assert!(all.contains(said), "{from} to {to}: {all}");
+    }
+}
+
+#[test]
 fn the_command_converts_and_refuses() {
     let folder = tempfile::tempdir().unwrap();
     let put = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();

@@ -87,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let Some((bytes, what)) = converted(arguments, target, &document, &cuts)? else { return Ok(Verdict::Errors) };
     output::write(arguments.output.as_deref(), &bytes)?;
-    summarise(arguments, &cuts, &what);
+    summarise(arguments, target, &cuts, &what);
     Ok(Verdict::Clean)
 }
 
@@ -131,6 +131,10 @@ fn converted(
         Target::Program(format) => format,
     };
     let settings = document.settings();
+    if let Some(reason) = cuts.refusal(format, settings) {
+        output::complain(&format!("{}: {reason}", arguments.path.display()));
+        return Ok(None);
+    }
     // µm are the unit of the cuts.
     match format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true) {
         Ok(written) => {
@@ -150,9 +154,13 @@ fn converted(
     }
 }
 
-fn summarise(arguments: &Arguments, cuts: &convert::Cuts, what: &str) {
-    let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| output::name(path));
-    output::say(&format!("{} {target}: {what}", styled(output::GOOD, "written")));
+fn summarise(arguments: &Arguments, target: Target, cuts: &convert::Cuts, what: &str) {
+    let written = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| output::name(path));
+    output::say(&format!("{} {written}: {what}", styled(output::GOOD, "written")));
+    if target == Target::Drawing && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some())) {
+        output::say("the contours are those of the part: the correction is not in them");
+    }
+    cuts.losses().iter().for_each(|loss| output::say(loss));
     if cuts.closure >= 0.005 {
         output::say(&format!("the machine misses the begin of a contour by up to {:.2} µm; its ends are made one there", cuts.closure));
     }

@@ -151,6 +151,8 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         }
         FixKind::InsertB => "Put the lost B back".into(),
         FixKind::NumberWithN => "Write the block number with N".into(),
+        FixKind::PlainLetters => "Write plain letters and digits".into(),
+        FixKind::DecimalPoints => "Write decimal points".into(),
         FixKind::ZeroForO => "Write a zero for the letter O".into(),
         FixKind::DeleteBlock => "Delete the block".into(),
         FixKind::SplitBlock { pieces } => format!("Split the block into {pieces} that fit"),

@@ -1,13 +1,16 @@
 //! A program as its cuts: what the machine runs from one stop or rapid to the next, joined, to be drawn or written in another language.
 
+use super::Format;
 use super::closing::tolerance;
 use super::document::Document;
+use super::iso;
 use super::language::passages;
 use super::three_b::{Item, Words, read_line};
 use super::trace::{Kind, Step};
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
+use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
 use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
@@ -30,6 +33,8 @@ pub struct Cut {
     pub closed: bool,
     /// The side of travel on which the control lets the wire run.
     pub side: Option<Side>,
+    /// The line in which that changes within the contour, from 0.
+    pub switched: Option<usize>,
 }
 
 impl Cut {
@@ -47,6 +52,12 @@ pub struct Cuts {
     pub ways: Vec<[Point; 2]>,
     /// Lines of blocks that lead nowhere, from 0.
     pub lost: Vec<usize>,
+    /// The line of the first 4B block, from 0: the contours are those of the part, and the controller adds its correction.
+    pub four_b: Option<usize>,
+    /// The corrections that the program itself states, by their names, mm.
+    pub corrections: Vec<(String, f64)>,
+    /// What says that the upper guide goes another way.
+    pub taper: Option<String>,
     /// Lines of the stops within contours, before their tabs, from 0: no cut holds them.
     pub stops: Vec<usize>,
     /// By how much contours did not close before their ends were made one, the most of it, µm.
@@ -63,6 +74,13 @@ pub fn cuts(document: &Document) -> Cuts {
     let sides = document.sides();
     let stated = stated_ends(document);
     let mut cuts = Cuts::default();
+    match document {
+        Document::ThreeB(program) => cuts.four_b = program.first_four_b_line(),
+        Document::Iso(program) => {
+            cuts.corrections = program.stated_corrections();
+            cuts.taper = iso::refactor::refuse_taper(program, iso::refactor::TaperWords::All).err();
+        }
+    }
     let mut open = Cut::default();
     let mut passages = passages.iter().peekable();
     let mut node = trace.start;
@@ -91,10 +109,16 @@ pub fn cuts(document: &Document) -> Cuts {
         if step.kind == Kind::Rapid {
             cuts.ways.push([node, end]);
         } else if end != node || is_full(&ideal) {
-            if open.segments.is_empty() {
-                open.side = sides.get(index).copied().flatten();
-            }
+            let side = sides.get(index).copied().flatten();
             if let Some(passage) = passages.peek() {
+                let contour = passage.contour_steps();
+                if contour.contains(&index) {
+                    let is_first = open.segments.len() == open.lead_in;
+                    if !is_first && side != open.side {
+                        open.switched.get_or_insert(step.line);
+                    }
+                    open.side = if is_first { side } else { open.side.or(side) };
+                }
                 open.closed = passage.closed;
                 open.lead_in += usize::from(index < passage.contour_steps().start);
                 open.lead_out += usize::from(index >= passage.contour_steps().end);
@@ -132,6 +156,43 @@ fn between(ideal: &Segment, step: &Step, from: Point, to: Point) -> Segment {
 }
 
 impl Cuts {
+    /// Why the cuts cannot become a program of a language without losing the correction: lower-case, no final dot.
+    pub fn refusal(&self, format: Format, settings: &Effective) -> Option<String> {
+        if let Some(line) = self.four_b {
+            return Some(format!(
+                "line {}: a 4B program holds the part's contour, and its controller adds the correction; the side and the correction would be lost",
+                line + 1
+            ));
+        }
+        if let Some(line) = self.cuts.iter().find_map(|cut| cut.switched) {
+            return Some(format!("line {}: the correction is switched within the contour, expected one side all the way round", line + 1));
+        }
+        let differs = |correction: &f64| (correction.abs() - settings.correction).abs() > 5e-4;
+        let own = self.corrections.iter().find(|(_, correction)| differs(correction)).filter(|_| format == Format::FourB);
+        let (name, correction) = own.filter(|_| self.cuts.iter().any(|cut| cut.side.is_some()))?;
+        Some(format!(
+            "the program's own correction {name} is {correction:.3} mm, that of the settings {:.3} mm: the transition arcs of 4B hang on it, \
+             set correction to the one that the machine has",
+            settings.correction
+        ))
+    }
+
+    /// What a program of another language does not hold of this one, in sentences.
+    pub fn losses(&self) -> Vec<String> {
+        let mut losses = Vec::new();
+        if self.cuts.iter().any(|cut| cut.side.is_some()) && !self.corrections.is_empty() {
+            let own: Vec<String> = self.corrections.iter().take(5).map(|(name, mm)| format!("{name} = {mm:.3} mm")).collect();
+            losses.push(format!("not written: the program's own corrections, {}; set them at the machine", own.join(", ")));
+        }
+        if let Some(taper) = &self.taper {
+            losses.push(format!("not written: the taper; {taper}"));
+        }
+        if let Some(line) = self.stops.first() {
+            losses.push(format!("not written: the stop in line {}, which holds the part while its tab is cut", line + 1));
+        }
+        losses
+    }
+
     /// Ends a cut: joins the ends of its contour, and those of its ways in and out, where they are one place.
     fn close(&mut self, mut cut: Cut) {
         let count = cut.segments.len();

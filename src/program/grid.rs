@@ -1,6 +1,6 @@
 //! The grid of a program: its nodes, and the centre on it about which an arc runs best.
 
-use crate::geometry::{Arc, Point, Segment};
+use crate::geometry::{Arc, Point, Segment, direction, left_normal};
 use std::f64::consts::PI;
 
 /// A node of a program on its grid, in absolute coordinates. A step is 1 µm but for ISO profiles with more decimals.
@@ -25,32 +25,64 @@ pub fn point_of(node: Node) -> Point {
 #[derive(Clone, Copy)]
 pub struct GridCenter {
     pub node: Node,
-    /// By how much it is further from the arc's start than from its end, or nearer.
-    pub difference: f64,
+    /// How far the arc about it lies from the true one at most, or its end from where it is meant to; in hundredths of a step.
+    cost: i64,
     /// From the true centre.
-    pub away: f64,
+    away: f64,
 }
 
-/// The nine grid points around the true centre.
+/// The nine grid points around the true centre, the best first: the one about which the arc stays nearest to the true one over its whole
+/// length and ends nearest to its node. Of those that are equally good the one nearest to the true centre.
 pub fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
     let nearest = Node { x: arc.center.x.round() as i64, y: arc.center.y.round() as i64 };
-    std::array::from_fn(|index| {
+    let mut centers = std::array::from_fn(|index| {
         let node = Node { x: nearest.x + index as i64 / 3 - 1, y: nearest.y + index as i64 % 3 - 1 };
-        let difference = (distance(from, node) - distance(to, node)).abs();
-        GridCenter { node, difference, away: (point_of(node) - arc.center).norm() }
-    })
+        let cost = (cost_of(arc, node, from, to) * 100.0).round().min(1e15) as i64;
+        GridCenter { node, cost, away: (point_of(node) - arc.center).norm() }
+    });
+    centers.sort_by(|a: &GridCenter, b| a.cost.cmp(&b.cost).then(a.away.total_cmp(&b.away)));
+    centers
 }
 
-/// The grid centre that is most nearly as far from the start as from the end; the nearest one where they are equally good.
+/// The best of [`grid_centers`].
 pub fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
-    let [mut best, others @ ..] = grid_centers(arc, from, to);
-    for center in others {
-        let nearer = center.difference < best.difference + 1e-9 && center.away < best.away;
-        if center.difference < best.difference - 1e-9 || nearer {
-            best = center;
-        }
+    grid_centers(arc, from, to)[0].node
+}
+
+/// What an arc costs that is written about a grid point, in steps; infinite where it turns otherwise.
+fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
+    if center == from || center == to {
+        return f64::INFINITY;
     }
-    best.node
+    let written = Arc::about(point_of(center), point_of(from), point_of(to), arc.sweep > 0.0);
+    if (written.sweep - arc.sweep).abs() > PI {
+        return f64::INFINITY;
+    }
+    let miss = (distance(from, center) - distance(to, center)).abs();
+    // A controller that is given the start turns about the centre at its distance.
+    largest_distance(&Segment::Arc(written), &Segment::Arc(*arc)).max(miss)
+}
+
+/// The largest distance of a written line or arc from the piece of the path that it stands for, over its whole length.
+pub fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
+    let look = |share: f64| (0.0..=1.0).contains(&share).then(|| written.point_at(share));
+    // Between its ends it is farthest where it runs along the piece.
+    let between = match (written, piece) {
+        (Segment::Line(line), Segment::Arc(arc)) => [look(line.share_of(arc.center)), None, None],
+        (Segment::Line(_), Segment::Line(_)) => [None; 3],
+        (Segment::Arc(own), piece) => {
+            let along = match piece {
+                Segment::Line(line) => left_normal(line.direction()),
+                Segment::Arc(arc) => own.center - arc.center,
+            };
+            let by = if along.norm() > 0.0 { along.normalize() * own.radius } else { along };
+            // It comes to its end at its own radius, which may miss that a little.
+            let end = own.center + direction(own.start_angle + own.sweep) * own.radius;
+            [look(own.share_of(own.center + by)), look(own.share_of(own.center - by)), Some(end)]
+        }
+    };
+    let ends = [written.start(), written.end()];
+    ends.into_iter().chain(between.into_iter().flatten()).map(|place| piece.distance_to(place)).fold(0.0, f64::max)
 }
 
 fn distance(a: Node, b: Node) -> f64 {
@@ -87,4 +119,66 @@ pub fn chord_count(arc: &Arc, sagitta: f64) -> Option<i64> {
     let length = arc.radius * arc.sweep.abs();
     let count = (arc.sweep.abs() / step).ceil();
     (count.is_finite() && length.is_finite() && count <= 1e7).then_some((count as i64).max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn arc() -> impl Strategy<Value = (Arc, Node, Node)> {
+        let size = prop_oneof![20.0_f64..2e3, 2e3_f64..2e5];
+        let turn = prop_oneof![0.05_f64..6.0, -6.0_f64..-0.05];
+        (-1e5_f64..1e5, -1e5_f64..1e5, size, 0.0_f64..7.0, turn, any::<bool>()).prop_map(|(x, y, radius, start, sweep, on_grid)| {
+            let center = if on_grid { Point::new(x.round(), y.round()) } else { Point::new(x, y) };
+            let arc = Arc::from_center(center, radius, start, sweep);
+            (arc, snap(arc.start).unwrap(), snap(arc.end).unwrap())
+        })
+    }
+
+    #[test]
+    fn a_centre_on_the_grid_stays_where_it_is() {
+        // R 40.1 about the origin, from the top to 0.1 mm beside the bottom.
+        let end = Point::new(-100.0, -(40_100.0_f64.powi(2) - 100.0 * 100.0).sqrt());
+        let arc = Arc::about(Point::origin(), Point::new(0.0, 40_100.0), end, true);
+        let best = best_center(&arc, snap(arc.start).unwrap(), snap(arc.end).unwrap());
+        assert_eq!((best.x, best.y), (0, 0));
+    }
+
+    proptest! {
+        #[test]
+        fn the_largest_distance_is_that_of_all_points((arc, from, to) in arc(), by in -3.0_f64..3.0, bulge in -0.5_f64..0.5) {
+            prop_assume!(from != to);
+            let path = Segment::Arc(arc);
+            let moved = [Point::new(arc.start.x + by, arc.start.y), Point::new(arc.end.x, arc.end.y - by)];
+            let written = [
+                Segment::Arc(Arc::about(point_of(best_center(&arc, from, to)), point_of(from), point_of(to), arc.sweep > 0.0)),
+                Segment::line(moved[0], moved[1]),
+                Segment::from_bulge(moved[0], moved[1], bulge),
+            ];
+            for written in written {
+                // Far from the piece other places of it are the nearest ones.
+                let line = Segment::line(arc.start, arc.end);
+                for (written, piece) in [(written, path), (written, line)] {
+                    let points = (0..=720).map(|step| written.point_at(f64::from(step) / 720.0));
+                    let sampled = points.map(|point| piece.distance_to(point)).fold(0.0, f64::max);
+                    let is_near = sampled < 0.2 * arc.radius && arc.sweep.abs() < 3.0;
+                    let found = largest_distance(&written, &piece);
+                    let slack = 1e-6 + written.length() / 720.0;
+                    prop_assert!(!is_near || sampled <= found + 1e-6 + slack * 0.01, "{sampled} {found}");
+                    prop_assert!(found <= sampled + slack, "{sampled} {found}");
+                }
+            }
+        }
+
+        #[test]
+        fn an_arc_on_the_grid_stays_near_the_true_one((arc, from, to) in arc()) {
+            prop_assume!(from != to && arc.sweep.abs() * arc.radius > 20.0 && (std::f64::consts::TAU - arc.sweep.abs()) * arc.radius > 20.0);
+            let best = best_center(&arc, from, to);
+            let cost = |node| cost_of(&arc, node, from, to);
+            prop_assert!(cost(best) <= 1.5, "{}", cost(best));
+            // No other one is better by more than the steps in which they are compared.
+            prop_assert!(grid_centers(&arc, from, to).iter().all(|center| cost(center.node) >= cost(best) - 0.011));
+        }
+    }
 }

@@ -12,6 +12,7 @@ mod gate;
 pub mod grid;
 pub mod iso;
 pub mod language;
+pub mod passes;
 pub mod three_b;
 pub mod trace;
 pub mod write;

@@ -19,7 +19,7 @@ pub struct ProvedProgram {
     pub length: f64,
     /// Drift in µm that a controller which only counts J accumulates on the way round; 0 where ends are written.
     pub closure: [f64; 2],
-    /// Largest distance in µm between a decoded block's end and the path's node.
+    /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub deviation: f64,
 }
 

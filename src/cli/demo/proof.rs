@@ -88,7 +88,7 @@ fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
         match item {
             Item::Word { word: Word::Pause, .. } => jump = !jump,
             Item::Word { word: Word::End, .. } => ended = true,
-            Item::Text { .. } | Item::Fault(_) => {}
+            Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => {}
             Item::StartPoint { .. } => {}
             Item::Block { block, .. } => {
                 let segment = three_b::decode(&block, at)

@@ -1,11 +1,13 @@
 //! Where the cuts of a program cross themselves, found anew for what an edit has touched.
 
+use super::cuts::CutWay;
 use super::document::Document;
 use super::machine::Place;
 use super::stretch::Stretch;
 use crate::finding::{Detail, Finding, NotJudged, Place as Where, ProgramFault, Rule, Severity};
 use crate::geometry::Segment;
-use crate::program::three_b::{Displacement, Found, Known, PathStretch, search};
+use crate::program::passes::{passes, pieces_of};
+use crate::program::three_b::{Displacement, Found, Known, PathStretch, crossings_of_passes, search};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -192,6 +194,11 @@ fn search_cut(document: &Document, cut: &[(usize, usize)], known: &mut Known) ->
         && one.near.is_empty()
     {
         return Found::default();
+    }
+    let way = CutWay::of_parts(document, cut);
+    let passes = passes(&way);
+    if !passes.is_empty() {
+        return crossings_of_passes(&pieces_of(&way).unwrap_or_default(), &passes);
     }
     let pieces = |part: usize| cut.get(part).map_or_else(Vec::new, |&(stretch, run)| pieces(document, stretch, run).0);
     search(&parts, arcs, known, &pieces)

@@ -169,18 +169,19 @@ pub(super) fn tabs(document: &Document) -> Vec<StopAt> {
 const MOST_STOPS: usize = 16;
 
 /// Cuts as one way, from where the first begins. Costs their parts, and the lines of those that are asked for.
-struct CutWay<'a> {
+pub(super) struct CutWay<'a> {
     document: &'a Document,
     parts: Vec<WayPart>,
     count: usize,
     arcs: usize,
     stop: Option<usize>,
-    /// Before and behind the first and the last move, µm.
-    ends: [[Point; 2]; 2],
+    /// Before and behind the first and the last move, µm, where they are known beforehand.
+    ends: Option<[[Point; 2]; 2]>,
 }
 
 struct WayPart {
-    part: Part,
+    /// Indices of the stretch and of the run in there.
+    part: (usize, usize),
     first: usize,
     start: Vector,
     bounds: Bounds,
@@ -196,12 +197,24 @@ impl<'a> CutWay<'a> {
         let last = cuts.last().map_or([Point::origin(); 2], |cut| step(&cut.run.last[1]));
         let first_cut = cuts.first().and_then(|cut| cut.before_tab.or((cuts.len() > 1).then_some(cut.run.moves)));
         let stop = first_cut.map(|moves| moves as usize);
-        let mut way = CutWay { document, parts: Vec::new(), count: 0, arcs: 0, stop, ends: [first, last] };
-        for part in cuts.iter().flat_map(|cut| &cut.parts) {
-            let Some(stretch) = document.stretches().get(part.stretch) else { continue };
-            let (Some((start, moves, arcs)), Some(path)) = (stretch.extent(part.run), stretch.paths.get(part.run)) else { continue };
+        let parts = cuts.iter().flat_map(|cut| &cut.parts).map(|part| (part.stretch, part.run));
+        CutWay { stop, ends: Some([first, last]), ..CutWay::from(document, begin, parts) }
+    }
+
+    /// The way of some parts that go on one behind the other: stretches and their runs.
+    pub fn of_parts(document: &'a Document, parts: &[(usize, usize)]) -> CutWay<'a> {
+        let first = parts.first().and_then(|(stretch, run)| document.stretches().get(*stretch)?.extent(*run));
+        CutWay::from(document, first.map_or([0, 0], |(start, ..)| start), parts.iter().copied())
+    }
+
+    fn from(document: &'a Document, begin: Place, parts: impl Iterator<Item = (usize, usize)>) -> CutWay<'a> {
+        let seen = |place: Place| micrometres([place[0].wrapping_sub(begin[0]), place[1].wrapping_sub(begin[1])]);
+        let mut way = CutWay { document, parts: Vec::new(), count: 0, arcs: 0, stop: None, ends: None };
+        for (index, run) in parts {
+            let Some(stretch) = document.stretches().get(index) else { continue };
+            let (Some((start, moves, arcs)), Some(path)) = (stretch.extent(run), stretch.paths.get(run)) else { continue };
             way.parts.push(WayPart {
-                part: *part,
+                part: (index, run),
                 first: way.count,
                 start: seen(start).coords,
                 bounds: path.bounds,
@@ -215,7 +228,7 @@ impl<'a> CutWay<'a> {
 
     fn pieces<'b>(&self, part: &'b WayPart) -> &'b [Segment] {
         part.pieces.get_or_init(|| {
-            let own = pieces(self.document, part.part.stretch, part.part.run).0;
+            let own = pieces(self.document, part.part.0, part.part.1).0;
             own.into_iter().map(|piece| piece.moved(part.start)).collect()
         })
     }
@@ -239,13 +252,17 @@ impl Way for CutWay<'_> {
     }
 
     fn node(&self, index: usize) -> Option<Node> {
-        let [first, last] = self.ends;
-        let point = match index {
-            0 => first[0],
-            1 => first[1],
-            _ if index == self.count => last[1],
-            _ if index + 1 == self.count => last[0],
-            _ => self.piece(index)?.start(),
+        let known = self.ends.and_then(|[first, last]| match index {
+            0 => Some(first[0]),
+            1 => Some(first[1]),
+            _ if index == self.count => Some(last[1]),
+            _ if index + 1 == self.count => Some(last[0]),
+            _ => None,
+        });
+        let point = match known {
+            Some(point) => point,
+            None if index == self.count => self.piece(index.checked_sub(1)?)?.end(),
+            None => self.piece(index)?.start(),
         };
         Some(Node::at(point))
     }

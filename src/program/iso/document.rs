@@ -307,6 +307,13 @@ impl Document {
         places.into_iter().collect()
     }
 
+    /// The corrections that the program itself puts into the control's table: their names, and mm.
+    pub(in crate::program) fn stated_corrections(&self) -> Vec<(String, f64)> {
+        let mut places: Vec<_> = self.table.iter().map(|(offset, &(value, inch))| (*offset, self.reading.length(value, inch))).collect();
+        places.sort_by_key(|(offset, _)| (offset.letter, offset.index));
+        places.into_iter().map(|(offset, nm)| (format!("{}{}", offset.letter as char, offset.index), nm as f64 / 1e6)).collect()
+    }
+
     /// `D` or `H`, as the program names places of the control's table.
     pub(super) fn table_letter(&self) -> u8 {
         let defined = self.stretches.iter().flat_map(|stretch| &stretch.definitions).map(|(offset, ..)| *offset).next();

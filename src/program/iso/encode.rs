@@ -2,11 +2,11 @@
 
 use super::block::Motion;
 use crate::geometry::{Arc, Segment};
-use crate::program::grid::{Node, best_center, chord_count, grid_centers, in_pieces, point_of, sagitta, snap};
+use crate::program::grid::{Node, chord_count, grid_centers, in_pieces, largest_distance, point_of, sagitta, snap};
 use std::f64::consts::{PI, TAU};
 
-/// How far the middle of a move may lie from that of its piece of the path, µm: its centre is on the grid, its ends are snapped.
-pub(super) const MIDDLE_TOLERANCE: f64 = 2.5;
+/// How far a move may lie from its piece of the path, anywhere, µm: its centre is on the grid, its ends are snapped.
+pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
 
 /// By how much the ends of a written arc may lie unlike far from its centre, µm: less than any reader takes for a fault.
 const RADIUS_TOLERANCE: f64 = 1.5;
@@ -42,8 +42,8 @@ pub(super) fn encode(piece: &Segment, from: Node, to: Node, step: f64, full_circ
     }
     if arc.radius > LARGEST_RADIUS {
         return in_pieces(piece, from, to, chord_count(arc, CHORD_SAGITTA / step)?, |piece, from, to| {
-            let chord = Segment::line(piece.start(), piece.end());
-            encode(&chord, from, to, step, full_circles, moves)
+            moves.push(Encoded { motion: Motion::Line, from, to, center: from, piece });
+            Some(())
         });
     }
     if is_full && !full_circles {
@@ -57,12 +57,10 @@ fn encode_arc(piece: &Segment, from: Node, to: Node, step: f64, depth: u32, move
     if from == to && arc.sweep.abs() <= PI {
         return Some(());
     }
-    let best = best_center(arc, from, to);
     let fits = |center: Node| {
-        (error_of(arc, center, from, to) * step <= MIDDLE_TOLERANCE) && radii_differ(center, from, to) * step <= RADIUS_TOLERANCE
+        (error_of(arc, center, from, to) * step <= ASIDE_TOLERANCE) && radii_differ(center, from, to) * step <= RADIUS_TOLERANCE
     };
-    let center =
-        if fits(best) { Some(best) } else { grid_centers(arc, from, to).iter().map(|center| center.node).find(|&center| fits(center)) };
+    let center = grid_centers(arc, from, to).iter().map(|center| center.node).find(|&center| fits(center));
     if let Some(center) = center {
         let motion = if arc.sweep > 0.0 { Motion::CounterClockwise } else { Motion::Clockwise };
         moves.push(Encoded { motion, from, to, center, piece: *piece });
@@ -70,7 +68,7 @@ fn encode_arc(piece: &Segment, from: Node, to: Node, step: f64, depth: u32, move
     }
     // A chord of an arc this flat is as near to it as the grid is.
     if sagitta(arc) * step <= 2.0 * CHORD_SAGITTA {
-        moves.push(Encoded { motion: Motion::Line, from, to, center: from, piece: Segment::line(arc.start, arc.end) });
+        moves.push(Encoded { motion: Motion::Line, from, to, center: from, piece: *piece });
         return Some(());
     }
     if depth >= 8 {
@@ -87,7 +85,7 @@ fn radii_differ(center: Node, from: Node, to: Node) -> f64 {
     ((point_of(from) - point_of(center)).norm() - (point_of(to) - point_of(center)).norm()).abs()
 }
 
-/// How far the middle of the arc about a grid centre lies from that of the true one; infinite where it turns otherwise.
+/// How far the arc about a grid centre lies from the true one at most; infinite where it turns otherwise.
 fn error_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
     if center == from || center == to {
         return f64::INFINITY;
@@ -97,5 +95,6 @@ fn error_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
     if turn > PI && turn < TAU + PI {
         return f64::INFINITY;
     }
-    (made.point_at(0.5) - arc.point_at(0.5)).norm()
+    let middles = (made.point_at(0.5) - arc.point_at(0.5)).norm();
+    largest_distance(&Segment::Arc(made), &Segment::Arc(*arc)).max(middles)
 }

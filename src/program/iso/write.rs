@@ -1,12 +1,12 @@
 //! Paths to the text of one ISO program, as a profile says, each line of which is read again while it is written.
 
 use super::block::{Motion, Note, read_line};
-use super::encode::{Encoded, MIDDLE_TOLERANCE, encode};
-use super::machine::{CenterRule, Course, MICROMETRE, Machine, Move, Place, Reading};
+use super::encode::{ASIDE_TOLERANCE, Encoded, encode};
+use super::machine::{CenterRule, Course, MICROMETRE, Machine, Move, Place, Reading, micrometres};
 use crate::finding::Side;
 use crate::geometry::Segment;
-use crate::program::grid::{Node, point_of};
-use crate::program::write::{NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, walk, way};
+use crate::program::grid::{Node, largest_distance, point_of};
+use crate::program::write::{NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, scaled, walk, way};
 use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
 
@@ -91,7 +91,6 @@ impl Writer for Lines<'_> {
             self.step_out(step)?;
         }
         self.length += piece.length();
-        self.deviation = self.deviation.max((piece.end() - point_of(to)).norm());
         self.encoded = encoded;
         Ok(())
     }
@@ -227,7 +226,8 @@ impl<'a> Lines<'a> {
         self.push_move(step);
         let block = read_line(&self.out[start..], 1, |_| {});
         let made = self.machine.run(&block, &self.reading);
-        self.check(step, made)?;
+        let aside = self.check(step, made)?;
+        self.deviation = self.deviation.max(aside);
         self.end_line();
         self.blocks += 1;
         Ok(())
@@ -283,8 +283,8 @@ impl<'a> Lines<'a> {
         self.out = out;
     }
 
-    /// Holds what the control does with the line against the node and the piece of the path.
-    fn check(&self, step: &Encoded, made: Option<Move>) -> Result<(), ProofError> {
+    /// Holds what the control does with the line against the node and the piece of the path; how far it lies from that at most, µm.
+    fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
         let Some(made) = made else { return Err(ProofError::Mismatch(format!("a written move to {:?} does not move", step.to))) };
         let (from, to) = (self.place(step.from), self.place(step.to));
         if made.from != from || made.to != to || made.motion != step.motion {
@@ -299,21 +299,20 @@ impl<'a> Lines<'a> {
             return Err(self.refused("the correction is not in force along the contour"));
         }
         let decoded = match made.course(&self.reading) {
-            Course::Line => return Ok(()),
+            Course::Line => Segment::line(micrometres(made.from), micrometres(made.to)),
             Course::Arc(arc) => Segment::Arc(arc),
             Course::OffRadius { start, end, .. } => {
                 return Err(ProofError::Mismatch(format!("the arc to {:?} has ends {start:.3} and {end:.3} µm from its centre", step.to)));
             }
             Course::NoRadius => return Err(ProofError::Mismatch(format!("the arc to {:?} has no radius", step.to))),
         };
-        let middle = step.piece.point_at(0.5);
-        let zero = point_of(self.zero);
-        let expected = (middle - zero) * self.step_um();
-        let aside = (decoded.point_at(0.5).coords - expected).norm();
-        if aside > MIDDLE_TOLERANCE + 1e-6 || aside.is_nan() {
-            return Err(ProofError::Mismatch(format!("the arc to {:?} runs {aside:.3} µm beside the path", step.to)));
+        let piece = scaled(&step.piece.moved(-point_of(self.zero).coords), self.step_um());
+        let middles = (decoded.point_at(0.5) - piece.point_at(0.5)).norm();
+        let aside = largest_distance(&decoded, &piece);
+        if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
+            return Err(ProofError::Mismatch(format!("the move to {:?} runs {:.3} µm beside the path", step.to, aside.max(middles))));
         }
-        Ok(())
+        Ok(aside)
     }
 
     /// A length in steps, as the profile writes lengths.
@@ -344,7 +343,7 @@ impl<'a> Lines<'a> {
         self.fixed(&self.profile.end, self.zero)?;
         let (step_um, blocks) = (self.step_um(), self.blocks);
         let text = String::from_utf8(self.out).map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
-        let deviation = self.deviation * step_um;
+        let deviation = self.deviation;
         Ok(ProvedProgram { text, blocks, length: self.length * step_um / 1000.0, closure: [0.0, 0.0], deviation })
     }
 }

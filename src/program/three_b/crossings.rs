@@ -5,12 +5,13 @@
 //! and of what it moved away from the rest. Which pieces cross is then decided from the whole way, so that it does not hang on where
 //! runs begin.
 
-use super::rules::path_crosses_itself::{Crossing, MOST_PAIRS, Way, come_near, margin};
+use super::rules::path_crosses_itself::{Crossing, MOST_PAIRS, Way, come_near, crossings, margin};
 use super::run::Move;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// The blocks of a contour in one run.
@@ -149,8 +150,19 @@ pub(in crate::program) fn search(
         let own = prepared(stretch).pieces.get(index - firsts[stretch])?;
         Some(own.moved(Vector::new(x, y)))
     };
-    let (crossings, is_all) = Way { piece: &piece, count, margin: margin(arcs), steps: Cell::new(0) }.crossings(near);
-    Found { crossings, is_crowded: is_crowded || !is_all, pairs: pairs.len() }
+    let (found, is_all) = Way { piece: &piece, count, margin: margin(arcs), steps: Cell::new(0) }.crossings(near);
+    Found { crossings: found, is_crowded: is_crowded || !is_all, pairs: pairs.len() }
+}
+
+/// Where the passes of a contour cross themselves, each for itself: one may lie on another, and ways in and out cross others.
+pub(in crate::program) fn crossings_of_passes(pieces: &[Segment], passes: &[Range<usize>]) -> Found {
+    let crossings = passes.iter().flat_map(|pass| {
+        let own = pieces.get(pass.clone()).unwrap_or_default();
+        let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
+        let placed = |one: Crossing| Crossing { first: one.first + pass.start, second: one.second + pass.start, ..one };
+        crossings(own, arcs).into_iter().map(placed).collect::<Vec<_>>()
+    });
+    Found { crossings: crossings.collect(), ..Found::default() }
 }
 
 /// The pieces of a stretch from the origin, with boxes about them, about pairs of boxes, and so on up to one.

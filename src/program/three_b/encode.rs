@@ -3,15 +3,15 @@
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::decode::{decode, phase};
 use crate::geometry::{Arc, Line, Segment};
-use crate::program::grid::{best_center, chord_count, grid_centers, in_pieces, sagitta};
+use crate::program::grid::{chord_count, grid_centers, in_pieces, largest_distance, sagitta};
 pub use crate::program::grid::{point_of, snap};
 use std::f64::consts::{PI, TAU};
 
 /// How far a decoded block may end from its node, µm.
 pub(super) const END_TOLERANCE: f64 = 1.5;
 
-/// How far the middle of a decoded block may lie from that of its piece of the path, µm.
-pub(super) const MIDDLE_TOLERANCE: f64 = 2.5;
+/// How far a decoded block may lie from its piece of the path, anywhere, µm.
+pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
 
 /// The largest sagitta of a chord that stands for a piece of an arc too large for the format, µm.
 const CHORD_SAGITTA: f64 = 0.5;
@@ -87,9 +87,7 @@ fn encode_arc(arc: &Arc, from: Node, to: Node, largest: i64, depth: u32, blocks:
             Some(())
         }
         // A chord of an arc this flat is as near to it as the grid is.
-        Attempt::Misses if sagitta(arc) <= 2.0 * CHORD_SAGITTA => {
-            encode_line(&Line { start: arc.start, end: arc.end }, from, to, largest, blocks)
-        }
+        Attempt::Misses if sagitta(arc) <= 2.0 * CHORD_SAGITTA => encode_chord(&whole, from, to, largest, blocks),
         Attempt::Misses if depth < 8 => {
             let middle = snap(arc.point_at(0.5))?;
             for (share, from, to) in [(0.0, from, middle), (0.5, middle, to)] {
@@ -106,12 +104,18 @@ fn encode_arc(arc: &Arc, from: Node, to: Node, largest: i64, depth: u32, blocks:
 /// Lines whose sagitta stays below [`CHORD_SAGITTA`].
 fn chords(arc: &Arc, from: Node, to: Node, largest: i64, blocks: &mut Vec<Encoded>) -> Option<()> {
     let count = chord_count(arc, CHORD_SAGITTA)?;
-    in_pieces(&Segment::Arc(*arc), from, to, count, |piece, from, to| {
-        let mut straight = Vec::new();
-        encode_line(&Line { start: piece.start(), end: piece.end() }, from, to, largest, &mut straight)?;
-        blocks.extend(straight);
-        Some(())
-    })
+    in_pieces(&Segment::Arc(*arc), from, to, count, |piece, from, to| encode_chord(&piece, from, to, largest, blocks))
+}
+
+/// Straight blocks that stand for an arc.
+fn encode_chord(piece: &Segment, from: Node, to: Node, largest: i64, blocks: &mut Vec<Encoded>) -> Option<()> {
+    let first = blocks.len();
+    encode_line(&Line { start: piece.start(), end: piece.end() }, from, to, largest, blocks)?;
+    let count = (blocks.len() - first) as f64;
+    for (index, block) in blocks[first..].iter_mut().enumerate() {
+        block.piece = piece.part(index as f64 / count, (index + 1) as f64 / count);
+    }
+    Some(())
 }
 
 enum Attempt {
@@ -123,14 +127,40 @@ enum Attempt {
 /// The block about the best centre; where it leads too far from the arc, as a grid centre two µm off can past a half turn, about the
 /// next best one.
 fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
-    match block_about(best_center(arc, from, to), arc, from, to, full_turn) {
-        Attempt::Misses => {}
-        block => return block,
+    let centers = grid_centers(arc, from, to);
+    let mut attempts = centers.iter().map(|center| block_about(center.node, arc, from, to, full_turn));
+    attempts.find(|attempt| matches!(attempt, Attempt::Block(_))).unwrap_or(Attempt::Misses)
+}
+
+/// Other blocks that stand for the same arc within tolerance: about another centre, or counting 1 µm more or less.
+pub(super) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
+    let Segment::Arc(arc) = &encoded.piece else { return Vec::new() };
+    let (from, to) = (encoded.from, encoded.to);
+    if from == to || matches!(encoded.block.motion, Motion::Line(_)) {
+        return Vec::new();
     }
-    let mut centers = grid_centers(arc, from, to);
-    centers.sort_by(|a, b| a.difference.total_cmp(&b.difference).then(a.away.total_cmp(&b.away)));
-    let attempts = centers.iter().map(|center| block_about(center.node, arc, from, to, full_turn));
-    attempts.into_iter().find(|attempt| matches!(attempt, Attempt::Block(_))).unwrap_or(Attempt::Misses)
+    let mut found = Vec::new();
+    for center in grid_centers(arc, from, to) {
+        let Attempt::Block(block) = block_about(center.node, arc, from, to, false) else { continue };
+        let counts = [block.j - 1, block.j, block.j + 1].map(|j| Block { j, ..block });
+        found.extend(
+            counts.into_iter().filter(|block| block.x.max(block.y).max(block.j) <= largest && stands_for(block, arc, from, to, false)),
+        );
+    }
+    found
+}
+
+/// Whether a block, decoded again, is the arc between its nodes.
+fn stands_for(block: &Block, arc: &Arc, from: Node, to: Node, full_turn: bool) -> bool {
+    match decode(block, point_of(from)) {
+        Ok(Segment::Arc(decoded)) => {
+            decoded.is_full_turn() == full_turn
+                && (decoded.end - point_of(to)).norm() <= END_TOLERANCE
+                && largest_distance(&Segment::Arc(decoded), &Segment::Arc(*arc)) <= ASIDE_TOLERANCE
+                && (decoded.point_at(0.5) - arc.point_at(0.5)).norm() <= ASIDE_TOLERANCE
+        }
+        _ => false,
+    }
 }
 
 fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
@@ -163,16 +193,7 @@ fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -
         Motion::Clockwise(Quadrant::clockwise(start_x, start_y))
     };
     let block = Block { x: start_x.abs(), y: start_y.abs(), j: j.round() as i64, axis, motion };
-    match decode(&block, point_of(from)) {
-        Ok(Segment::Arc(decoded))
-            if decoded.is_full_turn() == full_turn
-                && (decoded.end - point_of(to)).norm() <= END_TOLERANCE
-                && (decoded.point_at(0.5) - arc.point_at(0.5)).norm() <= MIDDLE_TOLERANCE =>
-        {
-            Attempt::Block(block)
-        }
-        _ => Attempt::Misses,
-    }
+    if stands_for(&block, arc, from, to, full_turn) { Attempt::Block(block) } else { Attempt::Misses }
 }
 
 /// What a controller counts on an axis along an arc.

@@ -2,6 +2,7 @@
 
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
 use super::parse::{Flaw, SyntaxFault};
+use super::plain::wide_space;
 use std::ops::Range;
 
 /// More digits than any controller takes are not read as a number.
@@ -75,8 +76,12 @@ struct Reader<'a> {
 impl Reader<'_> {
     #[inline]
     fn skip(&mut self) {
-        while let Some(b' ' | b'\t' | b'|') = self.text.get(self.at) {
-            self.at += 1;
+        while let Some(byte) = self.text.get(self.at) {
+            match byte {
+                b' ' | b'\t' | b'|' => self.at += 1,
+                0xc2.. if wide_space(&self.text[self.at..]) > 0 => self.at += wide_space(&self.text[self.at..]),
+                _ => break,
+            }
         }
     }
 

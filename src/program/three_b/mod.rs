@@ -13,6 +13,7 @@ mod layout;
 mod machine;
 mod parse;
 mod part;
+mod plain;
 mod proof;
 pub mod refactor;
 mod repair;
@@ -23,7 +24,7 @@ mod tests;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
-pub(in crate::program) use crossings::{Found, Known, Stretch as PathStretch, search};
+pub(in crate::program) use crossings::{Found, Known, Stretch as PathStretch, crossings_of_passes, search};
 pub(in crate::program) use rules::path_crosses_itself::near_each_other;
 pub(in crate::program) use run::Move as Displacement;
 

@@ -6,6 +6,7 @@
 
 use super::block::{Block, PartArc};
 use super::fields::{self, Fields};
+use super::plain::{Likeness, alike, in_plain_letters, with_plain_marks};
 use std::ops::Range;
 
 /// What a word between the blocks does.
@@ -90,6 +91,11 @@ pub enum Item {
         range: Range<usize>,
         column: usize,
     },
+    /// A comment, from its mark on, in which a sound block stands: the controller skips it.
+    CommentedBlock {
+        range: Range<usize>,
+        column: usize,
+    },
     Fault(SyntaxFault),
 }
 
@@ -112,6 +118,10 @@ pub enum Flaw {
     BlockNumberAsB { number: u32 },
     /// The letter O stands for a zero.
     LetterO,
+    /// Letters or digits that only look like those of a block: the sentence says which.
+    NotPlain(String),
+    /// Coordinates with commas in the place of their decimal points: they are not read.
+    DecimalCommas,
 }
 
 /// A place that cannot be read as it stands.
@@ -127,7 +137,8 @@ impl SyntaxFault {
     /// What was found and what was expected.
     pub fn sentence(&self) -> String {
         match &self.flaw {
-            Flaw::Unreadable(sentence) => sentence.clone(),
+            Flaw::Unreadable(sentence) | Flaw::NotPlain(sentence) => sentence.clone(),
+            Flaw::DecimalCommas => "the coordinates have decimal commas and are not read, expected decimal points".into(),
             Flaw::MissingB { .. } => "a B of the block is missing".into(),
             Flaw::BlockNumberAsB { number } => format!("B{number} stands where N{number} was meant"),
             Flaw::LetterO => "the letter O stands where a zero was meant".into(),
@@ -144,7 +155,7 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
         read_line(&text[range], start, words, |item| match item {
             Item::Fault(fault) => faults.push(fault),
             Item::Text { range, column } if has_block => faults.push(unexpected(text, range, column)),
-            Item::Text { .. } => {}
+            Item::Text { .. } | Item::CommentedBlock { .. } => {}
             item => {
                 has_block |= matches!(item, Item::Block { .. });
                 items.push(item);
@@ -183,11 +194,55 @@ fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
 }
 
 /// Reads one line, without its line end, and hands out what it says. Ranges are counted from `offset`.
+///
+/// Marks and spaces as wide as a Chinese character are read as the plain ones; letters and digits that only look like those of a block
+/// are a fault.
 pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl FnMut(Item)) {
-    let mut cursor = Cursor { line, at: 0, offset, behind_block: false };
-    if offset == 0 && line.starts_with(b"\xef\xbb\xbf") {
-        cursor.at = 3;
+    if line.is_ascii() {
+        return read_plain_line(line, offset, words, &mut each);
     }
+    let from = if offset == 0 && line.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+    let with_plain_marks = with_plain_marks(&line[from..]);
+    let readable = match &with_plain_marks {
+        Some(plain) => plain,
+        None => &line[from..],
+    };
+    if let Some(fault) = not_plain(&line[from..], readable, words) {
+        let range = fault.range.start + offset + from..fault.range.end + offset + from;
+        return each(Item::Fault(SyntaxFault { range, ..fault }));
+    }
+    read_plain_line(readable, offset + from, words, &mut each);
+}
+
+/// The fault of a line that only in plain letters and digits is a block or a word.
+fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFault> {
+    let alike = alike(line);
+    let code = before_comment(readable).len();
+    let first = alike.iter().find(|found| found.likeness.is_letter() && found.at < code)?;
+    let says = |line: &[u8]| {
+        let (mut says, mut number) = (false, None);
+        read_plain_line(line, 1, words, &mut |item| match item {
+            Item::Block { .. } | Item::Word { .. } => says = true,
+            Item::Fault(fault) => number = number.or(fault.number),
+            _ => {}
+        });
+        (says, number)
+    };
+    let plain = in_plain_letters(line, &alike);
+    let (is_said, number) = says(readable);
+    if is_said || !says(&plain).0 {
+        return None;
+    }
+    let end = line[..code].trim_ascii_end().len();
+    let script = if matches!(first.likeness, Likeness::Foreign(_)) { "Cyrillic or Greek" } else { "full-width" };
+    let found = shown(&line[first.at..]);
+    let expected = "a block in plain letters and digits";
+    let sentence = format!("column {}: found `{found}`, expected {expected}, these are {script} ones", first.at + 1);
+    Some(SyntaxFault { range: first.at..end.max(first.at + first.length), flaw: Flaw::NotPlain(sentence), number })
+}
+
+fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn FnMut(Item)) {
+    let mut cursor = Cursor { line, at: 0, offset, behind_block: false };
     // A block waits for the next token, because its coordinates stand behind it.
     let mut waiting: Option<Item> = None;
     let mut number = None;
@@ -200,22 +255,22 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
                 }
             }
             Ok(Some(Token::Block { block, part, range, row, faults })) => {
-                waiting.take().into_iter().for_each(&mut each);
-                faults.into_iter().map(Item::Fault).for_each(&mut each);
+                waiting.take().into_iter().for_each(&mut *each);
+                faults.into_iter().map(Item::Fault).for_each(&mut *each);
                 waiting = Some(Item::Block { block, range, number: number.take().or(row), stated_end: None, part });
                 cursor.behind_block = true;
             }
             Ok(Some(Token::Word { word, is_own, range })) => {
-                waiting.take().into_iter().for_each(&mut each);
+                waiting.take().into_iter().for_each(&mut *each);
                 each(Item::Word { word, is_own, range, number: number.take() });
             }
             Ok(Some(Token::Other(item))) => {
-                waiting.take().into_iter().for_each(&mut each);
+                waiting.take().into_iter().for_each(&mut *each);
                 each(item);
             }
             Ok(None) => break,
             Err(fault) => {
-                waiting.take().into_iter().for_each(&mut each);
+                waiting.take().into_iter().for_each(&mut *each);
                 each(Item::Fault(SyntaxFault { number: number.take(), ..fault }));
                 if !cursor.skip_broken_block() {
                     break;
@@ -223,7 +278,7 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
             }
         }
     }
-    waiting.into_iter().for_each(&mut each);
+    waiting.into_iter().for_each(each);
 }
 
 enum Token {
@@ -273,7 +328,6 @@ impl Cursor<'_> {
         let rest = &self.line[start..];
         match byte {
             b'B' | b'b' => {}
-            _ if is_full_width(rest) => return Err(self.fault("a block in plain letters and digits, these are full-width ones")),
             // A column of names before the blocks: `AB`, `1-2`, a word in another script.
             _ if !self.behind_block && !matches!(byte, b'N' | b'n') && label(rest, words).is_some() => {
                 self.at += label(rest, words).unwrap_or(0)
@@ -283,16 +337,23 @@ impl Cursor<'_> {
                 if let Some(at) = start_point(&rest[1..]) {
                     return Ok(Some(Token::Other(Item::StartPoint { at, range: self.range(start) })));
                 }
-                return Ok(stated_point(before_comment(&rest[1..])).map(Token::Coordinates));
+                if has_decimal_commas(before_comment(&rest[1..])) {
+                    return Ok(Some(Token::Other(self.decimal_commas(start + 1))));
+                }
+                return match stated_point(before_comment(&rest[1..])) {
+                    Some(end) => Ok(Some(Token::Coordinates(end))),
+                    None => Ok(self.comment_at(start)),
+                };
             }
             // Some writers open with a heading between rows of stars; brackets and slashes open comments elsewhere.
-            b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' | 0x80.. => return Ok(self.comment()),
+            b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' => return Ok(self.comment_at(start)),
+            0x80.. => return Ok(self.comment()),
             b'(' => match row_number(rest) {
                 Some((number, length)) if !self.behind_block => {
                     self.at += length;
                     return Ok(Some(Token::Number(number)));
                 }
-                _ => return Ok(self.comment()),
+                _ => return Ok(self.comment_at(start)),
             },
             b'0'..=b'9' | b'-' | b'+' | b'.' => {
                 if self.behind_block
@@ -300,6 +361,9 @@ impl Cursor<'_> {
                 {
                     self.at = self.line.len();
                     return Ok(Some(Token::Coordinates(end)));
+                }
+                if self.behind_block && has_decimal_commas(before_comment(rest)) {
+                    return Ok(Some(Token::Other(self.decimal_commas(start))));
                 }
                 if !self.behind_block
                     && let Some((number, length)) = row_number(rest).or_else(|| row_of_word(rest, words))
@@ -316,6 +380,24 @@ impl Cursor<'_> {
     fn comment(&mut self) -> Option<Token> {
         self.at = self.line.len();
         None
+    }
+
+    /// A comment from its mark on; one that holds a block is said to.
+    fn comment_at(&mut self, start: usize) -> Option<Token> {
+        self.at = self.line.len();
+        let rest = &self.line[start..];
+        let end = start + rest.trim_ascii_end().len();
+        let holds_block = memchr::memchr2_iter(b'B', b'b', rest).take(MOST_LOOKS).any(|at| fields::strict(&rest[at..]).is_some());
+        let comment = Item::CommentedBlock { range: self.offset + start..self.offset + end, column: start + 1 };
+        holds_block.then_some(Token::Other(comment))
+    }
+
+    /// Coordinates with commas for points, from a byte of the line on.
+    fn decimal_commas(&mut self, from: usize) -> Item {
+        self.at = self.line.len();
+        let code = before_comment(&self.line[from..]);
+        let (start, end) = (from + code.len() - code.trim_ascii_start().len(), from + code.trim_ascii_end().len());
+        Item::Fault(SyntaxFault { range: self.offset + start..self.offset + end, flaw: Flaw::DecimalCommas, number: None })
     }
 
     fn word_or_block(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
@@ -420,6 +502,9 @@ fn shown(bytes: &[u8]) -> String {
     String::from_utf8_lossy(&word[..word.len().min(48)]).chars().take(12).collect()
 }
 
+/// Places in a comment at which a block is looked for.
+const MOST_LOOKS: usize = 64;
+
 /// `N12`, `N 12`, `N12:`: the number, and how many bytes it takes.
 fn n_word(text: &[u8]) -> Option<(u32, usize)> {
     let digits = 1 + text[1..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
@@ -434,14 +519,17 @@ fn n_word(text: &[u8]) -> Option<(u32, usize)> {
 
 /// A number of a row that is marked as one: `(1)`, `1)`, `1.`, `1:`, `1、`.
 fn row_number(text: &[u8]) -> Option<(u32, usize)> {
-    let open = usize::from(text.first() == Some(&b'('));
+    let spaces = |at: usize| text[at..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    let opens = text.first() == Some(&b'(');
+    let open = if opens { 1 + spaces(1) } else { 0 };
     let (number, length) = digits_of(&text[open..])?;
+    let length = if opens { length + spaces(open + length) } else { length };
     let behind = &text[open + length..];
-    let mark = match (open, behind.first()?) {
+    let mark = match (opens, behind.first()?) {
         (_, b')') => 1,
-        (0, b':') => 1,
-        (0, b'.') if !behind.get(1).is_some_and(u8::is_ascii_digit) => 1,
-        (0, _) if behind.starts_with("、".as_bytes()) => "、".len(),
+        (false, b':') => 1,
+        (false, b',') if !behind.get(1).is_some_and(u8::is_ascii_digit) => 1,
+        (false, b'.') if !behind.get(1).is_some_and(u8::is_ascii_digit) => 1,
         _ => return None,
     };
     Some((number, open + length + mark))
@@ -450,7 +538,8 @@ fn row_number(text: &[u8]) -> Option<(u32, usize)> {
 /// The bare number of a row in which a word stands.
 fn row_of_word(text: &[u8], words: &Words<'_>) -> Option<(u32, usize)> {
     let (number, length) = digits_of(text)?;
-    let behind = text[length..].trim_ascii_start();
+    let behind = &text[length..];
+    let behind = &behind[behind.iter().take_while(|byte| matches!(byte, b' ' | b'\t' | b'|' | b',')).count()..];
     let word = &behind[..behind.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(behind.len())];
     (behind.len() < text.len() - length && words.meaning(word).is_some()).then_some((number, length))
 }
@@ -461,9 +550,22 @@ fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
     Some((digits.parse().unwrap_or(u32::MAX), length))
 }
 
-/// Letters and digits as wide as a Chinese character, which editors of that script make.
-fn is_full_width(text: &[u8]) -> bool {
-    matches!(text, [0xef, 0xbc, 0x90..=0x99 | 0xa1..=0xba, ..] | [0xef, 0xbd, 0x81..=0x9a, ..])
+/// Two numbers with commas in the place of their points, as some languages write them.
+fn has_decimal_commas(text: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(text) else { return false };
+    if text.bytes().filter(|byte| *byte == b',').count() < 2 || text.contains('.') {
+        return false;
+    }
+    let is_number = |word: &str| {
+        let digits = word.trim_start_matches(['-', '+']);
+        digits.split_once(',').is_some_and(|(whole, places)| {
+            let all = |digits: &str| digits.bytes().all(|byte| byte.is_ascii_digit());
+            !whole.is_empty() && !places.is_empty() && all(whole) && all(places)
+        })
+    };
+    let words: Vec<&str> =
+        text.split(|c: char| c.is_ascii_whitespace() || c == ';').filter(|word| !word.is_empty() && *word != ",").collect();
+    matches!(words[..], [x, y] if is_number(x.trim_end_matches(',')) && is_number(y))
 }
 
 /// The bytes before a sound block where they are a name for it: nothing of them belongs to a block, and they are no word.
@@ -594,6 +696,7 @@ mod tests {
                 Item::Word { word, number, .. } => format!("{}{word:?}", number.map_or_else(String::new, |number| format!("N{number} "))),
                 Item::StartPoint { at, .. } => format!("start {at:?}"),
                 Item::Text { range, .. } => format!("text {}..{}", range.start - 100, range.end - 100),
+                Item::CommentedBlock { range, .. } => format!("commented {}..{}", range.start - 100, range.end - 100),
                 Item::Fault(fault) => format!("! {}..{} {}", fault.range.start - 100, fault.range.end - 100, fault.sentence()),
             });
         });
@@ -641,6 +744,28 @@ mod tests {
     }
 
     #[test]
+    fn wide_marks_and_spaces_are_those_of_a_program() {
+        for line in [
+            "（1）B9900B0B9900GXL1",
+            "（ 1 ） B9900B0B9900GXL1",
+            "1）B9900B0B9900GXL1",
+            "1、B9900B0B9900GXL1",
+            "N1：B9900B0B9900GXL1",
+            "N1\u{3000}B9900\u{3000}B0\u{a0}B9900 GX\u{a0}L1",
+            "\u{a0}N1 B9900B0B9900GXL1",
+            "| 1 | B9900 | B0 | B9900 | GX | L1 |",
+            "│",
+        ] {
+            let expected = if line == "│" { "" } else { "N1 9900,0,9900 X L1" };
+            check(line, expected);
+        }
+        for line in ["N8：DD", "| 8 | DD |", "8 | DD | |", "N8\u{3000}DD", "（8）DD"] {
+            check(line, "N8 End");
+        }
+        check("B9900B0B9900GXL1；往", "9900,0,9900 X L1");
+    }
+
+    #[test]
     fn headings_and_comments_are_no_faults() {
         for line in [
             "****************",
@@ -658,8 +783,10 @@ mod tests {
         check("Conner R= 0.00000    , Offset F= 0.10000 ,Length= 125.000 mm", "text 0..60");
         check("START", "text 0..5");
         check(",", "");
-        for line in ["* B9900B0B9900GXL1", "/ B9900B0B9900GXL1", "(B9900B0B9900GXL1)", "\u{ff1b}B9900B0B9900GXL1"] {
-            check(line, "");
+        // A block that is commented out is not cut, and that is said.
+        for line in ["* B9900B0B9900GXL1", "/ B9900B0B9900GXL1", "(B9900B0B9900GXL1)", "\u{ff1b}B9900B0B9900GXL1", "; was B9900B0B9900GXL1"]
+        {
+            check(line, &format!("commented 0..{}", line.len()));
         }
         check("B9900B0B9900GXL1 ,", "9900,0,9900 X L1");
         check("B9900B0B9900GXL1 line AB, R3", "9900,0,9900 X L1");
@@ -701,6 +828,15 @@ mod tests {
         check("B1x2B0B12GXL1 DD", "! 2..13 column 3: found `x2B0B12GXL1`, expected digits of X, or B before Y / End");
         check("B1B0B1GXL1 5", "1,0,1 X L1 / text 11..12");
         check("B1B0B1GXL1hello", "1,0,1 X L1 / text 10..15");
+        check(
+            "B1B0B1GXL1 ; 1,500 , 2,25",
+            "1,0,1 X L1 / ! 13..25 the coordinates have decimal commas and are not read, expected decimal points",
+        );
+        check(
+            "\u{412}9900B0B9900GXL1",
+            "! 0..17 column 1: found `\u{412}9900B0B9900`, expected a block in plain letters and digits, these are Cyrillic or Greek ones",
+        );
+        check("Ｄ", "! 0..3 column 1: found `Ｄ`, expected a block in plain letters and digits, these are full-width ones");
         check(
             "\u{ff22}9900B0B9900GXL1",
             "! 0..18 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits, these are full-width ones",

@@ -101,6 +101,10 @@ pub(super) enum What {
     Text {
         column: usize,
     },
+    /// A comment that holds a block.
+    CommentedBlock {
+        column: usize,
+    },
     /// A block that cannot be read.
     Unread,
 }
@@ -488,9 +492,14 @@ impl Run {
                 self.texts += 1;
                 self.push(local(range), line, None, What::Text { column });
             }
+            Item::CommentedBlock { range, column } => {
+                self.texts += 1;
+                self.push(local(range), line, None, What::CommentedBlock { column });
+            }
             Item::Fault(fault) => {
-                let is_unread = matches!(fault.flaw, Flaw::Unreadable(_));
-                open.part.sum.errors += 1;
+                let is_unread = matches!(fault.flaw, Flaw::Unreadable(_) | Flaw::NotPlain(_));
+                // Without its coordinates a block leads where it says.
+                open.part.sum.errors += usize::from(fault.flaw != Flaw::DecimalCommas);
                 open.part.sum.unread += usize::from(is_unread);
                 if is_unread {
                     // Its number has its turn, and where it ends nobody knows.
@@ -500,7 +509,7 @@ impl Run {
                 let sentence = || Detail::Syntax(fault.sentence());
                 let program = |fault| Detail::Program(Box::new(fault));
                 let (rule, detail) = match fault.flaw {
-                    Flaw::Unreadable(_) | Flaw::LetterO => (Rule::Syntax, sentence()),
+                    Flaw::Unreadable(_) | Flaw::LetterO | Flaw::NotPlain(_) | Flaw::DecimalCommas => (Rule::Syntax, sentence()),
                     Flaw::MissingB { .. } => (Rule::MissingB, program(ProgramFault::MissingB)),
                     Flaw::BlockNumberAsB { number } => (Rule::BlockNumberAsB, program(ProgramFault::BlockNumberAsB { number })),
                 };

@@ -103,6 +103,8 @@ impl Writer for Blocks<'_> {
         encode(piece, from, to, self.settings.largest_number(), &mut encoded)
             .ok_or_else(|| ProofError::Mismatch(format!("no blocks within tolerance lead from {from:?} to {to:?}")))?;
         for block in &encoded {
+            // 4B's radius is the block's own.
+            let block = &if self.part.is_none() { self.proof.steadied(block, self.settings.largest_number()) } else { *block };
             self.blocks += 1;
             let start = self.out.len();
             let part = self.part_of(block, source)?;

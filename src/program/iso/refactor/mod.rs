@@ -13,6 +13,7 @@ mod rewrite;
 mod scale;
 mod sheet;
 mod start_here;
+mod taper;
 #[cfg(test)]
 mod tests;
 mod transform;
@@ -27,6 +28,7 @@ pub(super) use rewrite::{Bent, Target, line_to, with_word};
 pub use scale::scaled;
 use sheet::Sheet;
 use std::ops::Range;
+pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
 /// One refactoring.
 struct Refactoring {

@@ -9,6 +9,7 @@
 use super::Refactoring;
 use super::rewrite::Rewrite;
 use super::sheet::Sheet;
+use super::taper::{Words, refuse_anywhere};
 use crate::program::iso::block::read_line;
 use crate::program::iso::machine::{CenterRule, Reading};
 use crate::program::iso::word::{Token, words};
@@ -30,6 +31,7 @@ fn converted(sheet: &Sheet<'_>, incremental: bool) -> Result<Vec<TextEdit>, Stri
     if content.rows.iter().all(|row| row.made.incremental == incremental) {
         return Ok(Vec::new());
     }
+    refuse_anywhere(sheet.document, Words::Guide)?;
     let (text, old) = (sheet.document.text(), sheet.document.reading());
     // An absolute centre says nothing under G91.
     let rule = if incremental { old.absolute } else { old.incremental };

@@ -1,10 +1,11 @@
 //! Write a program anew as a profile has it.
 
+use super::taper::{Words, refuse_anywhere};
 use crate::program::convert::cuts;
 use crate::program::iso::document::Document;
 use crate::program::iso::write::write;
 use crate::program::language::Proposal;
-use crate::program::{self};
+use crate::program::{self, Format};
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::TextEdit;
 
@@ -20,7 +21,7 @@ pub fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
     let mut known = None;
     let mut found = Vec::new();
     for profile in shipped.chain(own) {
-        let paths = known.get_or_insert_with(|| paths(document)).clone();
+        let paths = known.get_or_insert_with(|| paths(document, settings)).clone();
         let title = format!("Write anew as profile {}: comments and words of the machine are left out", profile.name);
         let edits = paths.and_then(|paths| {
             let settings = Effective { profile: Ok(profile), ..settings.clone() };
@@ -36,10 +37,14 @@ pub fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
     found
 }
 
-fn paths(document: &Document) -> Result<Vec<crate::toolpath::WirePath>, String> {
+fn paths(document: &Document, settings: &Effective) -> Result<Vec<crate::toolpath::WirePath>, String> {
     let cuts = cuts(&program::Document::Iso(document.clone()));
     if let Some(line) = cuts.lost.first() {
         return Err(format!("line {}: the arc leads nowhere", line + 1));
+    }
+    refuse_anywhere(document, Words::All)?;
+    if let Some(reason) = cuts.refusal(Format::Iso, settings) {
+        return Err(reason);
     }
     if let Some(line) = cuts.stops.first() {
         return Err(format!("line {}: the stop before the tab would be lost", line + 1));

@@ -12,6 +12,7 @@
 use super::Refactoring;
 use super::rewrite::{Rewrite, Target, swapped_sides};
 use super::sheet::Sheet;
+use super::taper::{Words, refuse_anywhere};
 use crate::finding::Side;
 use crate::program::iso::block::Motion;
 use crate::text::TextEdit;
@@ -21,6 +22,7 @@ pub const REVERSE: Refactoring =
 
 fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
+    refuse_anywhere(sheet.document, Words::All)?;
     let reading = sheet.document.reading();
     let mut rewrite = Rewrite::default();
     for contour in sheet.selected_contours(content) {

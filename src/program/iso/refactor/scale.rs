@@ -2,6 +2,7 @@
 
 use super::rewrite::{Bent, Rewrite, Target};
 use super::sheet::{Content, Sheet};
+use super::taper::{Words, refuse_anywhere};
 use crate::geometry::Arc;
 use crate::program::grid::{best_center, snap};
 use crate::program::iso::block::read_line;
@@ -22,6 +23,7 @@ pub fn scaled(document: &Document, settings: &Effective, factor: f64) -> Result<
     }
     let sheet = Sheet::new(document, settings, 0..0);
     let content: &Content = sheet.content()?;
+    refuse_anywhere(document, Words::Guide)?;
     let mut rewrite = Rewrite { words: positions(document, factor)?, ..Rewrite::default() };
     let styles = [false, true].map(|inch| Style::of(document, inch));
     let mut from = None;

@@ -10,6 +10,7 @@
 use super::Refactoring;
 use super::rewrite::{Rewrite, Target};
 use super::sheet::{Content, Sheet};
+use super::taper::{Words, refuse, refuse_anywhere};
 use crate::geometry::{Segment, meetings};
 use crate::program::iso::machine::{Place, micrometres};
 use crate::text::TextEdit;
@@ -34,6 +35,9 @@ fn start_here(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     if first == own.start {
         return Ok(Vec::new());
     }
+    refuse_anywhere(sheet.document, Words::Guide)?;
+    let begins = content.rows[contour.steps.start].line;
+    refuse(sheet.document, begins..content.rows[contour.steps.end - 1].line + 1, Words::All)?;
     if contour.lead_in != 1 || contour.lead_out > 1 || own != contour.contour_steps() {
         return Err("the contour has no straight way in of one block".into());
     }

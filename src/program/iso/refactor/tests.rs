@@ -82,6 +82,35 @@ fn programs_are_mirrored_and_turned_about_their_zero() {
 }
 
 #[test]
+fn what_would_part_the_upper_guide_from_the_wire_is_refused() {
+    let square = |words: &str| format!("G92 X0 Y0\nG90\nG01 X5. Y0.\n{words}Y5.\n|X-5.\nY-5.\nX5.\nY0.\nX0.\nM02\n");
+    for (words, about) in [("U1. V0.\n", "the upper guide"), ("X5. U.5 ", "the upper guide"), ("G01 X5. Y2. : X5. Y2.1\n", "")] {
+        for id in ["reverse", "coordinates.incremental", "startHere", "profile"] {
+            refuses(&format!("refactor.rewrite.{id}"), &square(words), about);
+        }
+    }
+    for words in ["G51 A1.\n", "G52 T2.\n", "G140 A1.\n"] {
+        for id in ["reverse", "startHere", "profile"] {
+            refuses(&format!("refactor.rewrite.{id}"), &square(words), "a taper");
+        }
+    }
+    // In a comment they say nothing.
+    let harmless = square("(U1 G51) ");
+    assert!(after(&harmless, "refactor.rewrite.reverse").is_ok());
+    let sheet = |text: &str| scaled(&read(text), &Effective::default(), 2.0);
+    assert!(sheet("G91\nG01 X5. U1.\nM02\n").is_err());
+}
+
+#[test]
+fn the_stop_before_a_tab_stays_where_it_is() {
+    let text = "G92 X0 Y0\nG90\nG01 X4. Y0.\nY5.\n|X24.\nY-15.\nX4.\nY-3.\nM00\nG01 Y0.\nX0.\nM02\n";
+    for id in ["reverse", "startHere"] {
+        refuses(&format!("refactor.rewrite.{id}"), text, "the contour pauses before line 10");
+    }
+    refuses("refactor.rewrite.profile", text, "line 9: the stop before the tab would be lost");
+}
+
+#[test]
 fn coordinates_become_absolute_and_back() {
     let absolute = "G92 X1. Y2.\nG90\nG01 X5. Y2.\nY7.\nG03 X3. Y9. I-2. J0.\nG01 X1.\nY2.\nM02\n";
     let incremental = "G92 X1. Y2.\nG91\nG01 X4. Y0.\nY5.\nG03 X-2. Y2. I-2. J0.\nG01 X-2.\nY-7.\nM02\n";
@@ -242,5 +271,26 @@ proptest! {
         for (half, whole) in halved.iter().zip(&before) {
             prop_assert!((half - whole.point_at(0.5)).norm() < 1.5, "{larger}");
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn every_refactoring_of_every_program_is_edits_or_a_reason(
+        text in "((N[0-9] )?(G0[0123] )?(X-?[0-9]{1,2}\\.?[05]? ?)?(Y-?[0-9]{1,2}\\. ?)?(I-?[0-9]\\. ?)?(J-?[0-9]\\. ?)?(R2\\.|G4[012] ?D1|G9[012]|G20|U1\\.|M0[012]|M30|M98 P[12]|M99|G51|H1=110|%|G28)?( \\(c\\))?\n){0,24}",
+        copies in 1_usize..4,
+        (start, length) in (0_usize..200, 0_usize..60),
+    ) {
+        let text = text.repeat(copies);
+        let document = read(&text);
+        let start = start.min(text.len());
+        for proposal in proposals(&document, &Effective::default(), start..(start + length).min(text.len()), |_| true) {
+            let Ok(edits) = proposal.edits else { continue };
+            prop_assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{}: {edits:?}", proposal.id);
+            prop_assert!(edits.iter().all(|edit| edit.range.start <= edit.range.end && edit.range.end <= text.len()), "{}", proposal.id);
+        }
+        let _ = scaled(&document, &Effective::default(), 2.0);
     }
 }

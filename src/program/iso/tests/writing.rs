@@ -155,7 +155,8 @@ proptest! {
     ) {
         let settings = settings(&format!("[program]\nprofile = \"mine\"\n[profiles.mine]\nbase = \"{name}\"\n{extra}\n"));
         let program = write(&[path_of(&segments, side)], 1.0, &settings).unwrap();
-        prop_assert!(program.deviation <= 0.71, "{}", program.deviation);
+        // Ends are snapped, and the arcs between them run about centres on the grid.
+        prop_assert!(program.deviation <= 1.5, "{}", program.deviation);
         // Read by who knows nothing of the profile.
         let document = Document::read(program.text.clone().into_bytes());
         let findings = document.findings();

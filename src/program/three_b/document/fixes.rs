@@ -6,6 +6,7 @@ use super::super::fields::fields_of;
 use super::super::language::{Field, Piece, pieces};
 use super::super::layout::push_fields;
 use super::super::parse::StatedPoint;
+use super::super::plain::{Alike, alike};
 use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{self, Site, TextFix, block_number, missing_end, not_closed, position_mismatch, text_after_end};
 use super::super::run::{BlockEntry, Entry, Move, Sum, What, travel_of};
@@ -87,7 +88,7 @@ impl Document {
                 What::Block(block) => Some(block.stated_end()),
                 What::StartPoint(at) => Some(Some(StatedPoint { at: *at, decimals: 3 })),
                 What::Unread => Some(None),
-                What::Word { .. } | What::Text { .. } => None,
+                What::Word { .. } | What::Text { .. } | What::CommentedBlock { .. } => None,
             })
         })?
     }
@@ -237,7 +238,26 @@ impl Document {
                 let edit = vec![TextEdit { range: range.clone(), text: "0".into() }];
                 vec![crate::finding::Fix { kind: FixKind::ZeroForO, preferred: true, in_fix_all: true, edit }]
             }
-            _ => Vec::new(),
+            Some(bytes) => {
+                let place = |start: usize, length: usize| range.start + start..range.start + start + length;
+                let alike = alike(bytes);
+                let plain =
+                    |found: &Alike| TextEdit { range: place(found.at, found.length), text: (found.likeness.ascii() as char).to_string() };
+                let fix = |kind, edit| vec![crate::finding::Fix { kind, preferred: true, in_fix_all: true, edit }];
+                if alike.iter().any(|found| found.likeness.is_letter()) {
+                    return fix(FixKind::PlainLetters, alike.iter().map(plain).collect());
+                }
+                let commas = decimal_commas(bytes).map(|at| TextEdit { range: place(at, 1), text: ".".into() });
+                let commas: Vec<TextEdit> = commas.collect();
+                if commas.len() == 2 { fix(FixKind::DecimalPoints, commas) } else { Vec::new() }
+            }
+            None => Vec::new(),
         }
     }
+}
+
+/// The commas of coordinates that stand between two digits.
+fn decimal_commas(text: &[u8]) -> impl Iterator<Item = usize> + '_ {
+    let is_digit = |at: Option<usize>| at.and_then(|at| text.get(at)).is_some_and(u8::is_ascii_digit);
+    memchr::memchr_iter(b',', text).filter(move |&at| is_digit(at.checked_sub(1)) && is_digit(Some(at + 1)))
 }

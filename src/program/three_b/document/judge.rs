@@ -1,6 +1,6 @@
 //! What is wrong with a program as a whole: contours that do not close or cross themselves, its end, texts, numbers, places.
 
-use super::super::crossings::{Found, Known, Stretch, pieces_of, search};
+use super::super::crossings::{Found, Known, Stretch, crossings_of_passes, pieces_of, search};
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::rules::block_number::{Numbered, Sequence};
@@ -11,6 +11,7 @@ use super::way::SectionWay;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
 use crate::program::closing::{closing, gap, is_tab};
+use crate::program::passes::{passes, pieces_of as pieces_of_way};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -178,6 +179,11 @@ impl Document {
     }
 
     fn crossings_in(&self, section: &Section, known: &mut Known) -> Found {
+        let way = SectionWay::of(self, section);
+        let passes = passes(&way);
+        if !passes.is_empty() {
+            return crossings_of_passes(&pieces_of_way(&way).unwrap_or_default(), &passes);
+        }
         let mut stretches: Vec<Stretch<'_>> = Vec::new();
         let mut places: Vec<(usize, Range<usize>)> = Vec::new();
         let mut start = Move::default();
@@ -216,7 +222,8 @@ impl Document {
         };
         let behind =
             self.runs.iter().enumerate().skip(end.run).flat_map(|(run, of)| (0..of.entries.len()).map(move |entry| At { run, entry }));
-        if let Some(first) = behind.into_iter().find(|at| *at > end) {
+        let is_text = |at: &At| !matches!(self.entry(*at).map(|entry| &entry.what), Some(What::CommentedBlock { .. }));
+        if let Some(first) = behind.into_iter().find(|at| *at > end && is_text(at)) {
             let word = self.range_of(end, &view.starts);
             let word = String::from_utf8_lossy(self.text.bytes().get(word).unwrap_or_default()).into_owned();
             let fault = ProgramFault::TextAfterEnd { word };
@@ -233,22 +240,38 @@ impl Document {
         let mut findings = Vec::new();
         let texts = self.runs.iter().enumerate().filter(|(_, run)| run.texts > 0).flat_map(|(run, of)| {
             of.entries.iter().enumerate().filter_map(move |(entry, what)| match what.what {
-                What::Text { column } => Some((At { run, entry }, column)),
+                What::Text { column } => Some((At { run, entry }, column, false)),
+                What::CommentedBlock { column } => Some((At { run, entry }, column, true)),
                 _ => None,
             })
         });
         let has_fault = self.runs.iter().any(|run| !run.faults.is_empty());
-        for (at, column) in texts {
+        let mut is_said = false;
+        for (at, column, is_comment) in texts {
             let range = self.range_of(at, &view.starts);
+            if is_comment {
+                let sentence = format!("column {column}: this comment holds a block, which is not cut");
+                let is_marked = self.text.bytes().get(range.start) == Some(&b';');
+                let severity = if is_marked { Severity::Information } else { Severity::Warning };
+                findings.push(Finding { severity, ..syntax(range, sentence) });
+                continue;
+            }
             let is_fault = match (first_block, view.end) {
                 (Some(first), end) => first < at && end.is_none_or(|end| at < end),
                 // One sentence for a text that is no program at all.
-                (None, _) => !has_fault && findings.is_empty() && view.end.is_none(),
+                (None, _) => !has_fault && !is_said && view.end.is_none(),
             };
             if is_fault {
                 let fault = unexpected(self.text.bytes(), range.clone(), column);
                 findings.push(syntax(range, fault.sentence()));
+                is_said = true;
             }
+        }
+        if first_block.is_none() && !has_fault && findings.is_empty() {
+            let is_blank = self.text.bytes().iter().all(u8::is_ascii_whitespace);
+            let severity = if is_blank { Severity::Information } else { Severity::Warning };
+            let sentence = "no block is found, expected B X B Y B J G Z".to_owned();
+            findings.push(Finding { severity, ..syntax(0..self.text.line_range(0).end, sentence) });
         }
         view.findings.extend(findings);
     }

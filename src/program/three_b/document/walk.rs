@@ -102,6 +102,14 @@ impl Document {
         (!is_over).then_some(found)
     }
 
+    /// The line of the first block of 4B, from 0.
+    pub(in crate::program) fn first_four_b_line(&self) -> Option<usize> {
+        let mut all = self.runs.iter().enumerate().flat_map(|(run, of)| of.entries.iter().map(move |entry| (run, entry)));
+        let is_four_b = |entry: &Entry| entry.block().is_some_and(|block| block.part().is_some());
+        let (run, entry) = all.find(|(_, entry)| is_four_b(entry))?;
+        Some(self.view.starts.get(run)?.1 + entry.line as usize)
+    }
+
     pub fn first_block(&self) -> Option<Range<usize>> {
         let run = self.runs.iter().position(|run| run.blocks > 0)?;
         let entry = self.runs[run].entries.iter().position(|entry| entry.block().is_some())?;
@@ -266,7 +274,7 @@ impl Walk<'_> {
                     self.section += usize::from(!document.is_tab((index, part)));
                     is_jump = document.is_jump((index, part));
                 }
-                What::StartPoint(_) | What::Text { .. } | What::Unread => {}
+                What::StartPoint(_) | What::Text { .. } | What::CommentedBlock { .. } | What::Unread => {}
             }
         }
     }

@@ -10,7 +10,8 @@ use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::{point_of, snap as node_of};
 use crate::program::three_b::layout::{push_block_number, push_end_point, push_fields, push_to_comment_column};
-use crate::program::three_b::parse::{Item, StatedPoint, Word, Words, read_line};
+use crate::program::three_b::parse::{Item, StatedPoint, Word, Words, before_comment, read_line};
+use crate::program::three_b::plain::with_plain_marks;
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
@@ -127,12 +128,16 @@ impl Chunk {
             let mut is_sound = true;
             read_line(&text.bytes()[text.line_range(line)], shift, words, |mut item| match &mut item {
                 Item::Fault(_) | Item::Text { .. } => is_sound = false,
+                Item::CommentedBlock { .. } => {}
                 Item::Block { range, .. } | Item::Word { range, .. } | Item::StartPoint { range, .. } => {
                     *range = range.start - shift..range.end - shift;
                     chunk.ways.push(way_of(&item));
                     chunk.items.push(item);
                 }
             });
+            // Wide marks and spaces among the fields stay as they stand.
+            let line = &text.bytes()[text.line_range(line)];
+            is_sound &= before_comment(line).is_ascii() || with_plain_marks(before_comment(line)).is_none();
             chunk.lines.push(Line { end: chunk.items.len(), is_sound });
         }
         chunk
@@ -225,7 +230,7 @@ impl Walk {
                     Item::StartPoint { at: [x, y], .. } => {
                         *stand = Stand { at: Point::new(x * 1000.0, y * 1000.0), trust: Trust::Known, arcs: 0.0 };
                     }
-                    Item::Word { .. } | Item::Text { .. } | Item::Fault(_) => {}
+                    Item::Word { .. } | Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => {}
                 }
                 chunk.stated.push(stated);
             }
@@ -292,7 +297,7 @@ impl Writer<'_> {
                     head.extend(line.get(range.clone())?.to_ascii_uppercase());
                     last_block = None;
                 }
-                Item::StartPoint { .. } | Item::Text { .. } | Item::Fault(_) => return trimmed(),
+                Item::StartPoint { .. } | Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => return trimmed(),
             }
         }
         let comment = self.pieces.last().filter(|piece| piece.field == Field::Comment).map(|piece| piece.range.clone());

@@ -229,7 +229,7 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
             Item::Text { .. } if !rows.is_empty() => {
                 fault.get_or_insert_with(|| format!("line {} cannot be read", line + 1));
             }
-            Item::Text { .. } => {}
+            Item::Text { .. } | Item::CommentedBlock { .. } => {}
             Item::Word { range, .. } => {
                 is_over |= end.is_some_and(|end| range.start >= end);
                 is_behind_pause = true;

@@ -222,3 +222,41 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn end_words_of_other_controllers_end_no_program_before_its_own() {
+    check("mirror.x", "B5B0B5GXL1\nE\nB0B5B5GYL2\nE\n", "B5B0B5GXL3\nE\nB0B5B5GYL2\nE\n");
+    check("mirror.x", "B5B0B5GXL1\nE\nB0B5B5GYL2\nDD B7B0B7GXL1\n", "B5B0B5GXL3\nE\nB0B5B5GYL2\nDD B7B0B7GXL1\n");
+}
+
+#[test]
+fn the_pause_before_a_tab_stays_where_it_is() {
+    let text = "B4000B0B4000GXL1\nB0B5000B5000GYL2\n|B20000B0B20000GXL1\nB0B20000B20000GYL4\nB20000B0B20000GXL3\nB0B12000B12000GYL2\nD\n\
+                B0B3000B3000GYL2\nB4000B0B4000GXL3\nDD\n";
+    for id in ["reverse", "startHere"] {
+        refused(id, text, "the contour pauses before line 8");
+    }
+    check("merge", text, &text.replace('|', ""));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn every_refactoring_of_every_program_is_edits_or_a_reason(
+        text in "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|B5B0B5GXL1|B0B5B5GYL2|B5B5B5GYL3|B4B4B4GXDDNR1|D|DD|E|FF|A|text|; Start Point = 1 , 2|)(\n| | ; x\n)){0,24}",
+        copies in 1_usize..4,
+        (start, length) in (0_usize..200, 0_usize..60),
+    ) {
+        let text = text.repeat(copies);
+        let document = read(&text);
+        let start = start.min(text.len());
+        for proposal in proposals(&document, &Effective::default(), start..(start + length).min(text.len()), |_| true) {
+            let Ok(edits) = proposal.edits else { continue };
+            prop_assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{}: {edits:?}", proposal.id);
+            prop_assert!(edits.iter().all(|edit| edit.range.start <= edit.range.end && edit.range.end <= text.len()), "{}", proposal.id);
+        }
+        let settings = Effective::default();
+        let _ = scaled(&Sheet::new(&document, &settings, 0..0), 2.0);
+    }
+}

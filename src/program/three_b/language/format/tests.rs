@@ -112,7 +112,7 @@ proptest! {
                 Item::Block { block, .. } => format!("{block:?}"),
                 Item::Word { word, .. } => format!("{word:?}"),
                 Item::StartPoint { at, .. } => format!("{at:?}"),
-                Item::Text { .. } | Item::Fault(_) => "damaged".into(),
+                Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => "damaged".into(),
             });
             (content.collect::<Vec<_>>(), faults.len())
         };

@@ -1,0 +1,148 @@
+//! Characters that look like those of a program and are others: full-width forms, wide spaces, Cyrillic and Greek letters; in UTF-8, and
+//! full-width forms in GBK, which editors of Chinese Windows write.
+
+/// What a character that is not ASCII looks like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Likeness {
+    FullWidth(u8),
+    Space,
+    /// Cyrillic or Greek.
+    Foreign(u8),
+}
+
+impl Likeness {
+    pub fn ascii(self) -> u8 {
+        match self {
+            Likeness::FullWidth(byte) | Likeness::Foreign(byte) => byte,
+            Likeness::Space => b' ',
+        }
+    }
+
+    /// Letters and digits; the others are marks and spaces.
+    pub fn is_letter(self) -> bool {
+        self.ascii().is_ascii_alphanumeric()
+    }
+}
+
+/// A character by its place in a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Alike {
+    pub at: usize,
+    pub length: usize,
+    pub likeness: Likeness,
+}
+
+/// The characters of a line that look like others, in their order.
+pub(super) fn alike(line: &[u8]) -> Vec<Alike> {
+    let mut found = Vec::new();
+    if line.is_ascii() {
+        return found;
+    }
+    let is_utf_8 = std::str::from_utf8(line).is_ok();
+    let mut at = 0;
+    while let Some(rest) = line.get(at..).filter(|rest| !rest.is_empty()) {
+        if rest[0] < 0x80 {
+            at += 1;
+            continue;
+        }
+        let (likeness, length) = if is_utf_8 { in_utf_8(rest) } else { in_gbk(rest) };
+        found.extend(likeness.map(|likeness| Alike { at, length, likeness }));
+        at += length;
+    }
+    found
+}
+
+fn in_utf_8(rest: &[u8]) -> (Option<Likeness>, usize) {
+    let length = match rest[0] {
+        0xf0.. => 4,
+        0xe0.. => 3,
+        _ => 2,
+    };
+    let character = rest.get(..length).and_then(|bytes| std::str::from_utf8(bytes).ok()).and_then(|text| text.chars().next());
+    let likeness = match character {
+        Some(wide @ '\u{ff01}'..='\u{ff5e}') => Some(Likeness::FullWidth((wide as u32 - 0xff01 + 0x21) as u8)),
+        Some('\u{a0}' | '\u{2000}'..='\u{200b}' | '\u{202f}' | '\u{205f}' | '\u{3000}' | '\u{feff}') => Some(Likeness::Space),
+        Some('\u{3001}') => Some(Likeness::FullWidth(b',')),
+        Some(letter) => foreign(letter).map(Likeness::Foreign),
+        None => None,
+    };
+    (likeness, length)
+}
+
+/// Letters that are drawn as one of a block.
+fn foreign(letter: char) -> Option<u8> {
+    Some(match letter {
+        'В' | 'в' | 'Β' => b'B',
+        'Х' | 'х' | 'Χ' => b'X',
+        'У' | 'у' | 'Υ' | 'Ү' => b'Y',
+        'О' | 'о' | 'Ο' => b'O',
+        'Е' | 'е' | 'Ε' => b'E',
+        'А' | 'а' | 'Α' => b'A',
+        'Ѕ' => b'S',
+        'Ν' => b'N',
+        'Ԍ' => b'G',
+        _ => return None,
+    })
+}
+
+fn in_gbk(rest: &[u8]) -> (Option<Likeness>, usize) {
+    match *rest {
+        [0xa3, low @ 0xa1..=0xfe, ..] => (Some(Likeness::FullWidth(low - 0x80)), 2),
+        [0xa1, 0xa1, ..] => (Some(Likeness::Space), 2),
+        [0xa1, 0xa2, ..] => (Some(Likeness::FullWidth(b',')), 2),
+        [0x81..=0xfe, 0x40..=0xfe, ..] => (None, 2),
+        _ => (None, 1),
+    }
+}
+
+/// The line with marks and spaces as a controller has them, each in the place of the other one; `None` where there is none. Letters and
+/// digits stay.
+pub(super) fn with_plain_marks(line: &[u8]) -> Option<Vec<u8>> {
+    let marks: Vec<Alike> = alike(line).into_iter().filter(|found| !found.likeness.is_letter()).collect();
+    (!marks.is_empty()).then(|| {
+        let mut plain = line.to_vec();
+        for mark in marks {
+            plain[mark.at..mark.at + mark.length].fill(b' ');
+            plain[mark.at] = mark.likeness.ascii();
+        }
+        plain
+    })
+}
+
+/// The line in plain letters, digits, marks and spaces.
+pub(super) fn in_plain_letters(line: &[u8], alike: &[Alike]) -> Vec<u8> {
+    let mut plain = Vec::with_capacity(line.len());
+    let mut from = 0;
+    for found in alike {
+        plain.extend_from_slice(line.get(from..found.at).unwrap_or_default());
+        plain.push(found.likeness.ascii());
+        from = found.at + found.length;
+    }
+    plain.extend_from_slice(line.get(from..).unwrap_or_default());
+    plain
+}
+
+/// How many bytes of space begin a text, wide ones among them.
+pub(super) fn wide_space(text: &[u8]) -> usize {
+    match text {
+        [0xc2, 0xa0, ..] => 2,
+        [0xe3, 0x80, 0x80, ..] | [0xe2, 0x80, 0x80..=0x8b | 0xaf, ..] | [0xef, 0xbb, 0xbf, ..] => 3,
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn characters_are_told_by_their_looks() {
+        let plain = |line: &[u8]| String::from_utf8(in_plain_letters(line, &alike(line))).unwrap();
+        assert_eq!(plain("（１）Ｂ９９00В0\u{3000}\u{a0}N8：ＤＤ".as_bytes()), "(1)B9900B0  N8:DD");
+        // The same in GBK.
+        assert_eq!(plain(b"\xa3\xa81\xa3\xa9\xa3\xc29\xa1\xa1"), "(1)B9 ");
+        assert_eq!(alike("直线 é".as_bytes()), []);
+        assert_eq!(with_plain_marks("（1）B".as_bytes()).unwrap(), b"(  1)  B");
+        assert_eq!(with_plain_marks("Ｂ".as_bytes()), None);
+    }
+}
