@@ -240,7 +240,7 @@ fn the_correction_is_never_lost_without_a_word() {
     let square = "G01 X5. Y0.\nY5.\nX-5.\nY-5.\nX5.\nY0.\n";
     put("side.iso", &format!("G92 X0 Y0\nG90\nG41 D1\n{square}G40\nG01 X0.\nM02\n"));
     put("late.iso", &format!("G92 X0 Y0\nG90\nG01 X1. Y0.\nG41 D1\n{square}G40\nG01 X1. Y0.\nX0.\nM02\n"));
-    put("own.iso", &format!("H1=155\nG92 X0 Y0\nG90\nG41 H1\n{square}G40\nG01 X0.\nM02\n"));
+    put("own.iso", &format!("H1=0.155\nG92 X0 Y0\nG90\nG41 H1\n{square}G40\nG01 X0.\nM02\n"));
     put("mixed.iso", "G92 X0 Y0\nG90\nG01 X5. Y0.\nY5.\nG41 D1\nG01 X-5.\nY-5.\nX5.\nG40\nG01 Y0.\nX0.\nM02\n");
     for (from, to, said) in [
         ("part.4b", "iso", "line 2: a 4B program holds the part's contour"),

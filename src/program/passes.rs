@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn a_pass_that_crosses_itself_does() {
         let mut wrong = star(0.0);
-        wrong.swap(3, 4);
+        wrong.swap(2, 7);
         assert!(crossings(&[&star(0.0)[..], &wrong[1..], &[[0.0, 0.0]]].concat()) > 0);
         assert!(crossings(&[&wrong[..], &[[0.0, 0.0]]].concat()) > 0);
         // Two contours of which one cuts through the other.

@@ -168,7 +168,11 @@ fn offers(text: &str, expected: &[(&str, &str)]) {
         let mut whole = text.replacen('|', "", 1);
         whole.replace_range(completion.range.clone(), &completion.text);
         assert_eq!(
-            read(&whole).findings(&Effective::default(), 99).0.iter().find(|finding| finding.rule == crate::finding::Rule::Syntax),
+            read(&whole)
+                .findings(&Effective::default(), 99)
+                .0
+                .iter()
+                .find(|finding| finding.rule == crate::finding::Rule::Syntax && finding.severity == crate::finding::Severity::Error),
             None,
             "{whole}"
         );

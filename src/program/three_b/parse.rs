@@ -581,7 +581,11 @@ fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
     let name = code.get(..at)?.trim_ascii();
     let is_word = name.split(|byte| !byte.is_ascii_alphanumeric()).any(|word| !word.is_empty() && words.meaning(word).is_some());
     // A number alone is that of the row, or of the block.
-    let is_number = name.iter().all(|byte| byte.is_ascii_digit() || matches!(byte, b'N' | b'n' | b' ' | b':' | b'.' | b')'));
+    let is_number = name
+        .strip_suffix(b",")
+        .unwrap_or(name)
+        .iter()
+        .all(|byte| byte.is_ascii_digit() || matches!(byte, b'N' | b'n' | b' ' | b'|' | b':' | b'.' | b')'));
     (at > 0 && !is_word && !is_number && !has_block_parts(name)).then_some(at)
 }
 

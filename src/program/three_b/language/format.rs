@@ -137,7 +137,8 @@ impl Chunk {
             });
             // Wide marks and spaces among the fields stay as they stand.
             let line = &text.bytes()[text.line_range(line)];
-            is_sound &= before_comment(line).is_ascii() || with_plain_marks(before_comment(line)).is_none();
+            let code = before_comment(line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line));
+            is_sound &= code.is_ascii() || with_plain_marks(code).is_none();
             chunk.lines.push(Line { end: chunk.items.len(), is_sound });
         }
         chunk
