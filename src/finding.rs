@@ -43,6 +43,30 @@ pub enum Rule {
     CompensationSwitch,
     /// G41 or G42 sends the wire to the side of the part.
     WrongSide,
+    /// I or J beside a straight cut.
+    CenterOnLine,
+    /// A word of which another stands in the same line.
+    WordTwice,
+    /// G02 where G03 runs on without a corner, or the other way round.
+    ReversedArc,
+    /// Out and back on the same way.
+    Spur,
+    /// A block that stands twice.
+    DoubledBlock,
+    /// G41 or G42 without a place of the control's table.
+    MissingOffset,
+    /// G41 becomes G42 within a cut, or the other way round.
+    SideChange,
+    /// The correction is still on where the program ends.
+    MissingCancel,
+    /// A subprogram without its M99.
+    MissingReturn,
+    /// A corner's word that finds no corner, or no room.
+    CornerWord,
+    /// A number without a decimal point among numbers with one.
+    MixedNumbers,
+    /// A block that may be wrong: with another in its place the cut is sound.
+    SuspectBlock,
     /// The arcs of a program do not tell how their centres are meant.
     AmbiguousCenter,
     /// Words that one machine takes otherwise than another, or not at all.
@@ -84,7 +108,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 42] = [
+    pub const ALL: [Rule; 54] = [
         Rule::SmallRadius,
         Rule::SharpCorner,
         Rule::NarrowSlot,
@@ -106,6 +130,18 @@ impl Rule {
         Rule::ArcWithoutRadius,
         Rule::CompensationSwitch,
         Rule::WrongSide,
+        Rule::CenterOnLine,
+        Rule::WordTwice,
+        Rule::ReversedArc,
+        Rule::Spur,
+        Rule::DoubledBlock,
+        Rule::MissingOffset,
+        Rule::SideChange,
+        Rule::MissingCancel,
+        Rule::MissingReturn,
+        Rule::CornerWord,
+        Rule::MixedNumbers,
+        Rule::SuspectBlock,
         Rule::AmbiguousCenter,
         Rule::MachineDependent,
         Rule::MissingB,
@@ -152,6 +188,18 @@ impl Rule {
             Rule::ArcWithoutRadius => "arc-without-radius",
             Rule::CompensationSwitch => "compensation-switch",
             Rule::WrongSide => "wrong-side",
+            Rule::CenterOnLine => "center-on-line",
+            Rule::WordTwice => "word-twice",
+            Rule::ReversedArc => "reversed-arc",
+            Rule::Spur => "spur",
+            Rule::DoubledBlock => "doubled-block",
+            Rule::MissingOffset => "missing-offset",
+            Rule::SideChange => "side-change",
+            Rule::MissingCancel => "missing-cancel",
+            Rule::MissingReturn => "missing-return",
+            Rule::CornerWord => "corner-word",
+            Rule::MixedNumbers => "mixed-numbers",
+            Rule::SuspectBlock => "suspect-block",
             Rule::AmbiguousCenter => "ambiguous-center",
             Rule::MachineDependent => "machine-dependent",
             Rule::MissingB => "missing-b",
@@ -190,6 +238,12 @@ impl Rule {
             | Rule::ArcWithoutRadius
             | Rule::CompensationSwitch
             | Rule::WrongSide
+            | Rule::CenterOnLine
+            | Rule::WordTwice
+            | Rule::ReversedArc
+            | Rule::SideChange
+            | Rule::MissingReturn
+            | Rule::CornerWord
             | Rule::MissingB
             | Rule::BlockNumberAsB
             | Rule::LengthInJ
@@ -213,7 +267,13 @@ impl Rule {
             | Rule::BlockNumber
             | Rule::PositionMismatch
             | Rule::PathCrossesItself
-            | Rule::NotJudged => Severity::Warning,
+            | Rule::NotJudged
+            | Rule::Spur
+            | Rule::DoubledBlock
+            | Rule::MissingOffset
+            | Rule::MissingCancel
+            | Rule::MixedNumbers
+            | Rule::SuspectBlock => Severity::Warning,
             Rule::UnsupportedEntity | Rule::AmbiguousCenter | Rule::MachineDependent | Rule::More => Severity::Information,
             Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
@@ -477,6 +537,58 @@ pub enum IsoFault {
     EndlessCalls,
     /// Full circles only: I and J are taken as leading from start to centre.
     OpenCenters,
+    CenterOnLine,
+    WordTwice {
+        letter: char,
+    },
+    /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
+    ReversedArc {
+        is_sure: bool,
+    },
+    /// So far out and back.
+    Spur {
+        length: f64,
+    },
+    /// An arc that goes round once more, or a line that leads nowhere.
+    DoubledBlock {
+        arc: bool,
+    },
+    NoOffset {
+        side: Side,
+    },
+    /// The wire goes to `side` from the other one.
+    SideChange {
+        side: Side,
+    },
+    StillOn,
+    /// Subprogram `number` goes on into what stands behind it.
+    NoReturn {
+        number: u32,
+    },
+    NoCorner,
+    /// `word` stands for the first of `count`.
+    Bare {
+        word: String,
+        count: usize,
+    },
+    /// A number with a decimal point among numbers without one.
+    Pointed {
+        word: String,
+    },
+    /// mm, of a program that does not say its unit.
+    LooksLikeInches {
+        size: f64,
+    },
+    /// A place of the table that hangs on one which the program does not fill.
+    UnknownValue {
+        word: String,
+    },
+    /// With `meant` in the place of `found` the program is sound.
+    Suspect {
+        found: String,
+        meant: String,
+        closes: bool,
+    },
 }
 
 /// How the centre was found to which an arc's ends fit.
@@ -647,4 +759,14 @@ pub enum FixKind {
     },
     /// G41 becomes G42 or the other way round.
     SwapSide,
+    /// Words of a block as they are meant; `meant` is empty where they go, `found` where they come.
+    Rewrite {
+        found: String,
+        meant: String,
+    },
+    InsertLine {
+        block: String,
+    },
+    PlainLetters,
+    PointForComma,
 }

@@ -170,6 +170,12 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
             CenterFix::Swap => format!("Swap I and J (R {} mm)", mm(*radius)),
             CenterFix::Nearest { moved } => format!("Move the centre by {} mm to where both ends fit (R {} mm)", mm(*moved), mm(*radius)),
         },
+        FixKind::Rewrite { found, meant } if meant.is_empty() => format!("Delete {found}"),
+        FixKind::Rewrite { found, meant } if found.is_empty() => format!("Write {meant}"),
+        FixKind::Rewrite { found, meant } => format!("Write {meant} for {found}"),
+        FixKind::InsertLine { block } => format!("Insert the block {block}"),
+        FixKind::PlainLetters => "Write the line with the characters that a control reads".into(),
+        FixKind::PointForComma => "Write a decimal point for the comma".into(),
         FixKind::SwapSide => "Let the wire run on the other side (swap G41 and G42)".into(),
         FixKind::OneArc { chords, radius } => format!("Replace the {chords} chords by one arc of R {} mm", mm(radius * unit_mm)),
     }
@@ -323,6 +329,52 @@ fn iso(fault: &IsoFault) -> String {
         IsoFault::Foreign { word, count } => format!("{word} ({count} times) is a matter of the machine: it is kept, not followed"),
         IsoFault::NoSubprogram { number } => format!("subprogram {number} does not stand in this text: it is not followed"),
         IsoFault::EndlessCalls => "the subprograms call each other without end, or too deep: they are not followed further".into(),
+        IsoFault::CenterOnLine => "I and J stand beside a straight cut: the control leaves them out, or stops; an arc (G02, G03) may be meant".into(),
+        IsoFault::WordTwice { letter } => format!("{letter} stands twice in this line: the control takes the last one, or stops"),
+        IsoFault::ReversedArc { is_sure: true } => {
+            "the arc runs the wrong way round: the wire turns back on itself here, and with G02 and G03 exchanged it runs on without a corner".into()
+        }
+        IsoFault::ReversedArc { is_sure: false } => {
+            "the arc may run the wrong way round: with G02 and G03 exchanged it goes on without a corner at both ends".into()
+        }
+        IsoFault::Spur { length } => format!("the wire goes out {} mm and back on the same way", mm(length / 1e3)),
+        IsoFault::DoubledBlock { arc: true } => "the block stands twice: the wire goes round a whole circle".into(),
+        IsoFault::DoubledBlock { arc: false } => "the block stands twice: the wire is there already".into(),
+        IsoFault::NoOffset { side } => {
+            format!("{}, and nothing says by how much: expected the place of the correction, such as D1", side_word(side))
+        }
+        IsoFault::SideChange { side } => {
+            format!("{} from here on, in the middle of the cut: it crosses the contour", side_word(side))
+        }
+        IsoFault::StillOn => "the program ends with the correction on: expected G40 before the way out".into(),
+        IsoFault::NoReturn { number } => {
+            format!("subprogram {number} has no M99: the control runs on into what stands behind it, or stops")
+        }
+        IsoFault::NoCorner => "the word for a corner finds none here, or no room for it: the corner stays sharp, or the control stops".into(),
+        IsoFault::Bare { word, count: 1 } => {
+            format!("{word} has no decimal point, the other numbers have: it is read in whole units, a control may read it in its finest steps")
+        }
+        IsoFault::Bare { word, count } => format!(
+            "{word} and others ({count} in all) have no decimal point, the rest have: they are read in whole units, a control may read them in its finest steps"
+        ),
+        IsoFault::Pointed { word } => {
+            format!("{word} has a decimal point, the other numbers have none: it is read in whole units, they in the finest steps")
+        }
+        IsoFault::LooksLikeInches { size } => format!(
+            "the program does not say its unit (G20, G21) and is read in mm: then the part is {} mm long or wide, which speaks for inches (program.units)",
+            mm(*size)
+        ),
+        IsoFault::UnknownValue { word } => {
+            format!("{word} hangs on a place of the control's table that the program does not fill: it is not followed")
+        }
+        IsoFault::Suspect { found, meant, closes } => {
+            let comes_of_it = if *closes { "the cut does not close, and it would" } else { "the cut would be sound" };
+            match (found.is_empty(), meant.is_empty()) {
+                (true, _) => format!("{meant} may be missing here: {comes_of_it} with it, and nothing else changed"),
+                (_, true) => format!("{found} may be one too many: {comes_of_it} without it, and nothing else changed"),
+                _ => format!("{found} may be wrong: {comes_of_it} with {meant} here, and nothing else changed"),
+            }
+        }
         IsoFault::OpenCenters => {
             "full circles alone do not tell how I and J are meant: they are taken as leading from the start to the centre".into()
         }

@@ -32,7 +32,7 @@ impl Standing {
     pub fn of(program: &Document) -> Standing {
         let own = match program {
             Document::ThreeB(program) => program.findings(),
-            Document::Iso(program) => program.findings().to_vec(),
+            Document::Iso(program) => program.plain_findings(),
         };
         let mut standing = Standing { findings: BTreeMap::new(), open: 0, gap: 0.0, full_turns: 0, moves: Vec::new() };
         for finding in own.iter().filter(|finding| finding.severity <= Severity::Information) {

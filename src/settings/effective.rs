@@ -40,6 +40,8 @@ pub struct Effective {
     pub compensation: Compensation,
     /// Digits of the controller's numbers in 3B.
     pub digits: u32,
+    /// In what the numbers of an ISO program are that does not say so, where somebody has set it; else mm.
+    pub program_units: Option<UnitSetting>,
     /// How ISO programs are written; the sentence that says which profiles there are, where the one that is named is not among them.
     pub profile: Result<Profile, String>,
     pub end: String,
@@ -100,6 +102,7 @@ impl Effective {
             jumps: program.jumps.unwrap_or_default(),
             compensation: program.compensation.unwrap_or_default(),
             digits: program.digits.map_or(Self::DIGITS, u32::from),
+            program_units: program.units,
             profile: Profile::of(program.profile.as_deref().unwrap_or(DEFAULT_PROFILE), settings.profiles.as_ref()),
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),

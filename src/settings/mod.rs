@@ -177,6 +177,9 @@ pub struct ProgramSettings {
     /// Digits of the controller's numbers in 3B: a block with a longer one is split. 4 to 9.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub digits: Option<u8>,
+    /// In what the numbers of an ISO program are that does not say so (G20, G21).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitSetting>,
     /// How ISO programs are written: a profile that ships, or one of `profiles`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<String>,
@@ -288,6 +291,7 @@ impl ProgramSettings {
             jumps: later.jumps.or(self.jumps),
             compensation: later.compensation.or(self.compensation),
             digits: later.digits.or(self.digits),
+            units: later.units.or(self.units),
             profile: later.profile.clone().or(self.profile.clone()),
             end: later.end.clone().or(self.end.clone()),
             pause: later.pause.clone().or(self.pause.clone()),

@@ -154,11 +154,13 @@ impl Reader {
                 "jumps" => program.jumps = reader.name(key, node),
                 "compensation" => program.compensation = reader.name(key, node),
                 "digits" => program.digits = reader.whole(key, node, DIGITS).map(|number| number as u8),
+                "units" => program.units = reader.name(key, node),
                 "profile" => program.profile = reader.text(key, node, "the name of a profile"),
                 "end" => program.end = reader.word(key, node),
                 "pause" => program.pause = reader.word(key, node),
                 _ => {
-                    let expected = "layout, direction, corner, thread, entry, lead-in, jumps, compensation, digits, profile, end or pause";
+                    let expected =
+                        "layout, direction, corner, thread, entry, lead-in, jumps, compensation, digits, units, profile, end or pause";
                     reader.unknown(key, entry, expected);
                 }
             }

@@ -1,6 +1,6 @@
 //! What one line says to the machine: its modal words, coordinates and marks, typed. Lengths stay as they are written.
 
-use super::word::{Number, Token, WordFault, words};
+use super::word::{Number, Term, Token, Value, WordFault, words};
 use std::ops::Range;
 
 /// G00 to G03.
@@ -48,6 +48,8 @@ pub struct Block {
     pub i: Option<Number>,
     pub j: Option<Number>,
     pub r: Option<Number>,
+    /// `,R2.` or `,C1.`
+    pub corner: Option<Corner>,
     /// `D1` or `H1`: the place in the control's table that holds the correction.
     pub offset: Option<Offset>,
     pub stop: Option<Stop>,
@@ -65,6 +67,15 @@ pub struct Block {
     pub empty: bool,
 }
 
+/// A corner that the control makes at the end of a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Corner {
+    /// Rounded; else chamfered.
+    pub round: bool,
+    /// Its radius, or how far from the corner the chamfer begins and ends.
+    pub size: Number,
+}
+
 /// A place in the control's table of corrections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Offset {
@@ -80,10 +91,21 @@ pub enum Note {
         code: Code,
         range: Range<usize>,
     },
-    /// `H001=110`
+    /// `H001=110`, or `H001=.0085+H175`.
     Definition {
         offset: Offset,
-        value: Number,
+        terms: Vec<Term>,
+        range: Range<usize>,
+    },
+    /// A length that is not 0, with a decimal point or without.
+    Length {
+        pointed: bool,
+        range: Range<usize>,
+    },
+    /// A word of which another stands in the line.
+    Twice {
+        letter: u8,
+        range: Range<usize>,
     },
     Fault {
         fault: WordFault,
@@ -117,13 +139,28 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
     words(line, offset, |token| match token {
         Token::Word { letter, number, range } => {
             block.empty = false;
+            let length = match letter {
+                b'X' => Some(&mut block.x),
+                b'Y' => Some(&mut block.y),
+                b'I' => Some(&mut block.i),
+                b'J' => Some(&mut block.j),
+                b'R' => Some(&mut block.r),
+                _ => None,
+            };
+            if let Some(length) = length {
+                if length.replace(number).is_some() {
+                    note(Note::Twice { letter, range: range.clone() });
+                }
+                if number.mantissa != 0 {
+                    note(Note::Length { pointed: number.point, range });
+                }
+                return;
+            }
             match letter {
-                b'X' => block.x = Some(number),
-                b'Y' => block.y = Some(number),
-                b'I' => block.i = Some(number),
-                b'J' => block.j = Some(number),
-                b'R' => block.r = Some(number),
                 b'G' => {
+                    if block.motion.is_some() && number.decimals == 0 && (0..=3).contains(&number.mantissa) {
+                        note(Note::Twice { letter, range: range.clone() });
+                    }
                     if !block.prepare(number) {
                         note(Note::Foreign { code: Code::of(letter, number), range });
                     }
@@ -151,10 +188,23 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
             block.empty = false;
             match value {
                 Some(value) if matches!(letter, b'D' | b'H') => {
-                    note(Note::Definition { offset: Offset { letter, index: index(place) }, value });
+                    let terms = vec![Term { is_negative: false, value: Value::Number(value) }];
+                    note(Note::Definition { offset: Offset { letter, index: index(place) }, terms, range });
                 }
                 _ => note(Note::Foreign { code: Code::of(letter, place), range }),
             }
+        }
+        Token::Sum { letter, index: place, terms, range } => {
+            block.empty = false;
+            if matches!(letter, b'D' | b'H') {
+                note(Note::Definition { offset: Offset { letter, index: index(place) }, terms, range });
+            } else {
+                note(Note::Foreign { code: Code::of(letter, place), range });
+            }
+        }
+        Token::Corner { round, number, .. } => {
+            block.empty = false;
+            block.corner = Some(Corner { round, size: number });
         }
         Token::Foreign { range } => {
             block.empty = false;
@@ -166,7 +216,7 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
         Token::Comment { .. } | Token::Tape { .. } => {}
         Token::Fault { fault, range } => {
             block.empty = false;
-            block.broken |= !matches!(fault, WordFault::OpenComment);
+            block.broken |= !fault.is_read();
             note(Note::Fault { fault, range });
         }
     });

@@ -4,7 +4,7 @@
 use super::crossings::pieces;
 use super::document::{Document, Placed};
 use super::machine::{Place, micrometres};
-use super::stretch::{Run, SEVERAL};
+use super::stretch::{Run, SEVERAL, changes_side};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::closing::{self, Node, Way, Writing, closing, is_tab};
 use std::cell::OnceCell;
@@ -35,6 +35,8 @@ pub(super) struct Cut {
     stops: usize,
     /// Moves before the stop at its tab.
     before_tab: Option<u32>,
+    /// Where the wire was sent to the other side first, and the line that did so.
+    pub flip: Option<(Place, Range<usize>)>,
 }
 
 impl Cut {
@@ -43,6 +45,7 @@ impl Cut {
         let place = |(start, end): (u32, u32)| offset + start as usize..offset + end as usize;
         let mut cut = Cut {
             parts: vec![Part { stretch, run, offset }],
+            flip: its.flip.map(|(at, line)| (at, place(line))),
             range: place(its.range),
             last_range: place(its.last_range),
             run: its,
@@ -70,6 +73,9 @@ impl Cut {
         if self.stops > 0 {
             self.before_tab.get_or_insert(self.run.moves);
         }
+        let flips = self.stops == 0 && changes_side(&self.run.last[1], &next.run.first[0]);
+        let flip = flips.then(|| (next.run.start(), next.range.clone()));
+        self.flip = self.flip.take().or(flip).or(next.flip);
         self.run.append(&next.run);
         self.last_range = next.last_range;
         self.parts.extend(next.parts);

@@ -1,23 +1,24 @@
 //! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
 
-use super::block::{Code, Motion, Note, Offset, Stop, read_line};
+use super::block::{Block, Code, Motion, Note, Offset, Stop, read_line};
+use super::corner::turned;
 use super::crossings::Crossings;
 use super::cuts::{StopAt, tabs};
 use super::evidence::Evidence;
 use super::machine::{CenterRule, Course, Machine, Move, Place, Reading, micrometres};
 use super::order::{Order, order};
+use super::repair::{Repairs, repairs};
 use super::stretch::{Hears, Pathless, Run, Stretch};
-use super::word::Number;
 use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
 use crate::program::trace::{Kind, Step, Trace};
-use crate::settings::{Effective, Profile, shipped_profiles};
+use crate::settings::{Effective, Profile, UnitSetting, shipped_profiles};
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 /// Lines that are run together: an edit costs as many, and a program has as many fewer stretches.
 pub(super) const STRETCH: usize = 128;
@@ -49,6 +50,8 @@ pub struct Document {
     pub(super) limits: Box<Limits>,
     /// What the program puts into the control's table.
     pub(super) table: Box<Table>,
+    /// The slips that may be behind what is wrong, once somebody has asked for them.
+    repairs: OnceLock<Arc<Repairs>>,
 }
 
 /// The settings that decide what is a fault.
@@ -62,6 +65,10 @@ pub(super) struct Limits {
     pub end: String,
     /// Words that profiles write: whoever has a profile for a machine knows what they mean there.
     pub known: BTreeSet<Code>,
+    /// A program that does not say otherwise is in inches.
+    pub inch: bool,
+    /// Somebody has said in what the numbers of programs are.
+    pub has_unit: bool,
     /// Where full circles alone leave open how I and J are meant.
     pub center: CenterRule,
     pub profile: Option<Arc<Profile>>,
@@ -75,6 +82,8 @@ impl Limits {
             compensation: settings.compensation,
             end: end_word(settings),
             known: known_words(settings),
+            inch: settings.program_units == Some(UnitSetting::Inch),
+            has_unit: settings.program_units.is_some(),
             center: settings.profile.as_ref().map_or(CenterRule::StartToCenter, |profile| profile.center),
             profile: settings.profile.as_ref().ok().map(|profile| Arc::new(profile.clone())),
         }
@@ -119,8 +128,8 @@ fn end_word(settings: &Effective) -> String {
     ends.next_back().map_or_else(|| "M02".into(), |line| line.trim().into())
 }
 
-/// The last value of each place of the control's table, and whether it is in inches.
-pub(super) type Table = FxHashMap<Offset, (Number, bool)>;
+/// The last value of each place of the control's table, nm.
+pub(super) type Table = FxHashMap<Offset, i64>;
 
 /// A cut that has begun before some line and may go on in it, nm.
 #[derive(Clone, Copy, Debug)]
@@ -158,6 +167,7 @@ impl Document {
             tabs: Vec::new(),
             limits: Box::new(limits),
             table: Box::default(),
+            repairs: OnceLock::new(),
         };
         document.guess_reading();
         document.run_all();
@@ -188,7 +198,13 @@ impl Document {
             return;
         }
         let center = limits.center != self.limits.center;
+        let is_other_unit = limits.inch != self.limits.inch;
         *self.limits = limits;
+        self.repairs = OnceLock::new();
+        if is_other_unit {
+            self.guess_reading();
+            return self.run_all();
+        }
         self.stretches.iter_mut().for_each(|stretch| stretch.is_quiet = false);
         if center {
             self.settle();
@@ -200,6 +216,31 @@ impl Document {
     /// What is wrong in the program, in the order of the text.
     pub fn findings(&self) -> Vec<Finding> {
         super::report::findings(self)
+    }
+
+    /// The same without the blocks that are only suspected.
+    pub fn plain_findings(&self) -> Vec<Finding> {
+        super::report::plain_findings(self)
+    }
+
+    /// The slips that may be behind what is wrong, by the lines of the cuts that they stand in.
+    pub(super) fn repairs(&self) -> &Repairs {
+        self.repairs.get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
+    }
+
+    /// A line's bytes, without its end.
+    pub(super) fn line_bytes(&self, line: usize) -> &[u8] {
+        self.text.bytes().get(self.text.line_range(line)).unwrap_or_default()
+    }
+
+    /// What a line says.
+    pub(super) fn block(&self, line: usize) -> Block {
+        read_line(self.line_bytes(line), 1, |_| {})
+    }
+
+    /// Whether lengths have a decimal point, where nearly all are written alike.
+    pub(super) fn pointed(&self) -> Option<bool> {
+        self.evidence.pointed()
     }
 
     /// The fixes of one finding, the preferred one first.
@@ -223,12 +264,7 @@ impl Document {
     /// Runs a stretch once more and tells `each` of its moves; gives the byte from which their places count.
     pub(super) fn run_again(&self, index: usize, each: &mut Hears<'_>) -> usize {
         let Some(Placed { stretch, first_line, offset }) = self.placed().nth(index) else { return 0 };
-        let bytes = self.text.bytes();
-        let lines = (first_line..first_line + stretch.lines as usize).map(|line| {
-            let range = self.text.line_range(line);
-            (range.start, &bytes[range])
-        });
-        Stretch::run_with(lines, offset, stretch.before, self.reading, each);
+        Stretch::run_with(lines_from(&self.text, first_line), stretch.lines as usize, offset, stretch.before, self.reading, each);
         offset
     }
 
@@ -291,18 +327,15 @@ impl Document {
 
     /// The correction in nm that the program itself puts into a place of the control's table.
     pub(super) fn table_value(&self, offset: Offset) -> Option<i64> {
-        let mut all = self.stretches.iter().flat_map(|stretch| &stretch.definitions);
-        all.rfind(|(its, ..)| *its == offset).map(|&(_, value, inch)| self.reading.length(value, inch))
+        self.table.get(&offset).copied()
     }
 
     /// The places of the control's table that the program fills, with their values in nm, and those that its first lines use.
     pub(super) fn table_places(&self, letter: u8) -> Vec<(u32, Option<i64>)> {
         let mut places: BTreeMap<u32, Option<i64>> =
             self.used_places().filter(|its| its.letter == letter).map(|its| (its.index, None)).collect();
-        for &(offset, value, inch) in self.stretches.iter().flat_map(|stretch| &stretch.definitions) {
-            if offset.letter == letter {
-                places.insert(offset.index, Some(self.reading.length(value, inch)));
-            }
+        for (offset, &value) in self.table.iter().filter(|(offset, _)| offset.letter == letter) {
+            places.insert(offset.index, Some(value));
         }
         places.into_iter().collect()
     }
@@ -316,8 +349,15 @@ impl Document {
 
     /// `D` or `H`, as the program names places of the control's table.
     pub(super) fn table_letter(&self) -> u8 {
-        let defined = self.stretches.iter().flat_map(|stretch| &stretch.definitions).map(|(offset, ..)| *offset).next();
+        let defined = self.stretches.iter().flat_map(|stretch| &stretch.definitions).map(|definition| definition.offset).next();
         defined.or_else(|| self.used_places().next()).map_or(b'D', |offset| offset.letter)
+    }
+
+    /// The place of the table that a program names, where it names but one.
+    pub(super) fn only_offset(&self) -> Option<Offset> {
+        let mut all = self.table.keys().copied().chain(self.used_places().filter(|offset| offset.index > 0));
+        let first = all.next()?;
+        all.all(|offset| offset == first).then_some(first)
     }
 
     fn used_places(&self) -> impl Iterator<Item = Offset> + '_ {
@@ -404,6 +444,7 @@ impl Document {
         // The byte before belongs to it: a CR there may become one line end with an inserted LF.
         let first = self.text.line_of(start.saturating_sub(1));
         let lines_behind = self.text.line_count() - 1 - self.text.line_of(end);
+        self.repairs = OnceLock::new();
         self.text.replace(start..end, replacement);
         if self.order.is_some() {
             self.guess_reading();
@@ -420,12 +461,17 @@ impl Document {
             line += self.stretches[from].lines as usize;
             from += 1;
         }
+        // Stretches before that look ahead at these lines run again too.
+        while from > 0 && self.stretches[from - 1].ahead > 0 {
+            from -= 1;
+            line -= self.stretches[from].lines as usize;
+        }
         let (mut to, mut behind) = (self.stretches.len(), 0);
         while to > from + 1 && behind + self.stretches[to - 1].lines as usize <= lines_behind {
             to -= 1;
             behind += self.stretches[to].lines as usize;
         }
-        let before = self.stretches.get(from).map_or_else(Machine::default, |stretch| stretch.before);
+        let before = self.stretches.get(from).map_or_else(|| self.begin(), |stretch| stretch.before);
         let fresh = run_lines(&self.text, line..all_lines - behind, before, self.reading);
         let mut next = from + fresh.len();
         self.stretches.splice(from..to, fresh);
@@ -452,10 +498,21 @@ impl Document {
     fn guess_reading(&mut self) {
         let head = 0..self.text.line_count().min(16 * STRETCH);
         let reading = Evidence::default().reading(self.limits.center);
-        let evidence = summed(&run_lines(&self.text, head.clone(), Machine::default(), reading));
+        let evidence = self.summed(&run_lines(&self.text, head.clone(), self.begin(), reading));
         let units = evidence.reading(self.limits.center);
-        let evidence = summed(&run_lines(&self.text, head, Machine::default(), units));
+        let evidence = self.summed(&run_lines(&self.text, head, self.begin(), units));
         self.reading = evidence.reading(self.limits.center);
+    }
+
+    /// The control before the first line.
+    pub(super) fn begin(&self) -> Machine {
+        Machine { inch: self.limits.inch, ..Machine::default() }
+    }
+
+    fn summed(&self, stretches: &[Stretch]) -> Evidence {
+        let mut evidence = Evidence { inch: self.limits.inch, ..Evidence::default() };
+        stretches.iter().for_each(|stretch| evidence.add(&stretch.evidence));
+        evidence
     }
 
     /// Runs the whole program.
@@ -467,9 +524,9 @@ impl Document {
 
     fn run_stretches(&mut self) {
         self.stretches = match &self.order {
-            None => run_lines(&self.text, 0..self.text.line_count(), Machine::default(), self.reading),
+            None => run_lines(&self.text, 0..self.text.line_count(), self.begin(), self.reading),
             Some(order) => {
-                let mut machine = Machine::default();
+                let mut machine = self.begin();
                 let run = order.lines.iter().map(|lines| {
                     let stretch = run_stretch(&self.text, lines.clone(), machine, self.reading);
                     machine = stretch.after;
@@ -513,7 +570,7 @@ impl Document {
             self.run_stretches();
         }
         for _ in 0..2 {
-            self.evidence = summed(&self.stretches);
+            self.evidence = self.summed(&self.stretches);
             let reading = self.evidence.reading(self.limits.center);
             if reading == self.reading {
                 return;
@@ -521,7 +578,7 @@ impl Document {
             self.reading = reading;
             self.run_stretches();
         }
-        self.evidence = summed(&self.stretches);
+        self.evidence = self.summed(&self.stretches);
         self.reading = self.evidence.reading(self.limits.center);
     }
 
@@ -556,10 +613,28 @@ impl Document {
                 if !block.empty
                     && let Some(made) = machine.run(&block, &self.reading)
                 {
+                    let (made, corner) = self.turned(line, made, &mut machine);
                     each(line, made, &machine);
+                    if let Some(corner) = corner {
+                        each(line, corner, &machine);
+                    }
                 }
             }
         }
+    }
+
+    /// A move up to where the corner at its end begins, and that corner.
+    pub(super) fn turned(&self, line: usize, made: Move, machine: &mut Machine) -> (Move, Option<Move>) {
+        if made.corner.is_none() {
+            return (made, None);
+        }
+        let turned = turned(made, machine, lines_from(&self.text, line + 1).map(|(_, line)| line), &self.reading);
+        (turned.made, turned.corner)
+    }
+
+    /// True where the control makes corners of its own.
+    pub(super) fn has_corners(&self) -> bool {
+        self.stretches.iter().any(|stretch| stretch.has_corners)
     }
 
     /// The side on which the wire runs beside each step of the trace.
@@ -614,10 +689,10 @@ impl Document {
             if block.empty {
                 continue;
             }
-            let made = machine.run(&block, &self.reading);
+            let made = machine.run(&block, &self.reading).map(|made| self.turned(line, made, &mut machine));
             let words = super::stretch::words_of(bytes, range.start);
             let words = words.0 as usize..words.1 as usize;
-            if let Some(made) = made {
+            for made in made.into_iter().flat_map(|(made, corner)| [Some(made), corner]).flatten() {
                 let side = made.side;
                 let kind = match made.motion {
                     Motion::Rapid => Kind::Rapid,
@@ -652,12 +727,6 @@ fn begun_by(before: Option<Begun>, run: &Run) -> Option<Begun> {
     run.open.then_some(Begun { last, moves: first.moves + run.moves, ..first })
 }
 
-fn summed(stretches: &[Stretch]) -> Evidence {
-    let mut evidence = Evidence::default();
-    stretches.iter().for_each(|stretch| evidence.add(&stretch.evidence));
-    evidence
-}
-
 /// Runs lines in stretches of [`STRETCH`] to twice as many, so that lines inserted one by one do not leave ever shorter ones.
 fn run_lines(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Vec<Stretch> {
     let mut machine = before;
@@ -690,10 +759,13 @@ fn run_stretch(text: &SourceText, lines: Range<usize>, before: Machine, reading:
 
 fn run_pathless(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Pathless {
     let start = text.line_start(lines.start);
-    let bytes = text.bytes();
-    let lines = lines.map(|line| {
+    Stretch::run(lines_from(text, lines.start), lines.len(), start, before, reading)
+}
+
+/// The lines of a text from one on, each with the byte at which it begins.
+fn lines_from(text: &SourceText, first: usize) -> impl Iterator<Item = (usize, &[u8])> + Clone {
+    (first..text.line_count()).map(|line| {
         let range = text.line_range(line);
-        (range.start, &bytes[range])
-    });
-    Stretch::run(lines, start, before, reading)
+        (range.start, &text.bytes()[range])
+    })
 }

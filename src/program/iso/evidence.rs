@@ -12,6 +12,12 @@ const STEPS: i64 = 3;
 /// The coarsest tolerance, nm: a program of whole millimetres must fit better than its numbers are fine.
 const COARSEST: i64 = 20 * MICROMETRE;
 
+/// No machine travels so far, mm.
+const LONG: i64 = 1_000;
+
+/// Of more numbers without a point among others the first stands for all.
+pub const FEW_BARE: u32 = 20;
+
 /// Counts over some lines of a program. They add up in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
@@ -20,7 +26,14 @@ pub struct Evidence {
     pub with_point: u32,
     /// The most decimals of a coordinate.
     pub decimals: u8,
+    /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
+    pub bare: u32,
+    pub long: u32,
+    /// Numbers that have four decimals or more.
+    pub fine: u32,
     pub inch: bool,
+    /// It says whether it is in inches or mm.
+    pub says_unit: bool,
     pub absolute: Arcs,
     pub incremental: Arcs,
 }
@@ -79,6 +92,10 @@ impl Evidence {
         self.with_point += other.with_point;
         self.decimals = self.decimals.max(other.decimals);
         self.inch |= other.inch;
+        self.fine += other.fine;
+        self.bare += other.bare;
+        self.long += other.long;
+        self.says_unit |= other.says_unit;
         self.absolute.add(&other.absolute);
         self.incremental.add(&other.incremental);
     }
@@ -89,7 +106,11 @@ impl Evidence {
             self.numbers += 1;
             self.with_point += u32::from(number.point);
             self.decimals = self.decimals.max(number.decimals);
+            self.fine += u32::from(number.decimals >= 4);
+            self.bare += u32::from(!number.point && number.mantissa != 0);
+            self.long += u32::from(!number.point && number.mantissa.abs() >= LONG);
         }
+        self.says_unit |= block.inch.is_some();
         self.inch |= block.inch == Some(true);
     }
 
@@ -118,7 +139,7 @@ impl Evidence {
 
     /// How the program is to be read. `preferred` is what holds where its arcs fit under several rules.
     pub fn reading(&self, preferred: CenterRule) -> Reading {
-        let whole_numbers_are_fine = self.with_point == 0;
+        let whole_numbers_are_fine = self.whole_numbers_are_fine();
         let absolute = self.absolute.rule(preferred, &RULES);
         // What the arcs under G90 show, those under G91 of the same program need not show again.
         let shown = if self.absolute.tells(3) { absolute } else { preferred };
@@ -131,6 +152,20 @@ impl Evidence {
             (false, inch) => (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals.min(7))),
         };
         Reading { whole_numbers_are_fine, absolute, incremental, tolerance: (STEPS * step).clamp(STEPS * MICROMETRE, COARSEST) }
+    }
+
+    /// Whole numbers are the finest steps where there are no others, or where one that is not whole stands among many that are too long
+    /// for anything else.
+    fn whole_numbers_are_fine(&self) -> bool {
+        self.with_point == 0 || self.with_point.saturating_mul(4) <= self.long
+    }
+
+    /// Whether lengths have a decimal point, where nearly all are written alike.
+    pub fn pointed(&self) -> Option<bool> {
+        if self.whole_numbers_are_fine() {
+            return (self.numbers > 0).then_some(false);
+        }
+        (self.bare <= FEW_BARE && self.bare.saturating_mul(8) <= self.with_point).then_some(true)
     }
 
     /// True where the arcs fit under two rules equally well, as full circles do.

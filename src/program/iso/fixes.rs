@@ -3,21 +3,101 @@
 use super::block::{Motion, Stop, read_line, word_range};
 use super::document::Document;
 use super::layout::is_parted;
-use super::machine::{Bend, CenterRule, Move, Place, distance, micrometres};
+use super::machine::{Bend, CenterRule, Machine, Move, Place, distance, micrometres};
 use super::order::labels;
 use super::refactor::{Bent, Target, line_to, numbered, with_word};
+use super::repair::{Repair, is_trouble, line_of};
 use super::style::Style;
-use crate::finding::{CenterFix, Detail, Finding, Fix, FixKind, IsoFault, Place as Where};
+use super::word::plain;
+use crate::finding::{CenterFix, Detail, Finding, Fix, FixKind, IsoFault, Place as Where, Rule};
 use crate::geometry::Arc;
 use crate::program::grid::{best_center, snap};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// The fixes of one finding, the preferred one first.
+/// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
 pub(super) fn fixes(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
-    let (Detail::Iso(fault), Where::Text { range }) = (&finding.detail, &finding.place) else { return Vec::new() };
+    let own = of_place(document, finding);
+    let searched = searched(document, finding);
+    let speaks_for_itself = matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock) && !own.is_empty();
+    let (mut fixes, more) = if speaks_for_itself { (own, searched) } else { (searched, own) };
+    let first = fixes.len();
+    for mut fix in more {
+        match fixes[..first].iter_mut().find(|other| other.edit == fix.edit) {
+            // What the place says by itself names the slip better.
+            Some(known) if !speaks_for_itself => known.kind = fix.kind,
+            Some(_) => {}
+            None => {
+                fix.preferred &= fixes.is_empty();
+                fix.in_fix_all &= fix.preferred;
+                fixes.push(fix);
+            }
+        }
+    }
+    fixes
+}
+
+/// The slips that make the cut sound in which something is wrong.
+fn searched(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+    if finding.rule != Rule::SuspectBlock && !is_trouble(finding) {
+        return Vec::new();
+    }
+    let Some(line) = line_of(document, finding) else { return Vec::new() };
+    let Some((_, repairs)) = document.repairs().iter().find(|(lines, _)| lines.contains(&line)) else { return Vec::new() };
+    let fix = |(rank, repair): (usize, &Repair)| Fix {
+        kind: repair.kind.clone(),
+        preferred: rank == 0,
+        in_fix_all: rank == 0 && repair.is_sure,
+        edit: repair.edits.clone(),
+    };
+    repairs.iter().enumerate().map(fix).collect()
+}
+
+/// What a place says by itself.
+fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+    let Where::Text { range } = &finding.place else { return Vec::new() };
+    let fault = match &finding.detail {
+        Detail::Iso(fault) => fault,
+        Detail::Syntax(_) => return character_fixes(document, range),
+        _ => return Vec::new(),
+    };
     let fix = |kind: FixKind, in_fix_all: bool, edits: Vec<TextEdit>| Fix { kind, preferred: true, in_fix_all, edit: edits };
+    let line = document.text().line_of(range.start);
     match fault {
+        IsoFault::ReversedArc { is_sure } => {
+            let before = document.machine_before(line).map(|machine| machine.motion);
+            let Some((found, meant, edit)) = exchanged_word(document, line, before) else { return Vec::new() };
+            vec![fix(FixKind::Rewrite { found, meant }, *is_sure, vec![edit])]
+        }
+        IsoFault::DoubledBlock { .. } => vec![fix(FixKind::DeleteBlock, true, vec![whole_line(document, line)])],
+        IsoFault::Spur { .. } => spur_fix(document, line).into_iter().collect(),
+        IsoFault::NoOffset { .. } => {
+            let Some(offset) = document.only_offset() else { return Vec::new() };
+            let word = format!("{}{}", offset.letter as char, offset.index);
+            let text = if is_parted(document.text()) { format!(" {word}") } else { word.clone() };
+            let edit = TextEdit { range: range.end..range.end, text };
+            vec![fix(FixKind::Rewrite { found: String::new(), meant: word }, false, vec![edit])]
+        }
+        IsoFault::SideChange { .. } => {
+            let other = match document.text().bytes().get(range.clone()) {
+                Some(word) if word.ends_with(b"41") => "G42",
+                Some(word) if word.ends_with(b"42") => "G41",
+                _ => return Vec::new(),
+            };
+            vec![fix(FixKind::SwapSide, false, vec![TextEdit { range: range.clone(), text: other.into() }])]
+        }
+        IsoFault::StillOn => {
+            let Some(at) = way_out(document, line) else { return Vec::new() };
+            let start = document.text().line_start(at);
+            let text = format!("G40{}", line_end(document, range.end));
+            vec![fix(FixKind::InsertLine { block: "G40".into() }, false, vec![TextEdit { range: start..start, text }])]
+        }
+        IsoFault::NoReturn { .. } => {
+            let end = document.text().line_range(line).end;
+            let text = format!("{}M99", line_end(document, range.end));
+            vec![fix(FixKind::InsertLine { block: "M99".into() }, true, vec![TextEdit { range: end..end, text }])]
+        }
+        IsoFault::Bare { .. } => bare_fixes(document, range),
         IsoFault::NoEnd { word } => {
             let end = document.text().line_range(document.text().line_of(range.end)).end;
             let text = format!("{}{word}", line_end(document, range.end));
@@ -46,6 +126,97 @@ pub(super) fn fixes(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextE
         }
         _ => Vec::new(),
     }
+}
+
+/// Characters that only look like those of a control.
+fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
+    let text = document.text();
+    let (kind, edit) = match text.bytes().get(range.clone()) {
+        Some([b'O' | b'o', rest @ ..]) => {
+            let zeros = rest.iter().map(|byte| if matches!(byte, b'O' | b'o') { '0' } else { char::from(*byte) });
+            (FixKind::ZeroForO, TextEdit { range: range.clone(), text: ['0'].into_iter().chain(zeros).collect() })
+        }
+        Some(b",") => (FixKind::PointForComma, TextEdit { range: range.clone(), text: ".".into() }),
+        _ => {
+            let line = text.line_range(text.line_of(range.start));
+            let plain = text.bytes().get(line.clone()).and_then(plain).and_then(|plain| String::from_utf8(plain).ok());
+            let Some(text) = plain else { return Vec::new() };
+            (FixKind::PlainLetters, TextEdit { range: line, text })
+        }
+    };
+    vec![Fix { kind, preferred: true, in_fix_all: true, edit: vec![edit] }]
+}
+
+/// G02 for G03 of a line, or the other way round: what stands, what is meant, and the edit.
+fn exchanged_word(document: &Document, line: usize, before: Option<Motion>) -> Option<(String, String, TextEdit)> {
+    let range = document.text().line_range(line);
+    let bytes = document.line_bytes(line);
+    let other = |motion: Motion| match motion {
+        Motion::Clockwise => Some("G03"),
+        Motion::CounterClockwise => Some("G02"),
+        Motion::Rapid | Motion::Line => None,
+    };
+    let own = read_line(bytes, 1, |_| {}).motion;
+    let meant = other(own.or(before)?)?.to_owned();
+    if own.is_some() {
+        let word = word_range(bytes, range.start + 1, |letter, number| letter == b'G' && matches!(number.whole(), Some(2 | 3)))?;
+        let word = word.start - 1..word.end - 1;
+        let found = String::from_utf8_lossy(document.text().bytes().get(word.clone())?).into_owned();
+        return Some((found, meant.clone(), TextEdit { range: word, text: meant }));
+    }
+    let text = String::from_utf8(with_word(bytes, &meant, is_parted(document.text()))).ok()?;
+    Some((String::new(), meant, TextEdit { range, text }))
+}
+
+/// A line with its end.
+fn whole_line(document: &Document, line: usize) -> TextEdit {
+    TextEdit { range: document.text().line_start(line)..document.text().line_start(line + 1), text: String::new() }
+}
+
+/// Out and back go, where they lead back to where they began.
+fn spur_fix(document: &Document, back: usize) -> Option<Fix<Vec<TextEdit>>> {
+    let moves = |line: usize| {
+        let block = document.block(line);
+        block.has_coordinates() || block.i.is_some() || block.j.is_some()
+    };
+    let out = (0..back).rev().take(SPUR_REACH).find(|line| moves(*line))?;
+    let (before, behind) = (document.machine_before(out)?, document.machine_behind(back)?);
+    let is_plain = Machine { at: behind.at, trail: behind.trail, moved: behind.moved, ..before } == behind;
+    if distance(before.at, behind.at) > SPUR_CLOSED || !is_plain {
+        return None;
+    }
+    let shown = |line: usize| String::from_utf8_lossy(document.line_bytes(line)).trim().to_owned();
+    let found = format!("{} and {}", shown(out), shown(back));
+    let edit = vec![whole_line(document, out), whole_line(document, back)];
+    Some(Fix { kind: FixKind::Rewrite { found, meant: String::new() }, preferred: true, in_fix_all: false, edit })
+}
+
+/// Lines before the way back of a spur in which its way out is looked for.
+const SPUR_REACH: usize = 16;
+
+/// Ends of a spur this near each other are one, nm.
+const SPUR_CLOSED: f64 = 2_000.0;
+
+/// The line before which G40 belongs: the last straight cut before the end, where it leads back to where the cut began.
+fn way_out(document: &Document, end: usize) -> Option<usize> {
+    let last = (0..end).rev().take(SPUR_REACH).find(|line| document.block(*line).has_coordinates())?;
+    let begun = document.begun_cut_with(last)?;
+    let is_out = begun.last.motion == Motion::Line && distance(begun.last.to, begun.from) <= SPUR_CLOSED;
+    Some(if is_out { last } else { end })
+}
+
+/// A number without its point, as one of whole units and as one of the finest steps.
+fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
+    let found = String::from_utf8_lossy(document.text().bytes().get(range.clone()).unwrap_or_default()).into_owned();
+    let Some(at) = found.find(|character: char| character.is_ascii_digit()) else { return Vec::new() };
+    let digits = &found[at..];
+    let padded = format!("{digits:0>4}");
+    let fine = format!("{}{}.{}", &found[..at], &padded[..padded.len() - 3], &padded[padded.len() - 3..]);
+    let fix = |meant: String| {
+        let edit = vec![TextEdit { range: range.clone(), text: meant.clone() }];
+        Fix { kind: FixKind::Rewrite { found: found.clone(), meant }, preferred: false, in_fix_all: false, edit }
+    };
+    vec![fix(fine), fix(format!("{found}."))]
 }
 
 /// Centres that the ends of an arc fit: where another convention, a lost sign or a swap of I and J leads, else the nearest one.

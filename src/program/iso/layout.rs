@@ -77,7 +77,12 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
     let (mut covered, mut may_touch) = (0, true);
     for token in &tokens {
         let (range, is_comment) = match token {
-            Token::Word { range, .. } | Token::Definition { range, .. } | Token::Tape { range } | Token::Skip { range } => (range, false),
+            Token::Word { range, .. }
+            | Token::Definition { range, .. }
+            | Token::Sum { range, .. }
+            | Token::Corner { range, .. }
+            | Token::Tape { range }
+            | Token::Skip { range } => (range, false),
             Token::Comment { range } => (range, true),
             Token::Foreign { .. } | Token::Fault { .. } => return None,
         };
@@ -122,6 +127,8 @@ fn tokens_of(line: &[u8]) -> Vec<Token> {
     let unshifted = |token: Token| match token {
         Token::Word { letter, number, range } => Token::Word { letter, number, range: shift(range) },
         Token::Definition { letter, index, value, range } => Token::Definition { letter, index, value, range: shift(range) },
+        Token::Sum { letter, index, terms, range } => Token::Sum { letter, index, terms, range: shift(range) },
+        Token::Corner { round, number, range } => Token::Corner { round, number, range: shift(range) },
         Token::Foreign { range } => Token::Foreign { range: shift(range) },
         Token::Comment { range } => Token::Comment { range: shift(range) },
         Token::Tape { range } => Token::Tape { range: shift(range) },
@@ -139,6 +146,8 @@ fn meaning(token: Token, line: &[u8]) -> (Token, String) {
     match token {
         Token::Word { letter, number, .. } => (Token::Word { letter, number, range: 0..0 }, String::new()),
         Token::Definition { letter, index, value, range } => (Token::Definition { letter, index, value, range: 0..0 }, text(range)),
+        Token::Sum { letter, index, terms, range } => (Token::Sum { letter, index, terms, range: 0..0 }, text(range)),
+        Token::Corner { round, number, .. } => (Token::Corner { round, number, range: 0..0 }, String::new()),
         Token::Comment { range } => (Token::Comment { range: 0..0 }, text(range)),
         Token::Tape { .. } => (Token::Tape { range: 0..0 }, String::new()),
         Token::Skip { range } => (Token::Skip { range: 0..0 }, text(range)),

@@ -3,7 +3,8 @@
 //! Places are whole nanometres, so that a micrometre, four decimals of an inch and six of a millimetre are all exact, and sums do not
 //! depend on the order in which they are made.
 
-use super::block::{Block, Compensation, Motion, Offset, Stop};
+use super::block::{Block, Compensation, Corner, Motion, Offset, Stop};
+use super::corner::bend_about;
 use super::word::Number;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
@@ -80,6 +81,8 @@ pub struct Move {
     pub offset: Option<Offset>,
     /// G41 or G42 (true) or G40 (false) takes effect with this move.
     pub switches: Option<bool>,
+    /// The corner that the control makes at its end.
+    pub corner: Option<Corner>,
 }
 
 /// Where an arc runs, or why it does not.
@@ -228,6 +231,34 @@ pub struct Machine {
     /// G92 has said where the wire stands.
     pub stated: bool,
     pub ended: bool,
+    /// The corner behind the last move was cut off: how far from its sharp point the next one begins.
+    pub cut_short: Option<Place>,
+    pub trail: Trail,
+}
+
+/// What was cut last without a stop or a rapid behind it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Trail {
+    /// The last cut and the one before, seen from where they end.
+    pub last: [Option<Move>; 2],
+    /// Tells whether a line says what the last one with a move said.
+    pub said: u64,
+}
+
+impl Trail {
+    pub fn push(&mut self, made: &Move) {
+        let along = [0, 1].map(|axis| made.to[axis].wrapping_sub(made.from[axis]));
+        let before = self.last[0].map(|before| loose(before.seen_from(along)));
+        self.last = [Some(loose(made.seen_from(made.to))), before];
+    }
+}
+
+/// The same wherever it lies: under G91 no centre is absolute.
+fn loose(mut made: Move) -> Move {
+    if let (true, Bend::Center { absolute, .. }) = (made.incremental, &mut made.bend) {
+        *absolute = [0, 0];
+    }
+    made
 }
 
 impl Default for Machine {
@@ -246,6 +277,8 @@ impl Default for Machine {
             moved: false,
             stated: false,
             ended: false,
+            cut_short: None,
+            trail: Trail::default(),
         }
     }
 }
@@ -326,6 +359,7 @@ impl Machine {
         }
         let length = |number: Option<Number>| number.map(|number| reading.length(number, self.inch));
         let from = self.at;
+        let cut_short = self.cut_short.take();
         let mut to = from;
         let mut found = self.lost;
         for (axis, coordinate) in [length(block.x), length(block.y)].into_iter().enumerate() {
@@ -360,6 +394,24 @@ impl Machine {
             },
         };
         let bend = if is_arc { bend } else { Bend::Nothing };
-        Some(Move { motion: self.motion, from, to, bend, incremental: self.incremental, side: self.side, offset: self.offset, switches })
+        let corner = match self.motion {
+            Motion::Rapid => None,
+            Motion::Line => block.corner.or(block.r.map(|size| Corner { round: true, size })),
+            Motion::Clockwise | Motion::CounterClockwise => block.corner,
+        };
+        let (incremental, side, offset) = (self.incremental, self.side, self.offset);
+        let mut made = Move { motion: self.motion, from, to, bend, incremental, side, offset, switches, corner };
+        if let Some(by) = cut_short {
+            // The words of an arc count from the sharp corner.
+            if let Course::Arc(arc) = made.course(reading) {
+                let center = match made.center(reading.rule(incremental)) {
+                    Some(center) => center,
+                    None => [(arc.center.x * 1e3).round() as i64, (arc.center.y * 1e3).round() as i64],
+                };
+                made.bend = bend_about(center, added(from, by), incremental, reading);
+            }
+            made.from = added(from, by);
+        }
+        Some(made)
     }
 }

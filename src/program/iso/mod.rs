@@ -3,6 +3,7 @@
 //! How numbers and arc centres are meant differs from machine to machine and is found from the program itself, never assumed.
 
 mod block;
+mod corner;
 mod crossings;
 mod cuts;
 mod document;
@@ -14,7 +15,9 @@ mod layout;
 mod machine;
 mod order;
 pub mod refactor;
+mod repair;
 mod report;
+mod shape;
 mod stretch;
 mod style;
 #[cfg(test)]
@@ -22,9 +25,9 @@ mod tests;
 mod word;
 mod write;
 
-pub use block::{Block, Compensation, Motion, Note, Offset, Stop, read_line};
+pub use block::{Block, Compensation, Corner, Motion, Note, Offset, Stop, read_line};
 pub use document::Document;
 pub use layout::format;
 pub use machine::{CenterRule, Course, Machine, Move, Reading};
-pub use word::{Number, Token, WordFault, words};
+pub use word::{Number, Term, Token, Value, WordFault, words};
 pub use write::{write, write_with};

@@ -3,7 +3,7 @@
 use super::block::{Stop, read_line};
 use super::document::STRETCH;
 use crate::text::SourceText;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// Subprograms within each other; more than controls take.
@@ -21,6 +21,8 @@ pub struct Order {
     pub lines: Vec<Range<usize>>,
     /// Lines that call a subprogram which is not in the text, with its number.
     pub missing: Vec<(usize, u32)>,
+    /// Subprograms that go on into what stands behind them: the line behind which M99 is missing, with the number.
+    pub unreturned: Vec<(usize, u32)>,
     /// The line at which the calls were no longer followed: they go too deep or never end.
     pub endless: Option<usize>,
     /// The line at which nothing more was run, since it would have been too much.
@@ -33,8 +35,8 @@ pub struct Order {
 pub fn order(text: &SourceText) -> Order {
     let most_lines = MOST_LINES + 2 * text.line_count();
     let order = Order { most_lines, ..Order::default() };
-    let mut walk = Walk { text, labels: labels(text), order, left: most_lines, calls: MOST_CALLS };
-    walk.run(0, 0);
+    let mut walk = Walk { text, labels: labels(text), order, left: most_lines, calls: MOST_CALLS, called: called(text) };
+    walk.run(0, 0, None);
     walk.order
 }
 
@@ -51,6 +53,12 @@ pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
     labels
 }
 
+/// The numbers that are called.
+fn called(text: &SourceText) -> FxHashSet<u32> {
+    let call = |line: usize| read_line(text.bytes().get(text.line_range(line))?, 1, |_| {}).call;
+    (0..text.line_count()).filter_map(call).collect()
+}
+
 struct Walk<'a> {
     text: &'a SourceText,
     labels: FxHashMap<u32, usize>,
@@ -59,13 +67,15 @@ struct Walk<'a> {
     left: usize,
     /// How many calls may still be followed.
     calls: usize,
+    called: FxHashSet<u32>,
 }
 
 impl Walk<'_> {
     /// Runs from a line to the end or to the return; false where nothing is to run behind it.
-    fn run(&mut self, first: usize, depth: usize) -> bool {
+    fn run(&mut self, first: usize, depth: usize, number: Option<u32>) -> bool {
         let mut begun = first;
         let mut line = first;
+        let mut last = first;
         while line < self.text.line_count() {
             if self.left == 0 {
                 self.push(begun..line);
@@ -75,6 +85,22 @@ impl Walk<'_> {
             self.left -= 1;
             let range = self.text.line_range(line);
             let block = read_line(&self.text.bytes()[range], 0, |_| {});
+            // Another program begins: what runs into it has no end of its own.
+            if let Some(own) = number.filter(|_| line > first)
+                && [block.program, block.number.filter(|number| self.called.contains(number))]
+                    .into_iter()
+                    .flatten()
+                    .any(|other| other != own)
+            {
+                self.unreturned(last, own);
+                if block.program.is_some() {
+                    self.push(begun..line);
+                    return true;
+                }
+            }
+            if !block.empty {
+                last = line;
+            }
             line += 1;
             if let Some(number) = block.call {
                 self.push(begun..line);
@@ -92,7 +118,16 @@ impl Walk<'_> {
             }
         }
         self.push(begun..line);
+        if let Some(own) = number {
+            self.unreturned(last, own);
+        }
         true
+    }
+
+    fn unreturned(&mut self, line: usize, number: u32) {
+        if !self.order.unreturned.contains(&(line, number)) {
+            self.order.unreturned.push((line, number));
+        }
     }
 
     /// Lines that run one after another, in stretches: where they lie on themselves is looked for stretch by stretch.
@@ -105,7 +140,7 @@ impl Walk<'_> {
         match self.labels.get(&number) {
             Some(&line) if depth < DEEPEST && self.calls > 0 => {
                 self.calls -= 1;
-                self.run(line, depth + 1)
+                self.run(line, depth + 1, Some(number))
             }
             Some(_) if depth < DEEPEST => {
                 self.order.left_out.get_or_insert(from);

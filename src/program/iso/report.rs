@@ -1,12 +1,14 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
-use super::block::{Code, Motion, read_line, word_range};
+use super::block::{Code, Motion, Offset, read_line, word_range};
 use super::cuts::{Cut, cuts};
 use super::document::{Document, Limits, Placed, Table};
+use super::evidence::FEW_BARE;
 use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
 use super::order::MOST_CALLS;
-use super::stretch::{Fault, Run, RunSide, Stretch, Tight};
-use super::word::WordFault;
+use super::repair::{Repair, is_trouble, line_of};
+use super::stretch::{Definition, Fault, Run, RunSide, Stretch, Tight};
+use super::word::{Value, WordFault};
 use crate::finding::{Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::{Arc, cross};
 use crate::program::closing::tolerance;
@@ -24,8 +26,56 @@ const FEWEST_MOVES: u32 = 3;
 /// How many lines before its cut the word that switches the correction is looked for.
 const SWITCH_REACH: usize = 1_000;
 
+/// A part of less is no part in mm, mm.
+const SMALLEST_PART: f64 = 2.0;
+
+/// A part of less, with numbers as fine as those in inches are, speaks for inches, mm.
+const SMALL_PART: f64 = 12.0;
+
+/// A part of more speaks against inches, whatever its corrections are, mm.
+const LARGE_PART: f64 = 40.0;
+
+/// The thinnest wire there is, with its spark gap, has a larger correction, nm.
+const THINNEST: i64 = 14_000;
+
 /// All findings, in the order of the text.
 pub(super) fn findings(document: &Document) -> Vec<Finding> {
+    let mut findings = plain_findings(document);
+    let suspects = suspects(document, &findings);
+    if !suspects.is_empty() {
+        findings.extend(suspects);
+        sort(&mut findings);
+    }
+    findings
+}
+
+/// The blocks of which one slip may be all that is wrong, where nothing is said at their place yet.
+fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
+    let is_said = |line: usize| findings.iter().any(|finding| is_trouble(finding) && line_of(document, finding) == Some(line));
+    let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
+    let repairs: Vec<Repair> = document.repairs().iter().filter_map(first).collect();
+    let suspect = |repair: Repair| {
+        let range = document.text().line_range(repair.line);
+        let words = super::stretch::words_of(document.text().bytes().get(range.clone())?, range.start);
+        let fault = IsoFault::Suspect { found: repair.found, meant: repair.meant, closes: repair.closes };
+        let severity = if repair.is_sure { Rule::SuspectBlock.default_severity() } else { Severity::Information };
+        let place = Place::Text { range: words.0 as usize..words.1 as usize };
+        Some(Finding { rule: Rule::SuspectBlock, severity, place, detail: Detail::Iso(fault), related: Vec::new() })
+    };
+    repairs.into_iter().filter(|repair| repair.explains && !is_said(repair.line)).filter_map(suspect).collect()
+}
+
+/// By place.
+fn sort(findings: &mut [Finding]) {
+    let start = |finding: &Finding| match &finding.place {
+        Place::Text { range } => (range.start, range.end),
+        _ => (0, 0),
+    };
+    findings.sort_by_key(|finding| (start(finding), finding.rule));
+}
+
+/// What is wrong by itself, without a search for what is behind it.
+pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
     let mut report = Report::new(document);
     let mut last_words = None;
     let mut is_ended = false;
@@ -45,6 +95,9 @@ pub(super) fn findings(document: &Document) -> Vec<Finding> {
     }
     report.follow();
     report.findings.extend(document.crossings().findings(document));
+    report.definitions();
+    report.bare_numbers();
+    report.unit();
     report.foreign_words();
     report.block_numbers();
     report.calls();
@@ -65,8 +118,25 @@ pub(super) fn findings(document: &Document) -> Vec<Finding> {
 
 /// What a program puts into the control's table.
 pub(super) fn table(document: &Document) -> Table {
-    let all = document.stretches().iter().flat_map(|stretch| &stretch.definitions);
-    all.map(|&(offset, value, inch)| (offset, (value, inch))).collect()
+    let mut table = Table::default();
+    for definition in document.stretches().iter().flat_map(|stretch| &stretch.definitions) {
+        match value(&table, definition, document.reading()) {
+            Some(value) => _ = table.insert(definition.offset, value),
+            None => _ = table.remove(&definition.offset),
+        }
+    }
+    table
+}
+
+/// What is put into the table, nm; `None` where it hangs on a place that is not filled.
+fn value(table: &Table, definition: &Definition, reading: &Reading) -> Option<i64> {
+    definition.terms.iter().try_fold(0_i64, |sum, term| {
+        let value = match term.value {
+            Value::Number(number) => reading.length(number, definition.inch),
+            Value::Place { letter, index } => *table.get(&Offset { letter, index })?,
+        };
+        Some(if term.is_negative { sum.wrapping_sub(value) } else { sum.wrapping_add(value) })
+    })
 }
 
 /// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
@@ -140,6 +210,27 @@ impl<'a> Report<'a> {
                 Fault::OffRadius { start, end } => self.add(Rule::ArcOffRadius, range, IsoFault::OffRadius { start, end }),
                 Fault::NoRadius => self.add(Rule::ArcWithoutRadius, range, IsoFault::NoRadius),
                 Fault::Switch { on, arc } => self.add(Rule::CompensationSwitch, range, IsoFault::Switch { on, arc }),
+                Fault::CenterOnLine => self.add(Rule::CenterOnLine, range, IsoFault::CenterOnLine),
+                Fault::WordTwice { letter } => self.add(Rule::WordTwice, range, IsoFault::WordTwice { letter: letter as char }),
+                Fault::NoOffset => {
+                    let range = self.switch_range(range.start);
+                    let side = match self.text.bytes().get(range.clone()) {
+                        Some(word) if word.ends_with(b"42") => Side::Right,
+                        _ => Side::Left,
+                    };
+                    self.add(Rule::MissingOffset, range, IsoFault::NoOffset { side });
+                }
+                Fault::StillOn => self.add(Rule::MissingCancel, range, IsoFault::StillOn),
+                Fault::ReversedArc { is_sure } => {
+                    let severity = if is_sure { Rule::ReversedArc.default_severity() } else { Severity::Warning };
+                    self.push(Rule::ReversedArc, severity, range, Detail::Iso(IsoFault::ReversedArc { is_sure }));
+                }
+                Fault::Spur { length } => self.add(Rule::Spur, range, IsoFault::Spur { length }),
+                Fault::DoubledBlock { arc } => {
+                    let severity = if arc { Severity::Error } else { Rule::DoubledBlock.default_severity() };
+                    self.push(Rule::DoubledBlock, severity, range, Detail::Iso(IsoFault::DoubledBlock { arc }));
+                }
+                Fault::NoCorner => self.add(Rule::CornerWord, range, IsoFault::NoCorner),
             }
         }
     }
@@ -241,7 +332,21 @@ impl<'a> Report<'a> {
                 self.push(Rule::WrongSide, Severity::Warning, range(), Detail::Iso(IsoFault::EntrySide { side }));
             }
         }
+        if let Some((place, range)) = &cut.flip {
+            // The next pass, back along the same contour, has the wire on its other side.
+            let begins = [run.first[0].from, run.first[0].to];
+            if !begins.iter().any(|begin| distance(*begin, *place) / 1e3 <= cut.tolerance(self.document)) {
+                self.side_change(range.clone());
+            }
+        }
         self.tight_arcs(cut, orientation);
+    }
+
+    /// G41 that becomes G42 within a cut, at the word that does so.
+    fn side_change(&mut self, line: Range<usize>) {
+        let range = self.switch_range(line.start);
+        let side = if self.text.bytes().get(range.clone()).is_some_and(|word| word.ends_with(b"42")) { Side::Right } else { Side::Left };
+        self.add(Rule::SideChange, range, IsoFault::SideChange { side });
     }
 
     /// Whether a cut closes; else by how much it misses, µm.
@@ -327,14 +432,14 @@ impl<'a> Report<'a> {
 
     /// The largest correction that a move may have, µm.
     fn largest_correction(&self) -> f64 {
-        let stated = self.definitions.values().map(|&(value, inch)| (self.reading.length(value, inch) as f64 / 1e3).abs());
+        let stated = self.definitions.values().map(|&value| (value as f64 / 1e3).abs());
         stated.fold(self.limits.correction * 1e3, f64::max)
     }
 
     /// The correction of a move in µm: what the program's own table says, else the settings.
     fn correction(&self, step: &Move) -> f64 {
         let stated = step.offset.and_then(|offset| self.definitions.get(&offset));
-        stated.map_or(self.limits.correction * 1e3, |&(value, inch)| (self.reading.length(value, inch) as f64 / 1e3).abs())
+        stated.map_or(self.limits.correction * 1e3, |&value| (value as f64 / 1e3).abs())
     }
 
     fn foreign_words(&mut self) {
@@ -417,6 +522,10 @@ impl<'a> Report<'a> {
         for &(line, number) in &order.missing {
             self.add(Rule::MachineDependent, self.text.line_range(line), IsoFault::NoSubprogram { number });
         }
+        for &(line, number) in &order.unreturned {
+            let range = self.words_of(line);
+            self.add(Rule::MissingReturn, range, IsoFault::NoReturn { number });
+        }
         if let Some(line) = order.endless {
             let range = self.text.line_range(line);
             self.push(Rule::MachineDependent, Severity::Warning, range, Detail::Iso(IsoFault::EndlessCalls));
@@ -425,6 +534,86 @@ impl<'a> Report<'a> {
             let what = NotJudged::Calls { lines: order.most_lines, calls: MOST_CALLS };
             self.push(Rule::NotJudged, Rule::NotJudged.default_severity(), self.text.line_range(line), Detail::NotJudged(what));
         }
+    }
+
+    fn words_of(&self, line: usize) -> Range<usize> {
+        let range = self.text.line_range(line);
+        let words = super::stretch::words_of(self.text.bytes().get(range.clone()).unwrap_or_default(), range.start);
+        words.0 as usize..words.1 as usize
+    }
+
+    /// Values for the table that hang on places which the program does not fill.
+    fn definitions(&mut self) {
+        let mut table = Table::default();
+        for placed in self.document.placed() {
+            for definition in &placed.stretch.definitions {
+                match value(&table, definition, self.reading) {
+                    Some(value) => _ = table.insert(definition.offset, value),
+                    None => {
+                        table.remove(&definition.offset);
+                        let range = at(placed.offset, definition.range);
+                        let word = self.shown(&range);
+                        self.add(Rule::MachineDependent, range, IsoFault::UnknownValue { word });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Numbers without a decimal point among numbers with one: each where they are few, else the first.
+    fn bare_numbers(&mut self) {
+        let evidence = self.document.evidence();
+        let usual = evidence.pointed();
+        let count = if usual == Some(false) { evidence.with_point } else { evidence.bare };
+        if evidence.with_point == 0 || count == 0 {
+            return;
+        }
+        let is_few = usual.is_some();
+        let odd = usize::from(usual == Some(false));
+        let places = self.document.placed().flat_map(|placed| {
+            let own = placed.stretch.lengths[odd].clone();
+            own.into_iter().map(move |range| at(placed.offset, range))
+        });
+        let places: Vec<Range<usize>> = places.take(if is_few { FEW_BARE as usize } else { 1 }).collect();
+        for range in places {
+            let word = self.shown(&range);
+            let fault = match usual {
+                Some(false) => IsoFault::Pointed { word },
+                Some(true) => IsoFault::Bare { word, count: 1 },
+                None => IsoFault::Bare { word, count: count as usize },
+            };
+            let severity = if is_few { Rule::MixedNumbers.default_severity() } else { Severity::Information };
+            self.push(Rule::MixedNumbers, severity, range, Detail::Iso(fault));
+        }
+    }
+
+    /// A program that does not say its unit, and whose size or numbers speak for inches.
+    fn unit(&mut self) {
+        let evidence = self.document.evidence();
+        if evidence.says_unit || evidence.with_point == 0 || self.limits.has_unit {
+            return;
+        }
+        let sizes = self.document.stretches().iter().flat_map(|stretch| &stretch.paths).map(|path| path.bounds);
+        let size = sizes.filter(|bounds| !bounds.is_empty()).map(|bounds| (bounds.max - bounds.min).amax() / 1e3).fold(0.0, f64::max);
+        // No wire is as thin as the corrections that the program fills in, or its numbers are as fine as those in inches are.
+        let has_thin_wire = self.definitions.values().any(|value| (1..THINNEST).contains(&value.abs()));
+        let has_fine_numbers = evidence.fine * 4 >= evidence.with_point;
+        let is_small = size < SMALLEST_PART || (has_fine_numbers && size < SMALL_PART);
+        if size > 0.0
+            && (is_small || (has_thin_wire && size < LARGE_PART))
+            && let Some(range) = self.first_length()
+        {
+            self.push(Rule::Units, Severity::Hint, range, Detail::Iso(IsoFault::LooksLikeInches { size }));
+        }
+    }
+
+    /// The first line with a length.
+    fn first_length(&self) -> Option<Range<usize>> {
+        let has_length = |line: &usize| {
+            let block = read_line(&self.text.bytes()[self.text.line_range(*line)], 1, |_| {});
+            [block.x, block.y].into_iter().flatten().any(|number| number.mantissa != 0)
+        };
+        (0..self.text.line_count()).find(has_length).map(|line| self.words_of(line))
     }
 
     /// The first I or J of the text.
@@ -445,11 +634,11 @@ impl<'a> Report<'a> {
 
     /// Sorted by place; a line that a subprogram runs several times is said once.
     fn finish(mut self) -> Vec<Finding> {
+        sort(&mut self.findings);
         let start = |finding: &Finding| match &finding.place {
             Place::Text { range } => (range.start, range.end),
             _ => (0, 0),
         };
-        self.findings.sort_by_key(|finding| (start(finding), finding.rule));
         if self.document.order().is_some() {
             let mut said = FxHashSet::default();
             self.findings.retain(|finding| said.insert((start(finding), finding.rule)));
@@ -494,6 +683,13 @@ fn word_sentence(text: &SourceText, fault: WordFault, range: &Range<usize>) -> S
         }
         WordFault::TooManyDigits { digits } => format!("column {column}: found a number of {digits} digits, expected at most 9"),
         WordFault::OpenComment => format!("column {column}: the comment is not closed, expected `)`"),
+        WordFault::LetterO => format!("column {column}: found the letter O in a number, expected a zero"),
+        WordFault::DecimalComma => format!("column {column}: found a comma in a number, expected a decimal point"),
+        WordFault::Lookalike => {
+            format!(
+                "column {column}: found `{shown}`, which only looks like what a control reads: expected letters, digits and spaces of ASCII"
+            )
+        }
         WordFault::NoWord => format!("column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment"),
     }
 }

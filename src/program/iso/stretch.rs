@@ -3,10 +3,13 @@
 //! A program is kept as stretches of lines so that an edit runs again only the stretch that it touched, and those behind it for which
 //! something else is in force. One that has only been moved is shifted, not run.
 
-use super::block::{Code, Note, Offset, Stop, read_line};
+use super::block::Motion;
+use super::block::{Block, Code, Note, Offset, Stop, read_line};
+use super::corner::{self, Turned, turned};
 use super::evidence::Evidence;
-use super::machine::{Bend, Course, Machine, Move, Place, Reading, added};
-use super::word::{Number, WordFault};
+use super::machine::{Bend, Course, Machine, Move, Place, Reading, Trail, added};
+use super::shape;
+use super::word::{Term, WordFault};
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::closing::{HeldWay, Node, closing};
@@ -34,6 +37,29 @@ pub enum Fault {
         on: bool,
         arc: bool,
     },
+    /// I or J beside a straight cut.
+    CenterOnLine,
+    WordTwice {
+        letter: u8,
+    },
+    /// Compensation goes on without a place of the control's table.
+    NoOffset,
+    /// The program ends with the compensation on.
+    StillOn,
+    /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
+    ReversedArc {
+        is_sure: bool,
+    },
+    /// So far out and back on the same way, µm.
+    Spur {
+        length: f64,
+    },
+    /// The line says what the one before said, which has led to where it leads; an arc goes round once more.
+    DoubledBlock {
+        arc: bool,
+    },
+    /// A corner's word that finds no corner, or no room.
+    NoCorner,
 }
 
 /// An arc that may be tighter than a correction.
@@ -91,6 +117,8 @@ pub struct Run {
     pub stop: Option<u32>,
     /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
     pub side: RunSide,
+    /// Where the wire was sent to the other side first, and the line that did so.
+    pub flip: Option<(Place, (u32, u32))>,
 }
 
 /// Stands for more than one stop.
@@ -122,6 +150,7 @@ impl Run {
             continues,
             stop: None,
             side,
+            flip: None,
         }
     }
 
@@ -141,6 +170,9 @@ impl Run {
         self.twice_area = self.twice_area.wrapping_add(self.term(&step, cap));
         if self.moves == 1 {
             self.first[1] = step;
+        }
+        if changes_side(&self.last[1], &step) {
+            self.flip.get_or_insert((step.from, range));
         }
         self.last = [self.last[1], step];
         self.moves += 1;
@@ -174,7 +206,15 @@ impl Run {
         for step in self.first.iter_mut().chain(&mut self.last) {
             *step = step.shifted(by);
         }
+        if let Some((at, _)) = &mut self.flip {
+            *at = added(*at, by);
+        }
     }
+}
+
+/// The second move has the wire on the other side than the first.
+pub fn changes_side(one: &Move, other: &Move) -> bool {
+    matches!((one.side, other.side), (Some(one), Some(other)) if one != other)
 }
 
 fn joined(a: RunSide, b: RunSide) -> RunSide {
@@ -276,6 +316,18 @@ pub struct Foreign {
     pub count: u32,
 }
 
+/// A value for the control's table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    pub offset: Offset,
+    pub terms: Vec<Term>,
+    pub inch: bool,
+    pub range: (u32, u32),
+}
+
+/// Of so many lengths of a stretch, with a point and without, their places are kept.
+const MOST_LENGTHS: usize = 4;
+
 /// Lines that have been run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
@@ -298,7 +350,13 @@ pub struct Stretch {
     pub is_calm: bool,
     pub is_quiet: bool,
     pub foreign: Vec<Foreign>,
-    pub definitions: Vec<(Offset, Number, bool)>,
+    pub definitions: Vec<Definition>,
+    /// The first lengths without a decimal point that are not 0, and the first with one.
+    pub lengths: [Vec<(u32, u32)>; 2],
+    /// How many lines behind its own say how its last ones run.
+    pub ahead: u32,
+    /// A word of it has the control make a corner.
+    pub has_corners: bool,
     /// N words with the byte at which they stand.
     pub numbers: Vec<(u32, u32)>,
     /// Each of them is larger than the one before.
@@ -327,10 +385,11 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// Runs `lines`, each with the byte at which it begins, counted from `start`.
-    pub fn run<'a>(lines: impl Iterator<Item = (usize, &'a [u8])>, start: usize, before: Machine, reading: Reading) -> Pathless {
+    /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; those behind say how the last of
+    /// them run.
+    pub fn run<'a>(lines: impl Lines<'a>, count: usize, start: usize, before: Machine, reading: Reading) -> Pathless {
         let mut ways: Vec<Ways> = Vec::new();
-        let stretch = Stretch::run_with(lines, start, before, reading, &mut |run, step, _| {
+        let stretch = Stretch::run_with(lines, count, start, before, reading, &mut |run, step, _| {
             if ways.len() <= run {
                 ways.resize_with(run + 1, Ways::default);
             }
@@ -341,7 +400,8 @@ impl Stretch {
 
     /// The same without paths; `each` hears of every move of a run.
     pub fn run_with<'a>(
-        lines: impl Iterator<Item = (usize, &'a [u8])>,
+        mut lines: impl Lines<'a>,
+        count: usize,
         start: usize,
         before: Machine,
         reading: Reading,
@@ -363,6 +423,9 @@ impl Stretch {
             is_quiet: false,
             foreign: Vec::new(),
             definitions: Vec::new(),
+            lengths: [Vec::new(), Vec::new()],
+            ahead: 0,
+            has_corners: false,
             numbers: Vec::new(),
             numbers_rise: true,
             blocks: 0,
@@ -377,9 +440,10 @@ impl Stretch {
             pauses: 0,
             fixed: false,
         };
-        for (offset, line) in lines {
+        for left in (0..count).rev() {
+            let Some((offset, line)) = lines.next() else { break };
             let known = stretch.faults.len();
-            stretch.line(line, offset - start, each);
+            stretch.line(line, offset - start, &Ahead { lines: &lines, left }, each);
             if stretch.faults.len() > known {
                 stretch.mark_fault();
             }
@@ -387,9 +451,9 @@ impl Stretch {
         stretch
     }
 
-    fn line(&mut self, line: &[u8], offset: usize, each: &mut Hears<'_>) {
+    fn line<'a>(&mut self, line: &[u8], offset: usize, ahead: &Ahead<'_, impl Lines<'a>>, each: &mut Hears<'_>) {
         self.lines += 1;
-        let Stretch { faults, foreign, definitions, after, .. } = &mut *self;
+        let Stretch { faults, foreign, definitions, lengths, after, .. } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
         let block = read_line(line, offset, |note| match note {
             Note::Fault { fault, range } => {
@@ -402,7 +466,18 @@ impl Stretch {
                 Some(word) => word.count += 1,
                 None => foreign.push(Foreign { code, range: pair(range), count: 1 }),
             },
-            Note::Definition { offset, value } => definitions.push((offset, value, inch)),
+            Note::Definition { offset, terms, range } => definitions.push(Definition { offset, terms, inch, range: pair(range) }),
+            Note::Length { pointed, range } => {
+                let kept = &mut lengths[usize::from(pointed)];
+                if kept.len() < MOST_LENGTHS {
+                    kept.push(pair(range));
+                }
+            }
+            Note::Twice { letter, range } => {
+                if faults.len() == known_faults {
+                    faults.push(LineFault { fault: Fault::WordTwice { letter }, range: narrow(range) });
+                }
+            }
         });
         if block.empty {
             return;
@@ -425,9 +500,28 @@ impl Stretch {
         self.evidence.numbers(&block);
         self.fixed |= block.sets_position;
         let torn = self.after.torn;
+        let cut_short = self.after.cut_short;
         let made = self.after.run(&block, &self.reading);
+        let is_free = self.faults.len() == known_faults;
+        if is_free && self.has_stray_center(&block) {
+            self.fault(Fault::CenterOnLine, range);
+        }
         match made {
-            Some(made) => self.made(made, range, torn, each),
+            Some(made) => {
+                if made.is_arc() && cut_short.is_none() {
+                    self.evidence.arc(&made, self.reading.tolerance);
+                }
+                self.moves += 1;
+                if is_free {
+                    self.said(&block, &made, range);
+                }
+                let Turned { made, corner, is_fixed, .. } = self.turned(made, range, ahead);
+                self.fixed |= is_fixed;
+                self.made(made, range, torn, ahead, each);
+                if let Some(corner) = corner {
+                    self.made(corner, range, torn, ahead, each);
+                }
+            }
             None if self.after.torn => self.interrupt(false),
             None => {}
         }
@@ -438,6 +532,45 @@ impl Stretch {
                 let known = self.runs.last_mut().map_or(&mut self.stop_before, |run| &mut run.stop);
                 *known = Some(known.map_or(range.0, |_| SEVERAL));
             }
+            if stop == Stop::End && self.after.side.is_some() && self.after.switches.is_none() {
+                self.fault(Fault::StillOn, range);
+            }
+        }
+    }
+
+    fn fault(&mut self, fault: Fault, range: (u32, u32)) {
+        self.faults.push(LineFault { fault, range: range.0..range.1 });
+    }
+
+    /// I or J in a line that makes no arc of them.
+    fn has_stray_center(&self, block: &Block) -> bool {
+        (block.i.is_some() || block.j.is_some())
+            && !matches!(self.after.motion, Motion::Clockwise | Motion::CounterClockwise)
+            && !block.takes_coordinates
+            && !block.sets_position
+            && !block.broken
+    }
+
+    /// Makes the corner at the end of a move.
+    fn turned<'a>(&mut self, made: Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) -> Turned {
+        if made.corner.is_none() {
+            return Turned { made, corner: None, looked_at: 0, is_fixed: false };
+        }
+        self.has_corners = true;
+        let turned = turned(made, &mut self.after, ahead.lines(), &self.reading);
+        self.ahead = self.ahead.max(ahead.beyond(turned.looked_at));
+        if turned.corner.is_none() {
+            self.fault(Fault::NoCorner, range);
+        }
+        turned
+    }
+
+    /// Whether a line says once more what the last one with a move said.
+    fn said(&mut self, block: &Block, made: &Move, range: (u32, u32)) {
+        let said = mark_of(block, made);
+        let is_again = std::mem::replace(&mut self.after.trail.said, said) == said;
+        if is_again && !made.incremental && made.is_cut() && made.from == made.to && made.switches.is_none() {
+            self.fault(Fault::DoubledBlock { arc: made.is_arc() }, range);
         }
     }
 
@@ -451,6 +584,7 @@ impl Stretch {
 
     /// What comes next is a cut of its own; `whole` is false where lines between cannot be read.
     fn interrupt(&mut self, whole: bool) {
+        self.after.trail = Trail::default();
         match self.runs.last_mut() {
             Some(run) if run.open => (run.open, run.whole) = (false, run.whole && whole),
             Some(_) => {}
@@ -458,9 +592,11 @@ impl Stretch {
         }
     }
 
-    fn made(&mut self, made: Move, range: (u32, u32), torn: bool, each: &mut Hears<'_>) {
-        self.moves += 1;
+    fn made<'a>(&mut self, made: Move, range: (u32, u32), torn: bool, ahead: &Ahead<'_, impl Lines<'a>>, each: &mut Hears<'_>) {
         self.fixed |= !made.incremental;
+        if made.switches == Some(true) && made.offset.is_none() {
+            self.fault(Fault::NoOffset, range);
+        }
         if let Some(on) = made.switches
             && (made.is_arc() || (on && !made.is_cut()))
         {
@@ -468,7 +604,6 @@ impl Stretch {
         }
         let mut cap = 0.0;
         if made.is_arc() {
-            self.evidence.arc(&made, self.reading.tolerance);
             // About its own start, so that it comes to the same to the last bit wherever it lies.
             match made.at_origin().course(&self.reading) {
                 Course::Arc(arc) => {
@@ -495,6 +630,8 @@ impl Stretch {
         if made.from == made.to && !made.is_arc() {
             return;
         }
+        self.examine(&made, range, ahead);
+        self.after.trail.push(&made);
         match self.runs.last_mut() {
             Some(run) if run.open => run.push(made, cap, range),
             last => {
@@ -503,6 +640,17 @@ impl Stretch {
             }
         }
         each(self.runs.len() - 1, &made, range);
+    }
+
+    /// Whether the way turns back on itself at the beginning of a move.
+    fn examine<'a>(&mut self, made: &Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) {
+        let Some(joint) = shape::joint(&self.after.trail, made, &self.reading) else { return };
+        let (next, looked_at) = corner::next_move(self.after, ahead.lines(), &self.reading);
+        self.ahead = self.ahead.max(ahead.beyond(looked_at));
+        self.fixed |= next.is_some_and(|next| !next.incremental);
+        if let Some(fault) = joint.fault(next.as_ref(), &self.reading) {
+            self.fault(fault, range);
+        }
     }
 
     /// True when these lines do the same wherever the wire stands before them.
@@ -555,6 +703,39 @@ impl Stretch {
         let of_run = self.tight[first..].iter().take_while(move |tight| tight.run as usize == run);
         of_run.map(|tight| Tight { arc: tight.arc.shifted(self.moved), ..*tight })
     }
+}
+
+/// Lines, each with the byte at which it begins, that can be gone through more than once.
+pub trait Lines<'a>: Iterator<Item = (usize, &'a [u8])> + Clone {}
+
+impl<'a, I: Iterator<Item = (usize, &'a [u8])> + Clone> Lines<'a> for I {}
+
+/// What stands behind a line.
+struct Ahead<'l, L> {
+    lines: &'l L,
+    /// How many lines of the stretch.
+    left: usize,
+}
+
+impl<'a, L: Lines<'a>> Ahead<'_, L> {
+    fn lines(&self) -> impl Iterator<Item = &'a [u8]> {
+        self.lines.clone().map(|(_, line)| line)
+    }
+
+    /// How many of the lines looked at stand behind the stretch.
+    fn beyond(&self, looked_at: usize) -> u32 {
+        looked_at.saturating_sub(self.left) as u32
+    }
+}
+
+/// Lines with a move that say the same have the same mark, whatever their number.
+fn mark_of(block: &Block, made: &Move) -> u64 {
+    let mix = |mark: u64, field: u64| (mark ^ field).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
+    let numbers = [block.x, block.y, block.i, block.j, block.r, block.corner.map(|corner| corner.size)];
+    numbers.into_iter().fold(1 + made.motion as u64, |mark, number| match number {
+        Some(number) => mix(mark, number.mantissa as u64 ^ u64::from(number.decimals) << 56),
+        None => mix(mark, 1 << 55),
+    })
 }
 
 /// From the first to the last byte of a line that is no space.

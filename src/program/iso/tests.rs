@@ -61,7 +61,8 @@ fn words_have_their_numbers_and_places() {
     assert_eq!(tokens("H1= 5 2 G40"), [definition(1, None, 10..18), word(b'G', 40, 0, false, 18..21)]);
     let fault = |fault, range| Token::Fault { fault, range };
     assert_eq!(tokens("X Y1"), [fault(WordFault::NoNumber { letter: b'X' }, 10..11), word(b'Y', 1, 0, false, 12..14)]);
-    assert_eq!(tokens("X1,5"), [fault(WordFault::NotANumber { letter: b'X' }, 10..14)]);
+    assert_eq!(tokens("X1,5"), [word(b'X', 15, 1, true, 10..14), fault(WordFault::DecimalComma, 12..13)]);
+    assert_eq!(tokens("X1.2.5"), [fault(WordFault::NotANumber { letter: b'X' }, 10..16)]);
     assert_eq!(tokens("X1234567890"), [fault(WordFault::TooManyDigits { digits: 10 }, 10..21)]);
     assert_eq!(tokens("(a(b)c) (open"), [Token::Comment { range: 10..17 }, fault(WordFault::OpenComment, 18..23)]);
     assert_eq!(tokens("X#101 STOP"), [Token::Foreign { range: 10..15 }, Token::Foreign { range: 16..20 }]);
@@ -132,7 +133,7 @@ fn each_fault_is_named_at_its_line() {
         &with("G61\nG60\nT84\nT85\nM50 G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000"),
         &[(3, "machine-dependent"), (5, "machine-dependent"), (7, "machine-dependent")],
     );
-    check(&with("G42 D1\nG03 X1000 I500 J0\nG01 Y1000\nG01 X-1000 Y-1000"), &[(4, "compensation-switch")]);
+    check(&with("G42 D1\nG03 X1000 I500 J0\nG01 Y1000\nG40\nG01 X-1000 Y-1000"), &[(4, "compensation-switch")]);
     check(&with("G42 D1\nG00 X1000\nG01 Y1000\nG01 X1000\nG01 X-1000 Y-1000\nG40\nG00 X-1000"), &[(4, "compensation-switch")]);
     // A whole turn fits whatever I and J mean.
     check(&with("G01 X1000\nG03 X0 Y0 I-1000 J0\nG01 X-1000"), &[(4, "ambiguous-center")]);
@@ -319,6 +320,143 @@ fn the_dialects_of_the_field_are_no_faults() {
         let found = faults(&text, &Effective::default());
         assert!(found.iter().all(|(_, rule)| *rule == "machine-dependent"), "{found:?}\n{text}");
     }
+}
+
+/// A plate of 40 by 20 with corners of R 2, cut from a hole in it: absolute, in mm.
+const PLATE: &str = "G92 X20.000 Y5.000\nG90\nG01 X20.000 Y0.000\nG01 X38.000 Y0.000\nG03 X40.000 Y2.000 I0.000 J2.000\nG01 X40.000 Y18.000\nG03 X38.000 Y20.000 I-2.000 J0.000\nG01 X2.000 Y20.000\nG03 X0.000 Y18.000 I0.000 J-2.000\nG01 X0.000 Y2.000\nG03 X2.000 Y0.000 I2.000 J0.000\nG01 X20.000 Y0.000\nG01 X20.000 Y5.000\nM02\n";
+
+/// What stands in the place of a line of the plate (from 1) makes such findings at lines, and the first fix of the first finding that has
+/// one makes the plate again.
+#[track_caller]
+fn slip(line: usize, with: &str, expected: &[(usize, &str)]) {
+    let lines: Vec<&str> = PLATE.lines().collect();
+    let mut faulty = lines.clone();
+    faulty[line - 1] = with;
+    let faulty = faulty.join("\n") + "\n";
+    let found = faults(&faulty, &Effective::default());
+    assert!(expected.iter().all(|one| found.contains(one)), "{with}: {found:?}");
+    let document = read(&faulty);
+    let mut findings = document.findings();
+    findings.sort_by_key(|finding| finding.severity);
+    let fix = findings.iter().find_map(|finding| document.fixes(finding).into_iter().next()).unwrap_or_else(|| panic!("no fix: {with}"));
+    let mut fixed = document.clone();
+    fix.edit.iter().rev().for_each(|edit| fixed.edit(edit.range.clone(), &edit.text));
+    assert_eq!(fixed.findings(), [], "{with}: {:?}", fix.kind);
+    assert_eq!(
+        fixed.trace().steps.iter().map(|step| step.ideal).collect::<Vec<_>>(),
+        read(PLATE).trace().steps.iter().map(|step| step.ideal).collect::<Vec<_>>(),
+        "{with}: {:?}",
+        fix.kind
+    );
+}
+
+#[test]
+fn one_slip_is_found_where_it_stands_and_turned_back() {
+    check(PLATE, &[]);
+    for (line, with, expected) in [
+        (4, "G01 X38.OOO Y0.000", &[(4, "syntax")][..]),
+        (4, "G01 X38,000 Y0.000", &[(4, "syntax")]),
+        (4, "Ｇ０１ Ｘ３８．０００ Ｙ０．０００", &[(4, "syntax")]),
+        (4, "G01\u{a0}X38.000\u{3000}Y0.000", &[(4, "syntax")]),
+        (4, "G01 Х38.000 Y0.000", &[(4, "syntax")]),
+        (5, "G01 X40.000 Y2.000 I0.000 J2.000", &[(5, "center-on-line")]),
+        (5, "G02 X40.000 Y2.000 I0.000 J2.000", &[(5, "reversed-arc")]),
+        (4, "G01 X38.000 X0.000", &[(4, "word-twice")]),
+        (5, "G03 X40.000 Y2.000 I0.000 J-2.000", &[(5, "arc-off-radius")]),
+        (5, "G03 X40.000 Y2000 I0.000 J2.000", &[(5, "mixed-numbers")]),
+        (6, "G01 X40.000 Y81.000", &[]),
+        (8, "G01 X2.000\nG01 X2.000 Y20.000", &[]),
+        (5, "G03 X40.000 Y2.000 I0.000 J2.000\nG03 X40.000 Y2.000 I0.000 J2.000", &[(6, "doubled-block")]),
+        (6, "G01 X40.000 Y18.000\nG01 X40.000 Y18.000", &[(7, "doubled-block")]),
+        (6, "G01 X40.000 Y9.000\nG01 X50.000 Y9.000\nG01 X40.000 Y9.000\nG01 X40.000 Y18.000", &[(8, "spur")]),
+    ] {
+        if with.contains("X2.000\nG01") || with.contains("Y9.000") {
+            // What goes leaves a node on a straight wall.
+            let faulty =
+                PLATE.lines().enumerate().map(|(at, own)| format!("{}\n", if at + 1 == line { with } else { own })).collect::<String>();
+            let found = faults(&faulty, &Effective::default());
+            assert!(expected.iter().all(|one| found.contains(one)), "{with}: {found:?}");
+            continue;
+        }
+        slip(line, with, expected);
+    }
+}
+
+#[test]
+fn compensation_and_subprograms_are_ended_and_complete() {
+    let hole = |on: &str, mid: &str, off: &str| {
+        format!("G92 X0 Y0\nG90\n{on}\nG01 X5000 Y0\nY5000\n{mid}X-5000\nY-5000\nX5000\nY0\n{off}X0\nM02\n")
+    };
+    check(&hole("G41 D1", "", "G40\n"), &[]);
+    check(&hole("G41", "", "G40\n"), &[(3, "missing-offset")]);
+    check(&hole("D3\nG41", "", "G40\n"), &[]);
+    check(&hole("G41 D1", "G42\n", "G40\n"), &[(6, "side-change")]);
+    check(&hole("G41 D1", "", ""), &[(11, "missing-cancel")]);
+    assert_eq!(fixed(&hole("G41 D1", "G42\n", "G40\n"), "side-change", "Let the wire"), hole("G41 D1", "G41\n", "G40\n"));
+    assert_eq!(fixed(&hole("G41 D1", "", ""), "missing-cancel", "Insert the block G40"), hole("G41 D1", "", "G40\n"));
+    let two = |on: &str| hole(on, "", "G40\n").replace("M02\n", "") + "M00\n" + &hole("G41 D1", "", "G40\n");
+    assert_eq!(fixed(&two("G41"), "missing-offset", "Write D1"), two("G41 D1"));
+    let sub = |end: &str| format!("G92 X0 Y0\nM98 P1\nM02\nO1\nG01 X1000\nY1000\nX0 Y0{end}\n");
+    check(&sub("\nM99"), &[]);
+    check(&sub(""), &[(7, "missing-return")]);
+    assert_eq!(fixed(&sub(""), "missing-return", "Insert the block M99"), sub("\nM99"));
+}
+
+#[test]
+fn corner_words_are_followed() {
+    let way = |text: &str| read(text).trace().steps.into_iter().filter_map(|step| step.ideal).collect::<Vec<_>>();
+    let square = |first: &str, second: &str| format!("G92 X0. Y0.\nG90\nG01 X10. Y0.{first}\nX10. Y10.{second}\nX0. Y10.\nX0. Y0.\nM02\n");
+    let rounded = |i: &str| format!("G92 X0. Y0.\nG90\nG01 X8. Y0.\nG03 X10. Y2. {i}\nG01 X10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n");
+    for (text, meant) in [
+        (square(" R2.", ""), rounded("I0. J2.")),
+        (square(" ,R2.", ""), rounded("I0. J2.")),
+        (square(",C2.", ""), "G92 X0. Y0.\nG90\nG01 X8. Y0.\nX10. Y2.\nX10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n".into()),
+        (
+            square(" R2.", " R3."),
+            "G92 X0. Y0.\nG90\nG01 X8. Y0.\nG03 X10. Y2. J2.\nG01 X10. Y7.\nG03 X7. Y10. I-3. J0.\nG01 X0. Y10.\nX0. Y0.\nM02\n".into(),
+        ),
+        ("G92 X0. Y0.\nG91\nG01 X10. R2.\n(a comment)\nY10.\nX-10.\nY-10.\nM02\n".into(), rounded("I0. J2.")),
+    ] {
+        assert_eq!(way(&text), way(&meant), "{text}");
+        assert_eq!(faults(&text, &Effective::default()), [], "{text}");
+    }
+    // Between an arc and a line both foot points lie on them, and the joints are tangent.
+    let text = "G92 X0. Y0.\nG90\nG03 X10. Y0. R8. ,R1.\nG01 X10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n";
+    let [first, corner, next, ..] = way(text)[..] else { panic!("{text}") };
+    assert!((corner.as_arc().unwrap().radius - 1000.0).abs() < 0.01, "{corner:?}");
+    for (one, other) in [(first, corner), (corner, next)] {
+        assert!((one.end_tangent() - other.start_tangent()).norm() < 1e-5 && (one.end() - other.start()).norm() < 1e-9, "{text}");
+    }
+    check("G92 X0. Y0.\nG90\nG01 X10. Y0. R20.\nX10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n", &[(3, "corner-word")]);
+    check("G92 X0. Y0.\nG90\nG01 X5. Y0. ,C2.\nX10. Y0.\nX10. Y10.\nX0. Y0.\nM02\n", &[(3, "corner-word")]);
+}
+
+#[test]
+fn tables_are_reckoned_and_units_are_what_is_said() {
+    let slot = |table: &str| {
+        format!(
+            "{table}G92 X0. Y0.\nG90\nG41 H1\nG01 X.09 Y0.\nY1.\nG03 X-.09 Y1. I-.09 J0.\nG01 Y-1.\nG03 X.09 Y-1. I.09\nG01 Y0.\nG40\nG01 X0.\nM02\n"
+        )
+    };
+    check(&slot("H175=.05\nH1 = .03 + H175\n"), &[]);
+    check(&slot("H175=.05\nH1 = .08 + H175 - .02\n"), &[(8, "small-radius"), (10, "small-radius")]);
+    check(&slot("H1 = .03 + H175\n"), &[(1, "machine-dependent"), (7, "small-radius"), (9, "small-radius")]);
+    let inch = Effective::of(&crate::settings::from_toml("[program]\nunits = \"inch\"\n").0);
+    let text = "G92 X0. Y0.\nG90\nG01 X1.5748 Y0.\nY.7874\nX0.\nY0.\nM02\n";
+    let end = |settings: &Effective| Document::read_with(text.into(), settings).trace().steps[0].end.x;
+    assert_eq!((end(&inch), end(&Effective::default())), (39_999.92, 1574.8));
+    assert_eq!(faults(text, &inch), []);
+    check(text, &[(3, "units")]);
+    check("G92 X0. Y0.\nG90\nG01 X1.5748 Y0. D1=.0065\nX0.\nM02\n", &[(3, "units")]);
+    // Sodick's planes, and what the upper end of the wire does.
+    let faults_of =
+        |text: &str| faults(text, &Effective::default()).into_iter().filter(|(_, rule)| *rule != "machine-dependent").collect::<Vec<_>>();
+    assert_eq!(
+        faults_of(
+            "TP0.0; TN20.0;\nG92 X0. Y0.\nG90\nG01 X20. Y0. : G01 X20. Y0.;\nG01 X20. Y20. : G01 X19. Y19.;\nG01 X0. Y0. : G01 X0. Y0.;\nM02\n"
+        ),
+        []
+    );
 }
 
 /// Lines that programs are made of, with some that are damaged.

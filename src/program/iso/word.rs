@@ -30,6 +30,10 @@ pub enum Token {
     Word { letter: u8, number: Number, range: Range<usize> },
     /// `H001=110`, a value for the control's table; what stands behind the sign may be a list.
     Definition { letter: u8, index: Number, value: Option<Number>, range: Range<usize> },
+    /// `H001=.0085+H175`: a value for the control's table that is reckoned from numbers and other places of it.
+    Sum { letter: u8, index: Number, terms: Vec<Term>, range: Range<usize> },
+    /// `,R2.` or `,C1.`: the corner at the end of the move is rounded, or chamfered.
+    Corner { round: bool, number: Number, range: Range<usize> },
     /// `STOP`, or a word with a variable or an expression in the place of its number: a matter of the machine.
     Foreign { range: Range<usize> },
     /// `( … )`, or `;` to the end of the line.
@@ -42,6 +46,23 @@ pub enum Token {
     Fault { fault: WordFault, range: Range<usize> },
 }
 
+/// A term of a sum, with its sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Term {
+    pub is_negative: bool,
+    pub value: Value,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    Number(Number),
+    /// What another place of the control's table holds.
+    Place {
+        letter: u8,
+        index: u32,
+    },
+}
+
 /// What is wrong with a place of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordFault {
@@ -49,10 +70,16 @@ pub enum WordFault {
     NoNumber {
         letter: u8,
     },
-    /// `X1,5` or `X1.2.3`.
+    /// `X1.2.3`.
     NotANumber {
         letter: u8,
     },
+    /// `X1O.5`: read as the zero that is meant.
+    LetterO,
+    /// `X1,5`: read as the point that is meant.
+    DecimalComma,
+    /// Full-width characters, or letters and spaces of other scripts: read as those that they look like.
+    Lookalike,
     TooManyDigits {
         digits: u32,
     },
@@ -62,14 +89,35 @@ pub enum WordFault {
     NoWord,
 }
 
+impl WordFault {
+    /// What it means is read all the same.
+    pub fn is_read(self) -> bool {
+        matches!(self, WordFault::OpenComment | WordFault::LetterO | WordFault::DecimalComma | WordFault::Lookalike)
+    }
+}
+
 /// Hands each token of a line, which is without its line end, to `each`. Ranges are counted from `offset`.
 pub fn words(line: &[u8], offset: usize, mut each: impl FnMut(Token)) {
-    let mut cursor = Cursor { line, at: 0, offset };
-    if offset == 0 && line.starts_with(b"\xef\xbb\xbf") {
+    if !line.is_ascii()
+        && let Some(plain) = Plain::of(line)
+    {
+        each(Token::Fault { fault: WordFault::Lookalike, range: offset + plain.first.start..offset + plain.first.end });
+        scan(&plain.bytes, 0, offset == 0, |token| each(plain.placed(token, offset)));
+        return;
+    }
+    scan(line, offset, offset == 0, each);
+}
+
+fn scan(line: &[u8], offset: usize, is_first: bool, mut each: impl FnMut(Token)) {
+    let mut cursor = Cursor { line, at: 0, offset, fault: None };
+    if is_first && line.starts_with(b"\xef\xbb\xbf") {
         cursor.at = 3;
     }
     while let Some(token) = cursor.token() {
         each(token);
+        if let Some(fault) = cursor.fault.take() {
+            each(fault);
+        }
     }
 }
 
@@ -77,6 +125,8 @@ struct Cursor<'a> {
     line: &'a [u8],
     at: usize,
     offset: usize,
+    /// Something is wrong in the token that was read all the same.
+    fault: Option<Token>,
 }
 
 impl Cursor<'_> {
@@ -122,8 +172,9 @@ impl Cursor<'_> {
             // A program's number as Fanuc's tapes have it.
             b':' => match self.number(b'O') {
                 Ok(Some(number)) => Token::Word { letter: b'O', number, range: self.range(start) },
-                _ => self.stray(start),
+                _ => self.other_plane(start),
             },
+            b',' => self.corner(start),
             b'*' if self.line[self.at..].iter().all(u8::is_ascii_whitespace) => {
                 self.at = self.line.len();
                 return None;
@@ -142,6 +193,36 @@ impl Cursor<'_> {
             self.at += 1;
         }
         Token::Fault { fault: WordFault::NoWord, range: self.range(start) }
+    }
+
+    /// `: G01 X… Y…`: what the wire's upper end does meanwhile.
+    fn other_plane(&mut self, start: usize) -> Token {
+        self.skip_space();
+        if !self.peek().is_some_and(|byte| byte.is_ascii_alphabetic()) {
+            self.at = start + 1;
+            return self.stray(start);
+        }
+        while self.peek().is_some_and(|byte| !matches!(byte, b'(' | b';' | b'%')) {
+            self.at += 1;
+        }
+        while self.at > start && matches!(self.line[self.at - 1], b' ' | b'\t') {
+            self.at -= 1;
+        }
+        Token::Foreign { range: self.range(start) }
+    }
+
+    /// `,R2.` behind its comma.
+    fn corner(&mut self, start: usize) -> Token {
+        self.skip_space();
+        if let Some(letter @ (b'R' | b'C')) = self.peek().map(|byte| byte.to_ascii_uppercase()) {
+            self.at += 1;
+            self.skip_space();
+            if let Ok(Some(number)) = self.number(letter) {
+                return Token::Corner { round: letter == b'R', number, range: self.range(start) };
+            }
+        }
+        self.at = start + 1;
+        self.stray(start)
     }
 
     fn skip_to_space(&mut self) {
@@ -199,6 +280,14 @@ impl Cursor<'_> {
             _ => self.at = start + 1,
         }
         let letters = self.line[start..].iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        // `TP0.0`: a name of two letters that no word of the path begins with.
+        if letters == 2 && matches!(letter, b'A' | b'B' | b'C' | b'E' | b'Q' | b'S' | b'T' | b'U' | b'V' | b'W' | b'Z') {
+            self.at = start + 2;
+            if matches!(self.number(letter), Ok(Some(_))) {
+                return Token::Foreign { range: self.range(start) };
+            }
+            self.at = start + 1;
+        }
         if letters >= 3 {
             self.at = start;
             while self.peek().is_some_and(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b',' | b'.' | b'-' | b'+' | b'=')) {
@@ -223,6 +312,9 @@ impl Cursor<'_> {
     fn definition(&mut self, letter: u8, index: Number, start: usize) -> Token {
         self.at += 1;
         self.skip_space();
+        if let Some(terms) = self.sum(letter) {
+            return Token::Sum { letter, index, terms, range: self.range(start) };
+        }
         let value = self.number(letter).ok().flatten();
         let end = self.at;
         let mut listed = false;
@@ -234,6 +326,60 @@ impl Cursor<'_> {
             self.at = end;
         }
         Token::Definition { letter, index, value: value.filter(|_| !listed), range: self.range(start) }
+    }
+
+    /// Numbers and places of the table with signs between them; `None` where one number stands alone, or something else.
+    fn sum(&mut self, letter: u8) -> Option<Vec<Term>> {
+        let begun = self.at;
+        let mut terms: Vec<Term> = Vec::new();
+        loop {
+            let is_negative = match self.peek() {
+                Some(sign @ (b'+' | b'-')) => {
+                    self.at += 1;
+                    self.skip_space();
+                    sign == b'-'
+                }
+                _ if terms.is_empty() => false,
+                _ => break,
+            };
+            let value = match self.peek().map(|byte| byte.to_ascii_uppercase()) {
+                Some(place @ (b'D' | b'H')) => {
+                    self.at += 1;
+                    let index = self.number(place).ok().flatten().and_then(Number::whole).and_then(|whole| u32::try_from(whole).ok());
+                    index.map(|index| Value::Place { letter: place, index })
+                }
+                Some(b'+' | b'-') => None,
+                _ => self.number(letter).ok().flatten().map(Value::Number),
+            };
+            let Some(value) = value else {
+                self.at = begun;
+                return None;
+            };
+            terms.push(Term { is_negative, value });
+            let end = self.at;
+            self.skip_space();
+            if !matches!(self.peek(), Some(b'+' | b'-')) {
+                self.at = end;
+                break;
+            }
+        }
+        let is_sum = terms.len() > 1 || terms.iter().any(|term| matches!(term.value, Value::Place { .. }));
+        if !is_sum {
+            self.at = begun;
+        }
+        is_sum.then_some(terms)
+    }
+
+    /// The letter O at `at` stands for a zero of the number of `letter`, of which so many digits have been read.
+    fn is_zero(&self, letter: u8, at: usize, digits: usize) -> bool {
+        let behind = self.line.get(at + 1).copied();
+        let is_number = |byte: Option<u8>| byte.is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'O' | b'o'));
+        // `N10O0001`: the number of a program behind that of a block.
+        if letter == b'N' && digits > 0 && self.line[at + 1..].iter().take_while(|byte| byte.is_ascii_digit()).count() >= 2 {
+            return false;
+        }
+        let is_word = matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'R' | b'G' | b'M' | b'N' | b'D' | b'H' | b'P' | b'L');
+        is_word && (digits > 0 || is_number(behind) || !behind.is_some_and(|byte| byte.is_ascii_alphabetic()))
     }
 
     /// The number at the cursor; `None` where there is none, and the cursor stays.
@@ -259,6 +405,25 @@ impl Cursor<'_> {
                 }
             } else if byte == b'.' && !point {
                 point = true;
+            } else if matches!(byte, b'O' | b'o') && self.is_zero(letter, at, at - digits_from) {
+                // From the first to the last of them.
+                let own = self.offset + at..self.offset + at + 1;
+                match &mut self.fault {
+                    Some(Token::Fault { fault: WordFault::LetterO, range }) => range.end = own.end,
+                    Some(_) => {}
+                    None => self.fault = Some(Token::Fault { fault: WordFault::LetterO, range: own }),
+                }
+                if point && decimals < MOST_DIGITS {
+                    mantissa *= 10;
+                    decimals += 1;
+                } else if !point {
+                    whole += u32::from(whole > 0);
+                    mantissa = if whole <= MOST_DIGITS { mantissa * 10 } else { mantissa };
+                }
+            } else if byte == b',' && !point && at > digits_from && self.line.get(at + 1).is_some_and(u8::is_ascii_digit) {
+                point = true;
+                let own = self.offset + at..self.offset + at + 1;
+                self.fault.get_or_insert(Token::Fault { fault: WordFault::DecimalComma, range: own });
             } else {
                 break;
             }
@@ -268,14 +433,153 @@ impl Cursor<'_> {
             return Ok(None);
         }
         self.at = at;
-        if matches!(self.peek(), Some(b'.' | b',')) {
+        if self.peek() == Some(b'.') || self.peek() == Some(b',') && !self.is_corner() {
             self.skip_to_space();
+            self.fault = None;
             return Err(WordFault::NotANumber { letter });
         }
         if whole > MOST_DIGITS {
+            self.fault = None;
             return Err(WordFault::TooManyDigits { digits: whole });
         }
         let mantissa = if sign == Some(b'-') { -mantissa } else { mantissa };
         Ok(Some(Number { mantissa, decimals: decimals as u8, point }))
     }
+
+    /// A corner's word stands behind the comma at the cursor.
+    fn is_corner(&self) -> bool {
+        let mut rest = self.line.get(self.at + 1..).unwrap_or_default().iter().skip_while(|byte| matches!(byte, b' ' | b'\t'));
+        matches!(rest.next(), Some(b'R' | b'r' | b'C' | b'c'))
+    }
+}
+
+/// A line in which characters stand as those that they look like, each with its place in the text.
+struct Plain {
+    bytes: Vec<u8>,
+    /// Of each byte, and of the end, where it stands in the line.
+    places: Vec<usize>,
+    /// The first characters that are others.
+    first: Range<usize>,
+}
+
+impl Plain {
+    /// `None` where no word of the line is written in other characters.
+    fn of(line: &[u8]) -> Option<Plain> {
+        let is_utf8 = std::str::from_utf8(line).is_ok();
+        let mut plain = Plain { bytes: Vec::with_capacity(line.len()), places: Vec::with_capacity(line.len() + 1), first: 0..0 };
+        let (mut at, mut depth, mut is_wide) = (0, 0_usize, false);
+        while at < line.len() {
+            let alike = lookalike(&line[at..], is_utf8).filter(|(_, byte)| depth == 0 || (is_wide && *byte == b')'));
+            let (length, byte) = alike.unwrap_or((1, line[at]));
+            if alike.is_some() {
+                if plain.first.is_empty() {
+                    plain.first = at..at + length;
+                } else if plain.first.end == at {
+                    plain.first.end = at + length;
+                }
+            }
+            match byte {
+                b'(' if depth == 0 => (depth, is_wide) = (1, alike.is_some()),
+                b'(' if !is_wide => depth += 1,
+                b')' => depth = depth.saturating_sub(1),
+                b';' if depth == 0 => depth = usize::MAX / 2,
+                _ => {}
+            }
+            plain.bytes.push(byte);
+            plain.places.push(at);
+            at += length;
+        }
+        plain.places.push(line.len());
+        (!plain.first.is_empty()).then_some(plain)
+    }
+
+    fn placed(&self, token: Token, offset: usize) -> Token {
+        let place = |range: Range<usize>| {
+            let at = |at: usize| self.places.get(at).copied().unwrap_or_default();
+            offset + at(range.start)..offset + at(range.end)
+        };
+        match token {
+            Token::Word { letter, number, range } => Token::Word { letter, number, range: place(range) },
+            Token::Definition { letter, index, value, range } => Token::Definition { letter, index, value, range: place(range) },
+            Token::Sum { letter, index, terms, range } => Token::Sum { letter, index, terms, range: place(range) },
+            Token::Corner { round, number, range } => Token::Corner { round, number, range: place(range) },
+            Token::Foreign { range } => Token::Foreign { range: place(range) },
+            Token::Comment { range } => Token::Comment { range: place(range) },
+            Token::Tape { range } => Token::Tape { range: place(range) },
+            Token::Skip { range } => Token::Skip { range: place(range) },
+            Token::Fault { fault, range } => Token::Fault { fault, range: place(range) },
+        }
+    }
+}
+
+/// A line with the characters of its words as those that they look like; `None` where none is another.
+pub fn plain(line: &[u8]) -> Option<Vec<u8>> {
+    Plain::of(line).map(|plain| plain.bytes)
+}
+
+/// Letters of other scripts that look like those of words.
+const LETTERS: [(char, u8); 34] = [
+    ('А', b'A'),
+    ('В', b'B'),
+    ('С', b'C'),
+    ('Е', b'E'),
+    ('Н', b'H'),
+    ('К', b'K'),
+    ('М', b'M'),
+    ('О', b'O'),
+    ('Р', b'P'),
+    ('Т', b'T'),
+    ('Х', b'X'),
+    ('У', b'Y'),
+    ('а', b'a'),
+    ('с', b'c'),
+    ('е', b'e'),
+    ('о', b'O'),
+    ('р', b'p'),
+    ('х', b'x'),
+    ('у', b'y'),
+    ('І', b'I'),
+    ('Ј', b'J'),
+    ('Χ', b'X'),
+    ('Υ', b'Y'),
+    ('Ι', b'I'),
+    ('Μ', b'M'),
+    ('Ν', b'N'),
+    ('Η', b'H'),
+    ('Ο', b'O'),
+    ('Τ', b'T'),
+    ('−', b'-'),
+    ('–', b'-'),
+    ('。', b'.'),
+    ('\u{3000}', b' '),
+    ('\u{a0}', b' '),
+];
+
+/// The character that the first one looks like, and how many bytes the first one has.
+fn lookalike(bytes: &[u8], is_utf8: bool) -> Option<(usize, u8)> {
+    if bytes.first()?.is_ascii() {
+        return None;
+    }
+    if !is_utf8 {
+        // GB 18030 and its forerunners.
+        return match *bytes {
+            [0xa3, low @ 0xa1..=0xfe, ..] => Some((2, low - 0x80)),
+            [0xa1, 0xa1, ..] => Some((2, b' ')),
+            _ => None,
+        };
+    }
+    let length = match bytes.first()? {
+        0xc0..=0xdf => 2,
+        0xe0..=0xef => 3,
+        _ => 4,
+    };
+    let character = std::str::from_utf8(bytes.get(..length)?).ok()?.chars().next()?;
+    let code = u32::from(character);
+    if (0xff01..=0xff5e).contains(&code) {
+        return Some((length, (code - 0xfee0) as u8));
+    }
+    if matches!(code, 0x2000..=0x200a | 0x202f) {
+        return Some((length, b' '));
+    }
+    LETTERS.iter().find(|(other, _)| *other == character).map(|&(_, byte)| (length, byte))
 }

@@ -81,6 +81,12 @@ fn of_three_b(program: &three_b::Document, line: &[u8], offset: usize) -> Vec<Pa
 fn of_iso(line: &[u8], offset: usize) -> Vec<Part> {
     let mut parts = Vec::new();
     iso_words(line, 0, |token| {
+        // Part of a word that is read all the same.
+        if let Token::Fault { range, .. } = &token
+            && parts.last().is_some_and(|last: &Part| offset + range.start < last.range.end)
+        {
+            return;
+        }
         let (kind, range) = match token {
             Token::Word { letter, range, .. } => (
                 match letter {
@@ -92,7 +98,8 @@ fn of_iso(line: &[u8], offset: usize) -> Vec<Part> {
                 },
                 range,
             ),
-            Token::Definition { range, .. } | Token::Foreign { range } => (WordKind::Setting, range),
+            Token::Corner { range, .. } => (WordKind::Length, range),
+            Token::Definition { range, .. } | Token::Sum { range, .. } | Token::Foreign { range } => (WordKind::Setting, range),
             Token::Comment { range } => (WordKind::Comment, range),
             Token::Tape { range } | Token::Skip { range } => (WordKind::Lead, range),
             Token::Fault { range, .. } => (WordKind::Strange, range),

@@ -27,7 +27,22 @@ pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
             let letter = letter as char;
             Some(format!("**{shown}** value for the control's table: where {letter} names this place, the correction is {length} mm"))
         }
-        Token::Definition { .. } | Token::Foreign { .. } => Some(format!("**{shown}** a matter of the machine: it is kept, not followed")),
+        Token::Sum { letter: letter @ (b'D' | b'H'), index, .. } => {
+            let index = index.whole().and_then(|whole| u32::try_from(whole).ok())?;
+            let holds = document.table_value(Offset { letter, index }).map_or_else(
+                || "what it comes to hangs on places that the program does not fill".to_owned(),
+                |value| format!("it comes to {} mm", mm(value)),
+            );
+            Some(format!("**{shown}** value for the control's table, reckoned from others of it: {holds}"))
+        }
+        Token::Corner { round, number, .. } => {
+            let length = mm(document.reading().length(number, before.inch));
+            let what = if round { "rounded with R" } else { "chamfered, from each of its walls" };
+            Some(format!("**{shown}** the corner at the end of this cut is {what} {length} mm"))
+        }
+        Token::Definition { .. } | Token::Sum { .. } | Token::Foreign { .. } => {
+            Some(format!("**{shown}** a matter of the machine: it is kept, not followed"))
+        }
         Token::Tape { .. } => Some("**%** where the program begins and ends on tape".into()),
         Token::Skip { .. } => Some("**/** the block is left out where the operator has switched that on: a matter of the machine".into()),
         Token::Comment { .. } | Token::Fault { .. } => None,
@@ -38,6 +53,8 @@ fn range_of(token: &Token) -> Range<usize> {
     match token {
         Token::Word { range, .. }
         | Token::Definition { range, .. }
+        | Token::Sum { range, .. }
+        | Token::Corner { range, .. }
         | Token::Foreign { range }
         | Token::Comment { range }
         | Token::Tape { range }

@@ -74,7 +74,7 @@ impl Rewrite {
             .map(|(index, row)| self.rows.get(&index).copied().unwrap_or_else(|| Target::of(&row.made, old)))
             .collect();
         let styles = [false, true].map(|inch| Style::of(document, inch));
-        let mut machine = Machine::default();
+        let mut machine = document.begin();
         let mut edits = Vec::new();
         let (mut row, mut word) = (0, 0);
         for line in 0..text.line_count() {
@@ -184,7 +184,7 @@ fn prove_program(sheet: &Sheet<'_>, text: &[u8], targets: &[Target]) -> Result<(
     if index != targets.len() {
         fault.get_or_insert_with(|| "a move would be lost".to_owned());
     }
-    let errors = |document: &Document| document.findings().iter().filter(|finding| finding.severity == Severity::Error).count();
+    let errors = |document: &Document| document.plain_findings().iter().filter(|finding| finding.severity == Severity::Error).count();
     if fault.is_none() && errors(&after) > errors(sheet.document) {
         fault = Some("the new program would have faults that this one has not".into());
     }

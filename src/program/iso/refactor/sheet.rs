@@ -90,8 +90,11 @@ fn content(document: &Document) -> Result<Content, String> {
     if document.order().is_some() {
         return Err("the program runs subprograms: a line of them is run in more than one place".into());
     }
+    if document.has_corners() {
+        return Err("the control makes corners of its own (R on a straight cut, `,R`, `,C`): its moves are not those of the lines".into());
+    }
     let text = document.text();
-    for finding in document.findings() {
+    for finding in document.plain_findings() {
         if let (Detail::Syntax(sentence), Severity::Error, Where::Text { range }) = (&finding.detail, finding.severity, &finding.place) {
             return Err(format!("line {}: {sentence}", text.line_of(range.start) + 1));
         }

@@ -257,10 +257,10 @@ proptest! {
         let back: Vec<Segment> = way(&reversed)[1..before.len() - 1].iter().rev().map(Segment::reversed).collect();
         prop_assert!(apart(own, &back) < 1e-6, "{reversed}");
         // Where a random way lies on itself, how often it crosses itself there hangs on where it is looked at from. Whether one arc alone
-        // fits another reading by chance as well hangs on where it begins.
+        // fits another reading by chance as well hangs on where it begins, and which slip is the likeliest on how it is written.
         let rules = |text: &str| {
             let names = read(text).findings().into_iter().map(|finding| finding.rule.name());
-            names.filter(|name| !matches!(*name, "path-crosses-itself" | "ambiguous-center")).collect::<Vec<_>>()
+            names.filter(|name| !matches!(*name, "path-crosses-itself" | "ambiguous-center" | "suspect-block")).collect::<Vec<_>>()
         };
         prop_assert_eq!(rules(&reversed), rules(&text));
         // Twice as large, and no further off than a step.

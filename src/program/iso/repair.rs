@@ -1,0 +1,219 @@
+//! The one slip that would make a cut in trouble sound: tried word by word and block by block, ranked by what it leaves.
+//!
+//! A cut in trouble is taken as the lines between two stops. A change of one block is run from there on until the machine stands again as
+//! it did, so that most cost a few lines; all is bounded by counted lines, so that what is found hangs on the text alone.
+
+mod change;
+mod scan;
+
+use super::document::Document;
+use super::machine::Machine;
+use crate::finding::{Detail, Finding, FixKind, IsoFault, Place, Rule, Severity};
+use crate::text::TextEdit;
+use change::{Change, Pool};
+use scan::{Line, Scan, Way};
+use std::ops::Range;
+
+/// Cuts of more lines are searched only near what is wrong.
+const MOST_LINES: usize = 160;
+
+/// Cuts of more lines are not searched.
+const LONGEST: usize = 4_000;
+
+/// Lines on either side of what is wrong that are searched in a long cut.
+const NEAR: usize = 2;
+
+/// Cuts of a program that are searched.
+const MOST_CUTS: usize = 3;
+
+/// One slip has no more consequences.
+const MOST_TROUBLES: usize = 6;
+
+/// Lines that are run for all of them.
+const MOST_RUNS: usize = 40_000;
+
+/// The best changes that are held against each other.
+const FINALISTS: usize = 16;
+
+/// Repairs that are offered.
+const OFFERED: usize = 4;
+
+/// By how much a change must be better than any other that leads elsewhere to be the one that is meant.
+const CLEAR: f64 = 1.0;
+
+/// A change that makes a cut sound, or sounder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repair {
+    pub kind: FixKind,
+    pub edits: Vec<TextEdit>,
+    /// The line that it changes first.
+    pub line: usize,
+    /// What is written, and what is meant.
+    pub found: String,
+    pub meant: String,
+    /// The cut does not close without it.
+    pub closes: bool,
+    /// Nothing is wrong any more, and no other change does as well.
+    pub is_sure: bool,
+    /// What is wrong speaks for it: a cut that only crosses itself may be meant to run elsewhere altogether.
+    pub explains: bool,
+}
+
+/// Repairs by the lines of the cuts that they belong to.
+pub type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
+
+/// Searches the cuts in which something is wrong.
+pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
+    if document.order().is_some() || document.has_corners() {
+        return Vec::new();
+    }
+    let text = document.text();
+    let mut found: Repairs = Vec::new();
+    let mut left = MOST_RUNS;
+    let places: Vec<usize> =
+        findings.iter().filter(|finding| is_trouble(finding)).filter_map(|finding| line_of(document, finding)).collect();
+    for &line in &places {
+        if found.iter().any(|(lines, _)| lines.contains(&line)) {
+            continue;
+        }
+        if found.len() == MOST_CUTS || left == 0 {
+            break;
+        }
+        let Some(lines) = cut_around(document, line) else { continue };
+        let Some(before) = document.machine_before(lines.start) else { continue };
+        let own: Vec<usize> = places.iter().copied().filter(|line| lines.contains(line)).collect();
+        // So much does not come of one slip.
+        if own.len() > MOST_TROUBLES {
+            found.push((lines, Vec::new()));
+            continue;
+        }
+        let mut search = Search::new(document, lines.clone(), before, left);
+        let repairs = search.best(&own);
+        left = search.left;
+        found.push((lines, repairs));
+    }
+    debug_assert!(found.iter().flat_map(|(_, repairs)| repairs).all(|repair| repair.line < text.line_count()));
+    found
+}
+
+/// What one slip may stand behind.
+pub fn is_trouble(finding: &Finding) -> bool {
+    match finding.rule {
+        Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => finding.severity <= Severity::Warning,
+        Rule::ArcOffRadius
+        | Rule::ArcWithoutRadius
+        | Rule::PathCrossesItself
+        | Rule::ReversedArc
+        | Rule::CenterOnLine
+        | Rule::WordTwice
+        | Rule::Spur => true,
+        Rule::DoubledBlock => !matches!(finding.detail, Detail::Iso(IsoFault::DoubledBlock { arc: false })),
+        _ => false,
+    }
+}
+
+pub fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
+    match &finding.place {
+        Place::Text { range } => Some(document.text().line_of(range.start)),
+        _ => None,
+    }
+}
+
+/// The lines between the stops around a line; `None` where there are too many.
+fn cut_around(document: &Document, line: usize) -> Option<Range<usize>> {
+    let is_stop = |line: usize| document.block(line).stop.is_some();
+    let first = (line.saturating_sub(LONGEST)..line).rev().find(|line| is_stop(*line)).map_or(0, |stop| stop + 1);
+    let end = (line..document.text().line_count().min(line + LONGEST))
+        .find(|line| is_stop(*line))
+        .map_or(document.text().line_count(), |stop| stop + 1);
+    (end - first <= LONGEST).then_some(first..end)
+}
+
+struct Search<'a> {
+    document: &'a Document,
+    lines: Range<usize>,
+    way: Way<'a>,
+    pool: Pool,
+    left: usize,
+}
+
+/// A change, what it leaves and what speaks against it.
+struct Tried {
+    change: Change,
+    hard: u32,
+    beside: u32,
+    cost: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(document: &'a Document, lines: Range<usize>, before: Machine, left: usize) -> Search<'a> {
+        let own: Vec<Line> = lines.clone().map(|line| Line::read(document.line_bytes(line), document)).collect();
+        let pool = Pool::of(document, &own);
+        let way = Way::new(document.reading(), own, before);
+        Search { document, lines, way, pool, left }
+    }
+
+    /// The best repairs; `places` are the lines at which something is said.
+    fn best(&mut self, places: &[usize]) -> Vec<Repair> {
+        let total = self.way.total();
+        let (hard, soft) = (total.hard, total.soft);
+        self.left = self.left.saturating_sub(self.lines.len());
+        let mut finalists: Vec<Tried> = Vec::new();
+        let is_long = self.lines.len() > MOST_LINES;
+        // Those near what is wrong come first.
+        let apart = |index: usize| places.iter().map(|place| place.abs_diff(self.lines.start + index)).min().unwrap_or(0);
+        let mut order: Vec<usize> = (0..self.lines.len()).filter(|index| !is_long || apart(*index) <= NEAR).collect();
+        order.sort_by_key(|index| apart(*index));
+        for index in order {
+            let changes = change::of_line(self.document, &self.way, &self.pool, &self.lines, index);
+            for change in changes {
+                if self.left == 0 {
+                    break;
+                }
+                let lines: Vec<Line> = change.lines.iter().map(|bytes| Line::read(bytes, self.document)).collect();
+                let (scan, runs) = self.way.with(index, change.replaced, &lines);
+                self.left = self.left.saturating_sub(runs + 1);
+                let cost = scan.soft + change.prior;
+                let is_better = scan.hard < hard || (scan.hard == hard && hard == 0 && cost + CLEAR < soft);
+                if is_better {
+                    keep(&mut finalists, Tried { change, hard: scan.hard, beside: scan.beside, cost });
+                }
+            }
+        }
+        self.ranked(finalists, total)
+    }
+
+    /// Those that lead somewhere of their own, best first.
+    fn ranked(&self, finalists: Vec<Tried>, total: Scan) -> Vec<Repair> {
+        let mut seen: Vec<u64> = Vec::new();
+        let mut different: Vec<Tried> = Vec::new();
+        for tried in finalists {
+            let lines: Vec<Line> = tried.change.lines.iter().map(|bytes| Line::read(bytes, self.document)).collect();
+            let mark = self.way.mark_with(tried.change.index, tried.change.replaced, &lines);
+            if !seen.contains(&mark) {
+                seen.push(mark);
+                different.push(tried);
+            }
+        }
+        let is_clear = match &different[..] {
+            [] => false,
+            [_] => true,
+            [first, second, ..] => first.hard < second.hard || first.cost + CLEAR <= second.cost,
+        };
+        let repair = |(rank, tried): (usize, Tried)| {
+            let is_sure = rank == 0 && tried.hard == 0 && tried.beside == 0 && is_clear && total.hard > 0;
+            let repair = tried.change.into_repair(self.document, self.lines.start)?;
+            Some(Repair { closes: total.open > 0, is_sure, explains: total.hard > 0, ..repair })
+        };
+        different.into_iter().take(OFFERED).enumerate().filter_map(repair).collect()
+    }
+}
+
+fn keep(finalists: &mut Vec<Tried>, tried: Tried) {
+    let is_before = |other: &Tried| (other.hard, other.cost) <= (tried.hard, tried.cost);
+    let at = finalists.partition_point(is_before);
+    if at < FINALISTS {
+        finalists.insert(at, tried);
+        finalists.truncate(FINALISTS);
+    }
+}

@@ -1,0 +1,379 @@
+//! What speaks against a way, move by move: faults, and what is merely odd.
+
+use crate::finding::Side;
+use crate::geometry::{Vector, cross};
+use crate::program::iso::block::{Block, Note, Stop, read_line};
+use crate::program::iso::document::Document;
+use crate::program::iso::machine::{Bend, Course, Machine, Move, Place, Reading, distance};
+use crate::program::iso::shape::directions;
+
+/// Ends within this, and what arcs add, have met, nm.
+const CLOSED: f64 = 2_000.0;
+
+/// A line of a cut.
+#[derive(Clone, Debug)]
+pub struct Line {
+    pub block: Block,
+    /// Faults of its words.
+    pub faults: u32,
+}
+
+impl Line {
+    pub fn read(bytes: &[u8], document: &Document) -> Line {
+        let mut faults = 0;
+        let block = read_line(bytes, 1, |note| match note {
+            Note::Fault { .. } | Note::Twice { .. } => faults += 1,
+            // Among numbers that are written otherwise.
+            Note::Length { pointed, .. } if document.pointed().is_some_and(|others| others != pointed) => faults += 1,
+            _ => {}
+        });
+        Line { block, faults }
+    }
+}
+
+/// The cut that is under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cut {
+    start: Place,
+    /// Where its first move ends.
+    entered: Place,
+    moves: u32,
+    arcs: u32,
+    last: Move,
+    /// Where the last move leads at its end.
+    heading: Option<Vector>,
+    /// All of it could be read.
+    whole: bool,
+}
+
+/// A way as far as it has been run.
+#[derive(Clone, Copy, Debug)]
+pub struct Scan {
+    pub machine: Machine,
+    pub hard: u32,
+    pub soft: f64,
+    /// Cuts that do not close.
+    pub open: u32,
+    /// Cuts that close, and do not come back to where the wire was threaded.
+    pub beside: u32,
+    cut: Option<Cut>,
+    torn: bool,
+    said: Option<Block>,
+}
+
+/// The last move of a cut that has ended, and what its closing costs.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    from: Place,
+    to: Place,
+    cost: Closing,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Closing {
+    hard: u32,
+    soft: f64,
+    open: u32,
+    beside: u32,
+}
+
+/// The lines of a cut with what has been found before each.
+pub struct Way<'a> {
+    pub reading: &'a Reading,
+    pub lines: Vec<Line>,
+    /// Before each line, and behind the last.
+    before: Vec<Scan>,
+    /// The end of the cut that is under way before each line.
+    ends: Vec<Option<End>>,
+    /// From this line on nothing hangs on where the wire stands.
+    loose_from: usize,
+}
+
+impl<'a> Way<'a> {
+    pub fn new(reading: &'a Reading, lines: Vec<Line>, machine: Machine) -> Way<'a> {
+        let mut scan = Scan { machine, hard: 0, soft: 0.0, open: 0, beside: 0, cut: None, torn: false, said: None };
+        let mut before = Vec::with_capacity(lines.len() + 1);
+        let mut ends: Vec<Option<End>> = vec![None; lines.len() + 1];
+        let mut loose_from = 0;
+        let mut begun = 0;
+        for (index, line) in lines.iter().enumerate() {
+            before.push(scan);
+            let cut = scan.cut;
+            let ended = scan.step(line, reading);
+            if let Some(end) = ended {
+                for slot in &mut ends[begun..=index] {
+                    *slot = Some(end);
+                }
+            }
+            if scan.cut.is_none() || (cut.is_none() && scan.cut.is_some()) {
+                begun = index + 1;
+            }
+            if (line.block.has_coordinates() && !scan.machine.incremental) || line.block.sets_position {
+                loose_from = index + 1;
+            }
+        }
+        if let Some(end) = scan.finish(reading) {
+            for slot in &mut ends[begun..] {
+                *slot = Some(end);
+            }
+        }
+        before.push(scan);
+        Way { reading, lines, before, ends, loose_from }
+    }
+
+    /// All that speaks against the way.
+    pub fn total(&self) -> Scan {
+        self.before[self.lines.len()]
+    }
+
+    pub fn machine_before(&self, index: usize) -> &Machine {
+        &self.before[index].machine
+    }
+
+    /// What speaks against the way with other lines in the place of `count` ones, and how many lines were run to know it.
+    pub fn with(&self, index: usize, count: usize, lines: &[Line]) -> (Scan, usize) {
+        let mut scan = self.before[index];
+        let mut runs = 0;
+        for line in lines {
+            scan.step(line, self.reading);
+            runs += 1;
+        }
+        for at in index + count..self.lines.len() {
+            if let Some(total) = self.rest(&scan, at) {
+                return (total, runs);
+            }
+            scan.step(&self.lines[at], self.reading);
+            runs += 1;
+        }
+        scan.finish(self.reading);
+        (scan, runs)
+    }
+
+    /// The whole of it, where from a line on everything is as it was, or only lies elsewhere.
+    fn rest(&self, scan: &Scan, at: usize) -> Option<Scan> {
+        let known = &self.before[at];
+        let by = [0, 1].map(|axis| scan.machine.at[axis].wrapping_sub(known.machine.at[axis]));
+        if by != [0, 0] && at < self.loose_from {
+            return None;
+        }
+        if (Machine { at: known.machine.at, ..scan.machine }) != known.machine || scan.torn != known.torn || scan.said != known.said {
+            return None;
+        }
+        let total = self.total();
+        let mut whole = Scan {
+            hard: scan.hard + (total.hard - known.hard),
+            soft: scan.soft + (total.soft - known.soft),
+            open: scan.open + (total.open - known.open),
+            beside: scan.beside + (total.beside - known.beside),
+            ..*scan
+        };
+        match (&scan.cut, &known.cut) {
+            (None, None) => {}
+            (Some(own), Some(its)) => {
+                let is_alike = own.last.seen_from(own.last.to) == its.last.seen_from(its.last.to) || own.heading == its.heading;
+                if !is_alike || own.whole != its.whole || own.moves < 2 || its.moves < 2 {
+                    return None;
+                }
+                let end = self.ends[at]?;
+                let moved = |place: Place| [0, 1].map(|axis| place[axis].wrapping_add(by[axis]));
+                let closing = closing(own, moved(end.from), moved(end.to), self.reading);
+                whole.hard = whole.hard + closing.hard - end.cost.hard;
+                whole.soft += closing.soft - end.cost.soft;
+                whole.open = whole.open + closing.open - end.cost.open;
+                whole.beside = whole.beside + closing.beside - end.cost.beside;
+            }
+            _ => return None,
+        }
+        Some(whole)
+    }
+
+    /// From where the cut of a line ends to where it would close: at its beginning, or at the end of its way in; none where it closes.
+    pub fn gaps(&self, index: usize) -> Vec<Place> {
+        let Some((end, cut)) = self.ends[index].zip(self.before[index].cut.or(self.before[index + 1].cut)) else { return Vec::new() };
+        if end.cost.open == 0 {
+            return Vec::new();
+        }
+        let gap = |begin: Place, end: Place| [0, 1].map(|axis| begin[axis].wrapping_sub(end[axis]));
+        vec![gap(cut.start, end.to), gap(cut.entered, end.to), gap(cut.entered, end.from)]
+    }
+
+    /// Ways that lead alike have the same mark.
+    pub fn mark_with(&self, index: usize, count: usize, lines: &[Line]) -> u64 {
+        let mix = |mark: u64, field: i64| (mark ^ field as u64).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
+        let mut machine = self.before[0].machine;
+        let all = self.lines[..index].iter().chain(lines).chain(&self.lines[(index + count).min(self.lines.len())..]);
+        let mut mark = 1;
+        for line in all {
+            if let Some(made) = machine.run(&line.block, self.reading) {
+                if made.from == made.to && !made.is_arc() {
+                    continue;
+                }
+                let side = made.side.map_or(0, |side| if side == Side::Left { 1 } else { 2 });
+                let bend = match made.bend {
+                    Bend::Center { .. } => made.center(self.reading.rule(made.incremental)).unwrap_or_default(),
+                    Bend::Radius(radius) => [radius, i64::MIN],
+                    Bend::Nothing => [0, i64::MAX],
+                };
+                let fields = [made.from[0], made.from[1], made.to[0], made.to[1], bend[0], bend[1], made.motion as i64, side];
+                mark = fields.into_iter().fold(mark, mix);
+            }
+        }
+        mark
+    }
+}
+
+impl Scan {
+    /// Runs a line; gives the end of the cut that ends with it.
+    fn step(&mut self, line: &Line, reading: &Reading) -> Option<End> {
+        self.hard += line.faults;
+        let block = &line.block;
+        let made = self.machine.run(block, reading);
+        let is_arc = matches!(
+            self.machine.motion,
+            crate::program::iso::block::Motion::Clockwise | crate::program::iso::block::Motion::CounterClockwise
+        );
+        if (block.i.is_some() || block.j.is_some()) && !is_arc && !block.takes_coordinates && !block.sets_position {
+            self.hard += 1;
+        }
+        let mut ended = None;
+        match made {
+            Some(made) if !made.is_cut() => ended = self.finish(reading),
+            Some(made) => self.cut(&made, block, reading),
+            None if self.machine.torn => {
+                if let Some(cut) = &mut self.cut {
+                    cut.whole = false;
+                }
+                self.torn = true;
+            }
+            None => {}
+        }
+        if block.stop.is_some() {
+            let end = self.finish(reading);
+            ended = ended.or(end);
+            if block.stop == Some(Stop::End) && self.machine.side.is_some() {
+                self.hard += 1;
+            }
+        }
+        ended
+    }
+
+    fn cut(&mut self, made: &Move, block: &Block, reading: &Reading) {
+        let is_again = self.said.replace(*block) == Some(*block);
+        if made.from == made.to && !made.is_arc() {
+            self.soft += 4.0;
+            return;
+        }
+        if is_again && !made.incremental {
+            self.hard += 1;
+        } else if is_again {
+            self.soft += 1.5;
+        }
+        let begins = self.cut.as_ref().map(|cut| (cut.last, cut.heading));
+        let mut heading = None;
+        let mut slack = 0.0175;
+        match made.course(reading) {
+            Course::Line => self.soft += slant(made),
+            Course::Arc(arc) => {
+                slack += 3.0 / arc.radius;
+                let miss = made
+                    .center(reading.rule(made.incremental))
+                    .map_or(0.0, |center| (distance(made.from, center) - distance(made.to, center)).abs());
+                self.soft += (miss / 1e3).min(3.0) * 0.6;
+            }
+            Course::OffRadius { .. } | Course::NoRadius => self.hard += 1,
+        }
+        if let Some((start, end)) = directions(made, reading) {
+            heading = Some(end);
+            if let Some((last, Some(before))) = begins {
+                self.joint(&last, before, made, start, slack, reading);
+            }
+        }
+        if made.motion == crate::program::iso::block::Motion::Rapid {
+            return;
+        }
+        match &mut self.cut {
+            Some(cut) => {
+                if let (Some(one), Some(other)) = (cut.last.side, made.side)
+                    && one != other
+                {
+                    self.hard += 1;
+                }
+                cut.moves += 1;
+                cut.arcs += u32::from(made.is_arc());
+                (cut.last, cut.heading) = (*made, heading);
+            }
+            None => {
+                let whole = !std::mem::take(&mut self.torn);
+                let (start, entered, arcs) = (made.from, made.to, u32::from(made.is_arc()));
+                self.cut = Some(Cut { start, entered, moves: 1, arcs, last: *made, heading, whole });
+            }
+        }
+    }
+
+    /// What speaks against how one move goes on from another.
+    fn joint(&mut self, last: &Move, before: Vector, made: &Move, start: Vector, slack: f64, reading: &Reading) {
+        let turned = cross(before, start).atan2(before.dot(&start)).abs();
+        let has_arc = made.is_arc() || last.is_arc();
+        if turned > 3.09 {
+            self.hard += 1;
+            return;
+        }
+        let slack = match last.center(reading.rule(last.incremental)) {
+            Some(center) if last.is_arc() => slack + 3_000.0 / distance(last.from, center).max(1.0),
+            _ => slack,
+        };
+        self.soft += match (has_arc, turned) {
+            (_, turned) if turned < slack => 0.0,
+            (true, turned) if turned < 0.35 => 5.0,
+            (true, _) => 3.0,
+            (false, turned) if turned < 0.05 => 3.0,
+            (false, _) => 0.0,
+        };
+    }
+
+    /// Ends the cut that is under way.
+    fn finish(&mut self, reading: &Reading) -> Option<End> {
+        let cut = self.cut.take();
+        self.torn = false;
+        self.said = None;
+        let cut = cut?;
+        let (from, to) = (cut.last.from, cut.last.to);
+        let cost = closing(&cut, from, to, reading);
+        self.hard += cost.hard;
+        self.soft += cost.soft;
+        self.open += cost.open;
+        self.beside += cost.beside;
+        Some(End { from, to, cost })
+    }
+}
+
+/// What speaks against how a cut closes that ends with a move.
+fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Closing {
+    if !cut.whole {
+        return Closing::default();
+    }
+    let pairs = [(cut.start, to), (cut.entered, to), (cut.start, from), (cut.entered, from)];
+    let taken = if cut.moves > 2 { 4 } else { 1 };
+    let missed = pairs.into_iter().take(taken).map(|(begin, end)| distance(begin, end)).fold(f64::INFINITY, f64::min);
+    let tolerance = (CLOSED + 1_000.0 * f64::from(cut.arcs).sqrt()).max(reading.tolerance as f64);
+    if missed > tolerance {
+        return Closing { hard: 1, soft: 0.0, open: 1, beside: 0 };
+    }
+    // A program is written so that it closes to the last digit, and comes back to where the wire was threaded.
+    let is_beside = distance(cut.start, to) > tolerance;
+    let soft = if missed > 0.0 { 2.0 } else { 0.0 } + if is_beside { 2.0 } else { 0.0 };
+    Closing { hard: 0, soft, open: 0, beside: u32::from(is_beside) }
+}
+
+/// A line that is almost along an axis is odder than one that is not.
+fn slant(made: &Move) -> f64 {
+    let [x, y] = [0, 1].map(|axis| (made.to[axis].wrapping_sub(made.from[axis]) as f64).abs());
+    let (long, short) = (x.max(y), x.min(y));
+    if short == 0.0 {
+        0.0
+    } else if short < long * 0.05 {
+        3.0
+    } else {
+        1.0
+    }
+}
