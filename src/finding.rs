@@ -767,6 +767,4 @@ pub enum FixKind {
     InsertLine {
         block: String,
     },
-    PlainLetters,
-    PointForComma,
 }

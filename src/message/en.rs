@@ -174,8 +174,6 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::Rewrite { found, meant } if found.is_empty() => format!("Write {meant}"),
         FixKind::Rewrite { found, meant } => format!("Write {meant} for {found}"),
         FixKind::InsertLine { block } => format!("Insert the block {block}"),
-        FixKind::PlainLetters => "Write the line with the characters that a control reads".into(),
-        FixKind::PointForComma => "Write a decimal point for the comma".into(),
         FixKind::SwapSide => "Let the wire run on the other side (swap G41 and G42)".into(),
         FixKind::OneArc { chords, radius } => format!("Replace the {chords} chords by one arc of R {} mm", mm(radius * unit_mm)),
     }

@@ -342,7 +342,7 @@ impl Document {
 
     /// The corrections that the program itself puts into the control's table: their names, and mm.
     pub(in crate::program) fn stated_corrections(&self) -> Vec<(String, f64)> {
-        let mut places: Vec<_> = self.table.iter().map(|(offset, &(value, inch))| (*offset, self.reading.length(value, inch))).collect();
+        let mut places: Vec<_> = self.table.iter().map(|(offset, &value)| (*offset, value)).collect();
         places.sort_by_key(|(offset, _)| (offset.letter, offset.index));
         places.into_iter().map(|(offset, nm)| (format!("{}{}", offset.letter as char, offset.index), nm as f64 / 1e6)).collect()
     }

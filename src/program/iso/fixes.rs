@@ -136,7 +136,7 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<Tex
             let zeros = rest.iter().map(|byte| if matches!(byte, b'O' | b'o') { '0' } else { char::from(*byte) });
             (FixKind::ZeroForO, TextEdit { range: range.clone(), text: ['0'].into_iter().chain(zeros).collect() })
         }
-        Some(b",") => (FixKind::PointForComma, TextEdit { range: range.clone(), text: ".".into() }),
+        Some(b",") => (FixKind::DecimalPoints, TextEdit { range: range.clone(), text: ".".into() }),
         _ => {
             let line = text.line_range(text.line_of(range.start));
             let plain = text.bytes().get(line.clone()).and_then(plain).and_then(|plain| String::from_utf8(plain).ok());
