@@ -17,6 +17,8 @@ mod contours;
 mod inject;
 #[path = "faults/judge.rs"]
 mod judge;
+#[path = "faults/known.rs"]
+mod known;
 
 use chance::Chance;
 use contours::{Group, program};

@@ -167,6 +167,10 @@ fn summarise(path: &Path, repair: &Repair) {
     if !repaired.is_empty() {
         let rounds = if repair.rounds > 1 { format!(" in {} rounds", repair.rounds) } else { String::new() };
         output::say(&format!("{name}: {}{rounds}", styled(output::GOOD, format!("{repaired} repaired"))));
+    } else if repair.is_changed() {
+        let count = |rows: &[Row]| rows.iter().filter(|row| row.severity <= Severity::Warning).count();
+        let gone = count(&repair.before).saturating_sub(count(&repair.after));
+        output::say(&format!("{name}: {}", styled(output::GOOD, format!("{} repaired", counted(gone, "finding")))));
     } else if is_sound {
         output::say(&format!("{name}: nothing to repair"));
     } else {

@@ -94,6 +94,16 @@ pub enum ProgramFault {
         /// Something beside the closing speaks for it.
         is_sure: bool,
     },
+    /// With `meant` in the place of `value` the contour closes.
+    NumberKeepsOpen {
+        axis: Axis,
+        value: i64,
+        meant: i64,
+    },
+    /// With X and Y exchanged the contour closes.
+    ExchangedKeepsOpen,
+    /// The block stands twice: without it the contour closes.
+    TwinKeepsOpen,
     ZeroBlock,
     ArcWithoutRadius,
     /// `field` holds more than `digits` digits.
@@ -162,7 +172,10 @@ impl ProgramFault {
             ProgramFault::ZeroBlock => Rule::ZeroBlock,
             ProgramFault::ArcWithoutRadius => Rule::ArcWithoutRadius,
             ProgramFault::TooManyDigits { .. } => Rule::TooManyDigits,
-            ProgramFault::NotClosed { .. } => Rule::NotClosed,
+            ProgramFault::NotClosed { .. }
+            | ProgramFault::NumberKeepsOpen { .. }
+            | ProgramFault::ExchangedKeepsOpen
+            | ProgramFault::TwinKeepsOpen => Rule::NotClosed,
             ProgramFault::MissingEnd { .. } => Rule::MissingEnd,
             ProgramFault::TextAfterEnd { .. } => Rule::TextAfterEnd,
             ProgramFault::DoubledNumber { .. } | ProgramFault::NumberOutOfOrder { .. } | ProgramFault::Unnumbered { .. } => {

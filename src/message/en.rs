@@ -239,6 +239,12 @@ fn program(fault: &ProgramFault) -> String {
             format!("{found} contradicts a line along {}: expected {one} or {other}", axis.letter())
         }
         ProgramFault::QuadrantKeepsOpen { found, meant, is_sure } => keeps_open(found, meant, *is_sure),
+        ProgramFault::NumberKeepsOpen { axis, value, meant } => {
+            let letter = axis.letter();
+            keeps_open(&format!("{letter} {value}"), &format!("{letter} {meant}"), true)
+        }
+        ProgramFault::ExchangedKeepsOpen => "X and Y stand for each other: exchanged, the contour closes".into(),
+        ProgramFault::TwinKeepsOpen => "the block stands twice: without it the contour closes".into(),
         ProgramFault::ZeroBlock => "the block moves nothing: its J is 0".into(),
         ProgramFault::ArcWithoutRadius => "the arc has no radius: X and Y are 0, its start is its centre".into(),
         ProgramFault::TooManyDigits { field, value, digits } => {

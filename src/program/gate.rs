@@ -14,8 +14,9 @@ use std::collections::BTreeMap;
 /// Texts up to this length are tried with each repair for itself; longer ones with all that are to be made at once.
 const TRIED: usize = 64 << 10;
 
-/// Repairs that are tried one by one where all of them together are refused.
+/// Repairs that are tried one by one where all of them together are refused; so many in a long text.
 const ONE_BY_ONE: usize = 32;
+const ONE_BY_ONE_OF_LONG: usize = 4;
 
 /// What a program comes to, as far as a repair must not make it worse.
 #[derive(Clone, Debug)]
@@ -137,7 +138,8 @@ type TextFix = Fix<Vec<TextEdit>>;
 /// The repairs of a finding, those that pass the gate before those that do not, which are neither preferred nor made without asking.
 pub(super) fn gated(program: &Document, finding: &Finding, mut fixes: Vec<TextFix>) -> Vec<TextFix> {
     if program.text().len() > TRIED || fixes.is_empty() {
-        fixes.iter_mut().filter(|fix| invents(&fix.kind)).for_each(refuse);
+        // By what the language found out of it.
+        fixes.iter_mut().filter(|fix| invents(&fix.kind) || !fix.in_fix_all).for_each(refuse);
         return fixes;
     }
     let before = Standing::of(program);
@@ -178,7 +180,8 @@ pub(super) fn together(program: &Document, fixes: Vec<(Rule, TextFix)>) -> Vec<T
         return all;
     }
     let mut kept = Taken::default();
-    for (rule, fix) in fixes.into_iter().take(ONE_BY_ONE) {
+    let most = if program.text().len() > TRIED { ONE_BY_ONE_OF_LONG } else { ONE_BY_ONE };
+    for (rule, fix) in fixes.into_iter().take(most) {
         let mut more = kept.clone();
         more.take(program, &fix.edit);
         let present = Standing::of(&edited(program, &kept.clone().edits()));

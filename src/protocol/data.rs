@@ -166,6 +166,10 @@ impl FindingData {
                 self.length = Some(mm(j));
                 self.required = Some(mm(required));
             }
+            ProgramFault::NumberKeepsOpen { value, meant, .. } => {
+                self.length = Some(mm(value));
+                self.required = Some(mm(meant));
+            }
             ProgramFault::SmallerProjection { counted, larger, .. } => {
                 self.length = Some(mm(counted));
                 self.required = Some(mm(larger));

@@ -9,7 +9,7 @@ use super::super::run::{BlockEntry, Entry, Move, Numbering, Part, What, may_cros
 use super::sections::joined;
 use super::way::SectionWay;
 use super::{At, Document, PartAt, Section, View};
-use crate::finding::{Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
+use crate::finding::{Axis, Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
 use crate::program::closing::{closing, gap, is_tab};
 use crate::program::passes::{passes, pieces_of as pieces_of_way};
 use std::borrow::Cow;
@@ -106,13 +106,17 @@ impl Document {
         let may_be_one_field = section.sum.errors == 0 && culprit::BLOCKS.contains(&section.sum.blocks) && !self.lacks_a_number(section);
         if !is_fragment && may_be_one_field {
             let blocks: Vec<&BlockEntry> = self.blocks_of(section).filter_map(|at| self.entry(at)?.block()).collect();
-            if let Some((nth, fault)) = culprit::culprit(&section.sum, &blocks)
+            let named = self.blamed(section, &view.starts).or_else(|| culprit::culprit(&section.sum, &blocks));
+            if let Some((nth, fault)) = named
                 && let Some(at) = self.blocks_of(section).nth(nth)
             {
-                let spot = match fault.rule() {
-                    Rule::WrongQuadrant => rules::Spot::Motion,
-                    Rule::WrongCountingAxis => rules::Spot::Axis,
-                    _ => rules::Spot::J,
+                let spot = match &fault {
+                    ProgramFault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
+                    ProgramFault::AxisKeepsOpen { .. } => rules::Spot::Axis,
+                    ProgramFault::JKeepsOpen { .. } => rules::Spot::J,
+                    ProgramFault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
+                    ProgramFault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
+                    _ => rules::Spot::Block,
                 };
                 let block = self.range_of(at, &view.starts);
                 let range = fields_of(self.text.bytes(), block.clone()).map_or(block.clone(), |fields| spot.range(&fields, block));

@@ -8,7 +8,7 @@ use super::super::repair::{BLOCKS, Change, Number, Path, Piece, Repair, Scope, S
 use super::super::rules::{TextFix, axis_of, motion_name};
 use super::super::run::{Entry, Move, What};
 use super::{At, Document, Section};
-use crate::finding::{Axis, Finding, Fix, FixKind, Place, Rule};
+use crate::finding::{Axis, Finding, Fix, FixKind, Place, ProgramFault, Rule};
 use crate::program::grid::Node;
 use crate::program::three_b::block::Block;
 use crate::settings::Layout;
@@ -35,7 +35,7 @@ impl Document {
         };
         let Some(at) = self.entry_at(range) else { return Vec::new() };
         let Some(section) = self.section_of(at) else { return Vec::new() };
-        let Some((places, pieces)) = self.pieces_of(&section) else { return Vec::new() };
+        let Some((places, pieces)) = self.pieces_of(&section, &self.view.starts) else { return Vec::new() };
         let start = places.first().and_then(|first| self.stated_before(*first));
         let number = places.first().and_then(|first| self.number_before(*first));
         let is_closed = self.closes(&self.view, &section) && section.sum.unread == 0;
@@ -47,6 +47,35 @@ impl Document {
             Some(Fix { kind, preferred: nth == 0, in_fix_all: repair.is_sure, edit })
         };
         found.iter().enumerate().filter_map(fix).collect()
+    }
+
+    /// The block that keeps a contour open, by its number in the section, where no other repair is as likely.
+    pub(super) fn blamed(&self, section: &Section, starts: &[(usize, usize)]) -> Option<(usize, ProgramFault)> {
+        let (places, pieces) = self.pieces_of(section, starts)?;
+        let start = places.first().and_then(|first| self.stated_before(*first));
+        let number = places.first().and_then(|first| self.number_before(*first));
+        let path = Path { pieces: &pieces, start, number, limits: &self.limits, is_jump: section.is_jump, is_closed: false };
+        let best = repairs(&path, Scope::Blocks).into_iter().next().filter(|repair| repair.is_sure && repair.is_whole)?;
+        match best.change {
+            Change::Delete { index } => Some((index, ProgramFault::TwinKeepsOpen)),
+            Change::Replace { index, block, slip } => {
+                let old = pieces.get(index)?.block?;
+                let fault = match slip {
+                    Slip::Motion => {
+                        let [found, meant] = [old.motion, block.motion].map(motion_name);
+                        ProgramFault::QuadrantKeepsOpen { found, meant, is_sure: true }
+                    }
+                    Slip::Axis => ProgramFault::AxisKeepsOpen { axis: axis_of(old.axis), is_sure: true },
+                    Slip::Exchanged => ProgramFault::ExchangedKeepsOpen,
+                    Slip::Number(Number::X, _) => ProgramFault::NumberKeepsOpen { axis: Axis::X, value: old.x, meant: block.x },
+                    Slip::Number(Number::Y, _) => ProgramFault::NumberKeepsOpen { axis: Axis::Y, value: old.y, meant: block.y },
+                    Slip::Number(Number::J, _) => ProgramFault::JKeepsOpen { j: old.j, meant: block.j, is_sure: true },
+                    Slip::Coordinates | Slip::Unread { .. } => return None,
+                };
+                Some((index, fault))
+            }
+            Change::Exchange { .. } | Change::Insert { .. } => None,
+        }
     }
 
     /// The last number before a block.
@@ -68,14 +97,14 @@ impl Document {
     }
 
     /// The blocks of a contour, those that cannot be read among them; `None` where there are too few or too many, or they are 4B.
-    pub(super) fn pieces_of(&self, section: &Section) -> Option<(Vec<At>, Vec<Piece>)> {
+    fn pieces_of(&self, section: &Section, starts: &[(usize, usize)]) -> Option<(Vec<At>, Vec<Piece>)> {
         if !BLOCKS.contains(&(section.sum.blocks + section.sum.unread)) {
             return None;
         }
         let (mut places, mut pieces) = (Vec::new(), Vec::new());
         for at in self.entries_of(section) {
             let entry = self.entry(at)?;
-            let own = self.range_of(at, &self.view.starts);
+            let own = self.range_of(at, starts);
             let piece = match &entry.what {
                 What::Block(block) => {
                     if block.part().is_some() {

@@ -175,7 +175,9 @@ impl Loose {
                 triples.push(([0, a, b], Some(Number::X), 2));
                 triples.push(([a, 0, b], Some(Number::Y), 2));
                 triples.push(([a, b, 0], Some(Number::J), 2));
-                for cut in 1..one.len() {
+                // Nobody writes a number with a zero in front of it but J.
+                let is_zero_led = |digits: &[u8]| digits.len() > 1 && digits[0] == b'0';
+                for cut in (1..one.len()).filter(|cut| !is_zero_led(&one[*cut..])) {
                     triples.push(([value(&one[..cut]), value(&one[cut..]), b], None, 1));
                 }
                 for cut in 1..other.len() {

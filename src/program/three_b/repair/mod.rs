@@ -23,7 +23,7 @@ use super::run::{Move, travel_of};
 use crate::geometry::{Point, Segment, Vector, turn};
 use crate::program::closing::{HeldWay, Node as WayNode, Writing, closing, tolerance};
 use crate::program::grid::Node;
-use slips::{Wanted, blocks_to, solved, straight, with};
+use slips::{Wanted, blocks_to, is_usual, solved, straight, with};
 
 /// Contours of more blocks cost too long to try.
 pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
@@ -40,6 +40,9 @@ const HANDED_OUT: usize = 4;
 
 /// What each µm asks for by which a repair leads beside where it should.
 const MISS: f64 = 0.2;
+
+/// What the other one of two quadrants asks for between which a start or a direction lies.
+const UNUSUAL: f64 = 0.3;
 
 /// How much more the second best repair has to ask for, for the best to be sure.
 const CLEARLY: f64 = 0.4;
@@ -112,6 +115,8 @@ impl Against {
 #[derive(Clone, Copy, Debug, Default)]
 struct Joints {
     smooth: i32,
+    /// Those of them at an arc.
+    round: i32,
     /// Where the wire runs back on the way that it came.
     doubled: i32,
     /// Sum of all turns, radians.
@@ -199,29 +204,25 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
         return made.collect();
     }
     let best = kept.first().map(|(left, cost, ..)| (*left, *cost));
-    let rival = kept.get(1).filter(|(left, ..)| Some(*left) == best.map(|best| best.0)).map(|(_, cost, ..)| *cost);
+    // A block that stands twice says more than one that could be lost.
+    let is_twin = kept.first().is_some_and(|(_, _, change, _)| matches!(change, Change::Delete { .. }));
+    let counts = |change: &Change| !is_twin || !matches!(change, Change::Insert { .. });
+    let rival = kept.iter().skip(1).find(|(_, _, change, _)| counts(change)).map(|(_, cost, ..)| *cost);
     let is_clear = best.is_some_and(|(_, cost)| rival.is_none_or(|rival| rival - cost >= CLEARLY));
     let made = kept.into_iter().enumerate().map(|(nth, (left, _, change, _))| Repair {
         change,
-        is_sure: nth == 0 && is_clear && !is_either && may_be_sure(&change, left),
+        is_sure: nth == 0 && is_clear && !is_either && search.may_be_sure(&change, left),
         is_whole: left == 0,
     });
     made.collect()
 }
 
-/// What a block asks for that is read with so many keys more or less: one that is written like a line is no arc.
+/// What a block asks for that is read with so many keys more or less: one that is written like a line is no arc, and a line is seldom
+/// a ratio.
 fn restored(block: &Block, keys: usize) -> f64 {
-    let is_like_a_line = block.j == block.x.max(block.y) && !matches!(block.motion, Motion::Line(_));
-    0.4 * keys as f64 + if is_like_a_line { 0.8 } else { 0.0 }
-}
-
-/// What lays a new way is never sure, and what goes by the coordinates alone only where nothing else is wrong.
-fn may_be_sure(change: &Change, left: usize) -> bool {
-    match change {
-        Change::Insert { .. } => false,
-        Change::Replace { slip: Slip::Coordinates, .. } => left == 0,
-        _ => true,
-    }
+    let is_like_a_line = block.j == block.x.max(block.y) || (block.x, block.y) == (0, 0);
+    let is_odd = is_like_a_line != matches!(block.motion, Motion::Line(_));
+    0.4 * keys as f64 + if is_odd { 0.8 } else { 0.0 } + if is_usual(block) { 0.0 } else { UNUSUAL }
 }
 
 /// The number that a repair changes.
@@ -383,7 +384,7 @@ impl<'a> Search<'a> {
             };
             let numbers = (self.items[index].number, self.items[index + 1].number);
             if own == next && (numbers.0 == numbers.1 || self.before.off > 0) {
-                found.push((Change::Delete { index: index + 1 }, 0.8));
+                found.push((Change::Delete { index: index + 1 }, 0.2));
             }
         }
         if scope == Scope::All {
@@ -436,6 +437,7 @@ impl<'a> Search<'a> {
                     }
                     _ => 1.0,
                 };
+                let cost = if slip == Slip::Motion && !is_usual(&changed) { cost + UNUSUAL } else { cost };
                 take(changed, slip, cost + MISS * wanted.miss(&changed));
             }
             if let Some(line) = straight(wanted).filter(|line| *is_stated && line != block) {
@@ -485,6 +487,19 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// What lays a new way is never sure, what goes by the coordinates alone only where nothing else is wrong, and an arc for what is
+    /// written like a line only where coordinates say so.
+    fn may_be_sure(&self, change: &Change, left: usize) -> bool {
+        match change {
+            Change::Insert { .. } => false,
+            Change::Replace { slip: Slip::Coordinates, .. } => left == 0,
+            Change::Replace { index, block, slip: Slip::Motion } if !matches!(block.motion, Motion::Line(_)) => {
+                self.items[*index].is_arc || block.j != block.x.max(block.y) || self.stated(*index).is_some()
+            }
+            _ => true,
+        }
+    }
+
     /// The arc that runs smoothly between its neighbours, and the line.
     fn insert(&self, index: usize, gap: [f64; 2], found: &mut Vec<(Change, f64)>) {
         let across = Vector::new(gap[0], gap[1]);
@@ -494,7 +509,9 @@ impl<'a> Search<'a> {
         let wanted = Wanted { by: gap, near: STATED };
         let before = index.checked_sub(1).and_then(|before| self.items[before].tangents()).map(|tangents| tangents[1]);
         let behind = self.items.get(index).and_then(|item| item.tangents()).map(|tangents| tangents[0]);
-        if let (Some(from), Some(to)) = (before, behind) {
+        // The way in meets the contour with a corner.
+        let is_at_lead = self.is_mirrored && (index <= 1 || index + 1 >= self.items.len());
+        if let (Some(from), Some(to), false) = (before, behind, is_at_lead) {
             let (into, out) = (turn(from, across), turn(across, to));
             let half = (into + out) / 2.0;
             if (into - out).abs() <= SMOOTH && half.abs() > SMOOTH && half.abs() < 2.9 {
@@ -504,7 +521,9 @@ impl<'a> Search<'a> {
                 let node = Node { x: gap[0].round() as i64, y: gap[1].round() as i64 };
                 let made = encode(&arc, Node { x: 0, y: 0 }, node, self.path.limits.largest(), &mut blocks);
                 if let (Some(()), [one]) = (made, &blocks[..]) {
-                    found.push((Change::Insert { index, block: one.block }, 1.5));
+                    // A half turn or more joins two sides of a slot, where all else runs smoothly, and is a corner's line elsewhere.
+                    let is_likely = half.abs() < 1.45 || 2 * self.joints.round > self.items.len() as i32 - 2;
+                    found.push((Change::Insert { index, block: one.block }, if is_likely { 2.2 } else { 5.0 }));
                 }
             }
         }
@@ -553,8 +572,13 @@ impl<'a> Search<'a> {
         let after = self.against(&items);
         let (left, was) = (after.count(), self.before.count());
         let joints = joints(&items);
-        let gain = joints.smooth - self.joints.smooth;
-        let doubled = joints.doubled - self.joints.doubled;
+        let was_joined = match change {
+            // The joint of two equal blocks goes with one of them.
+            Change::Delete { index } => self::joints(&self.items[index - 1..=index]),
+            _ => Joints::default(),
+        };
+        let gain = joints.smooth - self.joints.smooth + was_joined.smooth;
+        let doubled = joints.doubled - self.joints.doubled + was_joined.doubled;
         let is_better = match change {
             // Where nothing else is wrong it has to run on better.
             Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && doubled <= 0,
@@ -567,9 +591,9 @@ impl<'a> Search<'a> {
             return None;
         }
         let gain = f64::from(gain.clamp(-2, 2));
-        let turns = (joints.turns - self.joints.turns).clamp(-3.0, 3.0);
+        let turns = (joints.turns - self.joints.turns + was_joined.turns).clamp(-3.0, 3.0);
         let leads = if !self.is_mirrored && is_mirrored(&items) { 0.8 } else { 0.0 };
-        let weighed = if is_stated { cost } else { cost - leads - 0.6 * gain + 0.3 * turns + 1.5 * f64::from(doubled) };
+        let weighed = if is_stated { cost - 0.3 * gain } else { cost - leads - 0.6 * gain + 0.3 * turns + 1.5 * f64::from(doubled) };
         let by = items.get(at(&change)).map_or(Move::default(), |item| item.travel);
         Some((left, weighed, change, by))
     }
@@ -622,6 +646,7 @@ fn joints(items: &[Item]) -> Joints {
         let (Some([_, from]), Some([to, _])) = (pair[0].tangents(), pair[1].tangents()) else { continue };
         let angle = turn(from, to).abs();
         joints.smooth += i32::from(angle <= SMOOTH);
+        joints.round += i32::from(angle <= SMOOTH && (pair[0].is_arc || pair[1].is_arc));
         joints.doubled += i32::from(angle >= std::f64::consts::PI - SMOOTH);
         joints.turns += angle;
     }

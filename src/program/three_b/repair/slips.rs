@@ -72,6 +72,17 @@ pub(in super::super) fn is_sound(block: &Block, limits: &Limits) -> bool {
     !rules::look(block, None, limits).iter().any(is_fault)
 }
 
+/// True where the quadrant is the one that is written for a start or a direction on an axis.
+pub(super) fn is_usual(block: &Block) -> bool {
+    let (quadrant, is_clockwise) = match block.motion {
+        Motion::Line(quadrant) | Motion::CounterClockwise(quadrant) => (quadrant, false),
+        Motion::Clockwise(quadrant) => (quadrant, true),
+    };
+    let (sx, sy) = quadrant.signs();
+    let (x, y) = (block.x * sx as i64, block.y * sy as i64);
+    (x, y) == (0, 0) || quadrant == if is_clockwise { Quadrant::clockwise(x, y) } else { Quadrant::counter_clockwise(x, y) }
+}
+
 const QUADRANTS: [Quadrant; 4] = [Quadrant::First, Quadrant::Second, Quadrant::Third, Quadrant::Fourth];
 
 pub(super) fn motions() -> impl Iterator<Item = Motion> {

@@ -71,7 +71,8 @@ fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
     let [x, y] = travel_of(&site.block).meant_um();
     let at = [site.before.at[0] + x / 1000.0, site.before.at[1] + y / 1000.0];
     let bytes = site.text.get(site.coordinates.clone())?;
-    let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+');
+    // All of a number, `1e9` too.
+    let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');
     let mut edit = Vec::new();
     let mut from = 0;
     for value in at {
