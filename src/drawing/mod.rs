@@ -26,7 +26,7 @@ pub use entity::{Entity, Geometry, Role, Vertex};
 pub use handle::Handle;
 pub use index::{ContourIndex, RUN};
 pub use kind::Kind;
-pub use nesting::{nesting_depths, winding};
+pub use nesting::{nesting_depths, winding, winding_of};
 pub use orientation::{Orientation, orientation, orientation_by_extreme_point, orientation_by_turns};
 pub use outline::{Outline, wire_side};
 

@@ -29,12 +29,17 @@ pub fn nesting_depths(drawing: &Drawing, contours: &[(&Contour, &ContourIndex)])
 
 /// How often a closed contour goes round `point`, positive counter-clockwise; undefined on the contour itself.
 pub fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64 {
+    winding_of(contour.segments(drawing).map(|segment| segment.geometry), point)
+}
+
+/// The same of closed segments.
+pub fn winding_of(segments: impl Iterator<Item = Segment>, point: Point) -> i64 {
     let mut angle = 0.0;
     let mut caps = 0;
-    for segment in contour.segments(drawing) {
-        let (start, end) = (segment.geometry.start(), segment.geometry.end());
+    for segment in segments {
+        let (start, end) = (segment.start(), segment.end());
         angle += turn(start - point, end - point);
-        if let Segment::Arc(arc) = segment.geometry {
+        if let Segment::Arc(arc) = segment {
             // Between chord and arc the arc goes round the point and the chord does not.
             let beyond_chord = if start == end { true } else { cross(end - start, point - start) * arc.sweep < 0.0 };
             if beyond_chord && (point - arc.center).norm() < arc.radius {

@@ -315,6 +315,33 @@ fn a_slot_of_the_wire_alone_is_cut_out_and_back() {
     }
 }
 
+/// A crumb where two walls meet in a corner may turn the corner inside out: there is a path all the same.
+#[test]
+fn a_crumb_in_a_corner_leaves_a_path() {
+    for size in [2e-9, 2e-8, 2e-6] {
+        for step in 0..24 {
+            let way = direction(TAU * (f64::from(step) + 0.37) / 24.0) * size;
+            for bulge in [0.0, 0.7, -0.7] {
+                let outline = [[0.0, 0.0, 0.1], [10.0, 4.0, bulge], [10.0 + way.x, 4.0 + way.y, 0.1], [0.0, 8.0, 0.0]];
+                for role in [Role::Opening, Role::Punch] {
+                    let settings = unled(&outline, Direction::AsDrawn);
+                    let (drawing, outlines) = drawing(&[(&outline, Some(role))]);
+                    let plain = [outline[0], outline[2], outline[3]];
+                    let judge = super::tests::drawing(&[(&plain, Some(role))]);
+                    let expected = without_leads(&plan(&judge.0, &judge.1, &settings, None).expect("a path")[0]);
+                    let path = match plan(&drawing, &outlines, &settings, None) {
+                        Ok(paths) => without_leads(&paths[0]),
+                        Err(refusal) => panic!("{size} {step} {bulge} {role:?}: {refusal:?}"),
+                    };
+                    let furthest = samples(&path, 0.5).into_iter().map(|point| distance(&expected, point)).fold(0.0, f64::max);
+                    let missing = samples(&expected, 0.5).into_iter().map(|point| distance(&path, point)).fold(0.0, f64::max);
+                    assert!(furthest.max(missing) < 2e-4, "{size} {step} {bulge} {role:?}: {furthest} {missing}");
+                }
+            }
+        }
+    }
+}
+
 /// What stands against a path stands in the drawing as well; what only lets the wire stand is a warning there.
 #[test]
 fn what_has_no_path_is_found_before_one_is_asked_for() {

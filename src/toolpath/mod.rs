@@ -17,7 +17,7 @@ mod proof;
 #[cfg(test)]
 mod tests;
 
-use crate::drawing::{Drawing, EntityId, Outline};
+use crate::drawing::{Contour, Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side};
 use crate::geometry::{Point, Segment};
 use crate::settings::{Compensation, Corner, Effective};
@@ -79,6 +79,9 @@ pub enum Refusal {
     /// Nobody wants the path any more.
     Cancelled,
 }
+
+/// Walls up to this long, mm, are left out where there is no path otherwise.
+const CRUMB: f64 = 4e-6;
 
 /// How much nearer than the correction a path may come by rounding, mm.
 const ROUNDING: f64 = 1e-6;
@@ -167,9 +170,8 @@ pub fn entities_of(drawing: &Drawing, outlines: &[Outline], handles: Option<&[St
 pub fn misfit(drawing: &Drawing, outline: &Outline, settings: &Effective) -> Option<Finding> {
     let side = outline.wire_side()?.sign();
     let job = Job { drawing, outlines: &[], settings, unit_mm: settings.unit_of(drawing).mm, goes_on: &|| true };
-    let walls = walls(outline.contour.segments(drawing), true, job.units(settings.tolerances.zero_length));
-    let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
-    match job.laid(&walls, &own, side).ok()? {
+    let (walls, _, laid) = job.along(&outline.contour, side).ok()?;
+    match laid {
         Ok(Laid::Path(_)) => None,
         Ok(Laid::Point(_)) => {
             let finding = job.no_path(&Fault::Nothing, &walls);
@@ -259,9 +261,8 @@ impl Job<'_> {
         let correction = self.units(settings.correction);
         let (contour, turned) = directed(outline, settings.direction);
         let side = if turned { own_side.reversed() } else { own_side }.sign();
-        let walls = walls(contour.segments(self.drawing), true, self.units(settings.tolerances.zero_length));
-        let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
-        let path = match self.laid(&walls, &own, side)? {
+        let (walls, own, laid) = self.along(&contour, side)?;
+        let path = match laid {
             Ok(Laid::Path(path)) => path,
             Ok(Laid::Point(point)) => return self.threaded(index, wanted, &walls, correction, point),
             Err(fault) => return Err(Refusal::Findings(vec![self.no_path(&fault, &walls)])),
@@ -284,6 +285,25 @@ impl Job<'_> {
         Ok(self.with_leads(index, correction, thread, begin_at(path, element, begin), true))
     }
 
+    /// The walls of a closed contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
+    /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
+    fn along(&self, contour: &Contour, side: f64) -> Result<(Vec<Wall>, Walls, Result<Laid, Fault>), Refusal> {
+        let of = |shortest: f64| {
+            let walls = walls(contour.segments(self.drawing), true, self.units(shortest));
+            let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+            (walls, own)
+        };
+        let (walls, own) = of(self.settings.tolerances.zero_length);
+        let laid = self.laid(&walls, &own, side)?;
+        if laid.is_err() && walls.iter().any(|wall| wall.geometry.length() <= self.units(CRUMB)) {
+            let (walls, own) = of(CRUMB);
+            if let Ok(path) = self.laid(&walls, &own, side)? {
+                return Ok((walls, own, Ok(path)));
+            }
+        }
+        Ok((walls, own, laid))
+    }
+
     /// The path along a closed contour, proved; `walls` have the wire on the side of that sign.
     fn laid(&self, walls: &[Wall], own: &Walls, side: f64) -> Result<Result<Laid, Fault>, Refusal> {
         let correction = self.units(self.settings.correction);
@@ -291,7 +311,7 @@ impl Job<'_> {
         self.go_on()?;
         let raw = Raw::new(walls, &joining);
         let rounding = self.units(ROUNDING);
-        let proof = Proof { walls, raw: &raw, own, correction, rounding, near_raw: OnceLock::new() };
+        let proof = Proof { walls, raw: &raw, own, correction, side, rounding, near_raw: OnceLock::new() };
         let tipped = |path: Vec<(usize, Element)>| {
             let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
             Laid::Path(match self.settings.corner {
@@ -312,10 +332,15 @@ impl Job<'_> {
         let mut loops = match loops::find(&proof, self.goes_on) {
             Found::Loops(loops) => loops,
             Found::Point(point) => return Ok(Ok(Laid::Point(point))),
+            // Outside of a contour there is always room: one that is turned inside out somewhere is so where it is finest.
+            Found::Nothing if !proof.is_inside() => return Ok(Err(Fault::Unproved { wall: shortest(walls) })),
             Found::Nothing => return Ok(Err(Fault::Nothing)),
             Found::Torn(raw_element) => return Ok(Err(Fault::Unproved { wall: raw.elements[raw_element].wall })),
             Found::Cancelled => return Err(Refusal::Cancelled),
         };
+        if loops.len() > 1 {
+            loops.retain(|path| path.first().is_none_or(|(_, piece)| proof.is_on_wire_side(piece.geometry.point_at(0.5))));
+        }
         // The wire is threaded into the largest; outside a punch that is the one round it.
         let size = |path: &Vec<(usize, Element)>| path.iter().map(|(_, element)| element.geometry.length()).sum::<f64>();
         loops.sort_by(|a, b| size(b).total_cmp(&size(a)));
@@ -453,6 +478,12 @@ enum Fault {
     Several { near: Point, wall: usize },
     /// There is a path, but it does not hold its proof.
     Unproved { wall: usize },
+}
+
+/// The shortest of the walls.
+fn shortest(walls: &[Wall]) -> usize {
+    let length = |wall: &usize| walls[*wall].geometry.length();
+    (0..walls.len()).min_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or(0)
 }
 
 /// True for the path in a slot that is just as wide as the wire: it goes round nothing.

@@ -7,6 +7,7 @@
 use super::clearance::Walls;
 use super::corners::{Element, Raw, meetings};
 use super::offset::Wall;
+use crate::drawing::winding_of;
 use crate::geometry::{Point, Segment};
 use std::sync::OnceLock;
 
@@ -17,6 +18,8 @@ pub(super) struct Proof<'a> {
     /// The walls once more, to ask what is near.
     pub own: &'a Walls,
     pub correction: f64,
+    /// +1 where the wire runs to the left of the walls, −1 to the right.
+    pub side: f64,
     /// How far a path may be off by rounding.
     pub rounding: f64,
     /// The raw elements, to ask what is near.
@@ -30,6 +33,18 @@ pub(super) struct Unproved {
 }
 
 impl Proof<'_> {
+    /// True where the wire runs, beside the contour. Costs a look at every wall.
+    pub fn is_on_wire_side(&self, point: Point) -> bool {
+        (winding_of(self.walls.iter().map(|wall| wall.geometry), point) != 0) == self.is_inside()
+    }
+
+    /// True where the wire runs inside of the contour.
+    pub fn is_inside(&self) -> bool {
+        let origin = self.walls.first().map_or_else(Point::origin, |wall| wall.geometry.start());
+        let twice_area: f64 = self.walls.iter().map(|wall| wall.geometry.twice_area(origin)).sum();
+        twice_area * self.side > 0.0
+    }
+
     /// Some pieces of a path: nowhere nearer to a wall than the correction, and at it from their own.
     pub fn pieces_hold(&self, pieces: &[(usize, Element)]) -> Result<(), Unproved> {
         for (_, element) in pieces {
@@ -100,6 +115,8 @@ impl Proof<'_> {
             (pair[1] - pair[0]) * stretch.length() > 2.0 * self.rounding
                 && self.own.nearer(middle, self.correction - 1e-3 * self.rounding).is_none()
                 && !is_there(middle)
+                // A crumb in the contour may turn a corner inside out.
+                && self.is_on_wire_side(middle)
         })
     }
 
