@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use wedm::server::testing::{check_answers, sequence, served};
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { max_shrink_iters: 500, ..ProptestConfig::default() })]
     #[test]
     fn every_request_of_any_session_is_answered_once(script in prop::collection::vec(any::<u8>(), 0..400)) {
         let sequence = sequence(&script);
