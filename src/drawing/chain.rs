@@ -3,24 +3,24 @@
 //! Closed entities are contours of their own. The others are joined end to end within the join tolerance, across kinds
 //! and layers. A *group* is what hangs together through ends that lie near each other: groups are chained independently of each
 //! other, so an edit chains again only the groups that it touches, and the result is that of a fresh start.
+//!
+//! Which entities form a contour does not depend on their order in the drawing. Where nothing else is near, ends are joined as they
+//! meet; the other places are for `knots`. Of entities in one place one is chained, see `doubles`. The order says where a contour
+//! begins and which way it runs: with its first entity, in that one's direction.
 
-use super::ends::{Buckets, Cell, Cells, End, Ends, NO_ENDS, Numbered, Visit, has_ends};
+use super::ends::{Buckets, Cell, Cells, End, Ends, NO_ENDS, has_ends};
+use super::joints::Joints;
+use super::knots::{Strand, resolve};
 use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::ops::Range;
 
 /// Up to so many entities are put in order without a look at all others.
 const FEW: usize = 16;
 /// The ends of fewer than one in so many entities are moved one by one; of more, all are sorted into cells again.
 const BULK: usize = 8;
-
-/// Of more ends than these in one cell of the plane the nearest is not sought: the first one within the join tolerance, in machining
-/// order, goes on. A drawing to be cut has a few.
-const CROWD: usize = 1000;
-
-/// Of the ends that are left in such a cell no more than these are looked at.
-const LOOKS: usize = 64;
 
 /// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
 pub type Key = u32;
@@ -53,6 +53,8 @@ struct Chain {
     contour: Contour,
     /// The first of its entities in machining order.
     first: EntityId,
+    /// It stands as long as the ends of its entities do, whatever lies between them.
+    by_ends: bool,
 }
 
 /// Contours that went away and came when a drawing was edited.
@@ -132,13 +134,15 @@ impl Chains {
     }
 
     /// True when an entity's free ends have not moved, so that the contours stand as they are. Never for an entity whose own
-    /// ends touch: whether it comes back to itself depends on what lies between them.
+    /// ends touch, or that others meet: what lies between its ends counts there.
     pub fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
         let known = self.ends_of(entity);
         let now = if is_cut { free_ends(drawing, entity) } else { None };
-        let chained = self.contour_of(entity).is_some();
         let touching = now.is_some_and(|(start, end)| (end - start).norm() <= self.cells.join);
-        known == now && !touching && chained == (is_cut && drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() > 0))
+        let contour = self.contour_of(entity);
+        let by_ends = contour.and_then(|key| self.contours.get(&key)).is_none_or(|chain| chain.by_ends);
+        let is_chained = is_cut && drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() > 0);
+        known == now && !touching && by_ends && contour.is_some() == is_chained
     }
 
     /// The number of segments of an entity has changed: its contour counts them anew.
@@ -231,32 +235,53 @@ impl Chains {
 
     /// Groups and chains `entities`, which come in machining order and hold whole groups. Returns the new contours.
     fn chain(&mut self, drawing: &Drawing, entities: &[EntityId]) -> Vec<Key> {
-        let mut new = Vec::new();
-        let mut loose = Loose::new(self.cells, entities, &self.ends_of);
-        let mut neighbours = Vec::new();
-        for (first, &id) in (0..).zip(entities) {
-            let Some(geometry) = drawing.get(id).map(|entity| &entity.geometry) else { continue };
-            if loose.is_taken(first) || geometry.segment_count() == 0 {
-                continue;
-            }
-            self.next_key += 1;
-            let key = self.next_key;
-            let closed = match has_ends(&loose.ends_of(first)) {
-                true => loose.walk(drawing, first, key),
-                false => loose.take_alone(first, key),
-            };
-            let pieces = loose.way.iter().map(|&(at, reversed)| (entities[at as usize], reversed));
-            let contour = Contour::new(drawing, pieces, closed);
+        let joints = Joints::new(drawing, self.cells, entities, &self.ends_of);
+        let linked = Linked::new(drawing, entities, &self.ends_of, &joints);
+        let mut new = Vec::with_capacity(linked.ways.len());
+        for way in &linked.ways {
+            let key = self.fresh_key();
+            let pieces = linked.pieces[way.range.clone()].iter().map(|&(at, reversed)| (entities[at as usize], reversed));
+            let contour = Contour::new(drawing, pieces, way.closed);
             for (place, piece) in (0..).zip(&contour.pieces) {
                 self.contour_of[piece.entity.0 as usize] = key;
                 self.piece_of[piece.entity.0 as usize] = place;
             }
-            neighbours.extend(loose.touching.drain(..).map(|other| (key, other)));
-            self.contours.insert(key, Chain { contour, first: id });
+            self.contours.insert(key, Chain { contour, first: entities[way.first as usize], by_ends: way.by_ends });
             new.push(key);
         }
-        neighbours.into_iter().for_each(|(one, other)| self.unite(one, other));
+        for (one, other) in self.neighbours(entities, &joints) {
+            self.unite(one, other);
+        }
         new
+    }
+
+    /// Contours with an end in one cell, or in cells beside each other near the border.
+    fn neighbours(&self, entities: &[EntityId], joints: &Joints) -> Vec<(Key, Key)> {
+        let mut neighbours = Vec::new();
+        let at = |end: End| {
+            let id = entities[end.entity() as usize];
+            (end.of(self.ends_of[id.0 as usize]), self.contour_of[id.0 as usize])
+        };
+        let mut cells: Vec<(Cell, Key)> = Vec::new();
+        for list in joints.lists() {
+            cells.clear();
+            for end in list {
+                let (place, key) = at(end);
+                let mut about = self.cells.about(place);
+                let Some(own) = about.next() else { continue };
+                match cells.iter_mut().find(|(cell, _)| *cell == own) {
+                    Some((_, last)) if *last == key => {}
+                    Some((_, last)) => neighbours.push((std::mem::replace(last, key), key)),
+                    None => cells.push((own, key)),
+                }
+                for beside in about {
+                    // All others there are of its group.
+                    let other = joints.of_cell(beside).map(at).find(|(place, _)| self.cells.of(*place) == beside);
+                    neighbours.extend(other.filter(|(_, other)| *other != key).map(|(_, other)| (other, key)));
+                }
+            }
+        }
+        neighbours
     }
 
     /// Makes one group of those of two contours: the larger takes in the smaller.
@@ -280,198 +305,112 @@ impl Chains {
     }
 }
 
-/// Entities that are still to be chained, numbered in machining order, with their ends by cell.
-struct Loose<'a> {
-    cells: Cells,
-    entities: &'a [EntityId],
-    ends_of: &'a [Ends],
-    /// Each list in machining order, and of one entity the start first; before them what was taken last in each cell.
-    ends: Numbered,
-    /// Cells with more ends than [`CROWD`], and the contour that was there last.
-    crowded: FxHashMap<Cell, Key>,
-    /// By number: the contour that took the entity, or [`NO_KEY`].
-    taken_by: Vec<Key>,
-    /// The chain at hand, in order of travel: entities, and whether they are travelled against their own direction.
-    way: Vec<(u32, bool)>,
-    /// Contours that the chain at hand has an end near.
-    touching: Vec<Key>,
+/// A contour among the pieces of all.
+struct Way {
+    range: Range<usize>,
+    closed: bool,
+    /// The first of its entities in machining order, by number.
+    first: u32,
+    by_ends: bool,
 }
 
-impl<'a> Loose<'a> {
-    fn new(cells: Cells, entities: &'a [EntityId], ends_of: &'a [Ends]) -> Loose<'a> {
-        let count = entities.len();
-        let ends = Numbered::new(count);
-        let mut loose = Loose {
-            cells,
-            entities,
-            ends_of,
-            ends,
-            crowded: FxHashMap::default(),
-            taken_by: vec![NO_KEY; count],
-            way: Vec::new(),
-            touching: Vec::new(),
-        };
-        for at in (0..count as u32).rev() {
-            let ends = loose.ends_of(at);
-            if has_ends(&ends) {
-                End::both(at).into_iter().rev().for_each(|end| loose.ends.insert(cells.of(end.of(ends)), end));
+/// What is joined to what: entities by number, in order of travel, and whether each is travelled against its own direction.
+#[derive(Default)]
+struct Linked {
+    pieces: Vec<(u32, bool)>,
+    ways: Vec<Way>,
+}
+
+impl Linked {
+    fn new(drawing: &Drawing, entities: &[EntityId], ends_of: &[Ends], joints: &Joints) -> Linked {
+        let mut linked = Linked { pieces: Vec::with_capacity(entities.len()), ways: Vec::new() };
+        let mut is_taken = vec![false; entities.len()];
+        let mut is_special = vec![false; if joints.doubles.kept.is_empty() { 0 } else { entities.len() }];
+        joints.doubles.kept.iter().chain(&joints.doubles.aside).for_each(|&double| is_special[double as usize] = true);
+        let (mut strands, mut ranges) = (Vec::new(), Vec::new());
+        for (first, &id) in (0..).zip(entities) {
+            let has_segments = || drawing.get(id).is_some_and(|entity| entity.geometry.segment_count() > 0);
+            if is_taken[first as usize] || !has_segments() {
+                continue;
             }
+            let begin = linked.pieces.len();
+            let is_ring = !ends_of.get(id.0 as usize).is_some_and(has_ends);
+            let closed = linked.run(joints, first, &mut is_taken) || is_ring;
+            let range = begin..linked.pieces.len();
+            let pieces = &linked.pieces[range.clone()];
+            let (Some(&(head, head_reversed)), Some(&(last, last_reversed))) = (pieces.first(), pieces.last()) else { continue };
+            let [start, end] = [End::both(head)[usize::from(head_reversed)], End::both(last)[usize::from(!last_reversed)]];
+            if closed || joints.is_lone(start) && joints.is_lone(end) {
+                // Two that close a loop may come to lie on each other.
+                let by_ends =
+                    !(closed && pieces.len() == 2 || !is_special.is_empty() && pieces.iter().any(|(at, _)| is_special[*at as usize]));
+                linked.ways.push(Way { range, closed, first, by_ends });
+                continue;
+            }
+            let about = [start, end].map(|end| joints.place(end));
+            let leads_round = pieces.len() == 1 && joints.leads_round(head);
+            let is_crumb = !leads_round
+                && joints.distance(start, end) <= joints.join()
+                && pieces.iter().all(|(at, _)| about.iter().all(|&about| joints.is_crumb(*at, about)));
+            strands.push(Strand { ends: [start, end], count: pieces.len(), is_crumb });
+            ranges.push(range);
         }
-        let mut counts: FxHashMap<Cell, usize> = FxHashMap::default();
-        let place_of = |end: End| end.of(ends_of[entities[end.entity() as usize].0 as usize]);
-        loose.ends.of_long_lists(CROWD).for_each(|end| *counts.entry(cells.of(place_of(end))).or_default() += 1);
-        loose.crowded = counts.into_iter().filter(|(_, count)| *count > CROWD).map(|(cell, _)| (cell, NO_KEY)).collect();
-        loose
-    }
-
-    fn ends_of(&self, at: u32) -> Ends {
-        self.entities.get(at as usize).and_then(|id| self.ends_of.get(id.0 as usize)).copied().unwrap_or(NO_ENDS)
-    }
-
-    fn is_taken(&self, at: u32) -> bool {
-        self.taken_by.get(at as usize).is_none_or(|&key| key != NO_KEY)
-    }
-
-    fn take(&mut self, at: u32, key: Key) {
-        if let Some(taken) = self.taken_by.get_mut(at as usize) {
-            *taken = key;
+        for joined in resolve(&strands, joints) {
+            let begin = linked.pieces.len();
+            for (strand, reversed) in joined.strands {
+                let range = ranges[strand].clone();
+                let piece = |index: usize| linked.pieces[index];
+                let pieces: Vec<(u32, bool)> =
+                    if reversed { range.rev().map(piece).map(|(at, turned)| (at, !turned)).collect() } else { range.map(piece).collect() };
+                linked.pieces.extend(pieces);
+            }
+            linked.settle(begin, joined.closed);
         }
+        linked.ways.sort_unstable_by_key(|way| way.first);
+        linked
     }
 
-    /// A chain of one closed entity.
-    fn take_alone(&mut self, first: u32, key: Key) -> bool {
-        self.take(first, key);
-        self.way.clear();
-        self.way.push((first, false));
-        true
-    }
-
-    /// Takes an entity that goes on from `tip` with one of its ends; gives back where its other end leads to.
-    fn follow(&mut self, end: End, tip: Point, key: Key) -> End {
-        self.take(end.entity(), key);
-        if !self.cells.are_one(self.place_of(end), tip) {
-            // What is near its end need not be near the tip.
-            self.next(end, key);
-        }
-        end.other()
-    }
-
-    /// True in a cell with so many ends that all within the join tolerance count as equally near.
-    fn is_crowded(&self, cell: Cell) -> bool {
-        !self.crowded.is_empty() && self.crowded.contains_key(&cell)
-    }
-
-    fn place_of(&self, end: End) -> Point {
-        end.of(self.ends_of(end.entity()))
-    }
-
-    /// The chain through `first`, in its direction: forward to a free end or back to its start, else backward too. True where
-    /// it is closed.
-    fn walk(&mut self, drawing: &Drawing, first: u32, key: Key) -> bool {
-        self.take_alone(first, key);
+    /// The entities through `first` that follow each other without a choice, in its direction. True where they lead round.
+    fn run(&mut self, joints: &Joints, first: u32, is_taken: &mut [bool]) -> bool {
+        let begin = self.pieces.len();
+        is_taken[first as usize] = true;
+        self.pieces.push((first, false));
         let [tail, mut tip] = End::both(first);
-        let start = self.place_of(tail);
-        loop {
-            let here = self.place_of(tip);
-            let mut home = self.cells.distance(here, start);
-            if home <= self.cells.join && self.is_crowded(self.cells.of(start)) {
-                home = 0.0;
-            }
-            let next = self.next(tip, key);
-            let closes = home <= self.cells.join && next.is_none_or(|(_, distance)| home <= distance);
-            if closes && (self.way.len() > 1 || comes_back(drawing, self.entities[first as usize])) {
-                if !self.cells.are_one(here, start) {
-                    self.next(tail, key);
-                }
+        while let Some(end) = joints.partner(tip) {
+            if end == tail {
                 return true;
             }
-            let Some((end, _)) = next else { break };
-            self.way.push((end.entity(), !end.is_start()));
-            tip = self.follow(end, here, key);
+            is_taken[end.entity() as usize] = true;
+            self.pieces.push((end.entity(), !end.is_start()));
+            tip = end.other();
         }
-        let forward = self.way.len();
-        let mut tip = tail;
-        while let Some((end, _)) = self.next(tip, key) {
+        let (mut tip, forward) = (tail, self.pieces.len());
+        while let Some(end) = joints.partner(tip) {
+            is_taken[end.entity() as usize] = true;
             // Travelled towards the chain: its own end meets the tip when it is not reversed.
-            self.way.push((end.entity(), end.is_start()));
-            let here = self.place_of(tip);
-            tip = self.follow(end, here, key);
+            self.pieces.push((end.entity(), end.is_start()));
+            tip = end.other();
         }
-        self.way[forward..].reverse();
-        self.way.rotate_left(forward);
+        let backward = self.pieces.len() - forward;
+        self.pieces[forward..].reverse();
+        self.pieces[begin..].rotate_right(backward);
         false
     }
 
-    /// The open end that continues the chain at its tip, an end of an entity that is taken: the nearest; of equally near ones, as all
-    /// in a crowded cell are, that of the entity that follows in machining order. Contours that have an end in a cell about the tip are noted as touching.
-    ///
-    /// The tip comes to stand before all others of its cell, so that whoever looks there next is told of the chain at hand first.
-    /// What else is taken goes from there, and nobody looks at it again.
-    fn next(&mut self, tip: End, key: Key) -> Option<(End, f64)> {
-        let (place, here) = (self.place_of(tip), tip.entity());
-        let mut best: Option<(End, f64)> = None;
-        // Those before `here` come after all that follow it.
-        let after = |end: End| end.entity().wrapping_sub(here);
-        let own = self.cells.of(place);
-        for cell in self.cells.about(place) {
-            let is_crowded = self.is_crowded(cell);
-            let Loose { cells, entities, ends_of, ends, taken_by, touching, crowded, .. } = self;
-            // Whoever looks into a crowded cell need not come as far as to an end that is taken.
-            if let Some(last) = crowded.get_mut(&cell).filter(|_| is_crowded) {
-                if ![NO_KEY, key].contains(last) && touching.last() != Some(&*last) {
-                    touching.push(*last);
-                }
-                if cell == own {
-                    *last = key;
-                }
-            }
-            let (mut looked_at, mut gave_up, mut passed_tip, mut met_taken) = (0, false, false, false);
-            let look = |end: End| {
-                let at = end.entity() as usize;
-                let point = end.of(ends_of[entities[at].0 as usize]);
-                if taken_by[at] != NO_KEY {
-                    if cells.of(point) != cell {
-                        return Visit::Next;
-                    }
-                    if taken_by[at] != key && touching.last() != Some(&taken_by[at]) {
-                        touching.push(taken_by[at]);
-                    }
-                    passed_tip |= end == tip;
-                    // One that is taken stays in the cells about, for those who look there next.
-                    return if cell == own || std::mem::replace(&mut met_taken, true) { Visit::Remove } else { Visit::Next };
-                }
-                if is_crowded && cells.of(point) == cell {
-                    looked_at += 1;
-                    if looked_at > LOOKS {
-                        gave_up = true;
-                        return Visit::Stop;
-                    }
-                }
-                let distance = cells.distance(point, place);
-                if distance > cells.join {
-                    return Visit::Next;
-                }
-                let distance = if is_crowded { 0.0 } else { distance };
-                let better = |(other, near): (End, f64)| {
-                    distance.total_cmp(&near).then(after(end).cmp(&after(other))).then(other.is_start().cmp(&end.is_start())).is_lt()
-                };
-                if best.is_none_or(better) {
-                    best = Some((end, distance));
-                }
-                // Nothing is nearer, and what comes later in the list is later in machining order. The tip came before it.
-                if distance == 0.0 && end.entity() > here { Visit::Stop } else { Visit::Next }
-            };
-            if cell == own {
-                ends.visit_about(tip, look);
-                // Where the look did not come so far, the tip may still stand in its place.
-                if passed_tip || !gave_up {
-                    ends.insert_again(tip);
-                }
-            } else {
-                ends.visit(cell, look);
-            }
+    /// Makes a contour of the pieces from `begin` on: in the direction of its first entity, and beginning with it where it is closed.
+    fn settle(&mut self, begin: usize, closed: bool) {
+        let pieces = &mut self.pieces[begin..];
+        let Some((place, &(first, reversed))) = pieces.iter().enumerate().min_by_key(|(_, (at, _))| *at) else { return };
+        let mut place = place;
+        if reversed {
+            pieces.reverse();
+            pieces.iter_mut().for_each(|(_, reversed)| *reversed = !*reversed);
+            place = pieces.len() - 1 - place;
         }
-        best
+        if closed {
+            pieces.rotate_left(place);
+        }
+        self.ways.push(Way { range: begin..self.pieces.len(), closed, first, by_ends: false });
     }
 }
 
@@ -491,21 +430,17 @@ fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<E
     drawing.order().iter().copied().filter(|id| wanted[id.0 as usize]).collect()
 }
 
-/// True when an open entity whose ends touch really leads round, and is not just shorter than the join tolerance.
-fn comes_back(drawing: &Drawing, id: EntityId) -> bool {
-    let Some(geometry) = drawing.get(id).map(|entity| &entity.geometry) else { return false };
-    geometry.segment_count() > 2 || geometry.segments_of(drawing.flat()).any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
-}
-
 fn free_ends(drawing: &Drawing, id: EntityId) -> Option<Ends> {
     drawing.get(id)?.geometry.ends()
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::joints::CROWD;
     use super::*;
-    use crate::drawing::{Entity, Geometry};
+    use crate::drawing::{Entity, Geometry, Vertex};
     use proptest::prelude::*;
+    use std::collections::BTreeSet;
 
     type Coordinates = (f64, f64, f64, f64);
 
@@ -561,14 +496,141 @@ mod tests {
     }
 
     #[test]
-    fn a_lead_line_into_a_loop_is_followed_in_machining_order() {
-        check(&[(2.0, 0.0, 1.0, 0.0), (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, -1.0, 0.0), (-1.0, 0.0, 1.0, 0.0)], &["0 1 2 3"]);
+    fn a_lead_line_is_no_part_of_the_loop_that_it_leads_to() {
+        check(&[(2.0, 0.0, 1.0, 0.0), (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, -1.0, 0.0), (-1.0, 0.0, 1.0, 0.0)], &["0", "1 2 3 o"]);
     }
 
     #[test]
     fn a_line_shorter_than_the_tolerance_is_not_skipped() {
         check(&[(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.005, 0.0), (1.005, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["0 1 2 3 o"]);
         check(&[(0.0, 0.0, 0.005, 0.0)], &["0"]);
+    }
+
+    /// Handles of the entities of each contour, and whether it is closed.
+    type Sets = BTreeSet<(BTreeSet<String>, bool)>;
+
+    /// The contours of lines and, by bulge, arcs, drawn in an order; what is what, the handles say.
+    fn sets(shapes: &[(f64, f64, f64, f64, f64)], order: &[usize]) -> Sets {
+        let mut drawing = Drawing::new(None);
+        for &number in order {
+            let (x0, y0, x1, y1, bulge) = shapes[number];
+            let vertices = vec![Vertex::new(x0, y0, bulge), Vertex::new(x1, y1, 0.0)];
+            let geometry = match bulge {
+                0.0 => Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) },
+                _ => Geometry::Polyline { closed: false, vertices },
+            };
+            let kind = crate::drawing::Kind::Line;
+            drawing.push(Entity { handle: format!("{number}").into(), layer: "0".into(), role: None, kind, geometry });
+        }
+        let chains = Chains::new(&drawing, 0.01, &|_| true);
+        let handle = |piece: &Piece| drawing.get(piece.entity).unwrap().handle.to_string();
+        let set = |key: Key| chains.get(key).map(|contour| (contour.pieces.iter().map(handle).collect(), contour.closed));
+        let sets: Sets = chains.keys().filter_map(set).collect();
+        assert_eq!(sets.iter().map(|(handles, _)| handles.len()).sum::<usize>(), shapes.len(), "each entity in one contour");
+        sets
+    }
+
+    fn permutations(count: usize) -> Vec<Vec<usize>> {
+        let mut all = vec![Vec::new()];
+        for number in 0..count {
+            all = all
+                .iter()
+                .flat_map(|begun: &Vec<usize>| {
+                    (0..=number).map(move |at| {
+                        let mut order = begun.clone();
+                        order.insert(at, number);
+                        order
+                    })
+                })
+                .collect();
+        }
+        all
+    }
+
+    /// Closed contours as text, the same in every order of up to seven entities, each line also with its ends exchanged.
+    #[track_caller]
+    fn check_in_every_order(shapes: &[(f64, f64, f64, f64, f64)], closed: &[&str]) {
+        let first = sets(shapes, &(0..shapes.len()).collect::<Vec<_>>());
+        let loops: Vec<String> =
+            first.iter().filter(|(_, closed)| *closed).map(|(handles, _)| handles.iter().cloned().collect::<Vec<_>>().join(" ")).collect();
+        assert_eq!(loops, closed, "{first:?}");
+        for order in permutations(shapes.len()) {
+            assert_eq!(sets(shapes, &order), first, "{order:?}");
+        }
+        let counts = |sets: &Sets| sets.iter().map(|(handles, closed)| (handles.len(), *closed)).collect::<BTreeSet<_>>();
+        for turned in 0..shapes.len() {
+            let mut shapes = shapes.to_vec();
+            let (x0, y0, x1, y1, bulge) = shapes[turned];
+            shapes[turned] = (x1, y1, x0, y0, -bulge);
+            assert_eq!(counts(&sets(&shapes, &(0..shapes.len()).collect::<Vec<_>>())), counts(&first), "{turned} turned round");
+        }
+    }
+
+    const SQUARE: [(f64, f64, f64, f64, f64); 4] =
+        [(0.0, 0.0, 10.0, 0.0, 0.0), (10.0, 0.0, 10.0, 10.0, 0.0), (10.0, 10.0, 0.0, 10.0, 0.0), (0.0, 10.0, 0.0, 0.0, 0.0)];
+
+    #[test]
+    fn a_double_does_not_spoil_an_outline_in_any_order() {
+        let with = |others: &[(f64, f64, f64, f64, f64)]| [&SQUARE[..], others].concat();
+        check_in_every_order(&with(&[(10.0, 0.0, 0.0, 0.0, 0.0)]), &["0 1 2 3"]);
+        check_in_every_order(&with(&[(0.0, 0.0, 10.0, 0.0, 0.0), (0.0, 0.0, 10.0, 0.0, 0.0)]), &["0 1 2 3"]);
+        check_in_every_order(&with(&[(0.0, 0.003, 10.0, 0.002, 0.0), (10.0, 10.0, 10.0, 0.0, 0.0)]), &["0 1 2 3"]);
+        // The one that lies off is not the one that is chained.
+        check_in_every_order(&[(0.0, -0.004, 10.0, -0.004, 0.0), SQUARE[1], SQUARE[2], SQUARE[3], SQUARE[0]], &["1 2 3 4"]);
+        // Two lines in one place alone, and two arcs on one chord: a double, and a circle.
+        check_in_every_order(&[SQUARE[0], SQUARE[0]], &[]);
+        check_in_every_order(&[(0.0, 0.0, 10.0, 0.0, 1.0), (10.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 10.0, 0.0, 1.0)], &["0 1"]);
+        // Everything twice.
+        check_in_every_order(
+            &[SQUARE[0], SQUARE[1], (10.0, 10.0, 0.0, 0.0, 0.0), SQUARE[0], SQUARE[1], (0.0, 0.0, 10.0, 10.0, 0.0)],
+            &["0 1 2"],
+        );
+    }
+
+    #[test]
+    fn a_line_off_a_corner_does_not_spoil_an_outline_in_any_order() {
+        let with = |others: &[(f64, f64, f64, f64, f64)]| [&SQUARE[..], others].concat();
+        check_in_every_order(&with(&[(10.0, 10.0, 15.0, 12.0, 0.0)]), &["0 1 2 3"]);
+        check_in_every_order(&with(&[(0.0, 0.0, 3.0, 3.0, 0.0)]), &["0 1 2 3"]);
+        check_in_every_order(
+            &with(&[(10.0, 10.0, 15.0, 12.0, 0.0), (15.0, 12.0, 20.0, 12.0, 0.4), (0.0, 0.0, -3.0, 0.0, 0.0)]),
+            &["0 1 2 3"],
+        );
+        // Off a corner whose own ends are a little apart.
+        check_in_every_order(&[(0.005, 0.0, 10.0, 0.0, 0.0), SQUARE[1], SQUARE[2], SQUARE[3], (0.0, 0.0, -5.0, 1.0, 0.0)], &["0 1 2 3"]);
+        // Across: the outline is what closes.
+        check_in_every_order(&with(&[(0.0, 0.0, 10.0, 10.0, 0.0)]), &["0 1 2 3"]);
+        check_in_every_order(&with(&[(0.0, 0.0, 10.0, 10.0, 0.2), (0.0, 10.0, -4.0, 14.0, 0.0)]), &["0 1 2 3"]);
+        // Two triangles in one point, and with a bridge between them.
+        let triangles = [
+            (0.0, 0.0, 4.0, 2.0, 0.0),
+            (4.0, 2.0, 4.0, -2.0, 0.0),
+            (4.0, -2.0, 0.0, 0.0, 0.0),
+            (0.0, 0.0, -4.0, 2.0, 0.0),
+            (-4.0, 2.0, -4.0, -2.0, 0.0),
+            (-4.0, -2.0, 0.0, 0.0, 0.0),
+        ];
+        check_in_every_order(&triangles, &["0 1 2", "3 4 5"]);
+        let apart = triangles
+            .map(|(x0, y0, x1, y1, bulge)| if x0 + x1 > 0.0 { (x0 + 5.0, y0, x1 + 5.0, y1, bulge) } else { (x0, y0, x1, y1, bulge) });
+        check_in_every_order(&[&apart[..], &[(0.0, 0.0, 5.0, 0.0, 0.0)]].concat(), &["0 1 2", "3 4 5"]);
+        // Rounded coordinates where two loops meet.
+        let rounded = triangles.map(|(x0, y0, x1, y1, bulge)| (x0 + 4e-7 * (y1 - x1), y0, x1, y1 + 3e-7 * (x0 - y0), bulge));
+        check_in_every_order(&rounded, &["0 1 2", "3 4 5"]);
+    }
+
+    #[test]
+    fn crumbs_and_notches_narrower_than_the_tolerance_stay_in_their_outline_in_any_order() {
+        check_in_every_order(
+            &[(0.0, 0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 1.005, 0.0, 0.0), (1.005, 0.0, 1.0, 1.0, 0.0), (1.0, 1.0, 0.0, 0.0, 0.0)],
+            &["0 1 2 3"],
+        );
+        check_in_every_order(
+            &[SQUARE[0], SQUARE[1], SQUARE[2], (0.0, 10.0, 0.0, 0.008, 0.0), (0.0, 0.008, 5.0, 0.002, 0.0), (5.0, 0.002, 0.0, 0.0, 0.0)],
+            &["0 1 2 3 4 5"],
+        );
+        // A triangle of crumbs.
+        check_in_every_order(&[(0.0, 0.0, 0.006, 0.0, 0.0), (0.006, 0.0, 0.0, 0.006, 0.0), (0.0, 0.006, 0.0, 0.0, 0.0)], &["0 1 2"]);
     }
 
     /// So many lines from nearly one point outward, and a triangle with a corner there.
@@ -617,6 +679,27 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Lines and arcs between a few places, some of them a little apart, in other orders.
+        #[test]
+        fn contours_do_not_depend_on_the_order_of_entities(
+            shapes in prop::collection::vec(((0..3usize, 0..3usize, 0..5usize), (0..3usize, 0..3usize, 0..5usize), 0..6usize), 1..24),
+            orders in prop::collection::vec(prop::collection::vec(any::<prop::sample::Index>(), 24), 6),
+        ) {
+            let off = |number: usize| [0.0, 0.0, 0.004, -0.003, 4e-7][number];
+            let shape = |&(from, to, bulge): &((usize, usize, usize), (usize, usize, usize), usize)| {
+                let place = |(x, y, n): (usize, usize, usize)| (x as f64 * 3.0 + off(n), y as f64 * 2.0 - off((n + 2) % 5));
+                let ((x0, y0), (x1, y1)) = (place(from), place(to));
+                (x0, y0, x1, y1, [0.0, 0.0, 0.0, 0.3, -0.3, 1.5][bulge])
+            };
+            let shapes: Vec<_> = shapes.iter().map(shape).filter(|(x0, y0, x1, y1, _)| (x0, y0) != (x1, y1)).collect();
+            let first = sets(&shapes, &(0..shapes.len()).collect::<Vec<_>>());
+            for picks in orders {
+                let mut rest: Vec<usize> = (0..shapes.len()).collect();
+                let order: Vec<usize> = picks.iter().map_while(|pick| (!rest.is_empty()).then(|| rest.swap_remove(pick.index(rest.len())))).collect();
+                prop_assert_eq!(&sets(&shapes, &order), &first, "{:?} {:?}", order, shapes);
+            }
+        }
 
         /// Ends on a few places, some of them a little apart; the first lie on borders of cells.
         #[test]

@@ -4,10 +4,10 @@ use crate::geometry::Point;
 
 /// Side of a cell in join tolerances: ends that meet lie in one cell, or in two to four where borders run between them.
 const CELL: f64 = 16.0;
-/// How near a border, in cells, an end of the next cell may be within the join tolerance; with room for rounding.
-const NEAR_BORDER: f64 = 1.001 / CELL;
+/// The same where so many ends lie that a look at all of a cell takes too long.
+const SMALL_CELL: f64 = 2.0;
 /// Ends nearer to each other than this share of the join tolerance lie in one point: what differs then is how they were computed.
-const ONE_POINT: f64 = 1e-6;
+pub(super) const ONE_POINT: f64 = 1e-6;
 
 /// Both ends of an entity, start first. Most drawings have them for most entities, so none is a point that is no number.
 pub(super) type Ends = (Point, Point);
@@ -19,12 +19,21 @@ pub(super) fn has_ends(ends: &Ends) -> bool {
 }
 
 /// One end of an entity: the number of the entity, doubled; odd for its own end, even for its start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct End(u32);
 
 impl End {
     pub(super) fn both(entity: u32) -> [End; 2] {
         [End(entity << 1), End(entity << 1 | 1)]
+    }
+
+    /// The end that a table by end holds at an index.
+    pub(super) fn at(index: usize) -> End {
+        End(index as u32)
+    }
+
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
     }
 
     pub(super) fn entity(self) -> u32 {
@@ -54,11 +63,22 @@ pub(super) type Cell = (i64, i64);
 pub(super) struct Cells {
     pub(super) join: f64,
     per_unit: f64,
+    /// How near a border, in cells, an end of the next cell may be within the join tolerance; with room for rounding.
+    near_border: f64,
 }
 
 impl Cells {
     pub(super) fn new(join: f64) -> Cells {
-        Cells { join, per_unit: 1.0 / (CELL * join) }
+        Cells::of_side(join, CELL)
+    }
+
+    /// Cells that hold few ends where the others hold many.
+    pub(super) fn small(join: f64) -> Cells {
+        Cells::of_side(join, SMALL_CELL)
+    }
+
+    fn of_side(join: f64, side: f64) -> Cells {
+        Cells { join, per_unit: 1.0 / (side * join), near_border: 1.001 / side }
     }
 
     pub(super) fn of(&self, point: Point) -> Cell {
@@ -67,12 +87,13 @@ impl Cells {
 
     /// The cell of a point, and those beside it in which something may be within the join tolerance.
     pub(super) fn about(&self, point: Point) -> impl Iterator<Item = Cell> + use<> {
+        let near_border = self.near_border;
         let along = |coordinate: f64| {
             let place = coordinate * self.per_unit;
             let own = whole(place);
             let beside = match place - own as f64 {
-                share if share < NEAR_BORDER => -1,
-                share if share > 1.0 - NEAR_BORDER => 1,
+                share if share < near_border => -1,
+                share if share > 1.0 - near_border => 1,
                 _ => 0,
             };
             (own, beside)
@@ -82,11 +103,6 @@ impl Cells {
         let is_there = [true, left_right != 0, up_down != 0, left_right != 0 && up_down != 0];
         let cell = move |(x, y): (i64, i64)| (column.saturating_add(x), row.saturating_add(y));
         beside.into_iter().zip(is_there).filter(|(_, is_there)| *is_there).map(move |(at, _)| cell(at))
-    }
-
-    /// True where two ends lie in one point of one cell.
-    pub(super) fn are_one(&self, a: Point, b: Point) -> bool {
-        self.distance(a, b) == 0.0 && self.of(a) == self.of(b)
     }
 
     /// The distance of two ends; 0 where they lie in one point.
@@ -125,30 +141,15 @@ impl Lists {
         std::iter::successors(Some(first).filter(|&end| end != NONE), follows).map(End)
     }
 
-    /// Goes through a list; gives back how many ends were removed from it.
-    fn visit(&mut self, list: usize, mut look: impl FnMut(End) -> Visit) -> usize {
-        let (mut at, mut before) = (self.first[list], NONE);
-        let mut removed = 0;
-        while at != NONE {
-            let visit = look(End(at));
-            let next = self.next[at as usize];
-            match visit {
-                Visit::Next => before = at,
-                Visit::Stop => break,
-                Visit::Remove | Visit::RemoveAndStop => {
-                    match before {
-                        NONE => self.first[list] = next,
-                        before => self.next[before as usize] = next,
-                    }
-                    removed += 1;
-                    if visit == Visit::RemoveAndStop {
-                        break;
-                    }
-                }
-            }
-            at = next;
+    /// Takes an end out of a list; false where it is not in there.
+    fn remove(&mut self, list: usize, end: End) -> bool {
+        let next = self.next[end.0 as usize];
+        if self.first[list] == end.0 {
+            self.first[list] = next;
+            return true;
         }
-        removed
+        let before = self.of(list).find(|other| self.next[other.0 as usize] == end.0);
+        before.map(|before| self.next[before.0 as usize] = next).is_some()
     }
 }
 
@@ -194,7 +195,7 @@ impl Buckets {
     }
 
     pub(super) fn remove(&mut self, cell: Cell, end: End) {
-        self.count -= self.lists.visit(self.list(cell), |other| if other == end { Visit::RemoveAndStop } else { Visit::Next });
+        self.count -= usize::from(self.lists.remove(self.list(cell), end));
     }
 
     /// The ends of a cell, and of others with the same hash.
@@ -219,17 +220,16 @@ pub(super) struct Numbered {
 }
 
 impl Numbered {
-    /// For the ends of entities numbered below `entities`.
-    pub(super) fn new(entities: usize) -> Numbered {
+    /// For about `count` of the ends of entities numbered below `entities`.
+    pub(super) fn new(entities: usize, count: usize) -> Numbered {
         let ends = 2 * entities;
-        let lists = Lists { first: Vec::with_capacity(ends), next: vec![NONE; ends] };
-        let hashes = ends.next_power_of_two();
+        let hashes = count.next_power_of_two();
         Numbered {
-            lists,
+            lists: Lists { first: Vec::with_capacity(count), next: vec![NONE; ends] },
             by_hash: vec![NONE; hashes],
             is_there: vec![0; hashes.div_ceil(64)],
             of_end: vec![NONE; ends],
-            lengths: Vec::with_capacity(ends),
+            lengths: Vec::with_capacity(count),
         }
     }
 
@@ -248,36 +248,31 @@ impl Numbered {
         self.lists.insert(*number as usize, end);
     }
 
-    /// The ends in lists of more than `count`.
-    pub(super) fn of_long_lists(&self, count: usize) -> impl Iterator<Item = End> + '_ {
-        let long = self.lengths.iter().enumerate().filter(move |(_, length)| **length as usize > count);
-        long.flat_map(|(list, _)| self.lists.of(list))
+    /// Number of lists.
+    pub(super) fn len(&self) -> usize {
+        self.lists.first.len()
     }
 
-    /// Puts an end that was removed, or not, before all others of its cell.
-    pub(super) fn insert_again(&mut self, end: End) {
-        self.lists.insert(self.of_end[end.0 as usize] as usize, end);
+    /// The ends of one list: those of a cell, and of others with the same hash.
+    pub(super) fn of_list(&self, list: usize) -> impl Iterator<Item = End> + '_ {
+        self.lists.of(list)
     }
 
-    /// Goes through the ends of the cell of `end`, and of others with the same hash.
-    pub(super) fn visit_about(&mut self, end: End, look: impl FnMut(End) -> Visit) {
-        self.lists.visit(self.of_end[end.0 as usize] as usize, look);
+    /// The lists of more than `count` ends.
+    pub(super) fn long_lists(&self, count: usize) -> impl Iterator<Item = usize> + '_ {
+        self.lengths.iter().enumerate().filter(move |(_, length)| **length as usize > count).map(|(list, _)| list)
     }
 
-    /// Goes through the ends of a cell, and of others with the same hash.
-    pub(super) fn visit(&mut self, cell: Cell, look: impl FnMut(End) -> Visit) {
+    /// The ends of the cell of an end that is in a list, and of others with the same hash.
+    pub(super) fn beside(&self, end: End) -> impl Iterator<Item = End> + '_ {
+        self.lists.of(self.of_end[end.0 as usize] as usize)
+    }
+
+    /// The ends of a cell, and of others with the same hash.
+    pub(super) fn of_cell(&self, cell: Cell) -> impl Iterator<Item = End> + '_ {
         let hash = hash(cell, self.by_hash.len());
-        if self.is_there[hash / 64] >> (hash % 64) & 1 == 1 {
-            self.lists.visit(self.by_hash[hash] as usize, look);
-        }
+        let is_there = self.is_there[hash / 64] >> (hash % 64) & 1 == 1;
+        let list = if is_there { self.by_hash[hash] as usize } else { usize::MAX };
+        self.lists.of(list)
     }
-}
-
-/// What becomes of an end that was looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Visit {
-    Next,
-    Stop,
-    Remove,
-    RemoveAndStop,
 }

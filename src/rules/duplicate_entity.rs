@@ -5,7 +5,7 @@
 use super::short_segment::is_point;
 use super::wall::Wall;
 use super::{PairRule, Sight};
-use crate::drawing::{Change, DrawingEdit, Geometry};
+use crate::drawing::{Change, DrawingEdit, Geometry, run_together};
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use crate::geometry::{Point, Segment};
 
@@ -34,22 +34,11 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     }
     let (first, second) = (&one.outlook.drawing.get(a.entity)?.geometry, &other.outlook.drawing.get(b.entity)?.geometry);
     let (count, tolerance) = (first.segment_count(), one.outlook.limits.tolerances.same_place);
-    let alike = count == second.segment_count();
     let flat = one.outlook.drawing.flat();
-    let same = |k: usize, l: usize, turned| match (first.segment_of(k, flat), second.segment_of(l, flat)) {
-        (Some(a), Some(b)) => same(a, if turned { b.reversed() } else { b }, tolerance),
-        _ => false,
-    };
-    let forward = || b.segment == 0 && (0..count).all(|k| same(k, k, false));
-    let backward = || b.segment + 1 == count && (0..count).all(|k| same(k, count - 1 - k, true));
+    let forward = || b.segment == 0 && run_together(first, second, false, tolerance, flat);
+    let backward = || b.segment + 1 == count && run_together(first, second, true, tolerance, flat);
     let rings = || first.is_closed() && second.is_closed() && are_one_ring(first, second, b.segment, tolerance, flat);
-    Some(alike && (forward() || backward()) || rings())
-}
-
-fn same(a: Segment, b: Segment, tolerance: f64) -> bool {
-    let close = |s: f64| (a.point_at(s) - b.point_at(s)).norm() <= tolerance;
-    let kinds = matches!((a, b), (Segment::Line(_), Segment::Line(_)) | (Segment::Arc(_), Segment::Arc(_)));
-    kinds && [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().all(close)
+    Some(forward() || backward() || rings())
 }
 
 /// True when the first of two closed outlines begins on segment `at` of the other, and each lies on the other all along.

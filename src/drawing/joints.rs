@@ -1,0 +1,326 @@
+//! Which free ends lie within the join tolerance of each other, and which of them nothing else can be joined to.
+
+use super::doubles::{self, Doubles, SAME_PLACE};
+use super::ends::{Cell, Cells, End, Ends, NO_ENDS, Numbered, ONE_POINT, has_ends};
+use super::{Drawing, EntityId};
+use crate::geometry::Point;
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::cmp::Ordering;
+
+/// Of cells with more ends than these, the ends are sorted into smaller ones.
+const DENSE: usize = 64;
+
+/// More ends than these in one small cell are a crowd, in which no end is held against all others. A drawing to be cut has a few.
+pub(super) const CROWD: usize = 256;
+
+/// Fewer ends than these are looked at without help.
+const FEW: usize = 16_384;
+
+/// What an end can be joined to, as a number: that of the one end, or one of these.
+const NOTHING: u32 = u32::MAX;
+const SEVERAL: u32 = u32::MAX - 1;
+
+/// The free ends of entities, numbered as the entities are handed over, by where they lie.
+pub(super) struct Joints<'a> {
+    drawing: &'a Drawing,
+    entities: &'a [EntityId],
+    cells: Cells,
+    /// By end; no number where there is none, or where the entity is set aside.
+    places: Vec<Point>,
+    all: Numbered,
+    /// Ends of dense cells in smaller ones.
+    dense: Option<Dense>,
+    /// By end: what it can be joined to.
+    met: Vec<u32>,
+    pub doubles: Doubles,
+}
+
+struct Dense {
+    /// The large cells that are dense.
+    large: FxHashSet<Cell>,
+    cells: Cells,
+    ends: Numbered,
+    crowded: FxHashMap<Cell, Vec<End>>,
+}
+
+impl<'a> Joints<'a> {
+    /// Of `entities` with the ends that `ends_of` holds by id. Doubles are set aside: they have no joints.
+    pub fn new(drawing: &'a Drawing, cells: Cells, entities: &'a [EntityId], ends_of: &[Ends]) -> Joints<'a> {
+        let count = entities.len();
+        let mut places = Vec::with_capacity(2 * count);
+        let mut all = Numbered::new(count, 2 * count);
+        for (at, id) in (0..).zip(entities) {
+            let ends = ends_of.get(id.0 as usize).copied().unwrap_or(NO_ENDS);
+            places.extend([ends.0, ends.1]);
+            if has_ends(&ends) {
+                End::both(at).into_iter().for_each(|end| all.insert(cells.of(end.of(ends)), end));
+            }
+        }
+        let mut joints = Joints { drawing, entities, cells, places, all, dense: None, met: Vec::new(), doubles: Doubles::default() };
+        joints.sort_dense();
+        let pairs = joints.meet();
+        if !pairs.is_empty() {
+            joints.doubles = doubles::set_aside(&joints, &pairs);
+            for &double in &joints.doubles.aside {
+                End::both(double).into_iter().for_each(|end| joints.places[end.index()] = NO_ENDS.0);
+            }
+            joints.sort_dense();
+            joints.meet();
+        }
+        joints.join_in_crowds();
+        joints
+    }
+
+    pub fn end_count(&self) -> usize {
+        self.places.len()
+    }
+
+    pub fn place(&self, end: End) -> Point {
+        self.places[end.index()]
+    }
+
+    /// The distance of two ends; 0 where they lie in one point.
+    pub fn distance(&self, one: End, other: End) -> f64 {
+        self.cells.distance(self.place(one), self.place(other))
+    }
+
+    pub fn join(&self) -> f64 {
+        self.cells.join
+    }
+
+    /// The one end that an end can be joined to, where that one can be joined to no other either.
+    pub fn partner(&self, end: End) -> Option<End> {
+        let met = *self.met.get(end.index())?;
+        let is_mutual = self.met.get(met as usize).is_some_and(|&back| back as usize == end.index());
+        is_mutual.then(|| End::at(met as usize))
+    }
+
+    /// True where there is nothing that an end can be joined to.
+    pub fn is_lone(&self, end: End) -> bool {
+        self.met.get(end.index()).is_none_or(|&met| met == NOTHING)
+    }
+
+    /// Ends that lie in one small cell by the thousand, by cell.
+    pub fn crowds(&self) -> impl Iterator<Item = &Vec<End>> {
+        self.dense.iter().flat_map(|dense| dense.crowded.values())
+    }
+
+    /// All ends, those of doubles too, in lists: of a cell all in one, with those of others.
+    pub fn lists(&self) -> impl Iterator<Item = impl Iterator<Item = End> + '_> + '_ {
+        (0..self.all.len()).map(|list| self.all.of_list(list))
+    }
+
+    /// The ends of a cell, and of others in the same list.
+    pub fn of_cell(&self, cell: Cell) -> impl Iterator<Item = End> + '_ {
+        self.all.of_cell(cell)
+    }
+
+    pub fn is_crowded(&self, end: End) -> bool {
+        self.dense.as_ref().is_some_and(|dense| dense.is_crowded(self.place(end)))
+    }
+
+    pub fn by_place(&self, one: u32, other: u32) -> Ordering {
+        doubles::by_place(self.drawing, self.entities[one as usize], self.entities[other as usize])
+    }
+
+    /// Number of ends of an entity that meet the end of another one in one point, for which `leaves_out` does not hold.
+    pub fn count_met(&self, entity: u32, leaves_out: impl Fn(u32) -> bool) -> usize {
+        let meets = |&end: &End| {
+            let mut met = false;
+            self.each_near(end, |other, distance| met |= distance == 0.0 && other.entity() != entity && !leaves_out(other.entity()));
+            met
+        };
+        End::both(entity).iter().filter(|end| meets(end)).count()
+    }
+
+    /// Hands over every end within the join tolerance of one, with the distance, in no order. The other end of its own entity counts
+    /// where that leads round. In a crowd no end sees another, nor is it seen.
+    pub fn each_near(&self, end: End, mut look: impl FnMut(End, f64)) {
+        let place = self.place(end);
+        if place.x.is_nan() || self.is_crowded(end) {
+            return;
+        }
+        let (mut is_dense, mut is_own) = (false, true);
+        let mut see = |other: End, cells: &Cells, cell: Cell| {
+            let at = self.places[other.index()];
+            let apart = at - place;
+            // Most ends of a list are far off, and those of other cells are seen there.
+            if apart.x.abs() > self.cells.join || apart.y.abs() > self.cells.join || other == end {
+                return;
+            }
+            let distance = self.cells.distance(at, place);
+            if distance <= self.cells.join && cells.of(at) == cell && (other.entity() != end.entity() || self.leads_round(end.entity())) {
+                look(other, distance);
+            }
+        };
+        for cell in self.cells.about(place) {
+            let is_beside = std::mem::take(&mut is_own);
+            if self.dense.as_ref().is_some_and(|dense| dense.large.contains(&cell)) {
+                is_dense = true;
+            } else if is_beside {
+                self.all.beside(end).for_each(|other| see(other, &self.cells, cell));
+            } else {
+                self.all.of_cell(cell).for_each(|other| see(other, &self.cells, cell));
+            }
+        }
+        if let Some(dense) = self.dense.as_ref().filter(|_| is_dense) {
+            for cell in dense.cells.about(place).filter(|cell| !dense.crowded.contains_key(cell)) {
+                dense.ends.of_cell(cell).for_each(|other| see(other, &dense.cells, cell));
+            }
+        }
+    }
+
+    /// True when an entity whose own ends touch really leads round, and is not just shorter than the join tolerance.
+    pub fn leads_round(&self, entity: u32) -> bool {
+        let Some(geometry) = self.drawing.get(self.entities[entity as usize]).map(|entity| &entity.geometry) else { return false };
+        geometry.segment_count() > 2
+            || geometry.segments_of(self.drawing.flat()).any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
+    }
+
+    /// True when all of an entity lies within the join tolerance about a place.
+    pub fn is_crumb(&self, entity: u32, about: Point) -> bool {
+        let near = |point: Point| (point - about).norm() <= self.cells.join;
+        self.drawing.get(self.entities[entity as usize]).is_some_and(|entity| {
+            entity
+                .geometry
+                .segments_of(self.drawing.flat())
+                .all(|segment| [0.0, 0.5, 1.0].iter().all(|&share| near(segment.point_at(share))))
+        })
+    }
+
+    /// The direction in which an entity leaves one of its ends, radians from −π to π.
+    pub fn heading(&self, end: End) -> f64 {
+        let Some(geometry) = self.drawing.get(self.entities[end.entity() as usize]).map(|entity| &entity.geometry) else { return 0.0 };
+        let flat = self.drawing.flat();
+        let segment = if end.is_start() {
+            geometry.segment_of(0, flat)
+        } else {
+            geometry.segment_of(geometry.segment_count().saturating_sub(1), flat)
+        };
+        let way = segment.map(|segment| if end.is_start() { segment.start_tangent() } else { -segment.end_tangent() });
+        way.map_or(0.0, |way| way.y.atan2(way.x))
+    }
+
+    /// Sorts the ends of dense cells into smaller ones.
+    fn sort_dense(&mut self) {
+        self.dense = None;
+        let mut counts: FxHashMap<Cell, Vec<End>> = FxHashMap::default();
+        for end in self.all.long_lists(DENSE).flat_map(|list| self.all.of_list(list)).filter(|&end| !self.place(end).x.is_nan()) {
+            counts.entry(self.cells.of(self.place(end))).or_default().push(end);
+        }
+        counts.retain(|_, ends| ends.len() > DENSE);
+        if counts.is_empty() {
+            return;
+        }
+        let cells = Cells::small(self.cells.join);
+        let count = counts.values().map(Vec::len).sum();
+        let mut ends = Numbered::new(self.entities.len(), count);
+        let mut small: FxHashMap<Cell, Vec<End>> = FxHashMap::default();
+        for &end in counts.values().flatten() {
+            let cell = cells.of(self.place(end));
+            ends.insert(cell, end);
+            small.entry(cell).or_default().push(end);
+        }
+        small.retain(|_, ends| ends.len() > CROWD);
+        self.dense = Some(Dense { large: counts.into_keys().collect(), cells, ends, crowded: small });
+    }
+
+    /// Finds out what each end can be joined to; gives back pairs of entities that lie in one place.
+    fn meet(&mut self) -> Vec<(u32, u32)> {
+        const STEP: usize = 4096;
+        let mut met = vec![NOTHING; self.places.len()];
+        let joints = &*self;
+        let look = |(step, met): (usize, &mut [u32])| {
+            let mut pairs = Vec::new();
+            for (index, met) in (step * STEP..).zip(met) {
+                *met = joints.look(End::at(index), &mut pairs);
+            }
+            pairs
+        };
+        let mut pairs: Vec<(u32, u32)> = if self.places.len() < FEW {
+            met.chunks_mut(STEP).enumerate().flat_map(look).collect()
+        } else {
+            let found: Vec<Vec<(u32, u32)>> = met.par_chunks_mut(STEP).enumerate().map(look).collect();
+            found.into_iter().flatten().collect()
+        };
+        for crowd in joints.crowds() {
+            joints.doubles_in_crowd(crowd, &mut pairs);
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        self.met = met;
+        pairs
+    }
+
+    fn look(&self, end: End, pairs: &mut Vec<(u32, u32)>) -> u32 {
+        if self.place(end).x.is_nan() {
+            return NOTHING;
+        }
+        let mut met = if self.is_crowded(end) { SEVERAL } else { NOTHING };
+        let same_place = SAME_PLACE * self.cells.join;
+        self.each_near(end, |other, distance| {
+            met = if met == NOTHING { other.index() as u32 } else { SEVERAL };
+            if distance <= same_place
+                && end.is_start()
+                && end.entity() < other.entity()
+                && !self.is_crowded(end.other())
+                && (self.place(end.other()) - self.place(other.other())).norm() <= same_place
+                && self.are_doubles(end.entity(), other.entity(), same_place)
+            {
+                pairs.push((end.entity(), other.entity()));
+            }
+        });
+        met
+    }
+
+    fn are_doubles(&self, one: u32, other: u32, tolerance: f64) -> bool {
+        // What lies just within the tolerance is rounded to one side of it: always the same.
+        let (one, other) = if self.by_place(one, other).is_gt() { (other, one) } else { (one, other) };
+        let [one, other] = [one, other].map(|entity| self.entities[entity as usize]);
+        doubles::are_doubles(self.drawing, one, other, tolerance)
+    }
+
+    /// Of a crowd only what comes next to each other by place is held against each other, and is a double where it lies in one place exactly.
+    fn doubles_in_crowd(&self, crowd: &[End], pairs: &mut Vec<(u32, u32)>) {
+        let mut entities: Vec<u32> = crowd.iter().map(|end| end.entity()).collect();
+        entities.sort_unstable_by(|&one, &other| self.by_place(one, other));
+        entities.dedup();
+        let Some(mut kept) = entities.first().copied() else { return };
+        for &entity in &entities[1..] {
+            match self.are_doubles(kept, entity, ONE_POINT * self.cells.join) {
+                true => pairs.push((kept.min(entity), kept.max(entity))),
+                false => kept = entity,
+            }
+        }
+    }
+
+    /// In a crowd, two ends that lie in one point and with no third one are joined.
+    fn join_in_crowds(&mut self) {
+        let mut joined = Vec::new();
+        for crowd in self.crowds() {
+            let mut ends = crowd.clone();
+            ends.sort_unstable_by(|&one, &other| doubles::by_coordinates(&self.place(one), &self.place(other)).then(one.cmp(&other)));
+            let are_one = |at: usize, next: usize| {
+                let pair = ends.get(at).zip(ends.get(next));
+                pair.is_some_and(|(&one, &other)| self.distance(one, other) == 0.0)
+            };
+            for at in 0..ends.len().saturating_sub(1) {
+                let apart = ends[at].entity() != ends[at + 1].entity() || self.leads_round(ends[at].entity());
+                if apart && are_one(at, at + 1) && !are_one(at + 1, at + 2) && !(at > 0 && are_one(at - 1, at)) {
+                    joined.push((ends[at], ends[at + 1]));
+                }
+            }
+        }
+        for (one, other) in joined {
+            self.met[one.index()] = other.index() as u32;
+            self.met[other.index()] = one.index() as u32;
+        }
+    }
+}
+
+impl Dense {
+    fn is_crowded(&self, place: Point) -> bool {
+        !self.crowded.is_empty() && self.crowded.contains_key(&self.cells.of(place))
+    }
+}
