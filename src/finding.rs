@@ -33,6 +33,8 @@ pub enum Rule {
     /// A path of the wire that does not hold its proof.
     UnprovedPath,
     LeadIn,
+    /// The corrections of the passes do not fall, or one is below the wire's radius.
+    PassOrder,
     UnsupportedEntity,
     Units,
     /// An arc of an ISO program whose ends are not on one circle about its centre.
@@ -108,7 +110,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 54] = [
+    pub const ALL: [Rule; 55] = [
         Rule::SmallRadius,
         Rule::SharpCorner,
         Rule::NarrowSlot,
@@ -124,6 +126,7 @@ impl Rule {
         Rule::ArcAsChords,
         Rule::UnprovedPath,
         Rule::LeadIn,
+        Rule::PassOrder,
         Rule::UnsupportedEntity,
         Rule::Units,
         Rule::ArcOffRadius,
@@ -182,6 +185,7 @@ impl Rule {
             Rule::ArcAsChords => "arc-as-chords",
             Rule::UnprovedPath => "unproved-path",
             Rule::LeadIn => "lead-in",
+            Rule::PassOrder => "pass-order",
             Rule::UnsupportedEntity => "unsupported-entity",
             Rule::Units => "units",
             Rule::ArcOffRadius => "arc-off-radius",
@@ -234,6 +238,7 @@ impl Rule {
             | Rule::SelfIntersection
             | Rule::UnprovedPath
             | Rule::LeadIn
+            | Rule::PassOrder
             | Rule::ArcOffRadius
             | Rule::ArcWithoutRadius
             | Rule::CompensationSwitch
@@ -459,6 +464,11 @@ pub enum Detail {
     /// A fault in a block or contour of 3B.
     Program(Box<ProgramFault>),
     LeadIn(String),
+    /// A program holds one of `passes`, that of `correction` mm.
+    OnePass {
+        passes: usize,
+        correction: f64,
+    },
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
         kind: String,

@@ -6,7 +6,7 @@ use super::{Failure, output};
 use crate::disk::{self, Seen, plain};
 use crate::document::{Document, Source};
 use crate::drawing::Unit;
-use crate::finding::{Detail, Finding, Place, Rule};
+use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::message::en;
 use crate::program::{self, Language};
 use crate::protocol::FindingData;
@@ -66,10 +66,10 @@ pub fn open_drawing(path: &Path, common: &Common, last: &Settings) -> Result<Ope
 
 /// An error where a settings file has a fault: nothing is made with settings that may not be those that were meant.
 pub fn refuse_faulty_settings(opened: &Opened) -> Result<(), Failure> {
-    if opened.settings_rows.is_empty() {
+    opened.settings_rows.iter().for_each(|row| output::say(&row.rendered()));
+    if opened.settings_rows.iter().all(|row| row.severity != Severity::Error) {
         return Ok(());
     }
-    opened.settings_rows.iter().for_each(|row| output::say(&row.rendered()));
     Err(Failure("nothing is made with settings that do not fit, see above".into()))
 }
 
@@ -105,25 +105,41 @@ pub fn reread(before: &Document, bytes: Vec<u8>, settings: Arc<Effective>) -> Do
 /// The settings for an input, and the faults found in settings files.
 fn settings_for(path: &Path, common: &Common, last: &Settings) -> Result<(Effective, Vec<Row>), Failure> {
     let mut settings = Settings::default();
-    let mut rows = Vec::new();
-    for file in project_file(path).iter().chain(&common.config) {
+    let (mut rows, mut sources) = (Vec::new(), Vec::new());
+    let project = project_file(path);
+    for file in project.iter().chain(&common.config) {
         let bytes = settings::read_file(file).map_err(|reason| Failure(format!("{}: {reason}", file.display())))?;
         let text = String::from_utf8(bytes).map_err(|_| Failure(format!("{}: it is not UTF-8 text", file.display())))?;
         let (level, errors) = settings::from_toml(&text);
         settings = settings.overlaid(&level);
-        let source = SourceText::new(text.into_bytes());
-        rows.extend(errors.into_iter().map(|error| settings_row(file, &source, error)));
+        let source = SourceText::new(text.clone().into_bytes());
+        let by_itself = errors.into_iter().filter(|error| error.rule == Rule::Settings);
+        rows.extend(by_itself.map(|error| settings_row(file, &source, error)));
+        sources.push((file, text, source));
     }
-    Ok((Effective::of(&settings.overlaid(last)), rows))
+    let settings = settings.overlaid(last);
+    // What is wrong with the passes shows once all levels lie over each other: in the last file that speaks of them.
+    for error in settings.pass_errors(&|_| None) {
+        let place = |(file, text, source): &(&PathBuf, String, SourceText)| {
+            let mut own = settings.pass_errors(&|fault| settings::place_in(text, fault)).into_iter();
+            let own = own.find(|own| own.message == error.message && own.range.is_some())?;
+            Some(settings_row(file, source, own))
+        };
+        match sources.iter().rev().find_map(place) {
+            Some(row) => rows.push(row),
+            None => return Err(Failure(error.message)),
+        }
+    }
+    Ok((Effective::of(&settings), rows))
 }
 
 fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
     let range = error.range.unwrap_or(0..0);
     let place = Place::Text { range: range.clone() };
-    let severity = Rule::Settings.default_severity();
-    let finding = Finding { rule: Rule::Settings, severity, place, detail: Detail::Settings(error.message), related: Vec::new() };
+    let SettingsError { rule, severity, .. } = error;
+    let finding = Finding { rule, severity, place, detail: Detail::Settings(error.message), related: Vec::new() };
     let message = en::sentence(&finding, Unit::MILLIMETRE.mm);
-    Row::new(file, Some(source), range, (Rule::Settings, severity), message, FindingData::default())
+    Row::new(file, Some(source), range, (rule, severity), message, FindingData::default())
 }
 
 /// The nearest `wedm.toml` in the input's folder or one that holds it.

@@ -75,6 +75,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     output::write(arguments.output.as_deref(), program.text.as_bytes())?;
     let stands = |finding: &&Finding| matches!(finding.detail, Detail::OffsetCollapse { point: true, .. });
     concerned.iter().filter(stands).for_each(|finding| output::say(&format!("{}\n", report::row(path, &document, finding).rendered())));
+    if let Some(finding) = document.settings().one_pass() {
+        output::say(&format!("{}\n", report::row(path, &document, &finding).rendered()));
+    }
     summarise(arguments, &program, paths.len());
     Ok(Verdict::Clean)
 }

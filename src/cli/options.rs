@@ -1,6 +1,6 @@
 //! Options that several commands share, and the settings that come of them.
 
-use crate::settings::{Compensation, Corner, Direction, Layout, PointSetting, ProgramSettings, Settings, SideSetting};
+use crate::settings::{Compensation, Corner, Direction, Layout, Order, PointSetting, ProgramSettings, Settings, SideSetting};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::de::DeserializeOwned;
@@ -40,6 +40,9 @@ pub struct Program {
     /// Length of the lead-in in mm, where no thread hole is given
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub lead_in: Option<f64>,
+    /// Order of the contours; what lies within one always comes before it [default: inside-first]
+    #[arg(long, value_parser = words::<Order>(&["as-drawn", "inside-first", "nearest", "as-picked"]))]
+    pub order: Option<Order>,
     /// Form of the blocks
     #[arg(long, value_parser = words::<Layout>(&["compact", "aligned", "checking"]))]
     pub layout: Option<Layout>,
@@ -76,6 +79,7 @@ impl Program {
             thread: self.thread.map(PointSetting::One),
             entry: self.entry.map(PointSetting::One),
             lead_in: self.lead_in,
+            order: self.order,
             compensation: self.compensation,
             digits: self.digits,
             profile: self.profile.clone(),

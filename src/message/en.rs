@@ -80,6 +80,9 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         Detail::Iso(fault) => iso(fault),
         Detail::Program(fault) => program(fault),
         Detail::More { count } => format!("{count} more findings are not shown"),
+        Detail::OnePass { passes, correction } => {
+            format!("the program holds one of {passes} passes, that of correction {} mm: the others are not written", mm(*correction))
+        }
         Detail::LeadIn(sentence) | Detail::Units(sentence) | Detail::Syntax(sentence) | Detail::Settings(sentence) => sentence.clone(),
     }
 }
@@ -106,6 +109,7 @@ pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> Strin
         Detail::DeadEnd { .. } => format!("the wire comes no further than here: {place}"),
         Detail::DuplicateEntity => format!("the same place: {place}"),
         Detail::Overlap { .. } => format!("runs on this one: {place}"),
+        Detail::LeadIn(_) => format!("what is in the way: {place}"),
         Detail::SelfIntersection { touches: true, .. } => format!("touches this one: {place}"),
         Detail::SelfIntersection { .. } => format!("crosses this one: {place}"),
         Detail::SharpCorner { .. } | Detail::NearTangent { .. } => format!("meets this one: {place}"),

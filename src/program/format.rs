@@ -38,6 +38,9 @@ impl Format {
     pub fn settings<'a>(self, settings: &'a Effective) -> Cow<'a, Effective> {
         match (self, settings.compensation) {
             (Format::FourB, Compensation::Path) => Cow::Owned(Effective { compensation: Compensation::Controller, ..settings.clone() }),
+            (Format::Iso, _) if settings.profile.as_ref().is_ok_and(|profile| !profile.stops()) => {
+                Cow::Owned(Effective { stays_threaded: true, ..settings.clone() })
+            }
             _ => Cow::Borrowed(settings),
         }
     }

@@ -149,6 +149,7 @@ impl FindingData {
             }
             Detail::Iso(fault) => data.iso(fault),
             Detail::Program(fault) => data.program(fault),
+            Detail::OnePass { passes, .. } => data.count = Some(*passes),
             Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
         }
         data

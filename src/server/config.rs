@@ -1,6 +1,7 @@
 //! The levels of settings, and which `wedm.toml` holds for which document.
 
-use crate::settings::{Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, read_file as read_settings};
+use crate::finding::Rule;
+use crate::settings::{Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, place_in, read_file as read_settings};
 use crate::text::SourceText;
 use ls_types::Uri;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -59,12 +60,14 @@ impl Config {
 
     /// Takes one level anew. Returns the misfits that the user has not been told of yet, as sentences.
     pub fn set_level(&mut self, level: Level, json: &Value) -> Vec<String> {
-        let (settings, errors) = from_json(json);
+        let (settings, mut errors) = from_json(json);
         match level {
             Level::Initialization => self.initialization = settings,
             Level::Pushed => self.pushed = settings,
             Level::Pulled => self.pulled = settings,
         }
+        errors.retain(|error| error.rule == Rule::Settings);
+        errors.extend(self.settings_for(None).pass_errors(&|_| None));
         let sentences: Vec<String> = errors.iter().map(|error| format!("settings in {}: {}", level.name(), error.message)).collect();
         let old: FxHashSet<String> = self.shown.insert(level.name(), sentences.clone()).unwrap_or_default().into_iter().collect();
         sentences.into_iter().filter(|sentence| !old.contains(sentence)).collect()
@@ -91,6 +94,15 @@ impl Config {
             None => self.folders.first()?,
         };
         search.upwards(start, opened)
+    }
+
+    /// What is wrong in a project's file whose text is `text`, by itself and beside what the client says.
+    pub fn errors_in(&self, text: &str) -> Vec<SettingsError> {
+        let (settings, mut errors) = from_toml(text);
+        errors.retain(|error| error.rule == Rule::Settings);
+        let all = self.settings_for(None).overlaid(&settings);
+        errors.extend(all.pass_errors(&|fault| place_in(text, fault)).into_iter().filter(|error| error.range.is_some()));
+        errors
     }
 }
 
@@ -141,7 +153,7 @@ fn read_file(path: &Path) -> ProjectFile {
             path: path.to_path_buf(),
             text: SourceText::default(),
             settings: Settings::default(),
-            errors: vec![SettingsError { key: String::new(), message: format!("the file cannot be taken: {reason}"), range: None }],
+            errors: vec![SettingsError::new("", format!("the file cannot be taken: {reason}"), None)],
         },
     }
 }

@@ -94,9 +94,9 @@ fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> 
 pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], encoding: Encoding) -> Vec<Diagnostic> {
     let diagnostic = |error: &SettingsError| Diagnostic {
         range: error.range.clone().map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
-        severity: severity_number(Rule::Settings.default_severity()),
-        code: Rule::Settings.name().into(),
-        code_description: code_description(Rule::Settings),
+        severity: severity_number(error.severity),
+        code: error.rule.name().into(),
+        code_description: code_description(error.rule),
         source: "wedm".into(),
         message: error.message.clone(),
         related_information: None,

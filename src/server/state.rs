@@ -10,6 +10,7 @@ use super::jobs::Workers;
 use super::judge::{Job, Judged, Task};
 use super::open::Open;
 use super::transport::{Publish, Writer, panic_text};
+use crate::finding::Rule;
 use crate::protocol::Diagnostic;
 use crate::settings::Effective;
 use crate::text::{Encoding, SourceText};
@@ -288,6 +289,13 @@ impl State {
         (open.version, open.content, open.is_slow) = (version, content, is_slow);
         if let Some((diagnostics, findings)) = told {
             open.findings = findings;
+            // What is wrong in a project's file depends on what the client says as well.
+            let diagnostics = match &open.content {
+                Content::Settings(text) => {
+                    super::convert::settings_diagnostics(text, &self.config.errors_in(&text.as_str_lossy()), self.encoding)
+                }
+                _ => diagnostics,
+            };
             let owed = !std::mem::replace(&mut open.published, true);
             self.client.writer().publish(Publish { uri: uri.clone(), version: Some(version), diagnostics, owed });
         }
@@ -340,7 +348,11 @@ impl State {
             return;
         }
         let errors = match project {
-            Some(project) => super::convert::settings_diagnostics(&project.text, &project.errors, self.encoding),
+            Some(project) => {
+                let own = project.errors.iter().filter(|error| error.rule == Rule::Settings).cloned();
+                let beside = self.config.errors_in(&project.text.as_str_lossy()).into_iter().filter(|error| error.rule != Rule::Settings);
+                super::convert::settings_diagnostics(&project.text, &own.chain(beside).collect::<Vec<_>>(), self.encoding)
+            }
             None => Vec::new(),
         };
         let was_shown = self.shown_files.contains(file);

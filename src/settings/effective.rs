@@ -2,10 +2,10 @@
 
 use super::profile::DEFAULT_PROFILE;
 use super::{
-    Budget, Compensation, Corner, Direction, Jumps, Layout, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting,
+    Budget, Compensation, Corner, Direction, Jumps, Layout, Order, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting,
 };
 use crate::drawing::{Color, Role, Unit};
-use crate::finding::{Finding, Rule, Severity};
+use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,6 +18,9 @@ pub struct Effective {
     pub pass: Option<usize>,
     /// Correction of each pass; one where none are set.
     pub corrections: Vec<f64>,
+    /// Diameter of the wire and spark gap in mm, where somebody has set them.
+    pub wire_diameter: Option<f64>,
+    pub gap: Option<f64>,
     pub side: SideSetting,
     pub unit: Unit,
     pub margin: f64,
@@ -32,11 +35,18 @@ pub struct Effective {
     /// The layout that somebody has set; without one, a program that is formatted stays in its own.
     pub stated_layout: Option<Layout>,
     pub direction: Direction,
+    /// The direction that somebody has set.
+    pub stated_direction: Option<Direction>,
     pub corner: Corner,
     pub thread: Option<PointSetting>,
     pub entry: Option<PointSetting>,
     pub lead_in: f64,
+    /// The length of the lead-in that somebody has set.
+    pub stated_lead_in: Option<f64>,
+    pub order: Order,
     pub jumps: Jumps,
+    /// The wire stays threaded on the way from one contour to the next: that way cuts, too. A format says so whose programs do not stop.
+    pub stays_threaded: bool,
     pub compensation: Compensation,
     /// Digits of the controller's numbers in 3B.
     pub digits: u32,
@@ -57,6 +67,8 @@ impl Effective {
     pub const WIRE_DIAMETER: f64 = 0.18;
     /// Default number of digits of a controller.
     pub const DIGITS: u32 = 6;
+    /// Default length of a lead-in in mm.
+    pub const LEAD_IN: f64 = 3.0;
     /// Default spark gap in mm, where only a wire diameter is set.
     pub const GAP: f64 = 0.01;
 
@@ -81,6 +93,8 @@ impl Effective {
             correction,
             pass: (corrections.len() > 1).then_some(index + 1),
             corrections,
+            wire_diameter: settings.wire_diameter,
+            gap: settings.gap,
             side: settings.side.unwrap_or_default(),
             unit: match settings.units.unwrap_or_default() {
                 UnitSetting::Mm => Unit::MILLIMETRE,
@@ -95,11 +109,15 @@ impl Effective {
             layout: program.layout.unwrap_or_default(),
             stated_layout: program.layout,
             direction: program.direction.unwrap_or_default(),
+            stated_direction: program.direction,
             corner: program.corner.unwrap_or_default(),
             thread: program.thread,
             entry: program.entry,
-            lead_in: program.lead_in.unwrap_or(3.0),
+            lead_in: program.lead_in.unwrap_or(Self::LEAD_IN),
+            stated_lead_in: program.lead_in,
+            order: program.order.unwrap_or_default(),
             jumps: program.jumps.unwrap_or_default(),
+            stays_threaded: false,
             compensation: program.compensation.unwrap_or_default(),
             digits: program.digits.map_or(Self::DIGITS, u32::from),
             program_units: program.units,
@@ -114,6 +132,21 @@ impl Effective {
     /// The largest number that the controller takes in 3B, µm.
     pub fn largest_number(&self) -> i64 {
         10_i64.pow(self.digits.min(18)) - 1
+    }
+
+    /// Why no program is written: what is wrong with the corrections of the passes, where that is an error.
+    pub fn pass_error(&self) -> Option<String> {
+        let is_error = self.severity(Rule::PassOrder) == Some(Severity::Error);
+        let faults = || super::pass_faults(&self.corrections, self.corrections.len() > 1, self.wire_diameter);
+        if is_error { faults().into_iter().next().map(|fault| fault.message) } else { None }
+    }
+
+    /// What is said beside a program that holds one pass of several.
+    pub fn one_pass(&self) -> Option<Finding> {
+        let passes = self.corrections.len();
+        let detail = Detail::OnePass { passes, correction: self.correction };
+        let severity = Severity::Warning;
+        (passes > 1).then(|| Finding { rule: Rule::PassOrder, severity, place: Place::Document, detail, related: Vec::new() })
     }
 
     /// Severity of a rule, `None` when it is switched off.

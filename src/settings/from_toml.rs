@@ -2,8 +2,9 @@
 
 use super::reader;
 use super::value::{Entry, Node, Value};
-use super::{Settings, SettingsError};
+use super::{PassFault, Settings, SettingsError};
 use crate::disk;
+use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -27,16 +28,12 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, String> {
 pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     if text.len() > LARGEST {
         let message = format!("the file has {} bytes, expected at most {LARGEST}: none of it holds", text.len());
-        return (Settings::default(), vec![SettingsError { key: String::new(), message, range: Some(0..0) }]);
+        return (Settings::default(), vec![SettingsError::new("", message, Some(0..0))]);
     }
     let (table, faults) = DeTable::parse_recoverable(text);
     let mut errors: Vec<SettingsError> = faults
         .into_iter()
-        .map(|fault| SettingsError {
-            key: String::new(),
-            message: format!("not TOML: {}", fault.message().replace('\n', ", ")),
-            range: fault.span(),
-        })
+        .map(|fault| SettingsError::new("", format!("not TOML: {}", fault.message().replace('\n', ", ")), fault.span()))
         .collect();
     // What follows a fault on its line is the parser's guess.
     let line_ends: Vec<usize> = memchr::memchr_iter(b'\n', text.as_bytes()).collect();
@@ -46,6 +43,15 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     errors.extend(misfits);
     errors.sort_by_key(|error| error.range.as_ref().map_or(0, |range| range.start));
     (settings, errors)
+}
+
+/// Where a `wedm.toml` says what a fault of the passes speaks of; `None` where it says nothing of it.
+pub fn place_in(text: &str, fault: &PassFault) -> Option<Range<usize>> {
+    if text.len() > LARGEST {
+        return None;
+    }
+    let (table, _) = DeTable::parse_recoverable(text);
+    reader::place_of(&Node { value: Value::Table(entries(table.get_ref())), range: None }, fault)
 }
 
 fn entries(table: &DeTable<'_>) -> Vec<Entry> {

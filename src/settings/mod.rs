@@ -6,6 +6,7 @@ mod budget;
 mod effective;
 mod from_json;
 mod from_toml;
+mod passes;
 mod profile;
 mod reader;
 mod value;
@@ -13,11 +14,12 @@ mod value;
 pub use budget::Budget;
 pub use effective::Effective;
 pub use from_json::from_json;
-pub use from_toml::{FILE_NAME, from_toml, read_file};
+pub use from_toml::{FILE_NAME, from_toml, place_in, read_file};
+pub use passes::{PassFault, pass_faults};
 pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Profile, ProfileSettings, Zero, shipped_profiles};
 
 use crate::drawing::Role;
-use crate::finding::Severity;
+use crate::finding::{Rule, Severity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -75,6 +77,21 @@ pub enum Direction {
     Ccw,
     Cw,
     AsDrawn,
+}
+
+/// Which contour is cut after which. What lies within a contour always comes before it: the part drops when the contour round it is cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Order {
+    /// As they are drawn or selected; what lies within one directly before it.
+    AsDrawn,
+    /// As they are drawn or selected; where that is not possible, one outermost contour after the other, the innermost in it first.
+    #[default]
+    InsideFirst,
+    /// From each to the one with the nearest thread hole.
+    Nearest,
+    /// As the handles are given, which also say where in its contour the cut begins, and which way it goes where `direction` is not set.
+    AsPicked,
 }
 
 /// How the wire path rounds a convex corner of the part.
@@ -171,6 +188,8 @@ pub struct ProgramSettings {
     #[serde(skip_serializing_if = "Option::is_none", alias = "lead-in")]
     pub lead_in: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub order: Option<Order>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub jumps: Option<Jumps>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compensation: Option<Compensation>,
@@ -198,10 +217,10 @@ pub struct Settings {
     /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub correction: Option<f64>,
-    /// mm; with `gap` in place of `correction`.
+    /// mm. With `gap` it says the correction where that is not set; beside it, how thick the wire is.
     #[serde(skip_serializing_if = "Option::is_none", alias = "wire-diameter")]
     pub wire_diameter: Option<f64>,
-    /// Spark gap in mm.
+    /// Spark gap in mm; see `wireDiameter`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -240,12 +259,10 @@ pub struct Settings {
 impl Settings {
     /// Lays `later` over `self`: what `later` sets wins; tables are merged key by key.
     ///
-    /// A correction and a wire diameter with gap are two ways to say one thing: the later level's way wins as a whole.
+    /// A wire diameter or a gap of a later level says the correction anew, where that level says none itself.
     pub fn overlaid(&self, later: &Settings) -> Settings {
         let mut earlier = self.clone();
-        if later.correction.is_some() {
-            (earlier.wire_diameter, earlier.gap) = (None, None);
-        } else if later.wire_diameter.is_some() || later.gap.is_some() {
+        if later.correction.is_none() && (later.wire_diameter.is_some() || later.gap.is_some()) {
             earlier.correction = None;
         }
         Settings {
@@ -279,6 +296,22 @@ impl Settings {
     }
 }
 
+impl Settings {
+    /// What is wrong with the corrections of the passes once all levels are laid over each other. `place` says where a text speaks of it.
+    pub fn pass_errors(&self, place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>) -> Vec<SettingsError> {
+        let rule = Rule::PassOrder;
+        let stated = self.rules.as_ref().and_then(|rules| rules.get(rule.name()));
+        let Some(severity) = stated.map_or(Some(rule.default_severity()), |severity| severity.severity()) else { return Vec::new() };
+        let (key, faults) = match (self.passes.as_ref().and_then(|passes| passes.corrections.as_ref()), self.correction) {
+            (Some(list), _) => ("passes.corrections", pass_faults(list, true, self.wire_diameter)),
+            (None, Some(single)) => ("correction", pass_faults(&[single], false, self.wire_diameter)),
+            (None, None) => return Vec::new(),
+        };
+        let error = |fault: PassFault| SettingsError { key: key.into(), range: place(&fault), message: fault.message, rule, severity };
+        faults.into_iter().map(error).collect()
+    }
+}
+
 impl ProgramSettings {
     fn overlaid(&self, later: &ProgramSettings) -> ProgramSettings {
         ProgramSettings {
@@ -288,6 +321,7 @@ impl ProgramSettings {
             thread: later.thread.clone().or(self.thread.clone()),
             entry: later.entry.clone().or(self.entry.clone()),
             lead_in: later.lead_in.or(self.lead_in),
+            order: later.order.or(self.order),
             jumps: later.jumps.or(self.jumps),
             compensation: later.compensation.or(self.compensation),
             digits: later.digits.or(self.digits),
@@ -317,4 +351,14 @@ pub struct SettingsError {
     pub message: String,
     /// Bytes in the source text, where there is one.
     pub range: Option<std::ops::Range<usize>>,
+    /// What it is reported as: `settings`, or `pass-order`.
+    pub rule: Rule,
+    pub severity: Severity,
+}
+
+impl SettingsError {
+    /// A value that does not fit by itself.
+    pub fn new(key: impl Into<String>, message: String, range: Option<std::ops::Range<usize>>) -> SettingsError {
+        SettingsError { key: key.into(), message, range, rule: Rule::Settings, severity: Rule::Settings.default_severity() }
+    }
 }

@@ -164,6 +164,12 @@ impl ProfileSettings {
 }
 
 impl Profile {
+    /// True where its pause stops the machine by an M word, so that the wire can be taken out.
+    pub fn stops(&self) -> bool {
+        let stops = |line: &String| line.as_bytes().windows(2).any(|pair| matches!(pair, [b'M' | b'm', digit] if digit.is_ascii_digit()));
+        self.pause.iter().any(stops)
+    }
+
     /// The profile of a name: a user's, laid over its base, or one that ships. The error says which there are.
     pub fn of(name: &str, own: Option<&BTreeMap<String, ProfileSettings>>) -> Result<Profile, String> {
         let mine = own.and_then(|own| own.get(name));

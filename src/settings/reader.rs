@@ -2,7 +2,7 @@
 
 use super::profile::DECIMALS;
 use super::value::{Entry, Node, Value};
-use super::{Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings, SettingsError, shipped_profiles};
+use super::{PassFault, Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings, SettingsError, shipped_profiles};
 use crate::drawing::{Color, Role};
 use crate::finding::Rule;
 use serde::de::value::{Error, StrDeserializer};
@@ -50,12 +50,7 @@ impl Reader {
                 ),
             }
         });
-        if settings.correction.is_some() && settings.wire_diameter.is_some() {
-            let range = entry_of(root, "wireDiameter").and_then(|entry| entry.key_range.clone());
-            let message = "wire-diameter stands beside correction, expected one of the two; correction holds".into();
-            self.errors.push(SettingsError { key: "wire-diameter".into(), message, range });
-            settings.wire_diameter = None;
-        }
+        self.errors.extend(settings.pass_errors(&|fault| place_of(root, fault)));
         if let Some(program) = &mut settings.program {
             let own = settings.profiles.iter().flat_map(|profiles| profiles.keys().cloned());
             let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
@@ -151,6 +146,7 @@ impl Reader {
                 "thread" => program.thread = reader.point_setting(key, node),
                 "entry" => program.entry = reader.point_setting(key, node),
                 "leadIn" => program.lead_in = reader.number_above_zero(key, node),
+                "order" => program.order = reader.name(key, node),
                 "jumps" => program.jumps = reader.name(key, node),
                 "compensation" => program.compensation = reader.name(key, node),
                 "digits" => program.digits = reader.whole(key, node, DIGITS).map(|number| number as u8),
@@ -160,7 +156,7 @@ impl Reader {
                 "pause" => program.pause = reader.word(key, node),
                 _ => {
                     let expected =
-                        "layout, direction, corner, thread, entry, lead-in, jumps, compensation, digits, units, profile, end or pause";
+                        "layout, direction, corner, thread, entry, lead-in, order, jumps, compensation, digits, units, profile, end or pause";
                     reader.unknown(key, entry, expected);
                 }
             }
@@ -366,14 +362,25 @@ impl Reader {
     }
 
     fn complain<T>(&mut self, key: &str, node: &Node, message: String) -> Option<T> {
-        self.errors.push(SettingsError { key: key.into(), message, range: node.range.clone() });
+        self.errors.push(SettingsError::new(key, message, node.range.clone()));
         None
     }
 
     fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
         let message = format!("{key} is not known, expected {expected}");
-        self.errors.push(SettingsError { key: key.into(), message, range: entry.key_range.clone() });
+        self.errors.push(SettingsError::new(key, message, entry.key_range.clone()));
     }
+}
+
+/// The value that a fault of the passes speaks of, else what else the tree says about the passes.
+pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
+    let corrections = entry_of(root, "passes").and_then(|entry| entry_of(&entry.node, "corrections"));
+    let of_list = corrections.and_then(|entry| match &entry.node.value {
+        Value::List(items) => items.get(fault.pass)?.range.clone(),
+        _ => None,
+    });
+    let of_key = |key: &str| entry_of(root, key).and_then(|entry| entry.node.range.clone());
+    of_list.or_else(|| of_key("correction")).or_else(|| of_key("wireDiameter"))
 }
 
 fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
@@ -464,8 +471,24 @@ end = "DD"
         check("corection = 1", "corection", "corection is not known, expected correction,");
         check("passes = { corrections = [0.1, 0] }", "0", "passes.corrections[1] is 0, expected a number above 0");
         check("passes = { corrections = [] }", "[]", "passes.corrections is empty");
+        check(
+            "passes = { corrections = [0.2, 0.1, 0.15] }",
+            "0.15",
+            "passes.corrections[2] is 0.15, expected at most 0.1, that of the pass before",
+        );
+        check(
+            "wire-diameter = 0.25\npasses = { corrections = [0.2, 0.12] }",
+            "0.12",
+            "passes.corrections[1] is 0.12, expected at least the wire's radius 0.125",
+        );
+        check("correction = 0.1\nwire-diameter = 0.25", "0.1", "correction is 0.1, expected at least the wire's radius 0.125");
         check("rules = { small-radii = \"off\" }", "small-radii", "rules.small-radii is not known, expected small-radius");
         check("rules = { small-radius = \"loud\" }", "\"loud\"", "rules.small-radius is \"loud\", expected one of error,");
+        check(
+            "program = { order = \"random\" }",
+            "\"random\"",
+            "program.order is \"random\", expected one of as-drawn, inside-first, nearest, as-picked",
+        );
         check("program = { lead-in = 0 }", "0", "program.lead-in is 0, expected a number above 0");
         check("program = { thread = [1] }", "[1]", "program.thread is a list, expected a point [x, y]");
         check("program = { end = \"\" }", "\"\"", "program.end is \"\", expected a word");
@@ -501,7 +524,9 @@ end = "DD"
         check(json!({ "wedm": { "correction": 0.12 }, "editor": { "tabSize": 2 } }), Some(0.12), 0);
         check(json!({ "wedm": null }), None, 0);
         check(json!({ "correction": true }), None, 1);
-        check(json!({ "correction": 0.1, "wireDiameter": 0.2 }), Some(0.1), 1);
+        check(json!({ "correction": 0.1, "wireDiameter": 0.2 }), Some(0.1), 0);
+        check(json!({ "correction": 0.1, "wireDiameter": 0.25 }), Some(0.1), 1);
+        check(json!({ "passes": { "corrections": [0.1, 0.2] } }), None, 1);
         check(json!([]), None, 1);
         check(json!("x"), None, 1);
     }

@@ -28,9 +28,21 @@ impl Walls {
         Walls { segments, levels }
     }
 
+    pub fn segment(&self, index: usize) -> &Segment {
+        &self.segments[index]
+    }
+
     /// The first wall found to which `path` comes nearer than `distance`.
     pub fn too_near(&self, path: &Segment, distance: f64) -> Option<usize> {
-        self.find(&path.bounds().grown(distance), |index| distance_between(path, &self.segments[index]) < distance)
+        self.find_near(path, distance, |_, _| true)
+    }
+
+    /// The same among those for which, with their distance, `counts` holds.
+    pub fn find_near(&self, path: &Segment, distance: f64, counts: impl Fn(usize, f64) -> bool) -> Option<usize> {
+        self.find(&path.bounds().grown(distance), |index| {
+            let away = distance_between(path, &self.segments[index]);
+            away < distance && counts(index, away)
+        })
     }
 
     /// The first wall found that is nearer to a point than `distance`.

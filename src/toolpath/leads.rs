@@ -1,20 +1,25 @@
 //! Thread hole, entry and the leads between them.
+//!
+//! A lead cuts as the path does: it keeps clear of every contour, its own and all others, and of what is cut along the others.
 
 use super::clearance::Walls;
 use super::corners::Element;
 use super::offset::{Wall, normal};
 use super::order::{name, outline_of};
 use super::{Refusal, Source};
-use crate::drawing::{Drawing, Geometry, Outline};
+use crate::drawing::{Drawing, EntityId, Geometry, Outline, Role, winding};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::{Arc, Point, Segment};
-use crate::settings::{Effective, PointSetting};
+use crate::settings::{Compensation, Effective, PointSetting};
+use std::f64::consts::TAU;
 
 /// What settings and start marks say about one contour, in drawing units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Wanted {
     pub thread: Option<Point>,
     pub entry: Option<Point>,
+    /// A mark that means the point of the contour beside it, where no entry is given.
+    pub beside: Option<Point>,
 }
 
 /// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
@@ -22,17 +27,33 @@ pub(super) fn wanted(drawing: &Drawing, outlines: &[Outline], chosen: &[usize], 
     let threads = points(drawing, outlines, chosen, settings.thread.as_ref(), "thread hole")?;
     let entries = points(drawing, outlines, chosen, settings.entry.as_ref(), "entry")?;
     let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
-    let wanted = chosen
-        .iter()
-        .zip(threads.into_iter().zip(entries))
-        .map(|(&index, (thread, entry))| Wanted { thread: thread.or_else(|| mark_of(&marks, index)), entry });
+    let wanted = chosen.iter().zip(threads.into_iter().zip(entries)).map(|(&index, (thread, entry))| {
+        let mark = own_mark(&marks, index);
+        let is_entry = |mark: &&Mark| means_entry(drawing, &outlines[index], mark, settings);
+        let beside = mark.filter(is_entry).map(|mark| mark.at);
+        Wanted { thread: thread.or(if beside.is_some() { None } else { mark.map(|mark| mark.at) }), entry, beside }
+    });
     Ok(wanted.collect())
+}
+
+/// A mark within the correction of its contour, or on the part's side of it, means the entry: no wire is threaded there. Where the side
+/// is not known, or the contour is the wire's own path, it is the thread hole.
+fn means_entry(drawing: &Drawing, outline: &Outline, mark: &Mark, settings: &Effective) -> bool {
+    if settings.compensation == Compensation::None || !outline.contour.closed || !matches!(outline.role, Role::Opening | Role::Punch) {
+        return false;
+    }
+    let is_inside = winding(drawing, &outline.contour, mark.at) != 0;
+    mark.distance * settings.unit_of(drawing).mm <= settings.correction || is_inside != (outline.role == Role::Opening)
 }
 
 /// The mark of one outline: of several the nearest.
 pub(super) fn mark_of(marks: &[Mark], outline: usize) -> Option<Point> {
+    own_mark(marks, outline).map(|mark| mark.at)
+}
+
+fn own_mark(marks: &[Mark], outline: usize) -> Option<&Mark> {
     let own = marks.iter().filter(|mark| mark.outline == outline);
-    own.min_by(|a, b| a.distance.total_cmp(&b.distance)).map(|mark| mark.at)
+    own.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
 fn points(
@@ -178,38 +199,158 @@ pub(super) fn path_point(path: &[Element], walls: &[Wall], entry: &Entry, correc
     Some((index, point))
 }
 
+/// The centre of walls that are one circle.
+pub(super) fn circle_center(walls: &[Wall], tolerance: f64) -> Option<Point> {
+    let first = *walls.first()?.geometry.as_arc()?;
+    let same = |arc: &&Arc| (arc.center - first.center).norm() <= tolerance && (arc.radius - first.radius).abs() <= tolerance;
+    let arcs: Vec<&Arc> = walls.iter().map_while(|wall| wall.geometry.as_arc()).filter(same).collect();
+    let sweep: f64 = arcs.iter().map(|arc| arc.sweep).sum();
+    (arcs.len() == walls.len() && (sweep.abs() - TAU).abs() * first.radius <= tolerance).then_some(first.center)
+}
+
+/// The walls of all contours.
+pub(super) struct Contours {
+    pub walls: Walls,
+    /// By wall: the outline, and the segment of the drawing.
+    of: Vec<(usize, EntityId, usize)>,
+}
+
+impl Contours {
+    pub fn new(drawing: &Drawing, outlines: &[Outline]) -> Contours {
+        let (mut walls, mut of) = (Vec::new(), Vec::new());
+        for (index, outline) in outlines.iter().enumerate() {
+            for segment in outline.contour.segments(drawing) {
+                walls.push(segment.geometry);
+                of.push((index, segment.entity, segment.segment));
+            }
+        }
+        Contours { walls: Walls::new(walls), of }
+    }
+
+    /// The outline that a wall is of.
+    pub fn outline_of(&self, wall: usize) -> usize {
+        self.of[wall].0
+    }
+
+    pub fn place_of(&self, wall: usize) -> Place {
+        let (_, entity, segment) = self.of[wall];
+        Place::Segment { entity, segment }
+    }
+}
+
+/// The wire's paths along all contours that are cut, without their leads.
+pub(super) struct Kerfs {
+    paths: Walls,
+    /// By piece: the outline, and what it follows.
+    of: Vec<(usize, Source)>,
+}
+
+impl Kerfs {
+    pub fn new<'a>(paths: impl Iterator<Item = (usize, &'a [Element])>) -> Kerfs {
+        let (mut pieces, mut of) = (Vec::new(), Vec::new());
+        for (outline, path) in paths {
+            pieces.extend(path.iter().map(|element| element.geometry));
+            of.extend(path.iter().map(|element| (outline, element.source)));
+        }
+        Kerfs { paths: Walls::new(pieces), of }
+    }
+}
+
 /// What a lead is checked against.
 pub(super) struct Surroundings<'a> {
-    /// The walls of the contour itself.
+    pub drawing: &'a Drawing,
+    pub outlines: &'a [Outline],
+    /// The outline that the lead leads to, and its walls.
+    pub outline: usize,
     pub own: &'a Walls,
-    /// Those of all contours.
-    pub all: &'a Walls,
+    pub contours: &'a Contours,
+    pub kerfs: &'a Kerfs,
     /// The path keeps at least this from the walls, and so must the leads; drawing units.
     pub clearance: f64,
     pub unit_mm: f64,
     pub severity: Severity,
 }
 
+/// What a lead would cut.
+enum Obstacle {
+    /// A wall of its own contour, by its index.
+    Own(usize),
+    /// A wall of another contour.
+    Contour(usize),
+    /// What is cut along another contour.
+    Kerf(usize),
+}
+
+impl Surroundings<'_> {
+    /// What is in the way of a lead to `begin`.
+    fn obstacle(&self, lead: &Segment, begin: Point) -> Option<Obstacle> {
+        if let Some(wall) = self.own.too_near(lead, self.clearance) {
+            return Some(Obstacle::Own(wall));
+        }
+        let is_other = |wall: usize| self.contours.outline_of(wall) != self.outline;
+        if let Some(wall) = self.contours.walls.find_near(lead, self.clearance, |wall, _| is_other(wall)) {
+            return Some(Obstacle::Contour(wall));
+        }
+        // Two cuts are as wide as two corrections each. Where the paths themselves run nearer to each other, the lead may as well.
+        let rounding = super::ROUNDING / self.unit_mm;
+        let Kerfs { paths, of } = self.kerfs;
+        let counts =
+            |piece: usize, distance: f64| of[piece].0 != self.outline && distance < paths.segment(piece).distance_to(begin) - rounding;
+        paths.find_near(lead, 2.0 * self.clearance, counts).map(Obstacle::Kerf)
+    }
+
+    /// Where an obstacle stands in the drawing, and what a lead does there.
+    fn told(&self, obstacle: &Obstacle, walls: &[Wall], correction: f64) -> (Option<Place>, String) {
+        let named = |outline: usize| self.outlines.get(outline).map_or("?", |outline| name(self.drawing, outline));
+        match *obstacle {
+            Obstacle::Own(wall) => {
+                let place = walls.get(wall).and_then(|wall| place_of(wall.source));
+                (place, format!("crosses the contour or comes nearer to it than the correction {correction:.3} mm"))
+            }
+            Obstacle::Contour(wall) => (
+                Some(self.contours.place_of(wall)),
+                format!(
+                    "cuts into contour {} or comes nearer to it than the correction {correction:.3} mm",
+                    named(self.contours.outline_of(wall))
+                ),
+            ),
+            Obstacle::Kerf(piece) => {
+                let (outline, source) = self.kerfs.of[piece];
+                (place_of(source), format!("runs into the cut along contour {}", named(outline)))
+            }
+        }
+    }
+}
+
+pub(super) fn place_of(source: Source) -> Option<Place> {
+    match source {
+        Source::Segment { entity, segment } | Source::Corner { entity, segment } => Some(Place::Segment { entity, segment }),
+        Source::LeadIn | Source::LeadOut => None,
+    }
+}
+
+/// A finding `lead-in` at a place of the contour that is led to.
+pub(super) fn fault(severity: Severity, source: Option<Source>, sentence: String, other: Option<Place>) -> Finding {
+    let place = source.and_then(place_of).unwrap_or(Place::Document);
+    let related = other.filter(|other| *other != place).into_iter().collect();
+    Finding { rule: Rule::LeadIn, severity, place, detail: Detail::LeadIn(sentence), related }
+}
+
 /// The thread hole for a lead to `begin`, the point of the path that belongs to `entry`. `begin` itself where there is no lead.
 ///
-/// A hole that is given must be reached without coming nearer to the contour than the correction. Where none is given, the lead runs
-/// on from the entry through `begin`; its length, counted from the entry, is halved until it fits.
+/// A hole that is given must be reached without cutting anything. Where none is given it is `center`, where there is one and the way
+/// from it is clear; else the lead runs on from the entry through `begin`, and its length, counted from the entry, is halved until it fits.
 pub(super) fn thread_hole(
     wanted: &Wanted,
+    center: Option<Point>,
     entry: &Entry,
     begin: Point,
     walls: &[Wall],
     settings: &Effective,
     surroundings: &Surroundings<'_>,
 ) -> Result<Point, Finding> {
-    let Surroundings { own, all, clearance, unit_mm, severity } = *surroundings;
-    let fault = |sentence: String| {
-        let place = match walls.get(entry.wall).map(|wall| wall.source) {
-            Some(Source::Segment { entity, segment }) => Place::Segment { entity, segment },
-            _ => Place::Document,
-        };
-        Finding { rule: Rule::LeadIn, severity, place, detail: Detail::LeadIn(sentence), related: Vec::new() }
-    };
+    let Surroundings { unit_mm, severity, .. } = *surroundings;
+    let source = walls.get(entry.wall).map(|wall| wall.source);
     let correction = settings.correction;
     if let Some(thread) = wanted.thread {
         let join = settings.tolerances.join / unit_mm;
@@ -217,31 +358,47 @@ pub(super) fn thread_hole(
         if on_entry {
             return Ok(begin);
         }
-        return match own.too_near(&Segment::line(thread, begin), clearance) {
+        return match surroundings.obstacle(&Segment::line(thread, begin), begin) {
             None => Ok(thread),
-            Some(_) => Err(fault(format!(
-                "the lead-in from the thread hole ({:.3}, {:.3}) to ({:.3}, {:.3}) crosses the contour or comes nearer to it than the correction {correction:.3} mm",
-                thread.x, thread.y, begin.x, begin.y
-            ))),
+            Some(obstacle) => {
+                let (place, does) = surroundings.told(&obstacle, walls, correction);
+                let sentence = format!(
+                    "the lead-in from the thread hole ({:.3}, {:.3}) to ({:.3}, {:.3}) {does}",
+                    thread.x, thread.y, begin.x, begin.y
+                );
+                Err(fault(severity, source, sentence, place))
+            }
         };
+    }
+    if let Some(center) = center {
+        if (center - begin).norm() <= 1e-6 / unit_mm {
+            return Ok(begin);
+        }
+        if surroundings.obstacle(&Segment::line(center, begin), begin).is_none() {
+            return Ok(center);
+        }
     }
     let to_path = begin - entry.point;
     let nearest = to_path.norm();
     let Some(way) = to_path.try_normalize(0.0) else { return Ok(begin) };
-    for walls in [all, own] {
-        let mut length = settings.lead_in / unit_mm;
-        while length.is_finite() && length > nearest + 1e-6 / unit_mm {
-            let thread = entry.point + way * length;
-            if walls.too_near(&Segment::line(thread, begin), clearance).is_none() {
-                return Ok(thread);
-            }
-            length /= 2.0;
+    let mut length = settings.lead_in / unit_mm;
+    let mut last = None;
+    while length.is_finite() && length > nearest + 1e-6 / unit_mm {
+        let thread = entry.point + way * length;
+        match surroundings.obstacle(&Segment::line(thread, begin), begin) {
+            None => return Ok(thread),
+            obstacle => last = obstacle,
         }
+        length /= 2.0;
     }
-    Err(fault(format!(
-        "no lead-in from {:.3} mm down to the correction {correction:.3} mm fits at ({:.3}, {:.3}): give a thread hole or another entry",
+    // What is in the way of the shortest one.
+    let (place, does) = last.map(|obstacle| surroundings.told(&obstacle, walls, correction)).unwrap_or_default();
+    let why = if does.is_empty() { does } else { format!(" (it {does})") };
+    let sentence = format!(
+        "no lead-in from {:.3} mm down to the correction {correction:.3} mm fits at ({:.3}, {:.3}){why}: give a thread hole or another entry",
         settings.lead_in, entry.point.x, entry.point.y
-    )))
+    );
+    Err(fault(severity, source, sentence, place))
 }
 
 /// The refusal of an entry that does not lie on the contour.

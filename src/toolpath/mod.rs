@@ -17,18 +17,21 @@ mod proof;
 #[cfg(test)]
 mod tests;
 
-use crate::drawing::{Contour, Drawing, EntityId, Outline};
+use crate::drawing::{Contour, Drawing, EntityId, Outline, Role};
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side};
 use crate::geometry::{Point, Segment};
-use crate::settings::{Compensation, Corner, Effective};
+use crate::settings::{Compensation, Corner, Effective, Jumps, Order};
 use clearance::Walls;
 use corners::{Element, Joining, Raw, with_tips};
-use leads::{Entry, Surroundings, Wanted, default_entry, nearest, off_contour, path_point, thread_hole};
+use leads::{
+    Contours, Entry, Kerfs, Surroundings, Wanted, circle_center, default_entry, fault, nearest, off_contour, path_point, place_of,
+    thread_hole,
+};
 use loops::Found;
 use offset::{Wall, walls};
-use order::{begin_at, directed, name};
+use order::{Chosen, Pick, begin_at, directed, name};
 use proof::{Proof, Unproved};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::OnceLock;
 
 /// Where a piece of the path comes from.
@@ -100,17 +103,23 @@ pub struct Cut {
     pub mark: Option<Point>,
 }
 
-/// All contours in the order in which they are cut: as they are drawn, but what lies within one before it. `None` for a drawing of
-/// so many contours or marks that finding out takes longer than a question may.
+/// All contours in the order in which they are cut. `None` for a drawing of so many contours or marks that finding out takes longer than
+/// a question may, and where the order is that of the nearest thread holes and there is no path.
 pub fn cuts(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Option<Vec<Cut>> {
     const MOST_CONTOURS: usize = 20_000;
     const MOST_COMPARED: usize = 20_000_000;
+    /// A path is laid for the order of the nearest.
+    const MOST_LAID: usize = 10_000;
     if outlines.len() > MOST_CONTOURS {
         return None;
     }
     let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
-    let chosen = order::chosen(drawing, outlines, None, tolerances.zero_length).unwrap_or_default();
     let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
+    let chosen = match settings.order {
+        Order::Nearest if segments > MOST_LAID => return None,
+        Order::Nearest => plan(drawing, outlines, settings, None).ok()?.into_iter().map(|path| path.outline).collect(),
+        order => order::chosen(drawing, outlines, None, order, tolerances.zero_length).unwrap_or_default().outlines,
+    };
     let marks = leads::marks(drawing, outlines, MOST_COMPARED / segments.max(1))?;
     Some(chosen.into_iter().map(|outline| Cut { outline, mark: leads::mark_of(&marks, outline) }).collect())
 }
@@ -124,7 +133,7 @@ pub fn plan_while(
     goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<WirePath>, Refusal> {
     let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
-    let chosen = order::chosen(drawing, outlines, handles, tolerances.zero_length)?;
+    let Chosen { outlines: chosen, picks } = order::chosen(drawing, outlines, handles, settings.order, tolerances.zero_length)?;
     if settings.compensation == Compensation::None
         && chosen.len() > 1
         && let Some(path) = drawn::one_path(
@@ -139,23 +148,15 @@ pub fn plan_while(
         return Ok([path].into());
     }
     let wanted = leads::wanted(drawing, outlines, &chosen, settings)?;
-    let job = Job { drawing, outlines, settings, unit_mm: settings.unit_of(drawing).mm, goes_on };
+    let job = Job { drawing, outlines, settings, picks, unit_mm: settings.unit_of(drawing).mm, goes_on };
     job.go_on()?;
-    let all = job.all_walls();
-    let (mut paths, mut findings) = (Vec::new(), Vec::new());
-    for (&index, wanted) in chosen.iter().zip(&wanted) {
-        job.go_on()?;
-        let path = match settings.compensation {
-            Compensation::None => job.as_drawn(index, wanted),
-            Compensation::Path => job.compensated(index, wanted, &all),
-            Compensation::Controller => job.controlled(index, wanted, &all),
-        };
-        match path {
-            Ok(path) => paths.push(path),
-            Err(Refusal::Findings(found)) => findings.extend(found),
-            Err(refusal) => return Err(refusal),
-        }
-    }
+    let contours = Contours::new(drawing, outlines);
+    let (paths, mut findings) = match settings.compensation {
+        Compensation::None => job.as_drawn_all(&chosen, &wanted, &contours)?,
+        Compensation::Path | Compensation::Controller => job.offset_all(&chosen, &wanted, &contours)?,
+    };
+    let paths = if settings.order == Order::Nearest { order::by_nearest(drawing, outlines, paths) } else { paths };
+    findings.extend(job.jumps_that_cut(&paths, &contours));
     if findings.is_empty() { Ok(paths) } else { Err(Refusal::Findings(findings)) }
 }
 
@@ -169,7 +170,8 @@ pub fn entities_of(drawing: &Drawing, outlines: &[Outline], handles: Option<&[St
 /// warning where the wire can only stand. `None` where there is a path, and where the side of the wire is not known.
 pub fn misfit(drawing: &Drawing, outline: &Outline, settings: &Effective) -> Option<Finding> {
     let side = outline.wire_side()?.sign();
-    let job = Job { drawing, outlines: &[], settings, unit_mm: settings.unit_of(drawing).mm, goes_on: &|| true };
+    let job =
+        Job { drawing, outlines: &[], settings, picks: FxHashMap::default(), unit_mm: settings.unit_of(drawing).mm, goes_on: &|| true };
     let (walls, _, laid) = job.along(&outline.contour, side).ok()?;
     match laid {
         Ok(Laid::Path(_)) => None,
@@ -187,8 +189,29 @@ struct Job<'a> {
     drawing: &'a Drawing,
     outlines: &'a [Outline],
     settings: &'a Effective,
+    /// What the selection says of contours, by outline.
+    picks: FxHashMap<usize, Pick>,
     unit_mm: f64,
     goes_on: &'a dyn Fn() -> bool,
+}
+
+/// The offset of a contour, before it has leads.
+enum Offset {
+    Path(Box<Unled>),
+    /// The wire stands in one point.
+    Point(WirePath),
+}
+
+struct Unled {
+    outline: usize,
+    walls: Vec<Wall>,
+    own: Walls,
+    /// Begins anywhere.
+    path: Vec<Element>,
+    entry: Entry,
+    /// The element of the path that is entered, and where.
+    element: usize,
+    begin: Point,
 }
 
 /// Elements of a path that are looked at between two questions whether it is still wanted.
@@ -199,9 +222,128 @@ impl Job<'_> {
         if (self.goes_on)() { Ok(()) } else { Err(Refusal::Cancelled) }
     }
 
-    fn all_walls(&self) -> Walls {
-        let segments = self.outlines.iter().flat_map(|outline| outline.contour.segments(self.drawing));
-        Walls::new(segments.map(|segment| segment.geometry).collect())
+    /// The contours themselves as paths, and the leads that cut through others.
+    fn as_drawn_all(&self, chosen: &[usize], wanted: &[Wanted], contours: &Contours) -> Result<(Vec<WirePath>, Vec<Finding>), Refusal> {
+        let (mut paths, mut findings) = (Vec::new(), Vec::new());
+        for (&index, wanted) in chosen.iter().zip(wanted) {
+            self.go_on()?;
+            let path = self.as_drawn(index, wanted)?;
+            let lead = path.segments.first().filter(|piece| piece.source == Source::LeadIn).map(|piece| piece.geometry);
+            if let Some(lead) = lead
+                && let Some(wall) = self.crossed(&lead, contours, Some(index))
+            {
+                let crossed = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
+                let (from, to) = (lead.start(), lead.end());
+                let sentence = format!(
+                    "the lead-in from the thread hole ({:.3}, {:.3}) to ({:.3}, {:.3}) cuts through contour {crossed}",
+                    from.x, from.y, to.x, to.y
+                );
+                let source = path.segments.get(1).map(|piece| piece.source);
+                findings.push(fault(self.severity(), source, sentence, Some(contours.place_of(wall))));
+            }
+            paths.push(path);
+        }
+        Ok((paths, findings))
+    }
+
+    /// The offsets of contours, with leads that are held against all of them, and the leads that do not fit.
+    fn offset_all(&self, chosen: &[usize], wanted: &[Wanted], contours: &Contours) -> Result<(Vec<WirePath>, Vec<Finding>), Refusal> {
+        let (mut paths, mut findings) = (Vec::new(), Vec::new());
+        let mut offsets = Vec::with_capacity(chosen.len());
+        for (&index, wanted) in chosen.iter().zip(wanted) {
+            self.go_on()?;
+            match self.compensated(index, wanted) {
+                Ok(offset) => offsets.push((wanted, offset)),
+                Err(Refusal::Findings(found)) => findings.extend(found),
+                Err(refusal) => return Err(refusal),
+            }
+        }
+        let kerfs = Kerfs::new(offsets.iter().filter_map(|(_, offset)| match offset {
+            Offset::Path(unled) => Some((unled.outline, &unled.path[..])),
+            Offset::Point(_) => None,
+        }));
+        for (wanted, offset) in offsets {
+            self.go_on()?;
+            let by_control = self.settings.compensation == Compensation::Controller;
+            let unled = match offset {
+                Offset::Path(unled) => unled,
+                Offset::Point(point) if by_control => {
+                    paths.push(self.controlled(point.outline, wanted, point.thread_hole)?);
+                    continue;
+                }
+                Offset::Point(point) => {
+                    paths.push(point);
+                    continue;
+                }
+            };
+            let thread = match self.thread_hole(&unled, wanted, contours, &kerfs) {
+                Ok(thread) => thread,
+                Err(finding) => {
+                    findings.push(finding);
+                    continue;
+                }
+            };
+            paths.push(if by_control {
+                self.controlled(unled.outline, wanted, thread)?
+            } else {
+                let path = begin_at(unled.path, unled.element, unled.begin);
+                self.with_leads(unled.outline, self.units(self.settings.correction), thread, path, true)
+            });
+        }
+        Ok((paths, findings))
+    }
+
+    fn severity(&self) -> Severity {
+        self.settings.severity(Rule::LeadIn).unwrap_or(Severity::Error)
+    }
+
+    /// How near the path may come to the walls.
+    fn clearance(&self) -> f64 {
+        match self.settings.compensation {
+            Compensation::None => self.units(ROUNDING),
+            _ => self.units(self.settings.correction - ROUNDING),
+        }
+    }
+
+    /// The wall of a closed contour, `but` for one of them, that a straight way cuts.
+    fn crossed(&self, way: &Segment, contours: &Contours, but: Option<usize>) -> Option<usize> {
+        let counts = |wall: usize, _| {
+            let outline = contours.outline_of(wall);
+            Some(outline) != but && self.outlines[outline].contour.closed
+        };
+        contours.walls.find_near(way, self.clearance(), counts)
+    }
+
+    /// The ways from one contour to the next that cut through a part, where the wire stays threaded.
+    fn jumps_that_cut(&self, paths: &[WirePath], contours: &Contours) -> Vec<Finding> {
+        if !self.settings.stays_threaded || self.settings.jumps == Jumps::None {
+            return Vec::new();
+        }
+        let cut = |pair: &[WirePath]| {
+            let (from, next) = (pair[0].segments.last()?.geometry.end(), &pair[1]);
+            let to = next.segments.first()?.geometry.start();
+            let wall = self.crossed(&Segment::line(from, to), contours, None)?;
+            let sentence = format!(
+                "the way from ({:.3}, {:.3}) to ({:.3}, {:.3}) cuts into contour {}: the wire stays threaded, since the profile's pause does not stop the machine",
+                from.x,
+                from.y,
+                to.x,
+                to.y,
+                name(self.drawing, &self.outlines[contours.outline_of(wall)])
+            );
+            let source = next.segments.iter().map(|piece| piece.source).find(|source| place_of(*source).is_some());
+            Some(fault(self.severity(), source, sentence, Some(contours.place_of(wall))))
+        };
+        paths.windows(2).filter_map(cut).collect()
+    }
+
+    /// The contour in the direction of the cut, and whether that is against its own.
+    fn directed(&self, index: usize) -> (Contour, bool) {
+        let picked = self.picks.get(&index).and_then(|pick| pick.turned);
+        let outline = &self.outlines[index];
+        // An explicit direction wins; an open contour has none but that of the selection.
+        let picked = picked.filter(|_| self.settings.stated_direction.is_none() || !outline.contour.closed);
+        directed(outline, self.settings.direction, picked)
     }
 
     /// mm in drawing units.
@@ -213,14 +355,14 @@ impl Job<'_> {
     fn as_drawn(&self, index: usize, wanted: &Wanted) -> Result<WirePath, Refusal> {
         let outline = &self.outlines[index];
         let zero_length = self.units(self.settings.tolerances.zero_length);
-        let (contour, _) = directed(outline, self.settings.direction);
+        let (contour, _) = self.directed(index);
         let mut walls = walls(contour.segments(self.drawing), contour.closed, zero_length);
         let handle = name(self.drawing, outline);
         let empty = || Refusal::Sentence(format!("contour {handle} has no length"));
         let path = if contour.closed {
             let path: Vec<Element> =
                 walls.iter().enumerate().map(|(wall, w)| Element { geometry: w.geometry, source: w.source, wall }).collect();
-            match self.entry(outline, &walls, wanted)? {
+            match self.entry(index, &walls, wanted)? {
                 Some(entry) => begin_at(path, entry.wall, entry.point),
                 None => path,
             }
@@ -247,7 +389,7 @@ impl Job<'_> {
     }
 
     /// The offset of a closed contour.
-    fn compensated(&self, index: usize, wanted: &Wanted, all: &Walls) -> Result<WirePath, Refusal> {
+    fn compensated(&self, index: usize, wanted: &Wanted) -> Result<Offset, Refusal> {
         let (outline, settings) = (&self.outlines[index], self.settings);
         let handle = name(self.drawing, outline);
         if !outline.contour.closed {
@@ -259,30 +401,45 @@ impl Job<'_> {
             return Err(Refusal::Sentence(format!("side of contour {handle} is not known: say opening or punch")));
         };
         let correction = self.units(settings.correction);
-        let (contour, turned) = directed(outline, settings.direction);
+        let (contour, turned) = self.directed(index);
         let side = if turned { own_side.reversed() } else { own_side }.sign();
         let (walls, own, laid) = self.along(&contour, side)?;
         let path = match laid {
             Ok(Laid::Path(path)) => path,
-            Ok(Laid::Point(point)) => return self.threaded(index, wanted, &walls, correction, point),
+            Ok(Laid::Point(point)) => return self.threaded(index, wanted, &walls, correction, point).map(Offset::Point),
             Err(fault) => return Err(Refusal::Findings(vec![self.no_path(&fault, &walls)])),
         };
-        let clearance = correction - self.units(ROUNDING);
-        let entry = match self.entry(outline, &walls, wanted)?.or_else(|| default_entry(&walls)) {
+        let entry = match self.entry(index, &walls, wanted)?.or_else(|| default_entry(&walls)) {
             Some(entry) => entry,
             None => return Err(Refusal::Sentence(format!("contour {handle} has no length"))),
         };
         let (element, begin) = path_point(&path, &walls, &entry, correction, side)
             .ok_or_else(|| Refusal::Findings(vec![self.no_path(&Fault::Unproved { wall: entry.wall }, &walls)]))?;
-        let severity = settings.severity(Rule::LeadIn).unwrap_or(Severity::Error);
-        let surroundings = Surroundings { own: &own, all, clearance, unit_mm: self.unit_mm, severity };
-        let thread = if wanted.thread.is_none() && goes_out_and_back(&path) {
+        Ok(Offset::Path(Box::new(Unled { outline: index, walls, own, path, entry, element, begin })))
+    }
+
+    /// The thread hole for the offset of a contour, or what is in the way.
+    fn thread_hole(&self, unled: &Unled, wanted: &Wanted, contours: &Contours, kerfs: &Kerfs) -> Result<Point, Finding> {
+        if wanted.thread.is_none() && goes_out_and_back(&unled.path) {
             // There is no room beside the path.
-            begin
-        } else {
-            thread_hole(wanted, &entry, begin, &walls, settings, &surroundings).map_err(|fault| Refusal::Findings(vec![fault]))?
+            return Ok(unled.begin);
+        }
+        let surroundings = Surroundings {
+            drawing: self.drawing,
+            outlines: self.outlines,
+            outline: unled.outline,
+            own: &unled.own,
+            contours,
+            kerfs,
+            clearance: self.clearance(),
+            unit_mm: self.unit_mm,
+            severity: self.severity(),
         };
-        Ok(self.with_leads(index, correction, thread, begin_at(path, element, begin), true))
+        let is_opening = self.outlines[unled.outline].role == Role::Opening;
+        let says_nothing = wanted.entry.is_none() && wanted.beside.is_none() && self.settings.stated_lead_in.is_none();
+        let center =
+            if is_opening && says_nothing { circle_center(&unled.walls, self.units(self.settings.tolerances.report)) } else { None };
+        thread_hole(wanted, center, &unled.entry, unled.begin, &unled.walls, self.settings, &surroundings)
     }
 
     /// The walls of a closed contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
@@ -384,10 +541,7 @@ impl Job<'_> {
             Fault::Several { near, wall } => (Rule::LostPocket, Detail::LostPocket { near }, wall),
             Fault::Unproved { wall } => (Rule::UnprovedPath, Detail::UnprovedPath { near: near(wall) }, wall),
         };
-        let place = match walls.get(wall).map(|wall| wall.source) {
-            Some(Source::Segment { entity, segment }) => Place::Segment { entity, segment },
-            _ => Place::Document,
-        };
+        let place = walls.get(wall).and_then(|wall| place_of(wall.source)).unwrap_or(Place::Document);
         let severity = self.settings.severity(rule).unwrap_or(Severity::Error);
         Finding { rule, severity, place, detail, related: Vec::new() }
     }
@@ -397,40 +551,36 @@ impl Job<'_> {
         let join = self.units(self.settings.tolerances.join);
         if let Some(thread) = wanted.thread.filter(|thread| (thread - point).norm() > join) {
             let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
-            let place = match walls.get(wall).map(|wall| wall.source) {
-                Some(Source::Segment { entity, segment }) => Place::Segment { entity, segment },
-                _ => Place::Document,
-            };
             let sentence = format!(
                 "the thread hole ({:.3}, {:.3}) comes nearer to the contour than the correction {:.3} mm: the wire can stand at ({:.3}, {:.3}) alone",
                 thread.x, thread.y, self.settings.correction, point.x, point.y
             );
-            let severity = self.settings.severity(Rule::LeadIn).unwrap_or(Severity::Error);
-            let detail = Detail::LeadIn(sentence);
-            return Err(Refusal::Findings(vec![Finding { rule: Rule::LeadIn, severity, place, detail, related: Vec::new() }]));
+            let source = walls.get(wall).map(|wall| wall.source);
+            return Err(Refusal::Findings(vec![fault(self.severity(), source, sentence, None)]));
         }
         Ok(WirePath { outline: index, correction, thread_hole: point, side: None, segments: Vec::new() })
     }
 
     /// The part's contour, which the control offsets, with the thread hole of the path that comes of it.
     ///
-    /// That path is made all the same: where it cannot be, the control would cut into the part or stop.
-    fn controlled(&self, index: usize, wanted: &Wanted, all: &Walls) -> Result<WirePath, Refusal> {
-        let offset = self.compensated(index, wanted, all)?;
+    /// That path has been made all the same: where it cannot be, the control would cut into the part or stop.
+    fn controlled(&self, index: usize, wanted: &Wanted, thread_hole: Point) -> Result<WirePath, Refusal> {
         let outline = &self.outlines[index];
-        let (contour, turned) = directed(outline, self.settings.direction);
+        let (contour, turned) = self.directed(index);
         let side = outline.wire_side().map(|side| if turned { side.reversed() } else { side });
         let walls = walls(contour.segments(self.drawing), true, self.units(self.settings.tolerances.zero_length));
-        let Some(entry) = self.entry(outline, &walls, wanted)?.or_else(|| default_entry(&walls)) else {
+        let Some(entry) = self.entry(index, &walls, wanted)?.or_else(|| default_entry(&walls)) else {
             return Err(Refusal::Sentence(format!("contour {} has no length", name(self.drawing, outline))));
         };
         let path = walls.iter().enumerate().map(|(wall, w)| Element { geometry: w.geometry, source: w.source, wall }).collect();
         let path = begin_at(path, entry.wall, entry.point);
-        Ok(WirePath { side, ..self.with_leads(index, 0.0, offset.thread_hole, path, true) })
+        Ok(WirePath { side, ..self.with_leads(index, 0.0, thread_hole, path, true) })
     }
 
-    /// The entry that is asked for, or the one nearest to the thread hole; `None` where neither is given.
-    fn entry(&self, outline: &Outline, walls: &[Wall], wanted: &Wanted) -> Result<Option<Entry>, Refusal> {
+    /// The entry that is asked for, that beside the mark, the begin of the entity that was picked first, or the point nearest to the
+    /// thread hole; `None` where nothing of it is given.
+    fn entry(&self, index: usize, walls: &[Wall], wanted: &Wanted) -> Result<Option<Entry>, Refusal> {
+        let outline = &self.outlines[index];
         let tie = self.units(ROUNDING);
         if let Some(point) = wanted.entry {
             return match nearest(walls, point, tie) {
@@ -441,7 +591,15 @@ impl Job<'_> {
                 }
             };
         }
-        Ok(wanted.thread.and_then(|thread| nearest(walls, thread, tie)).map(|(entry, _)| entry))
+        let near = |point: Option<Point>| point.and_then(|point| nearest(walls, point, tie)).map(|(entry, _)| entry);
+        let picked = || {
+            let first = self.picks.get(&index)?.first;
+            let is_of = |wall: &Wall| matches!(wall.source, Source::Segment { entity, .. } if entity == first);
+            let begins = |&at: &usize| is_of(&walls[at]) && !is_of(&walls[(at + walls.len() - 1) % walls.len()]);
+            let wall = (0..walls.len()).find(begins)?;
+            Some(Entry { wall, share: 0.0, point: walls[wall].geometry.start() })
+        };
+        Ok(near(wanted.beside).or_else(picked).or_else(|| near(wanted.thread)))
     }
 
     /// The path with the way from and back to the thread hole, where that is another point than its begin. An open path ends where it ends.

@@ -1,11 +1,14 @@
 //! Which contours are cut, in which direction, and where on them the cut begins.
 
-use super::Refusal;
 use super::corners::{Element, between};
-use crate::drawing::{Contour, Drawing, Outline, winding};
+use super::{Refusal, WirePath};
+use crate::drawing::{Contour, Drawing, EntityId, Outline, winding};
 use crate::geometry::{Arc, Bounds, Point, Segment};
-use crate::settings::Direction;
-use rustc_hash::FxHashSet;
+use crate::settings::{Direction, Order};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+use std::collections::hash_map::Entry;
 
 /// The handle of a contour's first entity, which names the contour to the user.
 pub(super) fn name<'a>(drawing: &'a Drawing, outline: &Outline) -> &'a str {
@@ -22,11 +25,32 @@ pub(super) fn outline_of(drawing: &Drawing, outlines: &[Outline], handle: &str) 
     found.ok_or_else(|| Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut")))
 }
 
+/// What the selection says of one contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pick {
+    /// The entity that the cut begins with.
+    pub first: EntityId,
+    /// Whether the cut goes against the contour's own direction; `None` where the selection does not say.
+    pub turned: Option<bool>,
+}
+
+/// The outlines to cut, in machining order, and what the selection says of each.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Chosen {
+    pub outlines: Vec<usize>,
+    pub picks: FxHashMap<usize, Pick>,
+}
+
 /// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select
-/// them. What lies within a contour that
-/// comes earlier is brought before it, because the part drops when the contour round it is cut. What is nowhere longer than
-/// `zero_length` (drawing units) is left out.
-pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[String]>, zero_length: f64) -> Result<Vec<usize>, Refusal> {
+/// them, brought into the order that is asked for; `nearest` is for [`by_nearest`]. What lies within a contour comes before it, because
+/// the part drops when the contour round it is cut. What is nowhere longer than `zero_length` (drawing units) is left out.
+pub(super) fn chosen(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    handles: Option<&[String]>,
+    order: Order,
+    zero_length: f64,
+) -> Result<Chosen, Refusal> {
     let mut chosen: Vec<usize> = match handles {
         None => (0..outlines.len()).collect(),
         Some(handles) => handles.iter().map(|handle| outline_of(drawing, outlines, handle)).collect::<Result<_, _>>()?,
@@ -37,60 +61,192 @@ pub(super) fn chosen(drawing: &Drawing, outlines: &[Outline], handles: Option<&[
     if chosen.is_empty() {
         return Err(Refusal::Sentence("there is no contour to cut".into()));
     }
-    inner_first(drawing, outlines, &mut chosen);
-    Ok(chosen)
+    let nested = Nesting::new(drawing, outlines, &chosen);
+    let places = match order {
+        Order::AsDrawn | Order::AsPicked | Order::Nearest => nested.just_before(),
+        Order::InsideFirst => nested.inside_first(),
+    };
+    let outlines_in_order = places.into_iter().map(|place| chosen[place]).collect();
+    let picks = if order == Order::AsPicked { picks(drawing, outlines, handles.unwrap_or_default()) } else { FxHashMap::default() };
+    Ok(Chosen { outlines: outlines_in_order, picks })
 }
 
-/// Leaves an order alone in which nothing comes before what it holds. Else the contours within one outermost contour follow each
-/// other, the innermost first; which outermost comes first stays as it was.
-fn inner_first(drawing: &Drawing, outlines: &[Outline], chosen: &mut [usize]) {
-    let boxes: Vec<Bounds> = chosen.iter().map(|&index| outlines[index].contour.bounds(drawing)).collect();
-    let mut by_left: Vec<usize> = (0..chosen.len()).filter(|&place| outlines[chosen[place]].contour.closed).collect();
-    by_left.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
-    let mut depths = vec![0_usize; chosen.len()];
-    let mut outermost: Vec<usize> = (0..chosen.len()).collect();
-    let mut out_of_order = false;
-    for &inner in &by_left {
-        let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else { continue };
-        let point = first.geometry.point_at(0.5);
-        let reach = by_left.partition_point(|&other| boxes[other].min.x <= boxes[inner].min.x);
-        for &outer in &by_left[..reach] {
-            let around = boxes[outer];
-            let holds = outer != inner
-                && around != boxes[inner]
-                && around.max.x >= boxes[inner].max.x
-                && around.min.y <= boxes[inner].min.y
-                && around.max.y >= boxes[inner].max.y
-                && winding(drawing, &outlines[chosen[outer]].contour, point) != 0;
-            if holds {
-                depths[inner] += 1;
-                // From left to right, so that the first holder is the outermost.
-                outermost[inner] = if outermost[inner] == inner { outermost[outer] } else { outermost[inner] };
-                out_of_order |= outer < inner;
+/// What the handles say of contours of more than one entity: the cut begins with the first, and goes on to the second the shorter way.
+fn picks(drawing: &Drawing, outlines: &[Outline], handles: &[String]) -> FxHashMap<usize, Pick> {
+    let mut picks: FxHashMap<usize, Pick> = FxHashMap::default();
+    let mut first_places: FxHashMap<usize, usize> = FxHashMap::default();
+    for handle in handles {
+        let (Some(id), Ok(index)) = (drawing.find(handle), outline_of(drawing, outlines, handle)) else { continue };
+        let contour = &outlines[index].contour;
+        let count = contour.pieces.len();
+        let Some(place) = contour.pieces.iter().position(|piece| piece.entity == id).filter(|_| count > 1) else { continue };
+        match first_places.entry(index) {
+            Entry::Vacant(entry) => {
+                entry.insert(place);
+                picks.insert(index, Pick { first: id, turned: None });
+            }
+            Entry::Occupied(entry) => {
+                let Some(pick) = picks.get_mut(&index).filter(|pick| pick.turned.is_none() && pick.first != id) else { continue };
+                let first = *entry.get();
+                let (onward, back) = ((place + count - first) % count, (first + count - place) % count);
+                pick.turned = match (contour.closed, onward.cmp(&back)) {
+                    (false, _) => Some(place < first),
+                    (true, Ordering::Less) => Some(false),
+                    (true, Ordering::Greater) => Some(true),
+                    (true, Ordering::Equal) => None,
+                };
             }
         }
     }
-    if !out_of_order {
-        return;
-    }
-    let mut group: Vec<usize> = (0..chosen.len()).collect();
-    for place in 0..chosen.len() {
-        group[outermost[place]] = group[outermost[place]].min(place);
-    }
-    let mut order: Vec<usize> = (0..chosen.len()).collect();
-    order.sort_by_key(|&place| (group[outermost[place]], std::cmp::Reverse(depths[place]), place));
-    let sorted: Vec<usize> = order.into_iter().map(|place| chosen[place]).collect();
-    chosen.copy_from_slice(&sorted);
+    picks
 }
 
-/// The contour in the direction of the cut, and whether that is against its own. An open contour is cut as drawn.
-pub(super) fn directed(outline: &Outline, direction: Direction) -> (Contour, bool) {
-    let turn = outline.contour.closed
-        && match direction {
-            Direction::AsDrawn => false,
-            Direction::Ccw => outline.twice_area < 0.0,
-            Direction::Cw => outline.twice_area > 0.0,
-        };
+/// Which of some contours lie within which.
+struct Nesting {
+    /// By place: the places of the contours round it, the outermost first.
+    around: Vec<Vec<usize>>,
+}
+
+impl Nesting {
+    fn new(drawing: &Drawing, outlines: &[Outline], chosen: &[usize]) -> Nesting {
+        let boxes: Vec<Bounds> = chosen.iter().map(|&index| outlines[index].contour.bounds(drawing)).collect();
+        let mut by_left: Vec<usize> = (0..chosen.len()).filter(|&place| outlines[chosen[place]].contour.closed).collect();
+        by_left.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
+        let mut around = vec![Vec::new(); chosen.len()];
+        for &inner in &by_left {
+            let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else { continue };
+            let point = first.geometry.point_at(0.5);
+            let reach = by_left.partition_point(|&other| boxes[other].min.x <= boxes[inner].min.x);
+            for &outer in &by_left[..reach] {
+                let about = boxes[outer];
+                let holds = outer != inner
+                    && about != boxes[inner]
+                    && about.max.x >= boxes[inner].max.x
+                    && about.min.y <= boxes[inner].min.y
+                    && about.max.y >= boxes[inner].max.y
+                    && winding(drawing, &outlines[chosen[outer]].contour, point) != 0;
+                if holds {
+                    // From left to right, so that the first holder is the outermost.
+                    around[inner].push(outer);
+                }
+            }
+        }
+        Nesting { around }
+    }
+
+    /// Each in its turn, and directly before it what lies within it and was not cut yet, the innermost first.
+    fn just_before(&self) -> Vec<usize> {
+        let mut within = vec![Vec::new(); self.around.len()];
+        for (inner, around) in self.around.iter().enumerate() {
+            around.iter().for_each(|&outer| within[outer].push(inner));
+        }
+        let mut is_cut = vec![false; self.around.len()];
+        let mut order = Vec::with_capacity(self.around.len());
+        for (place, mut inner) in within.into_iter().enumerate() {
+            inner.sort_by_key(|&inner| (std::cmp::Reverse(self.around[inner].len()), inner));
+            for next in inner.into_iter().chain([place]) {
+                if !std::mem::replace(&mut is_cut[next], true) {
+                    order.push(next);
+                }
+            }
+        }
+        order
+    }
+
+    /// Leaves an order alone in which nothing comes before what it holds. Else the contours within one outermost contour follow each
+    /// other, the innermost first; which outermost comes first stays as it was.
+    fn inside_first(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.around.len()).collect();
+        if self.around.iter().enumerate().all(|(inner, around)| around.iter().all(|&outer| outer > inner)) {
+            return order;
+        }
+        let outermost = |place: usize| self.around[place].first().copied().unwrap_or(place);
+        let mut group: Vec<usize> = (0..self.around.len()).collect();
+        for place in 0..self.around.len() {
+            group[outermost(place)] = group[outermost(place)].min(place);
+        }
+        order.sort_by_key(|&place| (group[outermost(place)], std::cmp::Reverse(self.around[place].len()), place));
+        order
+    }
+}
+
+/// Brings paths into an order in which each is followed by the one that begins nearest to where it ends, of those within which nothing
+/// is left to cut. The first one that may be cut begins.
+pub(super) fn by_nearest(drawing: &Drawing, outlines: &[Outline], paths: Vec<WirePath>) -> Vec<WirePath> {
+    let chosen: Vec<usize> = paths.iter().map(|path| path.outline).collect();
+    let nesting = Nesting::new(drawing, outlines, &chosen);
+    let mut within = vec![0_usize; paths.len()];
+    nesting.around.iter().flatten().for_each(|&outer| within[outer] += 1);
+    let begin_of = |path: &WirePath| path.segments.first().map_or(path.thread_hole, |piece| piece.geometry.start());
+    let end_of = |path: &WirePath| path.segments.last().map_or(path.thread_hole, |piece| piece.geometry.end());
+    let begins: Vec<Point> = paths.iter().map(begin_of).collect();
+    // What may be cut, from left to right.
+    let key = |place: usize| (OrderedX(begins[place].x), place);
+    let mut free: BTreeSet<(OrderedX, usize)> = (0..paths.len()).filter(|&place| within[place] == 0).map(key).collect();
+    let mut order = Vec::with_capacity(paths.len());
+    let mut next = free.iter().map(|(_, place)| *place).min();
+    while let Some(place) = next {
+        free.remove(&key(place));
+        order.push(place);
+        for &outer in &nesting.around[place] {
+            within[outer] -= 1;
+            if within[outer] == 0 {
+                free.insert(key(outer));
+            }
+        }
+        let here = end_of(&paths[place]);
+        let mut best: Option<(f64, usize)> = None;
+        let middle = (OrderedX(here.x), 0);
+        let (mut left, mut right) = (free.range(..middle).rev().peekable(), free.range(middle..).peekable());
+        // Both ways from here, until what comes is further off by its x alone.
+        loop {
+            let reach = best.map_or(f64::INFINITY, |(distance, _)| distance);
+            let nearer = |at: Option<&&(OrderedX, usize)>| at.map(|(x, _)| (x.0 - here.x).abs()).filter(|away| *away <= reach);
+            let found = match (nearer(left.peek()), nearer(right.peek())) {
+                (None, None) => break,
+                (Some(a), Some(b)) if a <= b => left.next(),
+                (Some(_), None) => left.next(),
+                (_, Some(_)) => right.next(),
+            };
+            let Some(&(_, other)) = found else { break };
+            let candidate = ((begins[other] - here).norm(), other);
+            if best.is_none_or(|best| candidate.0.total_cmp(&best.0).then(candidate.1.cmp(&best.1)).is_lt()) {
+                best = Some(candidate);
+            }
+        }
+        next = best.map(|(_, other)| other);
+    }
+    let mut paths: Vec<Option<WirePath>> = paths.into_iter().map(Some).collect();
+    order.into_iter().filter_map(|place| paths[place].take()).collect()
+}
+
+/// A coordinate that can be sorted by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct OrderedX(f64);
+
+impl Eq for OrderedX {}
+
+impl PartialOrd for OrderedX {
+    fn partial_cmp(&self, other: &OrderedX) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for OrderedX {
+    fn cmp(&self, other: &OrderedX) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+/// The contour in the direction of the cut, and whether that is against its own: as the selection says, else as the setting does. An
+/// open contour is cut as drawn.
+pub(super) fn directed(outline: &Outline, direction: Direction, picked: Option<bool>) -> (Contour, bool) {
+    let turn = match (picked, direction) {
+        (Some(turned), _) => turned,
+        (None, Direction::AsDrawn) => false,
+        (None, Direction::Ccw) => outline.contour.closed && outline.twice_area < 0.0,
+        (None, Direction::Cw) => outline.contour.closed && outline.twice_area > 0.0,
+    };
     (if turn { outline.contour.reversed() } else { outline.contour.clone() }, turn)
 }
 
@@ -134,7 +290,33 @@ mod tests {
             drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::Circle, geometry });
         }
         let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
-        assert_eq!(chosen(&drawing, &outlines, None, 1e-9), Ok(expected.to_vec()), "{circles:?}");
+        let ordered = |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
+        assert_eq!(ordered(Order::InsideFirst), Ok(expected.to_vec()), "{circles:?}");
+        // In every order the inner ones come first.
+        for order in [Order::AsDrawn, Order::AsPicked, Order::Nearest] {
+            let found = ordered(order).unwrap();
+            let at = |outline: usize| found.iter().position(|&other| other == outline).unwrap();
+            for (inner, &(x, radius)) in circles.iter().enumerate() {
+                for (outer, &(x1, radius1)) in circles.iter().enumerate() {
+                    let holds = (x - x1).abs() + radius < radius1;
+                    assert!(!holds || at(inner) < at(outer), "{order:?} {circles:?}: {found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn as_drawn_only_what_has_to_is_moved() {
+        let circles = [(1.0, 0.5), (21.0, 0.5), (0.0, 5.0), (-1.0, 0.5), (20.0, 5.0)];
+        let mut drawing = Drawing::new(None);
+        for &(x, radius) in &circles {
+            let geometry = Geometry::Circle { center: Point::new(x, 0.0), radius };
+            drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::Circle, geometry });
+        }
+        let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
+        let ordered = |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
+        assert_eq!(ordered(Order::AsDrawn), Ok(vec![0, 1, 3, 2, 4]));
+        assert_eq!(ordered(Order::InsideFirst), Ok(vec![0, 3, 2, 1, 4]));
     }
 
     #[test]

@@ -59,7 +59,7 @@ fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
         (Some(vec!["2A", "2C"]), vec![2, 0]),
     ] {
         let handles = handles.map(|handles| handles.into_iter().map(String::from).collect::<Vec<_>>());
-        let chosen = super::order::chosen(&drawing, &outlines, handles.as_deref(), 1e-9);
+        let chosen = super::order::chosen(&drawing, &outlines, handles.as_deref(), Default::default(), 1e-9).map(|chosen| chosen.outlines);
         assert_eq!(chosen, Ok(expected), "{handles:?}");
     }
 }

@@ -113,7 +113,8 @@ fn survey(arguments: &Arguments) -> Survey {
     }
     // Several drawings may share one faulty settings file: it is said once.
     let mut said = std::collections::HashSet::new();
-    survey.rows.retain(|row| row.rule != crate::finding::Rule::Settings || said.insert((row.path.clone(), row.line, row.message.clone())));
+    let of_settings = [crate::finding::Rule::Settings, crate::finding::Rule::PassOrder];
+    survey.rows.retain(|row| !of_settings.contains(&row.rule) || said.insert((row.path.clone(), row.line, row.message.clone())));
     survey
 }
 

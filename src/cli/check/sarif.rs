@@ -100,6 +100,7 @@ fn summary(rule: Rule) -> &'static str {
         Rule::SelfIntersection => "A contour touches or crosses itself or another",
         Rule::ArcAsChords => "An arc drawn as short lines",
         Rule::LeadIn => "The lead-in is too short or crosses a contour",
+        Rule::PassOrder => "The corrections of the passes do not fall, or no wire is so thin",
         Rule::UnsupportedEntity => "Something in the drawing is not cut",
         Rule::Units => "The drawing's unit is missing or absurd",
         Rule::ArcOffRadius => "The ends of an arc are not on one circle about its centre",

@@ -65,6 +65,9 @@ fn prepare(state: &mut State, params: &Params) -> Result<Job> {
 impl Job {
     fn run(self, cancel: &Cancel, progress: &Progress) -> Result<Vec<u8>> {
         let task = Task::new(self.document.clone(), self.options.clone())?;
+        if let Some(sentence) = task.settings.pass_error() {
+            return Err(refused(sentence));
+        }
         let handles = self.handles.as_deref();
         let entities = entities_of(&task.drawing, &task.outlines, handles);
         let mut findings = self.findings(&task);
@@ -104,7 +107,9 @@ impl Job {
             }
             ProofError::Mismatch(reason) => internal(format!("the program does not hold its proof: {reason}")),
         })?;
-        written(&Program::new(program, diagnostics(&|severity| severity <= Severity::Warning)))
+        let one_pass = task.settings.one_pass().map(|finding| convert::diagnostic(&self.document, &finding, self.encoding, None));
+        let warnings = one_pass.into_iter().chain(diagnostics(&|severity| severity <= Severity::Warning));
+        written(&Program::new(program, warnings.take(convert::PUBLISH_LIMIT).collect()))
     }
 }
 

@@ -20,10 +20,10 @@ use super::jobs::{Cancel, Progress};
 use super::state::{Reply, State};
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, Outline};
-use crate::finding::Finding;
+use crate::finding::{Finding, Rule, Severity};
 use crate::message::readable;
 use crate::protocol::{Diagnostic, Refused};
-use crate::settings::{Effective, Settings, from_json};
+use crate::settings::{Effective, Settings, SettingsError, from_json};
 use crate::text::Encoding;
 use crate::toolpath::Refusal;
 use ls_types::{DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, TextDocumentEdit, TextEdit, Uri, WorkspaceEdit};
@@ -107,11 +107,20 @@ fn is_small(drawing: &Drawing) -> bool {
 pub(super) fn with_options(state: &mut State, uri: &str, options: Option<&Value>) -> Result<Option<Arc<Effective>>> {
     let Some(options) = options.filter(|options| !options.is_null()) else { return Ok(None) };
     let (settings, errors): (Settings, _) = from_json(options);
-    if let Some(error) = errors.first() {
+    if let Some(error) = errors.iter().find(|error| error.rule == Rule::Settings) {
         return Err(Error::invalid_params(format!("options: {}", error.message)));
     }
     let file = state.file_for(uri);
-    Ok(Some(Arc::new(Effective::of(&state.config.settings_for(file.as_deref()).overlaid(&settings)))))
+    let of_document = state.config.settings_for(file.as_deref());
+    let all = of_document.overlaid(&settings);
+    let is_error = |error: &SettingsError| error.severity == Severity::Error;
+    // What is wrong without the options is said elsewhere.
+    if let Some(error) = all.pass_errors(&|_| None).iter().find(|error| is_error(error))
+        && !of_document.pass_errors(&|_| None).iter().any(is_error)
+    {
+        return Err(Error::invalid_params(format!("options: {}", error.message)));
+    }
+    Ok(Some(Arc::new(Effective::of(&all))))
 }
 
 /// A document as one request looks at it: under its own options, where it brings any.

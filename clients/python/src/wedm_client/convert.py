@@ -67,7 +67,7 @@ def _flags(options: Settings) -> list[str]:
     told: dict[str, Any] = dict(options)
     program: Mapping[str, Any] = told.pop("program", {})
     taken: dict[str, Any] = {key: told.pop(key) for key in ("correction", "side") if key in told}
-    for key in ("direction", "corner", "layout", "compensation", "digits", "profile", "end", "pause", "lead_in", "thread", "entry"):
+    for key in ("direction", "corner", "layout", "compensation", "digits", "profile", "end", "pause", "lead_in", "order", "thread", "entry"):
         if key in program:
             taken[key] = program[key]
     left = [*told, *(f"program.{key}" for key in program if key not in taken)]

@@ -24,6 +24,7 @@ class ProgramSettings(TypedDict, total=False):
     thread: Place
     entry: Place
     lead_in: float
+    order: Literal["as-drawn", "inside-first", "nearest", "as-picked"]
     jumps: Literal["blocks", "none"]
     compensation: Literal["path", "controller", "none"]
     digits: int

@@ -53,9 +53,5 @@ async function ask(present: number | undefined): Promise<void> {
   const target = hasFolder ? vscode.ConfigurationTarget.Workspace : vscode.ConfigurationTarget.Global;
   const value = entered.trim() === "" ? undefined : Number(entered.replace(",", "."));
   const settings = vscode.workspace.getConfiguration("wedm");
-  // The other way to say it would have to be weighed against this one.
-  for (const other of ["wireDiameter", "gap"]) {
-    await settings.update(other, undefined, target);
-  }
   await settings.update("correction", value, target);
 }
