@@ -444,7 +444,7 @@ impl Job<'_> {
 
     /// The walls of a closed contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
     /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
-    fn along(&self, contour: &Contour, side: f64) -> Result<(Vec<Wall>, Walls, Result<Laid, Fault>), Refusal> {
+    fn along(&self, contour: &Contour, side: f64) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
         let of = |shortest: f64| {
             let walls = walls(contour.segments(self.drawing), true, self.units(shortest));
             let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
@@ -462,7 +462,7 @@ impl Job<'_> {
     }
 
     /// The path along a closed contour, proved; `walls` have the wire on the side of that sign.
-    fn laid(&self, walls: &[Wall], own: &Walls, side: f64) -> Result<Result<Laid, Fault>, Refusal> {
+    fn laid(&self, walls: &[Wall], own: &Walls, side: f64) -> Result<Outcome, Refusal> {
         let correction = self.units(self.settings.correction);
         let joining = Joining { correction, side, touch: self.units(1e-7), tolerance: self.units(self.settings.tolerances.report) };
         self.go_on()?;
@@ -626,6 +626,9 @@ enum Laid {
     /// The one place where the wire's centre may be.
     Point(Point),
 }
+
+/// What comes of a contour.
+type Outcome = Result<Laid, Fault>;
 
 /// Why a contour has no path, with the wall where that shows.
 #[derive(Clone, Copy, Debug)]
