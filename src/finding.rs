@@ -363,6 +363,10 @@ pub enum NoFix {
     NoNeighbour,
     /// The entity cannot be edited (part of a block, or of a kind that has no such edit).
     NotEditable,
+    /// The arc that fits would leave a segment too short to cut.
+    ShortSegment,
+    /// The arc that fits would bring another fault: it crosses another outline, or puts another arc at fault.
+    Spoils,
     /// It stands in a program: the drawing that it was made of has to change.
     Program,
 }

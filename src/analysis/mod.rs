@@ -31,6 +31,8 @@ use std::sync::{Arc, OnceLock};
 const FEW: usize = 16;
 /// Where an edit takes more contours than these apart, and a good part of all, everything is looked at anew.
 const MANY: usize = 256;
+/// Segments that are looked at to say which repairs of arcs below the correction would bring another fault.
+const MOST_TRIED: usize = 40_000;
 
 /// What of a contour that has something to tell is asked at every report, so that those beyond the limit of a report are not
 /// looked at.
@@ -272,7 +274,44 @@ impl Analysis {
 
     /// At most `limit` findings, errors first, then in machining order; and how many there are in all.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
-        self.report(drawing, limit).finish()
+        let (mut findings, count) = self.report(drawing, limit).finish();
+        self.give_reasons(drawing, &mut findings);
+        (findings, count)
+    }
+
+    /// Says of arcs whose repair would bring another fault that there is none. Each takes a look at the drawing: in one where that would be
+    /// more than [`MOST_TRIED`] segments in all, it is found out when the repair is asked for.
+    fn give_reasons(&self, drawing: &Drawing, findings: &mut [Finding]) {
+        let mut hopeful: Vec<(&mut crate::finding::SmallRadius, EntityId, usize)> = findings
+            .iter_mut()
+            .filter_map(|finding| match (&mut finding.detail, &finding.place) {
+                (Detail::SmallRadius(numbers), Place::Segment { entity, segment }) if numbers.no_fix.is_none() => {
+                    Some((&mut **numbers, *entity, *segment))
+                }
+                _ => None,
+            })
+            .collect();
+        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
+        if hopeful.len().saturating_mul(segments) > MOST_TRIED {
+            return;
+        }
+        for (numbers, entity, segment) in &mut hopeful {
+            let at = self.chains.index_of(*entity, *segment);
+            if at.is_some_and(|(key, index)| self.larger_arc(drawing, key, index).is_none()) {
+                numbers.no_fix = Some(NoFix::Spoils);
+            }
+        }
+    }
+
+    /// The repair of an arc below the correction that puts one larger arc in the place of its run, where that leaves the drawing
+    /// better than it is.
+    fn larger_arc(&self, drawing: &Drawing, key: ContourKey, index: usize) -> Option<Fix> {
+        let (travel, attempt) = self.attempt(drawing, key, index)?;
+        let replacement = attempt.outcome.ok()?;
+        let kind = FixKind::Refillet { radius: replacement.arc.radius, arcs: replacement.arcs, moved: replacement.moved };
+        let in_fix_all = replacement.moved <= self.limits.correction;
+        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)]).filter(|edit| self.enlarges(drawing, edit))?;
+        Some(Fix { kind, preferred: true, in_fix_all, edit })
     }
 
     /// How many findings of which kind there are.
@@ -475,23 +514,13 @@ impl Analysis {
         }
         let Some((key, index)) = self.chains.index_of(*entity, *segment) else { return Vec::new() };
         let mut fixes = Vec::new();
-        let found = self.attempt(drawing, key, index).and_then(|(travel, attempt)| Some((travel, attempt.outcome.ok()?)));
-        let mut is_notch = false;
-        if let Some((travel, replacement)) = found {
-            let old = self.chains.get(key).and_then(|contour| contour.segment(drawing, index)).map(|segment| segment.geometry);
-            is_notch = old.is_some_and(|old| {
-                let ends = [old.start(), old.end()];
-                ends.contains(&replacement.arc.start) && ends.contains(&replacement.arc.end)
-            });
-            let radius = replacement.arc.radius;
-            let kind = FixKind::Refillet { radius, arcs: replacement.arcs, moved: replacement.moved };
-            let in_fix_all = replacement.moved <= self.limits.correction;
-            if let Some(edit) = small_radius::drawing_edit(drawing, &[(travel, replacement)])
-                && self.enlarges(drawing, &edit)
-            {
-                fixes.push(Fix { kind, preferred: true, in_fix_all, edit });
-            }
-        }
+        let found = self.attempt(drawing, key, index).and_then(|(_, attempt)| attempt.outcome.ok());
+        let old = self.chains.get(key).and_then(|contour| contour.segment(drawing, index)).map(|segment| segment.geometry);
+        let is_notch = found.zip(old).is_some_and(|(replacement, old)| {
+            let ends = [old.start(), old.end()];
+            ends.contains(&replacement.arc.start) && ends.contains(&replacement.arc.end)
+        });
+        fixes.extend(self.larger_arc(drawing, key, index));
         let place = self.chains.get(key).and_then(|contour| contour.segment(drawing, index));
         if let Some(place) = place.filter(|_| !is_notch)
             && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
@@ -619,8 +648,18 @@ impl Analysis {
             // Whatever a search would find, it could not be made; and a fitted curve may have a million tight arcs.
             return Some((travel, Attempt { outcome: Err(NoFix::NotEditable), region: segment.geometry.bounds() }));
         }
-        let run = small_radius::run_of(&travel, travel.position_of(index), &self.limits)?;
+        let position = travel.position_of(index);
+        let run = small_radius::run_of(&travel, position, &self.limits)?;
         let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
+        // Where the arc was drawn in two and rounded, the two are one run all the same.
+        if attempt.outcome.is_err()
+            && let Some(longer) = small_radius::rounded_run_of(&travel, position, &self.limits).filter(|longer| *longer != run)
+        {
+            let again = small_radius::refillet(&travel, &longer, &self.limits);
+            let mut region = attempt.region;
+            region.merge(&again.region);
+            attempt = Attempt { outcome: again.outcome.or(attempt.outcome), region };
+        }
         if let Ok(replacement) = &attempt.outcome
             && !(replacement.before..=replacement.after)
                 .all(|position| travel.segment(position).is_none_or(|segment| drawing.is_editable(segment.entity)))

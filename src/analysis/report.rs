@@ -29,7 +29,7 @@ pub struct Tally {
 const CORNERS: [Rule; 3] = [Rule::SharpCorner, Rule::NearTangent, Rule::ArcAsChords];
 
 /// Rules that say nothing beside a tight arc.
-const SLOTS: [Rule; 3] = [Rule::NarrowSlot, Rule::LostPocket, Rule::OffsetCollapse];
+const SLOTS: [Rule; 2] = [Rule::NarrowSlot, Rule::OffsetCollapse];
 
 /// What a line that closes a contour may run into.
 const LINES_IN_THE_WAY: [Rule; 5] = [Rule::DuplicateEntity, Rule::Overlap, Rule::SelfIntersection, Rule::ShortSegment, Rule::OpenContour];

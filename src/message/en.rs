@@ -410,6 +410,8 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
             );
         }
         Some(NoFix::SealsContour) => text += "; the arc that fits would seal the slot (narrow-slot)",
+        Some(NoFix::ShortSegment) => text += "; the arc that fits would leave a segment too short to cut (short-segment)",
+        Some(NoFix::Spoils) => text += "; the arc that fits here would bring another fault",
         Some(NoFix::NoNeighbour) => text += "; there is no neighbour on both sides that a larger arc could be tangent to",
         Some(NoFix::Program) => text += "; repair it in the drawing, and make the program again",
         Some(NoFix::NotEditable) => text += "; it is part of an entity that cannot be edited here",

@@ -58,7 +58,7 @@ pub struct FindingData {
     /// 1-based number of the pass with the largest correction, where several are set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pass: Option<usize>,
-    /// Why no fix is offered: `narrow-slot`, `seals-contour`, `no-neighbour`, `not-editable` or `program`.
+    /// Why no fix is offered: `narrow-slot`, `seals-contour`, `short-segment`, `spoils`, `no-neighbour`, `not-editable` or `program`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_fix: Option<String>,
     /// Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
@@ -237,6 +237,8 @@ fn no_fix_name(reason: NoFix) -> &'static str {
         NoFix::SealsContour => "seals-contour",
         NoFix::NoNeighbour => "no-neighbour",
         NoFix::NotEditable => "not-editable",
+        NoFix::ShortSegment => "short-segment",
+        NoFix::Spoils => "spoils",
         NoFix::Program => "program",
     }
 }

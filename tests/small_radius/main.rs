@@ -2,6 +2,7 @@
 
 mod opening;
 mod oracle;
+mod refusals;
 #[path = "../support/star.rs"]
 mod star;
 mod support;

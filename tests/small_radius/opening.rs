@@ -12,7 +12,7 @@ use wedm::geometry::{Point, Segment};
 
 const CORRECTION: f64 = 0.2;
 
-fn crosses_itself(vertices: &[Vertex]) -> bool {
+pub fn crosses_itself(vertices: &[Vertex]) -> bool {
     let outline = pline(vertices);
     let index = outline.create_approx_aabb_index();
     let found = cavalier_contours::polyline::internal::pline_intersects::all_self_intersects_as_basic(&outline, &index, false, 1e-7);

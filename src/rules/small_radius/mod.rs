@@ -13,7 +13,7 @@ mod travel;
 
 pub use edit::{drawing_edit, fillet, keep_end_points};
 pub use refillet::{Attempt, Replacement, made_tangent, refillet};
-pub use run::run_of;
+pub use run::{rounded_run_of, run_of};
 pub use travel::Travel;
 
 use super::Limits;

@@ -99,6 +99,9 @@ struct Search<'a> {
     run: RangeInclusive<isize>,
     region: Bounds,
     would_seal: bool,
+    /// Whether a neighbour may be left shorter than what is worth cutting, and whether one would have been.
+    leaves_crumbs: bool,
+    would_leave_crumb: bool,
     /// How far the disc may dip into what is replaced.
     slack: f64,
     old_center: Point,
@@ -109,7 +112,18 @@ impl<'a> Search<'a> {
     fn new(travel: &'a Travel<'a>, limits: &'a Limits, run: RangeInclusive<isize>) -> Search<'a> {
         let arcs = (run.end() - run.start() + 1) as usize;
         let slack = limits.tolerances.clearance;
-        Search { travel, limits, run, region: Bounds::EMPTY, would_seal: false, slack, old_center: Point::origin(), arcs }
+        Search {
+            travel,
+            limits,
+            run,
+            region: Bounds::EMPTY,
+            would_seal: false,
+            leaves_crumbs: true,
+            would_leave_crumb: false,
+            slack,
+            old_center: Point::origin(),
+            arcs,
+        }
     }
 
     /// The arcs that are held so at their two ends.
@@ -140,12 +154,14 @@ impl<'a> Search<'a> {
         }
         // First exactly. Then with the slack that a drawing rounded to three decimals needs: its fillets kink a little at
         // their ends, and what is replaced may stick out by as much.
+        // A neighbour of which a crumb would be left is swallowed.
+        self.leaves_crumbs = false;
         let exact = self.search_outward(first, last, count);
         self.slack = self.limits.tolerances.arc_fit;
-        exact.or_else(|| self.search_outward(first, last, count)).ok_or(if self.would_seal {
-            NoFix::SealsContour
-        } else {
-            NoFix::NarrowSlot
+        exact.or_else(|| self.search_outward(first, last, count)).ok_or(match () {
+            () if self.would_leave_crumb => NoFix::ShortSegment,
+            () if self.would_seal => NoFix::SealsContour,
+            () => NoFix::NarrowSlot,
         })
     }
 
@@ -219,6 +235,10 @@ impl<'a> Search<'a> {
             if !self.is_clear(&arc, before, after) {
                 continue;
             }
+            if !self.leaves_crumbs && self.is_crumb(&arc, &one, &other) {
+                self.would_leave_crumb = true;
+                continue;
+            }
             let moved = self.moved(&arc, before, after);
             if swallows && moved > self.limits.correction {
                 self.would_seal = true;
@@ -272,6 +292,22 @@ impl<'a> Search<'a> {
             Segment::Line(line) => line.start + (line.end - line.start) * share,
             Segment::Arc(arc) => arc.center + (center - arc.center).normalize() * arc.radius,
         })
+    }
+
+    /// True when the new arc leaves less of a neighbour than is worth cutting, of one that was.
+    fn is_crumb(&self, arc: &Arc, one: &Segment, other: &Segment) -> bool {
+        let short = self.limits.tolerances.short;
+        let left = |segment: &Segment, share: f64| segment.length() >= short && share * segment.length() < short;
+        let (from, to) = (one.share_of(arc.start), other.share_of(arc.end));
+        if one == other {
+            return left(one, from - to);
+        }
+        left(one, from) || left(other, 1.0 - to) || (arc.length() < short && self.arcs_length() >= short)
+    }
+
+    /// The length of the arcs that are replaced.
+    fn arcs_length(&self) -> f64 {
+        self.run.clone().filter_map(|position| self.travel.segment(position)).map(|place| place.geometry.length()).sum()
     }
 
     /// True when the disc of the new arc keeps clear of the contour. What is replaced may come as near as rounding noise.

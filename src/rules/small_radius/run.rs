@@ -8,16 +8,30 @@ use std::ops::RangeInclusive;
 /// A corner that turns away from the wire by more than this (radians) is a corner of the part; less is rounding.
 const CONVEX_KINK: f64 = 1e-6;
 
+/// So much (radians) may be what rounding to three decimals makes of the joint of an arc that is drawn in two, and so far, as a share of
+/// the radius, it may move their centres apart.
+const ROUNDED_KINK: f64 = 0.1;
+const ROUNDED_CENTER: f64 = 0.1;
+
 /// The run that holds the arc at `position`: the maximal chain of arcs concave to the wire with r ≤ R, split at every
 /// vertex that is convex to the wire. `None` when that segment is no such arc.
 pub fn run_of(travel: &Travel, position: isize, limits: &Limits) -> Option<RangeInclusive<isize>> {
+    run_within(travel, position, limits, false)
+}
+
+/// The same run where an arc that is drawn in two, and rounded, is one arc.
+pub fn rounded_run_of(travel: &Travel, position: isize, limits: &Limits) -> Option<RangeInclusive<isize>> {
+    run_within(travel, position, limits, true)
+}
+
+fn run_within(travel: &Travel, position: isize, limits: &Limits, is_rounded: bool) -> Option<RangeInclusive<isize>> {
     member(travel, position, limits)?;
     let count = travel.len() as isize;
     let (mut first, mut last) = (position, position);
-    while last - first + 1 < count && joins(travel, first - 1, limits) {
+    while last - first + 1 < count && joins(travel, first - 1, limits, is_rounded) {
         first -= 1;
     }
-    while last - first + 1 < count && joins(travel, last, limits) {
+    while last - first + 1 < count && joins(travel, last, limits, is_rounded) {
         last += 1;
     }
     Some(first..=last)
@@ -31,7 +45,9 @@ fn member(travel: &Travel, position: isize, limits: &Limits) -> Option<Arc> {
 }
 
 /// True when the segments at `position` and behind it are of one run.
-fn joins(travel: &Travel, position: isize, limits: &Limits) -> bool {
+fn joins(travel: &Travel, position: isize, limits: &Limits, is_rounded: bool) -> bool {
     let (Some(one), Some(other)) = (member(travel, position, limits), member(travel, position + 1, limits)) else { return false };
-    turn(one.tangent_at(1.0), other.tangent_at(0.0)) >= -CONVEX_KINK
+    let kink = turn(one.tangent_at(1.0), other.tangent_at(0.0));
+    let are_one = || (one.center - other.center).norm() <= ROUNDED_CENTER * one.radius.min(other.radius);
+    kink >= -CONVEX_KINK || (is_rounded && kink >= -ROUNDED_KINK && are_one())
 }
