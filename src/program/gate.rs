@@ -31,10 +31,7 @@ pub(super) struct Standing {
 
 impl Standing {
     pub fn of(program: &Document) -> Standing {
-        let own = match program {
-            Document::ThreeB(program) => program.findings(),
-            Document::Iso(program) => program.plain_findings(),
-        };
+        let own = findings_of(program);
         let mut standing = Standing { findings: BTreeMap::new(), open: 0, gap: 0.0, full_turns: 0, moves: Vec::new() };
         for finding in own.iter().filter(|finding| finding.severity <= Severity::Information) {
             *standing.findings.entry(finding.rule.name()).or_default() += 1;
@@ -61,6 +58,25 @@ impl Standing {
         let closes = after.open == 0 || after.open < self.open || (speaks_for_itself && after.open <= self.open && after.gap <= self.gap);
         !has_new && closes && (by_a_slip || after.full_turns <= self.full_turns)
     }
+}
+
+fn findings_of(program: &Document) -> Vec<Finding> {
+    match program {
+        Document::ThreeB(program) => program.findings(),
+        Document::Iso(program) => program.plain_findings(),
+    }
+}
+
+/// How many findings of a program say what `finding` says, and how many are of its rule.
+fn alike(program: &Document, finding: &Finding) -> [usize; 2] {
+    let own = findings_of(program);
+    let of_rule = own.iter().filter(|other| other.rule == finding.rule);
+    let says_the_same = |other: &&Finding| match gap_of(finding) {
+        // What is as far apart as before to the micron is the same.
+        Some(gap) => gap_of(other).is_some_and(|its| (its - gap).abs() < 1.0),
+        None => other.detail == finding.detail,
+    };
+    [of_rule.clone().filter(says_the_same).count(), of_rule.count()]
 }
 
 /// How far a contour is open, µm.
@@ -135,17 +151,25 @@ fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
 
 type TextFix = Fix<Vec<TextEdit>>;
 
-/// The repairs of a finding, those that pass the gate before those that do not, which are neither preferred nor made without asking.
+/// The repairs of a finding for which it goes, those that pass the gate before those that do not, which are neither preferred nor made without asking.
 pub(super) fn gated(program: &Document, finding: &Finding, mut fixes: Vec<TextFix>) -> Vec<TextFix> {
     if program.text().len() > TRIED || fixes.is_empty() {
         // By what the language found out of it.
         fixes.iter_mut().filter(|fix| invents(&fix.kind) || !fix.in_fix_all).for_each(refuse);
         return fixes;
     }
-    let before = Standing::of(program);
+    let (before, alike_before) = (Standing::of(program), alike(program, finding));
     let (mut good, mut bad) = (Vec::new(), Vec::new());
     for mut fix in fixes {
-        let after = Standing::of(&edited(program, &fix.edit));
+        let tried = edited(program, &fix.edit);
+        // One that says the same elsewhere may stay. What cannot be read is not mended by something else that cannot, nor a crossing by
+        // one beside it.
+        let [says_the_same, of_rule] = alike(&tried, finding);
+        let needs_fewer = matches!(finding.rule, Rule::Syntax | Rule::PathCrossesItself);
+        if alike_before[0] > 0 && of_rule >= alike_before[1] && (needs_fewer || says_the_same >= alike_before[0]) {
+            continue;
+        }
+        let after = Standing::of(&tried);
         let passes = before.allows(&after, speaks_for_itself(finding.rule), is_by_a_slip(program, &fix.edit));
         if !passes || invents(&fix.kind) {
             refuse(&mut fix);

@@ -33,7 +33,7 @@ pub struct Model {
 
 #[derive(Clone, Debug)]
 enum Content {
-    /// ASCII, lines end in `\n`.
+    /// ASCII.
     Text {
         language: String,
         text: String,
@@ -182,7 +182,7 @@ impl Model {
     /// The range of one line, or segment.
     pub fn random_line(&self, random: &mut Random) -> Value {
         let lines = match &self.content {
-            Content::Text { text, .. } => text.lines().count(),
+            Content::Text { text, .. } => lines(text).len(),
             Content::Drawing(_) => 8,
         };
         let (line, character) = (random.below(lines + 1), random.below(6));
@@ -198,7 +198,7 @@ impl Model {
 }
 
 fn change_of_text(text: &str, random: &mut Random) -> Value {
-    let lines: Vec<&str> = text.split('\n').collect();
+    let lines: Vec<&str> = lines(text).into_iter().map(|(start, length)| &text[start..start + length]).collect();
     let at = random.below(lines.len());
     let at_line = |line: usize, character: usize| json!({ "line": line, "character": character });
     let (line, length) = (lines[at], lines[at].len());
@@ -291,13 +291,16 @@ fn change_entity(entities: &mut Vec<Value>, change: &Value) {
 fn offset(text: &str, position: &Value) -> usize {
     let (line, character) =
         (position["line"].as_u64().expect("a line") as usize, position["character"].as_u64().expect("a place") as usize);
-    let mut start = 0;
-    for _ in 0..line {
-        match text[start..].find('\n') {
-            Some(end) => start += end + 1,
-            None => return text.len(),
-        }
+    lines(text).get(line).map_or(text.len(), |(start, length)| start + character.min(*length))
+}
+
+/// Where each line begins, and its length without its end: `\n`, `\r\n` or `\r`.
+fn lines(text: &str) -> Vec<(usize, usize)> {
+    let (mut found, mut start) = (Vec::new(), 0);
+    while let Some(length) = text[start..].find(['\n', '\r']) {
+        found.push((start, length));
+        start += length + if text[start + length..].starts_with("\r\n") { 2 } else { 1 };
     }
-    let length = text[start..].find('\n').unwrap_or(text.len() - start);
-    start + character.min(length)
+    found.push((start, text.len() - start));
+    found
 }

@@ -14,7 +14,7 @@ use crate::program::iso::document::Document;
 use crate::program::iso::layout::is_parted;
 use crate::program::iso::order::labels;
 use crate::settings::Effective;
-use crate::text::TextEdit;
+use crate::text::{SourceText, TextEdit};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -41,6 +41,9 @@ pub fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String>
     // Of the numbers before, those afterwards, by the line that a call of them leads to.
     let labels = labels(text);
     let mut renamed: FxHashMap<u32, u32> = FxHashMap::default();
+    // A block that got the number of a program which is called, or of one that stands elsewhere, would be called in its place.
+    let taken: Vec<u32> =
+        called(document).into_iter().filter(|called| labels.get(called).is_none_or(|&line| is_program(text, line))).collect();
     let mut number = step;
     for line in 0..text.line_count() {
         let range = text.line_range(line);
@@ -48,6 +51,9 @@ pub fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String>
         let block = read_line(bytes, 1, |_| {});
         if block.empty || block.program.is_some() {
             continue;
+        }
+        while taken.contains(&number) && number < u32::MAX {
+            number = number.saturating_add(step);
         }
         match (block.number, number_word(bytes, range.start)) {
             (Some(old), Some(word)) => {
@@ -80,6 +86,11 @@ pub fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String>
     edits.sort_by_key(|edit| edit.range.start);
     edits.retain(|edit| text.bytes().get(edit.range.clone()) != Some(edit.text.as_bytes()));
     Ok(edits)
+}
+
+/// True where a line begins a program (`O`).
+fn is_program(text: &SourceText, line: usize) -> bool {
+    read_line(text.bytes().get(text.line_range(line)).unwrap_or_default(), 1, |_| {}).program.is_some()
 }
 
 /// No numbers but those that are called.

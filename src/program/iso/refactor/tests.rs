@@ -294,3 +294,11 @@ proptest! {
         let _ = scaled(&document, &Effective::default(), 2.0);
     }
 }
+
+#[test]
+fn a_number_that_is_called_and_stands_elsewhere_is_given_to_no_block() {
+    let number = |text: &str| after(text, "refactor.rewrite.number").unwrap();
+    // Subprogram 20 is in the control, 40 begins with O.
+    let text = "M98 P20\nG01 X1.\nM98 P40\nM02\nO40\nG01 X2.\nM99\n";
+    assert_eq!(number(text), "N10 M98 P20\nN30 G01 X1.\nN50 M98 P40\nN60 M02\nO40\nN70 G01 X2.\nN80 M99\n");
+}
