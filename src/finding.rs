@@ -589,6 +589,11 @@ pub enum IsoFault {
     Pointed {
         word: String,
     },
+    /// A number with other decimals than all others, which have `usual`.
+    Places {
+        word: String,
+        usual: u8,
+    },
     /// mm, of a program that does not say its unit.
     LooksLikeInches {
         size: f64,

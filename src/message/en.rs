@@ -368,6 +368,9 @@ fn iso(fault: &IsoFault) -> String {
         IsoFault::Pointed { word } => {
             format!("{word} has a decimal point, the other numbers have none: it is read in whole units, they in the finest steps")
         }
+        IsoFault::Places { word, usual } => {
+            format!("{word} has not {usual} decimals as all other numbers have: a digit may be lost, or one too many")
+        }
         IsoFault::LooksLikeInches { size } => format!(
             "the program does not say its unit (G20, G21) and is read in mm: then the part is {} mm long or wide, which speaks for inches (program.units)",
             mm(*size)

@@ -238,6 +238,11 @@ impl Document {
         read_line(self.line_bytes(line), 1, |_| {})
     }
 
+    /// How many decimals nearly all numbers have, and how many have others.
+    pub(super) fn usual_places(&self) -> Option<(u8, u32)> {
+        self.evidence.usual_places()
+    }
+
     /// Whether lengths have a decimal point, where nearly all are written alike.
     pub(super) fn pointed(&self) -> Option<bool> {
         self.evidence.pointed()

@@ -12,6 +12,12 @@ const STEPS: i64 = 3;
 /// The coarsest tolerance, nm: a program of whole millimetres must fit better than its numbers are fine.
 const COARSEST: i64 = 20 * MICROMETRE;
 
+/// So many numbers with as many decimals tell that all are written so.
+const ENOUGH: u32 = 12;
+
+/// So many may be written otherwise.
+const SLIPS: u32 = 2;
+
 /// No machine travels so far, mm.
 const LONG: i64 = 1_000;
 
@@ -29,6 +35,8 @@ pub struct Evidence {
     /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
     pub bare: u32,
     pub long: u32,
+    /// Of the numbers with a point, how many have so many decimals.
+    pub places: [u32; 8],
     /// Numbers that have four decimals or more.
     pub fine: u32,
     pub inch: bool,
@@ -94,6 +102,7 @@ impl Evidence {
         self.inch |= other.inch;
         self.fine += other.fine;
         self.bare += other.bare;
+        self.places.iter_mut().zip(other.places).for_each(|(count, more)| *count += more);
         self.long += other.long;
         self.says_unit |= other.says_unit;
         self.absolute.add(&other.absolute);
@@ -107,6 +116,9 @@ impl Evidence {
             self.with_point += u32::from(number.point);
             self.decimals = self.decimals.max(number.decimals);
             self.fine += u32::from(number.decimals >= 4);
+            if number.point {
+                self.places[usize::from(number.decimals).min(7)] += 1;
+            }
             self.bare += u32::from(!number.point && number.mantissa != 0);
             self.long += u32::from(!number.point && number.mantissa.abs() >= LONG);
         }
@@ -158,6 +170,13 @@ impl Evidence {
     /// for anything else.
     fn whole_numbers_are_fine(&self) -> bool {
         self.with_point == 0 || self.with_point.saturating_mul(4) <= self.long
+    }
+
+    /// How many decimals the numbers have, where all but one or two have as many; and how many those are.
+    pub fn usual_places(&self) -> Option<(u8, u32)> {
+        let all: u32 = self.places.iter().sum();
+        let (places, count) = self.places.iter().enumerate().max_by_key(|(_, count)| **count)?;
+        (*count >= ENOUGH && all - count <= SLIPS).then_some((places as u8, all - count))
     }
 
     /// Whether lengths have a decimal point, where nearly all are written alike.

@@ -39,7 +39,7 @@ const FINALISTS: usize = 16;
 const OFFERED: usize = 4;
 
 /// By how much a change must be better than any other that leads elsewhere to be the one that is meant.
-const CLEAR: f64 = 1.0;
+const CLEAR: f64 = 1.5;
 
 /// A change that makes a cut sound, or sounder.
 #[derive(Clone, Debug, PartialEq)]
@@ -201,7 +201,7 @@ impl<'a> Search<'a> {
             [first, second, ..] => first.hard < second.hard || first.cost + CLEAR <= second.cost,
         };
         let repair = |(rank, tried): (usize, Tried)| {
-            let is_sure = rank == 0 && tried.hard == 0 && tried.beside == 0 && is_clear && total.hard > 0;
+            let is_sure = rank == 0 && tried.hard == 0 && tried.beside == 0 && tried.change.is_a_slip && is_clear && total.hard > 0;
             let repair = tried.change.into_repair(self.document, self.lines.start)?;
             Some(Repair { closes: total.open > 0, is_sure, explains: total.hard > 0, ..repair })
         };

@@ -8,7 +8,7 @@ use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres
 use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
 use super::stretch::{Definition, Fault, Run, RunSide, Stretch, Tight};
-use super::word::{Value, WordFault};
+use super::word::{Token, Value, WordFault, words};
 use crate::finding::{Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::{Arc, cross};
 use crate::program::closing::tolerance;
@@ -97,6 +97,7 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
     report.findings.extend(document.crossings().findings(document));
     report.definitions();
     report.bare_numbers();
+    report.odd_places();
     report.unit();
     report.foreign_words();
     report.block_numbers();
@@ -584,6 +585,34 @@ impl<'a> Report<'a> {
             };
             let severity = if is_few { Rule::MixedNumbers.default_severity() } else { Severity::Information };
             self.push(Rule::MixedNumbers, severity, range, Detail::Iso(fault));
+        }
+    }
+
+    /// The one or two numbers that have other decimals than all the others.
+    fn odd_places(&mut self) {
+        let Some((usual, odd)) = self.document.usual_places().filter(|(_, odd)| *odd > 0) else { return };
+        let mut found = Vec::new();
+        for placed in self.document.placed() {
+            let own = &placed.stretch.evidence.places;
+            if own.iter().sum::<u32>() == own[usize::from(usual)] {
+                continue;
+            }
+            for line in placed.first_line..placed.first_line + placed.stretch.lines as usize {
+                let range = self.text.line_range(line);
+                words(&self.text.bytes()[range.clone()], range.start.max(1), |token| {
+                    if let Token::Word { letter: b'X' | b'Y' | b'I' | b'J' | b'R', number, range: word } = token
+                        && number.point
+                        && number.decimals != usual
+                    {
+                        let by = range.start.max(1) - range.start;
+                        found.push(word.start - by..word.end - by);
+                    }
+                });
+            }
+        }
+        for range in found.into_iter().take(odd as usize) {
+            let word = self.shown(&range);
+            self.add(Rule::MixedNumbers, range, IsoFault::Places { word, usual });
         }
     }
 

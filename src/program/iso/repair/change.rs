@@ -41,6 +41,8 @@ pub struct Change {
     pub replaced: usize,
     pub lines: Vec<Vec<u8>>,
     pub prior: f64,
+    /// It takes nothing away that stands but once.
+    pub is_a_slip: bool,
     kind: FixKind,
     found: String,
     meant: String,
@@ -134,7 +136,16 @@ pub fn of_line(document: &Document, way: &Way<'_>, pool: &Pool, lines: &Range<us
         let is_twice = index > 0 && said(&way.lines[index - 1]) == said(&way.lines[index]) && !way.lines[index - 1].block.empty;
         let prior = if is_twice { prior::TWICE } else { prior::BLOCK };
         let found = shown(bytes);
-        changes.push(Change { index, replaced: 1, lines: Vec::new(), prior, kind: FixKind::DeleteBlock, found, meant: String::new() });
+        changes.push(Change {
+            index,
+            replaced: 1,
+            lines: Vec::new(),
+            is_a_slip: is_twice,
+            prior,
+            kind: FixKind::DeleteBlock,
+            found,
+            meant: String::new(),
+        });
     }
     if let Some(next) = next.filter(|next| is_move && *next == index + 1) {
         let other = document.line_bytes(lines.start + next);
@@ -142,7 +153,16 @@ pub fn of_line(document: &Document, way: &Way<'_>, pool: &Pool, lines: &Range<us
         if other != bytes && is_other {
             let swapped = with_numbers_kept(bytes, other);
             let (found, meant) = (shown(bytes), shown(other));
-            changes.push(Change { index, replaced: 2, lines: swapped, prior: prior::BLOCKS, kind: FixKind::ExchangeBlocks, found, meant });
+            changes.push(Change {
+                index,
+                replaced: 2,
+                is_a_slip: true,
+                lines: swapped,
+                prior: prior::BLOCKS,
+                kind: FixKind::ExchangeBlocks,
+                found,
+                meant,
+            });
         }
     }
     changes
@@ -172,7 +192,7 @@ impl Words<'_> {
         line.splice(range, text.bytes());
         let kind = FixKind::Rewrite { found: found.to_owned(), meant: meant.to_owned() };
         let (found, meant) = (found.to_owned(), meant.to_owned());
-        self.changes.push(Change { index: self.index, replaced: 1, lines: vec![line], prior, kind, found, meant });
+        self.changes.push(Change { index: self.index, replaced: 1, is_a_slip: true, lines: vec![line], prior, kind, found, meant });
     }
 
     fn text(&self, range: &Range<usize>) -> String {
@@ -270,7 +290,16 @@ impl Words<'_> {
                     let with = with_word(self.bytes, &meant, self.pool.is_parted);
                     let kind = FixKind::Rewrite { found: String::new(), meant: meant.clone() };
                     let (found, lines) = (String::new(), vec![with]);
-                    self.changes.push(Change { index: self.index, replaced: 1, lines, prior: prior::MOTION, kind, found, meant });
+                    self.changes.push(Change {
+                        index: self.index,
+                        replaced: 1,
+                        is_a_slip: true,
+                        lines,
+                        prior: prior::MOTION,
+                        kind,
+                        found,
+                        meant,
+                    });
                 }
             }
         }

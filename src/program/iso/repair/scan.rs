@@ -27,6 +27,10 @@ impl Line {
             Note::Length { pointed, .. } if document.pointed().is_some_and(|others| others != pointed) => faults += 1,
             _ => {}
         });
+        if let Some((usual, _)) = document.usual_places() {
+            let lengths = [block.x, block.y, block.i, block.j, block.r];
+            faults += lengths.into_iter().flatten().filter(|number| number.point && number.decimals != usual).count() as u32;
+        }
         Line { block, faults }
     }
 }
