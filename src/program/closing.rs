@@ -92,7 +92,7 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
     if is_near(0, count)? {
         // The way out runs back along the way in.
         let mut leads = 0;
-        while encloses(way, leads + 1, leads + 1)? && is_near(leads + 1, count - leads - 1)? {
+        while 2 * leads + 2 < count && is_near(leads + 1, count - leads - 1)? && encloses(way, leads + 1, leads + 1)? {
             leads += 1;
         }
         return closed(leads, leads);
@@ -105,7 +105,7 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
     for both in 1..=SHORT_LEADS.min(count) {
         for lead_out in 0..=(both - 1).min(longest_out) {
             let lead_in = both - lead_out;
-            if encloses(way, lead_in, lead_out)? && is_near(lead_in, count - lead_out)? {
+            if lead_in + lead_out < count && is_near(lead_in, count - lead_out)? && encloses(way, lead_in, lead_out)? {
                 return closed(lead_in, lead_out);
             }
         }
@@ -217,11 +217,17 @@ pub struct HeldWay {
     pieces: Vec<Segment>,
     arcs: usize,
     writing: Writing,
+    stop: Option<usize>,
 }
 
 impl HeldWay {
     pub fn from(start: Node, writing: Writing) -> HeldWay {
         HeldWay { nodes: vec![start], writing, ..HeldWay::default() }
+    }
+
+    /// What comes next stands behind a stop.
+    pub fn stop_here(&mut self) {
+        self.stop.get_or_insert(self.pieces.len());
     }
 
     /// One block more: what it means, from where the way is meant to stand, and where the machine stands behind it.
@@ -246,7 +252,7 @@ impl Way for HeldWay {
     }
 
     fn stop(&self) -> Option<usize> {
-        None
+        self.stop
     }
 
     fn node(&self, index: usize) -> Option<Node> {

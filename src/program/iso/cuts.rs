@@ -6,7 +6,8 @@ use super::document::{Document, Placed};
 use super::machine::{Place, micrometres};
 use super::stretch::{Run, SEVERAL, changes_side};
 use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::closing::{self, Node, Way, Writing, closing, is_tab};
+use crate::program::closing::{self, HeldWay, Node, Way, Writing, closing, is_tab};
+use crate::program::passes::pieces_of;
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -148,31 +149,59 @@ pub(super) fn tabs(document: &Document) -> Vec<StopAt> {
     }
     let mut found = Vec::new();
     // Cuts that are open, one behind the other.
-    let mut open: Vec<Cut> = Vec::new();
+    let mut open: Vec<OpenCut> = Vec::new();
     cuts(document, &mut |cut| {
         let Some(cut) = cut.filter(|cut| cut.run.whole && !cut.closes(document)) else { return open.clear() };
-        let goes_on = |last: &Cut| last.single_stop().is_some() && last.run.last[1].to == cut.run.first[0].from;
+        let goes_on = |last: &OpenCut| last.cut.single_stop().is_some() && last.cut.run.last[1].to == cut.run.first[0].from;
         if !open.last().is_some_and(goes_on) {
             open.clear();
         }
-        open.push(cut);
-        let Some((last, before)) = open.split_last() else { return };
-        let way = |cuts: &[Cut]| CutWay::of(document, &cuts.iter().collect::<Vec<_>>());
-        let own = CutWay::of(document, &[last]);
-        let begin = (0..before.len()).find(|&begin| is_tab(&way(&before[begin..]), &own, &way(&open[begin..])) == Some(true));
-        if let Some(begin) = begin {
-            found.extend(before[begin..].iter().filter_map(Cut::single_stop));
+        open.push(OpenCut { cut, pieces: OnceCell::new() });
+        let way = |cuts: Range<usize>| held(document, &open[cuts]);
+        let last = open.len() - 1;
+        let moves = |begin: usize| open[begin..].iter().map(|open| open.cut.run.moves).sum::<u32>();
+        let is_tab =
+            |begin: &usize| moves(*begin) > 2 && is_tab(&way(*begin..last), &way(last..last + 1), &way(*begin..last + 1)) == Some(true);
+        if let Some(begin) = (0..last).find(is_tab) {
+            found.extend(open[begin..last].iter().filter_map(|open| open.cut.single_stop()));
             open.clear();
         }
-        if open.len() > MOST_STOPS || open.last().is_some_and(|last| last.single_stop().is_none()) {
+        if open.len() > MOST_STOPS {
+            open.remove(0);
+        }
+        if open.last().is_some_and(|last| last.cut.single_stop().is_none()) {
             open.clear();
         }
     });
     found
 }
 
+/// A cut that does not close for itself, and its moves, once they were asked for.
+struct OpenCut {
+    cut: Cut,
+    pieces: OnceCell<Vec<Segment>>,
+}
+
+/// Cuts as one way, from where the first begins.
+fn held(document: &Document, cuts: &[OpenCut]) -> HeldWay {
+    let begin = cuts.first().map_or([0, 0], |open| open.cut.run.start());
+    let mut way = HeldWay::from(Node::at(Point::origin()), document.reading().writing());
+    for (nth, OpenCut { cut, pieces }) in cuts.iter().enumerate() {
+        if nth > 0 {
+            way.stop_here();
+        }
+        let own = pieces.get_or_init(|| pieces_of(&CutWay::of(document, &[cut])).unwrap_or_default());
+        let start = cut.run.start();
+        let by = micrometres([start[0].wrapping_sub(begin[0]), start[1].wrapping_sub(begin[1])]).coords;
+        for piece in own.iter().map(|piece| piece.moved(by)) {
+            way.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));
+        }
+    }
+    way
+}
+
 /// Stops in one contour.
-const MOST_STOPS: usize = 16;
+const MOST_STOPS: usize = 4;
 
 /// Cuts as one way, from where the first begins. Costs their parts, and the lines of those that are asked for.
 pub(super) struct CutWay<'a> {

@@ -347,6 +347,7 @@ impl Cursor<'_> {
             }
             // Some writers open with a heading between rows of stars; brackets and slashes open comments elsewhere.
             b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' => return Ok(self.comment_at(start)),
+            0x80.. if looks_like_a_block(before_comment(rest)) => return Err(self.fault("a block in plain letters and digits")),
             0x80.. => return Ok(self.comment()),
             b'(' => match row_number(rest) {
                 Some((number, length)) if !self.behind_block => {
@@ -629,6 +630,15 @@ fn wants_to_be_a_block(text: &[u8]) -> bool {
     kinds >= 2 || (begins && (numbers >= 2 || kinds == 1 && code.iter().filter(|byte| byte.eq_ignore_ascii_case(&b'B')).count() >= 2))
 }
 
+/// Whether a text in other letters has what a block has: three numbers, an axis and a quadrant.
+fn looks_like_a_block(text: &[u8]) -> bool {
+    let text = &text[..text.len().min(160)];
+    let follows =
+        |first: &[u8], second: fn(u8) -> bool| text.windows(2).any(|pair| first.contains(&pair[0].to_ascii_uppercase()) && second(pair[1]));
+    let numbers = text.chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit()).filter(|run| run[0].is_ascii_digit()).count();
+    numbers >= 4 && follows(b"G", |byte| matches!(byte, b'X' | b'x' | b'Y' | b'y')) && follows(b"LR", |byte| matches!(byte, b'1'..=b'4'))
+}
+
 /// The point of `Start Point = x , y`.
 pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
     let text = text.trim_ascii_start();
@@ -839,6 +849,10 @@ mod tests {
         check(
             "\u{412}9900B0B9900GXL1",
             "! 0..17 column 1: found `\u{412}9900B0B9900`, expected a block in plain letters and digits, these are Cyrillic or Greek ones",
+        );
+        check(
+            "\u{411}9900\u{411}0\u{411}39600GYNR1",
+            "! 0..20 column 1: found `\u{411}9900\u{411}0\u{411}3960`, expected a block in plain letters and digits",
         );
         check("Ｄ", "! 0..3 column 1: found `Ｄ`, expected a block in plain letters and digits, these are full-width ones");
         check(

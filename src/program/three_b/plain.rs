@@ -90,9 +90,24 @@ fn in_gbk(rest: &[u8]) -> (Option<Likeness>, usize) {
         [0xa3, low @ 0xa1..=0xfe, ..] => (Some(Likeness::FullWidth(low - 0x80)), 2),
         [0xa1, 0xa1, ..] => (Some(Likeness::Space), 2),
         [0xa1, 0xa2, ..] => (Some(Likeness::FullWidth(b',')), 2),
+        [row @ (0xa6 | 0xa7), low, ..] => (foreign_in_gbk(row, low).map(Likeness::Foreign), 2),
         [0x81..=0xfe, 0x40..=0xfe, ..] => (None, 2),
         _ => (None, 1),
     }
+}
+
+/// The same letters of the Greek and the Cyrillic row of GBK.
+fn foreign_in_gbk(row: u8, low: u8) -> Option<u8> {
+    Some(match (row, low) {
+        (0xa7, 0xa3 | 0xd3) | (0xa6, 0xa2) => b'B',
+        (0xa7, 0xb7 | 0xe7) | (0xa6, 0xb6) => b'X',
+        (0xa7, 0xb5 | 0xe5) | (0xa6, 0xb4) => b'Y',
+        (0xa7, 0xb0 | 0xe0) | (0xa6, 0xaf) => b'O',
+        (0xa7, 0xa6 | 0xd6) | (0xa6, 0xa5) => b'E',
+        (0xa7, 0xa1 | 0xd1) | (0xa6, 0xa1) => b'A',
+        (0xa6, 0xad) => b'N',
+        _ => return None,
+    })
 }
 
 /// The line with marks and spaces as a controller has them, each in the place of the other one; `None` where there is none. Letters and
@@ -140,6 +155,7 @@ mod tests {
         let plain = |line: &[u8]| String::from_utf8(in_plain_letters(line, &alike(line))).unwrap();
         assert_eq!(plain("（１）Ｂ９９00В0\u{3000}\u{a0}N8：ＤＤ".as_bytes()), "(1)B9900B0  N8:DD");
         // The same in GBK.
+        assert_eq!(plain(b"\xa7\xa39900\xa6\xa2"), "B9900B");
         assert_eq!(plain(b"\xa3\xa81\xa3\xa9\xa3\xc29\xa1\xa1"), "(1)B9 ");
         assert_eq!(alike("直线 é".as_bytes()), []);
         assert_eq!(with_plain_marks("（1）B".as_bytes()).unwrap(), b"(  1)  B");

@@ -18,6 +18,9 @@ use std::ops::Range;
 /// Pauses in one contour, to hold the part before its last piece is cut.
 const PAUSES_WITHIN: usize = 16;
 
+/// Those of them behind which a tab is looked for.
+const TABS_WITHIN: usize = 4;
+
 impl Document {
     /// `calm` takes the contours within one run of which is known now that they do not cross themselves, in their order.
     pub(super) fn look(&self, known: &mut Known, calm: &mut Vec<PartAt>) -> View {
@@ -79,18 +82,22 @@ impl Document {
         let mut whole = section.clone();
         let mut begins = Vec::new();
         let mut may_be_tab = true;
-        for _ in 0..PAUSES_WITHIN {
+        for pause in 0..PAUSES_WITHIN {
             let next = self.part_behind(whole.parts[1]);
             let more = self.section_from(next, view.end)?;
             let longer = joined(whole.clone(), &more);
             begins.push(next);
             let way = |section: &Section| SectionWay::of(self, section);
-            let is_tab = may_be_tab && more.sum.blocks > 0 && is_tab(&way(&whole), &way(&more), &way(&longer)) == Some(true);
+            may_be_tab &= pause < TABS_WITHIN;
+            let is_tab = may_be_tab
+                && more.sum.blocks > 0
+                && longer.sum.blocks > 2
+                && is_tab(&way(&whole), &way(&more), &way(&longer)) == Some(true);
             if is_tab || not_closed::is_closed(&longer.sum) {
                 return Some((begins, self.part_behind(more.parts[1])));
             }
             // What closes by itself is a contour of its own, and what leads to it no tab.
-            may_be_tab &= more.sum.blocks == 0 || !(more.is_jump || self.is_closed(&more));
+            may_be_tab = may_be_tab && (more.sum.blocks == 0 || !(more.is_jump || self.is_closed(&more)));
             whole = longer;
         }
         None

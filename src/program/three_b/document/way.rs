@@ -5,6 +5,7 @@ use super::super::run::{Entry, Move, Part};
 use super::{Document, Section};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::closing::{Node, Way, Writing};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// A section block by block. Costs its runs, and the blocks of those that are asked for.
@@ -25,6 +26,7 @@ struct WayPart {
     first: usize,
     start: Move,
     bounds: Bounds,
+    pieces: OnceCell<Vec<Segment>>,
 }
 
 /// What boxes are grown by, µm: places are rounded to nm.
@@ -50,7 +52,7 @@ impl<'a> SectionWay<'a> {
 
     fn push(&mut self, run: usize, part: &Part) {
         let (first, start) = (self.count, self.travel);
-        self.parts.push(WayPart { run, entries: part.entries.clone(), first, start, bounds: part.bounds });
+        self.parts.push(WayPart { run, entries: part.entries.clone(), first, start, bounds: part.bounds, pieces: OnceCell::new() });
         self.count += part.sum.blocks;
         self.arcs += part.sum.arcs;
         self.travel = self.travel.plus(part.sum.travel);
@@ -65,9 +67,11 @@ impl<'a> SectionWay<'a> {
         self.parts.get(self.parts.partition_point(|part| part.first <= index).checked_sub(1)?)
     }
 
-    fn pieces(&self, part: &WayPart) -> impl Iterator<Item = Segment> {
-        let [x, y] = part.start.meant_um();
-        pieces_of(self.entries(part)).into_iter().map(move |piece| piece.moved(Vector::new(x, y)))
+    fn pieces<'b>(&self, part: &'b WayPart) -> &'b [Segment] {
+        part.pieces.get_or_init(|| {
+            let [x, y] = part.start.meant_um();
+            pieces_of(self.entries(part)).into_iter().map(|piece| piece.moved(Vector::new(x, y))).collect()
+        })
     }
 }
 
@@ -101,7 +105,7 @@ impl Way for SectionWay<'_> {
 
     fn piece(&self, index: usize) -> Option<Segment> {
         let part = self.part_of(index).filter(|_| index < self.count)?;
-        self.pieces(part).nth(index - part.first)
+        self.pieces(part).get(index - part.first).copied()
     }
 
     fn pieces_about(&self, at: Point, reach: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()> {
@@ -110,7 +114,7 @@ impl Way for SectionWay<'_> {
             let [x, y] = part.start.meant_um();
             let by = Vector::new(x, y);
             let bounds = Bounds { min: part.bounds.min + by, max: part.bounds.max + by };
-            if bounds.touches(&place) && self.pieces(part).zip(part.first..).any(|(piece, index)| each(index, &piece)) {
+            if bounds.touches(&place) && self.pieces(part).iter().zip(part.first..).any(|(piece, index)| each(index, piece)) {
                 break;
             }
         }
