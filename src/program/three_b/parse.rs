@@ -852,7 +852,7 @@ mod tests {
         );
         check(
             "\u{411}9900\u{411}0\u{411}39600GYNR1",
-            "! 0..20 column 1: found `\u{411}9900\u{411}0\u{411}3960`, expected a block in plain letters and digits",
+            "! 0..21 column 1: found `\u{411}9900\u{411}0\u{411}3960`, expected a block in plain letters and digits",
         );
         check("Ｄ", "! 0..3 column 1: found `Ｄ`, expected a block in plain letters and digits, these are full-width ones");
         check(
