@@ -20,6 +20,9 @@ const MOST_LINES: usize = 160;
 /// Cuts of more lines are not searched.
 const LONGEST: usize = 4_000;
 
+/// Cuts with a longer line, in bytes, are not searched: no block is, and each change of one is as long as the line.
+const LONGEST_LINE: usize = 512;
+
 /// Lines on either side of what is wrong that are searched in a long cut.
 const NEAR: usize = 2;
 
@@ -83,7 +86,8 @@ pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
         let Some(before) = document.machine_before(lines.start) else { continue };
         let own: Vec<usize> = places.iter().copied().filter(|line| lines.contains(line)).collect();
         // So much does not come of one slip.
-        if own.len() > MOST_TROUBLES {
+        let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
+        if own.len() > MOST_TROUBLES || lines.clone().any(is_long) {
             found.push((lines, Vec::new()));
             continue;
         }
