@@ -1,6 +1,7 @@
 //! What the wire leaves beyond its dead ends: `lost-pocket`, and how deep the corners in there are.
 
 use super::Analysis;
+use super::pairs::FacingWalls;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing};
 use crate::finding::{Detail, Rule, Severity, Side};
@@ -9,11 +10,14 @@ use crate::rules::{Outlook, Wall};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
+/// The contour, the two walls that the wire comes to, and what it leaves.
+type Told = (ContourKey, [usize; 2], Left);
+
 /// What is left beyond the dead ends of all contours.
 #[derive(Debug, Default)]
 pub struct DeadEnds {
     /// By the rank of the entity and the segment that the wire stays farthest from.
-    left: BTreeMap<(u64, usize, bool), (ContourKey, [usize; 2], Left)>,
+    left: BTreeMap<(u64, usize, bool), Told>,
     /// By the segment that a corner starts and the side of the wire: how far the corner is from what is cut.
     depths: FxHashMap<(ContourKey, usize, bool), f64>,
 }
@@ -44,7 +48,7 @@ impl Analysis {
             let is_concerned = side_of(key).is_none_or(|known| known == side);
             let end = || DeadEnd::between(&Wall::new(&outlook, one)?, &Wall::new(&outlook, other)?, side, center);
             let Some(end) = is_concerned.then(end).flatten() else { continue };
-            let is_told = |of: &[([usize; 2], Option<Side>)]| {
+            let is_told = |of: &[FacingWalls]| {
                 of.iter().any(|(walls, of_side)| of_side.is_none_or(|of_side| of_side == side) && end.holds(outlook.contour.len(), *walls))
             };
             if slots.get(&key).is_none_or(|of| !is_told(of)) {
@@ -83,7 +87,7 @@ impl DeadEnds {
         let new = (key, end.walls(), left);
         // One place is told once: of discs that touch the same walls within rounding the first.
         let known = self.left.entry(place).or_insert(new);
-        let order = |(_, walls, left): &(ContourKey, [usize; 2], Left)| (left.depth, *walls);
+        let order = |(_, walls, left): &Told| (left.depth, *walls);
         if order(&new).partial_cmp(&order(known)).is_some_and(std::cmp::Ordering::is_lt) {
             *known = new;
         }

@@ -47,6 +47,9 @@ const KEPT: usize = 256;
 /// Two segments of a contour that form a slot, and the disc between them.
 pub type Slot = ([usize; 2], Option<(Point, f64)>);
 
+/// Two segments of a contour that form a slot, and the side of travel that it lies on, `None` where any.
+pub type FacingWalls = ([usize; 2], Option<Side>);
+
 /// The runs of all contours by place, and what has been seen between them.
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
@@ -289,8 +292,8 @@ impl Pairs {
     }
 
     /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour.
-    pub fn slots(&self) -> FxHashMap<ContourKey, Vec<([usize; 2], Option<Side>)>> {
-        let mut slots: FxHashMap<ContourKey, Vec<([usize; 2], Option<Side>)>> = FxHashMap::default();
+    pub fn slots(&self) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
+        let mut slots: FxHashMap<ContourKey, Vec<FacingWalls>> = FxHashMap::default();
         for each in self.seen.values().flatten() {
             if PAIR_RULES[each.rule].rule == Rule::NarrowSlot && each.one.0 == each.other.0 && !each.blocked {
                 slots.entry(each.one.0).or_default().push(([each.one.1, each.other.1], each.sides.0.or(each.sides.1)));
