@@ -114,6 +114,9 @@ pub(super) fn marks(drawing: &Drawing, outlines: &[Outline], most: usize) -> Opt
     Some(marks.collect())
 }
 
+/// So often what a lead reaches beyond the path is halved, where the last of the longer ones does not fit.
+const HALVED_BEYOND: u32 = 4;
+
 /// A place on the walls.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
@@ -381,15 +384,19 @@ pub(super) fn thread_hole(
     let to_path = begin - entry.point;
     let nearest = to_path.norm();
     let Some(way) = to_path.try_normalize(0.0) else { return Ok(begin) };
-    let mut length = settings.lead_in / unit_mm;
+    // Halved down to the path; then what reaches beyond the path is halved.
+    let least = nearest + 1e-6 / unit_mm;
+    let full = Some(settings.lead_in / unit_mm).filter(|length| length.is_finite());
+    let halved = std::iter::successors(full, |length| Some(length / 2.0)).take_while(|&length| length > least);
+    let shortest = halved.clone().last().unwrap_or(nearest);
+    let beyond = (1..=HALVED_BEYOND).map(|times| nearest + (shortest - nearest) / f64::from(1 << times)).filter(|&length| length > least);
     let mut last = None;
-    while length.is_finite() && length > nearest + 1e-6 / unit_mm {
+    for length in halved.chain(beyond) {
         let thread = entry.point + way * length;
         match surroundings.obstacle(&Segment::line(thread, begin), begin) {
             None => return Ok(thread),
             obstacle => last = obstacle,
         }
-        length /= 2.0;
     }
     // What is in the way of the shortest one.
     let (place, does) = last.map(|obstacle| surroundings.told(&obstacle, walls, correction)).unwrap_or_default();
