@@ -209,7 +209,7 @@ impl Document {
     /// A line more, written as its neighbour is.
     fn insertion(&self, index: usize, block: &Block, places: &[At], pieces: &[Piece]) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
-        let model = index.checked_sub(1).unwrap_or(0);
+        let model = index.saturating_sub(1);
         let own = self.range_of(*places.get(model)?, &self.view.starts);
         let line = self.text.line_range(self.text.line_of(own.start));
         let found = text.get(own.clone())?;
