@@ -687,8 +687,9 @@ mod tests {
             orders in prop::collection::vec(prop::collection::vec(any::<prop::sample::Index>(), 24), 6),
         ) {
             let off = |number: usize| [0.0, 0.0, 0.004, -0.003, 4e-7][number];
-            let shape = |&(from, to, bulge): &((usize, usize, usize), (usize, usize, usize), usize)| {
-                let place = |(x, y, n): (usize, usize, usize)| (x as f64 * 3.0 + off(n), y as f64 * 2.0 - off((n + 2) % 5));
+            type Grid = (usize, usize, usize);
+            let shape = |&(from, to, bulge): &(Grid, Grid, usize)| {
+                let place = |(x, y, n): Grid| (x as f64 * 3.0 + off(n), y as f64 * 2.0 - off((n + 2) % 5));
                 let ((x0, y0), (x1, y1)) = (place(from), place(to));
                 (x0, y0, x1, y1, [0.0, 0.0, 0.0, 0.3, -0.3, 1.5][bulge])
             };
