@@ -51,7 +51,8 @@ impl Language {
 #[derive(Clone, Debug)]
 pub enum Document {
     ThreeB(three_b::Document),
-    Iso(iso::Document),
+    /// Larger than the other by far.
+    Iso(Box<iso::Document>),
 }
 
 impl Document {
@@ -59,7 +60,7 @@ impl Document {
     pub fn read(language: Language, bytes: Vec<u8>, settings: &Effective) -> Document {
         match language {
             Language::ThreeB => Document::ThreeB(three_b::Document::read_with(bytes, settings)),
-            Language::Iso => Document::Iso(iso::Document::read_with(bytes, settings)),
+            Language::Iso => Document::Iso(Box::new(iso::Document::read_with(bytes, settings))),
         }
     }
 

@@ -38,7 +38,7 @@ pub fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
 }
 
 fn paths(document: &Document, settings: &Effective) -> Result<Vec<crate::toolpath::WirePath>, String> {
-    let cuts = cuts(&program::Document::Iso(document.clone()));
+    let cuts = cuts(&program::Document::Iso(Box::new(document.clone())));
     if let Some(line) = cuts.lost.first() {
         return Err(format!("line {}: the arc leads nowhere", line + 1));
     }
