@@ -128,7 +128,7 @@ fn what_a_few_lines_ask_for_is_bounded_in_steps() {
     for (name, mut document) in [
         ("one array", drawn(&block("A", circle), &array("A", 30_000, 1.0))),
         ("arrays in each other", drawn(&deep, &array("D", 9, 0.0))),
-        ("an array behind another", drawn(&block("A", circle), &(array("A", 100, 1.0) + &array("A", 300, 1.0)))),
+        ("an array behind another", drawn(&block("A", circle), &(array("A", 100, 1.0) + &array("A", 500, 1.0)))),
         ("an array of curves", drawn(&curve, &array("S", 100, 0.01))),
     ] {
         let segments: usize = document.drawing().unwrap().entities().map(|(_, entity)| entity.geometry.segment_count()).sum();

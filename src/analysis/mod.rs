@@ -310,7 +310,7 @@ impl Analysis {
         let replacement = attempt.outcome.ok()?;
         let kind = FixKind::Refillet { radius: replacement.arc.radius, arcs: replacement.arcs, moved: replacement.moved };
         let in_fix_all = replacement.moved <= self.limits.correction;
-        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)]).filter(|edit| self.enlarges(drawing, edit))?;
+        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)]).filter(|edit| self.enlarges(drawing, edit, None))?;
         Some(Fix { kind, preferred: true, in_fix_all, edit })
     }
 
@@ -524,7 +524,7 @@ impl Analysis {
         let place = self.chains.get(key).and_then(|contour| contour.segment(drawing, index));
         if let Some(place) = place.filter(|_| !is_notch)
             && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
-            && self.enlarges(drawing, &edit)
+            && self.enlarges(drawing, &edit, Some(Rule::LostPocket))
         {
             let kind = FixKind::KeepEndPoints { radius: self.limits.fix_radius, kink };
             fixes.push(Fix { kind, preferred: false, in_fix_all: false, edit });
@@ -602,7 +602,7 @@ impl Analysis {
             replacements.extend(accepted.into_iter().map(|(_, travel, replacement)| (travel, replacement)));
         }
         repair::most_together(&replacements, self.tries(), |together, _| {
-            small_radius::drawing_edit(drawing, together).filter(|edit| self.enlarges(drawing, edit))
+            small_radius::drawing_edit(drawing, together).filter(|edit| self.enlarges(drawing, edit, None))
         })
     }
 

@@ -63,7 +63,9 @@ impl Analysis {
 
     /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no open end, overlap, crossing or
     /// crumb that was not there. A line that lies there twice is moved once: then the contour falls apart.
-    pub(super) fn enlarges(&self, drawing: &Drawing, edit: &DrawingEdit) -> bool {
+    ///
+    /// An arc that keeps its ends leaves what it left before, whatever rule says it then: that one is `spared`.
+    pub(super) fn enlarges(&self, drawing: &Drawing, edit: &DrawingEdit, spared: Option<Rule>) -> bool {
         let mut edited = drawing.clone();
         let Ok(delta) = edited.apply(edit) else { return false };
         let touched: FxHashSet<EntityId> = edit.changes.iter().map(Change::entity).collect();
@@ -71,7 +73,7 @@ impl Analysis {
             return false;
         }
         let (before, after) = (self.tallied(drawing), self.updated(&edited, &delta).tally(&edited));
-        after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius) && after.spoils_nothing(before)
+        after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius) && after.spoils_nothing(before, spared)
     }
 
     /// One edit that makes the safe repairs of one of the rules, as many as do not collide.

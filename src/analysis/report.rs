@@ -47,9 +47,11 @@ impl Tally {
             && self.brings_nothing_new(before, |rule| rule == mended || CORNERS.contains(&rule))
     }
 
-    /// True when there are no more errors, and nothing new but kinks and slots, which may have been beside a tight arc all the time.
-    pub fn spoils_nothing(&self, before: &Tally) -> bool {
-        self.errors <= before.errors && self.brings_nothing_new(before, |rule| CORNERS.contains(&rule) || SLOTS.contains(&rule))
+    /// True when there are no more errors, and nothing new but kinks and slots, which may have been beside a tight arc all the time,
+    /// and what a rule that is `spared` says.
+    pub fn spoils_nothing(&self, before: &Tally, spared: Option<Rule>) -> bool {
+        let is_spared = |rule| CORNERS.contains(&rule) || SLOTS.contains(&rule) || spared == Some(rule);
+        self.errors <= before.errors && self.brings_nothing_new(before, is_spared)
     }
 
     /// Where pairs have come into sight that nobody had looked at, more findings do not mean more faults.

@@ -151,7 +151,7 @@ fn faults_are_repaired_and_programs_rewritten() {
     let actions = client.request("textDocument/codeAction", params.clone()).unwrap();
     let titles: Vec<_> = actions.as_array().unwrap().iter().map(|action| action["title"].as_str().unwrap()).collect();
     assert_eq!(titles[0], "Take I and J as other controls do, and write them as this program does (R 5.000 mm)");
-    assert_eq!(titles.last(), Some(&"Close the contour with a line of 5.000 mm"));
+    assert!(titles[1..].contains(&"Close the contour with a line of 5.000 mm"), "{titles:?}");
     let repaired = applied(text, &actions[0]["edit"]["documentChanges"][0]["edits"]);
     assert!(repaired.contains("G03 X-5. Y0. I0. J-5.\n"), "{repaired}");
     client.open_text(URI, "wire-iso", HOLE);

@@ -11,7 +11,7 @@ patiently() {
     shift
     (
         trap 'kill "$pause" 2>/dev/null; exit' TERM
-        while :; do
+        while kill -0 $$ 2>/dev/null; do
             sleep 30 &
             pause=$!
             wait "$pause"

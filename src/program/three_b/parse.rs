@@ -337,10 +337,13 @@ impl Cursor<'_> {
                 if let Some(at) = start_point(&rest[1..]) {
                     return Ok(Some(Token::Other(Item::StartPoint { at, range: self.range(start) })));
                 }
-                if has_decimal_commas(before_comment(&rest[1..])) {
+                // Nothing else of the line is looked at behind this: the numbers may be as long as they are.
+                let comment = &rest[1..];
+                let coordinates = &comment[..memchr::memchr(b';', comment).unwrap_or(comment.len())];
+                if has_decimal_commas(coordinates) {
                     return Ok(Some(Token::Other(self.decimal_commas(start + 1))));
                 }
-                return match stated_point(before_comment(&rest[1..])) {
+                return match point_in(coordinates) {
                     Some(end) => Ok(Some(Token::Coordinates(end))),
                     None => Ok(self.comment_at(start)),
                 };
@@ -668,9 +671,10 @@ pub(super) fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
 
 /// `x , y`, `x y`, `X=x Y=y`, in brackets or not, and nothing else.
 fn stated_point(text: &[u8]) -> Option<StatedPoint> {
-    if text.len() >= FARTHEST {
-        return None;
-    }
+    if text.len() < FARTHEST { point_in(text) } else { None }
+}
+
+fn point_in(text: &[u8]) -> Option<StatedPoint> {
     let text = std::str::from_utf8(text).ok()?;
     let is_between =
         |c: char| matches!(c, ',' | '(' | ')' | '[' | ']' | '=' | ':' | 'X' | 'Y' | 'x' | 'y' | '|') || c.is_ascii_whitespace();

@@ -10,7 +10,7 @@ use super::sections::joined;
 use super::way::SectionWay;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Axis, Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
-use crate::program::closing::{closing, gap, is_tab};
+use crate::program::closing::{closing, gap, is_tab, tolerance};
 use crate::program::passes::{passes, pieces_of as pieces_of_way};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -103,9 +103,22 @@ impl Document {
         None
     }
 
+    /// True for the way back to where the wire was threaded, behind a stop at the end of a closed contour.
+    fn leads_out(&self, view: &View, section: &Section) -> bool {
+        let (run, part) = section.parts[0];
+        let before = part.checked_sub(1).and_then(|part| self.section_of_part(view, (run, part)));
+        before.is_some_and(|before| {
+            let whole = before.sum.then(&section.sum);
+            !before.is_jump && whole.travel.is_within(tolerance(whole.arcs))
+        })
+    }
+
     fn judge_open(&self, view: &mut View, section: &Section) {
         let Some(last) = self.last_block_of(section).filter(|_| section.sum.unread == 0) else { return };
         let is_fragment = view.end.is_none() || section.sum.blocks <= not_closed::FRAGMENT;
+        if is_fragment && self.leads_out(view, section) {
+            return;
+        }
         let Some(gap) = gap(&SectionWay::of(self, section)) else { return };
         let fault = not_closed::fault(gap, &section.sum);
         let severity = if is_fragment { Severity::Information } else { fault.rule().default_severity() };
