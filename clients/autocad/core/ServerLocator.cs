@@ -67,13 +67,17 @@ namespace Wedm.Core
         /// </summary>
         private static bool IsFull(string path)
         {
-            bool IsSeparator(char character) => character == '\\' || character == '/';
             if (!IsWindows)
             {
                 return path.Length > 0 && path[0] == '/';
             }
             var hasDrive = path.Length > 2 && char.IsLetter(path[0]) && path[1] == ':' && IsSeparator(path[2]);
             return hasDrive || (path.Length > 2 && IsSeparator(path[0]) && IsSeparator(path[1]));
+        }
+
+        private static bool IsSeparator(char character)
+        {
+            return character == '\\' || character == '/';
         }
 
         private static IEnumerable<string> Folders(string besides, string searchPath, string home)

@@ -92,7 +92,8 @@ impl Look<'_> {
         let mut open = OpenCut { parts: Vec::new(), moves: 0, is_sound: true };
         for (index, stretch) in stretches.iter().enumerate() {
             open.is_sound &= !stretch.faulty_before;
-            if stretch.ends_run_before.is_some() {
+            if let Some(is_whole) = stretch.ends_run_before {
+                open.is_sound &= is_whole;
                 self.close(&mut open);
             }
             let inner = stretch.inner();

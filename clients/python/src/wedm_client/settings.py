@@ -28,6 +28,7 @@ class ProgramSettings(TypedDict, total=False):
     jumps: Literal["blocks", "none"]
     compensation: Literal["path", "controller", "none"]
     digits: int
+    units: Units
     profile: str
     end: str
     pause: str
