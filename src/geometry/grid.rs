@@ -8,17 +8,15 @@ use rustc_hash::FxHashMap;
 /// asking cost what is found, whatever else the grid holds, as long as boxes of one size do not lie in heaps.
 #[derive(Clone, Debug)]
 pub struct Grid<K> {
-    /// The first box of each cell that holds any.
-    first: FxHashMap<Cell, u32>,
+    /// By level in use the first box of each cell that holds any.
+    levels: FxHashMap<i16, FxHashMap<Cell, u32>>,
     boxes: Vec<Boxed<K>>,
     /// The first of the places in `boxes` that hold none.
     free: u32,
-    /// Number of boxes of each level in use.
-    levels: FxHashMap<i16, usize>,
 }
 
-/// Level, column, row. What lies beyond the last column or row lies in it.
-type Cell = (i16, i32, i32);
+/// Column and row. What lies beyond the last column or row lies in it.
+type Cell = (i32, i32);
 
 #[derive(Clone, Debug)]
 struct Boxed<K> {
@@ -32,7 +30,7 @@ const NONE: u32 = u32::MAX;
 
 impl<K> Default for Grid<K> {
     fn default() -> Self {
-        Grid { first: FxHashMap::default(), boxes: Vec::new(), free: NONE, levels: FxHashMap::default() }
+        Grid { levels: FxHashMap::default(), boxes: Vec::new(), free: NONE }
     }
 }
 
@@ -47,9 +45,8 @@ impl<K: Copy + PartialEq> Grid<K> {
         if bounds.is_empty() {
             return;
         }
-        let cell = cell_of(&bounds);
-        *self.levels.entry(cell.0).or_default() += 1;
-        let first = self.first.entry(cell).or_insert(NONE);
+        let (level, cell) = cell_of(&bounds);
+        let first = self.levels.entry(level).or_default().entry(cell).or_insert(NONE);
         let boxed = Boxed { key, bounds, next: *first };
         match self.boxes.get_mut(self.free as usize) {
             Some(place) => {
@@ -69,8 +66,9 @@ impl<K: Copy + PartialEq> Grid<K> {
         if bounds.is_empty() {
             return;
         }
-        let cell = cell_of(bounds);
-        let Some(&first) = self.first.get(&cell) else { return };
+        let (level, cell) = cell_of(bounds);
+        let Some(cells) = self.levels.get_mut(&level) else { return };
+        let Some(&first) = cells.get(&cell) else { return };
         let (mut before, mut at) = (NONE, first);
         while let Some(boxed) = self.boxes.get(at as usize).filter(|boxed| boxed.key != key) {
             (before, at) = (at, boxed.next);
@@ -80,14 +78,11 @@ impl<K: Copy + PartialEq> Grid<K> {
         self.free = at;
         match self.boxes.get_mut(before as usize) {
             Some(before) => before.next = next,
-            None if next == NONE => drop(self.first.remove(&cell)),
-            None => drop(self.first.insert(cell, next)),
+            None if next == NONE => drop(cells.remove(&cell)),
+            None => drop(cells.insert(cell, next)),
         }
-        if let Some(count) = self.levels.get_mut(&cell.0) {
-            *count -= 1;
-            if *count == 0 {
-                self.levels.remove(&cell.0);
-            }
+        if cells.is_empty() {
+            self.levels.remove(&level);
         }
     }
 
@@ -108,22 +103,24 @@ impl<K: Copy + PartialEq> Grid<K> {
             }
             count
         };
-        for &level in self.levels.keys() {
+        for (&level, cells) in &self.levels {
             let size = cell_size(level);
             // A box may begin one cell to the left of where it is met, or below.
             let (left, bottom) = (cell(area.min.x, size).saturating_sub(1), cell(area.min.y, size).saturating_sub(1));
             let (right, top) = (cell(area.max.x, size), cell(area.max.y, size));
             let columns = (i64::from(right) - i64::from(left) + 1) as u64;
             let rows = (i64::from(top) - i64::from(bottom) + 1) as u64;
-            if columns.saturating_mul(rows) > self.first.len() as u64 {
-                work += self.first.len() as u64;
-                self.first.iter().filter(|((other, ..), _)| *other == level).for_each(|(_, &first)| work += look(first));
+            // A few small boxes do not make large areas dear.
+            if columns.saturating_mul(rows) > cells.len() as u64 {
+                work += cells.len() as u64;
+                let is_near = |&(&(x, y), _): &(&Cell, &u32)| (left..=right).contains(&x) && (bottom..=top).contains(&y);
+                cells.iter().filter(is_near).for_each(|(_, &first)| work += look(first));
                 continue;
             }
             work += columns * rows;
             for x in left..=right {
                 for y in bottom..=top {
-                    if let Some(&first) = self.first.get(&(level, x, y)) {
+                    if let Some(&first) = cells.get(&(x, y)) {
                         work += look(first);
                     }
                 }
@@ -147,17 +144,34 @@ fn cell(coordinate: f64, size: f64) -> i32 {
     (coordinate / size).floor() as i32
 }
 
-/// The cell of a box: that of its lower left corner.
-fn cell_of(bounds: &Bounds) -> Cell {
+/// The level and the cell of a box: that of its lower left corner.
+fn cell_of(bounds: &Bounds) -> (i16, Cell) {
     let level = level_of(bounds);
     let size = cell_size(level);
-    (level, cell(bounds.min.x, size), cell(bounds.min.y, size))
+    (level, (cell(bounds.min.x, size), cell(bounds.min.y, size)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::Point;
+
+    #[test]
+    fn one_small_box_makes_no_large_area_dear() {
+        let square = |x: f64, y: f64, size: f64| {
+            let min = Point::new(x, y);
+            Bounds { min, max: min + crate::geometry::Vector::new(size, size) }
+        };
+        let mut grid = Grid::default();
+        for key in 0..2500usize {
+            grid.insert(key, square((key % 50) as f64 * 10.0, (key / 50) as f64 * 10.0, 8.0));
+        }
+        let area = square(200.0, 200.0, 8.0);
+        let alone = grid.near(&area, |_| {});
+        grid.insert(2500, square(-20.0, -20.0, 0.001));
+        let beside = grid.near(&area, |_| {});
+        assert!(beside <= alone + 2, "{alone} looks without it, {beside} with it");
+    }
 
     #[test]
     fn finds_what_a_look_at_every_box_finds() {

@@ -82,7 +82,7 @@ fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
     let mut sights = Vec::new();
     let limits = one.outlook.limits;
     let radius = radius(limits);
-    if !same_contour || radius <= limits.tolerances.touch {
+    if !same_contour || radius <= limits.tolerances.touch || run_on(one, other, radius) {
         return sights;
     }
     for side in [Side::Left, Side::Right] {
@@ -100,6 +100,41 @@ fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
         }
     }
     sights
+}
+
+/// A turn (as the distance of unit vectors) up to which lines are asked whether they run on.
+const RUNS_ON: f64 = 0.25;
+
+/// True for two lines that run the same way, the one behind the other and too far off for a disc to touch both: where it touches two walls,
+/// the places are as far from each other as the two normals, times its radius. Most of what is near a line among many short ones is so.
+fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
+    let (Segment::Line(line), Segment::Line(next)) = (one.geometry(), other.geometry()) else { return false };
+    let (along, length, next_length) = (line.end - line.start, one.geometry().length(), other.geometry().length());
+    if length.min(next_length) <= one.outlook.limits.tolerances.zero_length {
+        return false;
+    }
+    let along = along / length;
+    let mut turned = ((next.end - next.start) / next_length - along).norm();
+    if turned > RUNS_ON {
+        return false;
+    }
+    // In the vertex that it starts in, a wall is touched from anywhere between its own normal and that of the wall before.
+    for wall in [one, other] {
+        turned = turned.max(wall.beside(-1).map_or(0.0, |before| (before.end_tangent() - along).norm()));
+    }
+    let count = one.outlook.contour.len();
+    let are_neighbours =
+        one.index.abs_diff(other.index) == 1 || (one.outlook.contour.closed && one.index.abs_diff(other.index) + 1 == count);
+    let gap = if are_neighbours {
+        // Where they meet there is one corner.
+        length.min(next_length) / 2.0
+    } else {
+        let reached = |point: Point| along.dot(&(point - line.start));
+        let (start, end) = (reached(next.start), reached(next.end));
+        (start.min(end) - length).max(-start.max(end))
+    };
+    let rounding = 4.0 * slack(one.outlook.limits, radius);
+    turned <= RUNS_ON && 2.0 * turned * radius + rounding < gap
 }
 
 /// Where a disc may lie that touches a wall, or the vertex that it starts in.
