@@ -397,11 +397,12 @@ void Driver::large()
     const auto number = [this](const char *name) { return controller()->property(name).toInt(); };
     if (number("slices") >= SLICES_TO_BREAK_OFF) {
         const int looks = number("looks");
+        const int whole = number("lookMilliseconds");
         drawLine();
         wait([&] { return number("slices") == 1; }, LONG);
         touch();
-        // Longer than the rest of the look takes; the next one waits for a moment of rest.
-        QTest::qWait(1500);
+        // Longer than the rest of the look takes; the next one waits for a moment of rest, three times as long as a look.
+        QTest::qWait(2 * whole);
         expect("a look is broken off when somebody types", number("looks") == looks, QString::number(number("slices")));
         expectSoon("and taken when they rest", [&] { return number("looks") > looks; }, {}, LONG);
     }
