@@ -15,12 +15,22 @@ fn reading(c: &mut Criterion) {
     let mut group = c.benchmark_group("read DXF to typed geometry");
     for (name, text) in [
         ("10 MB of LWPOLYLINE", generated::polylines(10 * MEGABYTE)),
-        ("10 MB of LINE and ARC", generated::lines_and_arcs(10 * MEGABYTE)),
-        ("one LWPOLYLINE of 300,000 vertices", generated::one_polyline(300_000)),
+        (
+            "10 MB of LINE and ARC",
+            generated::lines_and_arcs(10 * MEGABYTE),
+        ),
+        (
+            "one LWPOLYLINE of 300,000 vertices",
+            generated::one_polyline(300_000),
+        ),
     ] {
         group.throughput(Throughput::Bytes(text.len() as u64));
         group.bench_function(name, |b| {
-            b.iter_batched(|| text.clone().into_bytes(), wedm::dxf::Document::read, BatchSize::LargeInput);
+            b.iter_batched(
+                || text.clone().into_bytes(),
+                wedm::dxf::Document::read,
+                BatchSize::LargeInput,
+            );
         });
     }
     group.finish();
@@ -31,14 +41,25 @@ fn analysing(c: &mut Criterion) {
     group.sample_size(20);
     for (name, text) in [
         ("5 MB of LWPOLYLINE", generated::polylines(5 * MEGABYTE)),
-        ("5 MB of LINE and ARC", generated::lines_and_arcs(5 * MEGABYTE)),
-        ("100,000 segments of LWPOLYLINE", generated::polylines_of(12_500)),
+        (
+            "5 MB of LINE and ARC",
+            generated::lines_and_arcs(5 * MEGABYTE),
+        ),
+        (
+            "100,000 segments of LWPOLYLINE",
+            generated::polylines_of(12_500),
+        ),
         ("100,000 LINE and ARC", generated::lines_and_arcs_of(12_500)),
     ] {
         let document = wedm::dxf::Document::read(text.into_bytes());
         let settings = Arc::new(Effective::default());
         group.bench_function(name, |b| {
-            b.iter(|| black_box(Analysis::new(document.drawing(), settings.clone()).findings(document.drawing(), 500)));
+            b.iter(|| {
+                black_box(
+                    Analysis::new(document.drawing(), settings.clone())
+                        .findings(document.drawing(), 500),
+                )
+            });
         });
     }
     group.finish();
@@ -48,17 +69,33 @@ fn editing(c: &mut Criterion) {
     let mut group = c.benchmark_group("edit to findings");
     let settings = Arc::new(Effective::default());
     for (name, text) in [
-        ("one character of 5 MB of LWPOLYLINE", generated::polylines(5 * MEGABYTE)),
-        ("one character of 5 MB of LINE and ARC", generated::lines_and_arcs(5 * MEGABYTE)),
-        ("one character of one LWPOLYLINE of 5 MB", generated::one_polyline(140_000)),
+        (
+            "one character of 5 MB of LWPOLYLINE",
+            generated::polylines(5 * MEGABYTE),
+        ),
+        (
+            "one character of 5 MB of LINE and ARC",
+            generated::lines_and_arcs(5 * MEGABYTE),
+        ),
+        (
+            "one character of one LWPOLYLINE of 5 MB",
+            generated::one_polyline(140_000),
+        ),
     ] {
-        let middle = text[..text.len() / 2].rfind("\n10\n").expect("there are vertices") + 4;
+        let middle = text[..text.len() / 2]
+            .rfind("\n10\n")
+            .expect("there are vertices")
+            + 4;
         let mut document = wedm::dxf::Document::read(text.into_bytes());
         let mut analysis = Analysis::new(document.drawing(), settings.clone());
         let mut inserted = false;
         group.bench_function(name, |b| {
             b.iter(|| {
-                let (range, replacement) = if inserted { (middle..middle + 1, "") } else { (middle..middle, "1") };
+                let (range, replacement) = if inserted {
+                    (middle..middle + 1, "")
+                } else {
+                    (middle..middle, "1")
+                };
                 inserted = !inserted;
                 let delta = document.edit(range, replacement);
                 analysis.update(document.drawing(), &delta);
@@ -66,19 +103,37 @@ fn editing(c: &mut Criterion) {
             });
         });
     }
-    let vertices: Vec<Vertex> = generated::long_outline(1_000_000).into_iter().map(|[x, y, bulge]| Vertex::new(x, y, bulge)).collect();
+    let vertices: Vec<Vertex> = generated::long_outline(1_000_000)
+        .into_iter()
+        .map(|[x, y, bulge]| Vertex::new(x, y, bulge))
+        .collect();
     let mut drawing = Drawing::new(None);
-    let geometry = Geometry::Polyline { closed: true, vertices };
-    let id =
-        drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: wedm::drawing::Kind::LightPolyline, geometry });
+    let geometry = Geometry::Polyline {
+        closed: true,
+        vertices,
+    };
+    let id = drawing.push(Entity {
+        handle: "2A".into(),
+        layer: "0".into(),
+        role: None,
+        kind: wedm::drawing::Kind::LightPolyline,
+        geometry,
+    });
     let mut analysis = Analysis::new(&drawing, settings);
     let mut moved = false;
     group.bench_function("one vertex of a polyline of 1,000,000", |b| {
         b.iter(|| {
             moved = !moved;
             let vertex = Vertex::new(if moved { 1.0 } else { 1.5 }, 2.0, 0.0);
-            let touched = drawing.splice(id, 500_000, 1, &[vertex]).expect("the vertex is there");
-            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            let touched = drawing
+                .splice(id, 500_000, 1, &[vertex])
+                .expect("the vertex is there");
+            analysis.update(
+                &drawing,
+                &Delta {
+                    touched: vec![touched],
+                },
+            );
             black_box(analysis.findings(&drawing, 500))
         });
     });
@@ -99,12 +154,25 @@ fn writing(c: &mut Criterion) {
     let analysis = Analysis::new(document.drawing(), settings.clone());
     let outlines = analysis.outlines(document.drawing()).clone();
     group.bench_function("plan 5 MB of LWPOLYLINE", |b| {
-        b.iter(|| black_box(wedm::toolpath::plan(document.drawing(), &outlines, &settings, None)).is_ok());
+        b.iter(|| {
+            black_box(wedm::toolpath::plan(
+                document.drawing(),
+                &outlines,
+                &settings,
+                None,
+            ))
+            .is_ok()
+        });
     });
-    let paths = wedm::toolpath::plan(document.drawing(), &outlines, &settings, None).unwrap_or_else(|refusal| panic!("{refusal:?}"));
-    let blocks = wedm::program::three_b::write(&paths, 1.0, &settings).expect("the program is proved").blocks;
+    let paths = wedm::toolpath::plan(document.drawing(), &outlines, &settings, None)
+        .unwrap_or_else(|refusal| panic!("{refusal:?}"));
+    let blocks = wedm::program::three_b::write(&paths, 1.0, &settings)
+        .expect("the program is proved")
+        .blocks;
     group.throughput(Throughput::Elements(blocks as u64));
-    group.bench_function("write, decode, compare", |b| b.iter(|| black_box(wedm::program::three_b::write(&paths, 1.0, &settings))));
+    group.bench_function("write, decode, compare", |b| {
+        b.iter(|| black_box(wedm::program::three_b::write(&paths, 1.0, &settings)))
+    });
     group.finish();
 }
 

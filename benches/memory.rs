@@ -65,12 +65,19 @@ fn main() {
         let of_document = in_use() - before - size;
         let drawing = document.drawing();
         let at = in_use();
-        let chains = Chains::new(drawing, 0.01, &|id| drawing.get(id).is_some_and(|entity| entity.geometry.segment_count() > 0));
+        let chains = Chains::new(drawing, 0.01, &|id| {
+            drawing
+                .get(id)
+                .is_some_and(|entity| entity.geometry.segment_count() > 0)
+        });
         let of_chains = in_use() - at;
         drop(chains);
         let mut analysis = Analysis::new(drawing, settings);
         let findings = analysis.findings(drawing, 500);
-        let (all, most) = (in_use() - before - size, MOST.load(Ordering::Relaxed) - before - size);
+        let (all, most) = (
+            in_use() - before - size,
+            MOST.load(Ordering::Relaxed) - before - size,
+        );
         println!(
             "{name:<32} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}   3",
             share(of_lines),

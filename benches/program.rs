@@ -17,23 +17,46 @@ fn wheel(segments: usize) -> (Drawing, Outline) {
     let step = std::f64::consts::TAU / teeth as f64;
     let mut vertices = Vec::with_capacity(segments);
     for tooth in 0..teeth {
-        for (share, height, bulge) in [(0.0, 0.0, 0.0), (0.15, 1.0, -0.4), (0.5, 1.0, 0.0), (0.65, 0.0, 0.4)] {
+        for (share, height, bulge) in [
+            (0.0, 0.0, 0.0),
+            (0.15, 1.0, -0.4),
+            (0.5, 1.0, 0.0),
+            (0.65, 0.0, 0.4),
+        ] {
             let angle = -(tooth as f64 + share) * step;
             let at = radius + height;
             vertices.push(Vertex::new(at * angle.cos(), at * angle.sin(), bulge));
         }
     }
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-    let geometry = Geometry::Polyline { closed: true, vertices };
-    let id =
-        drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: wedm::drawing::Kind::LightPolyline, geometry });
+    let geometry = Geometry::Polyline {
+        closed: true,
+        vertices,
+    };
+    let id = drawing.push(Entity {
+        handle: "2A".into(),
+        layer: "0".into(),
+        role: None,
+        kind: wedm::drawing::Kind::LightPolyline,
+        geometry,
+    });
     let contour = Contour::new(&drawing, [(id, false)], true);
     let twice_area = contour.twice_area(&drawing);
-    (drawing, Outline { contour, role: Role::Punch, twice_area })
+    (
+        drawing,
+        Outline {
+            contour,
+            role: Role::Punch,
+            twice_area,
+        },
+    )
 }
 
 fn settings() -> Effective {
-    Effective { correction: 0.1, ..Effective::default() }
+    Effective {
+        correction: 0.1,
+        ..Effective::default()
+    }
 }
 
 fn paths(segments: usize) -> Vec<WirePath> {
@@ -48,25 +71,42 @@ fn program(c: &mut Criterion) {
     group.throughput(Throughput::Elements(SEGMENTS as u64));
     let (drawing, outline) = wheel(SEGMENTS);
     let outlines = [outline];
-    group.bench_function("wire path", |b| b.iter(|| black_box(plan(&drawing, &outlines, &settings(), None))));
+    group.bench_function("wire path", |b| {
+        b.iter(|| black_box(plan(&drawing, &outlines, &settings(), None)))
+    });
 
     let paths = paths(SEGMENTS);
     let written = three_b::write(&paths, 1.0, &settings()).expect("a proved program");
     group.throughput(Throughput::Elements(written.blocks as u64));
     for layout in [Layout::Compact, Layout::Checking] {
-        let settings = Effective { layout, ..settings() };
-        group.bench_function(format!("3B, {layout:?}"), |b| b.iter(|| black_box(three_b::write(&paths, 1.0, &settings))));
+        let settings = Effective {
+            layout,
+            ..settings()
+        };
+        group.bench_function(format!("3B, {layout:?}"), |b| {
+            b.iter(|| black_box(three_b::write(&paths, 1.0, &settings)))
+        });
     }
     group.throughput(Throughput::Bytes(written.text.len() as u64));
-    group.bench_function("3B text read again", |b| b.iter(|| black_box(three_b::read(written.text.as_bytes(), &Words::default()))));
+    group.bench_function("3B text read again", |b| {
+        b.iter(|| black_box(three_b::read(written.text.as_bytes(), &Words::default())))
+    });
     group.finish();
 }
 
 /// A program of 200,000 blocks, about 5 MB, and what an editor asks of it; and a million blocks followed by the controller.
 fn reading(c: &mut Criterion) {
     let settings = settings();
-    let text =
-        three_b::write(&paths(134_000), 1.0, &Effective { layout: Layout::Aligned, ..settings.clone() }).expect("a proved program").text;
+    let text = three_b::write(
+        &paths(134_000),
+        1.0,
+        &Effective {
+            layout: Layout::Aligned,
+            ..settings.clone()
+        },
+    )
+    .expect("a proved program")
+    .text;
     let bytes = text.as_bytes();
     let blocks = text.lines().filter(|line| line.starts_with('B')).count();
     println!("the program has {blocks} blocks and {} bytes", bytes.len());
@@ -95,7 +135,13 @@ fn reading(c: &mut Criterion) {
     // A digit in front of J in the middle of the file comes and goes: the contour is torn, and whole again.
     let mut document = three_b::Document::read_with(bytes.to_vec(), &settings);
     let line = text[..text.len() / 2].rfind('\n').map_or(0, |at| at + 1);
-    let at = line + text[line..].rmatch_indices('B').map(|(at, _)| at).find(|at| line + at < line + 40).unwrap_or(0) + 2;
+    let at = line
+        + text[line..]
+            .rmatch_indices('B')
+            .map(|(at, _)| at)
+            .find(|at| line + at < line + 40)
+            .unwrap_or(0)
+        + 2;
     let mut is_in = false;
     group.bench_function("one character, edit to findings", |b| {
         b.iter(|| {
@@ -113,8 +159,11 @@ fn reading(c: &mut Criterion) {
     let mut group = c.benchmark_group("the controller");
     group.sample_size(10);
     let million = bytes.repeat(1_000_000_usize.div_ceil(blocks));
-    let million: Vec<u8> =
-        million.split(|&byte| byte == b'\n').filter(|line| *line != b"DD").flat_map(|line| [line, b"\n"].concat()).collect();
+    let million: Vec<u8> = million
+        .split(|&byte| byte == b'\n')
+        .filter(|line| *line != b"DD")
+        .flat_map(|line| [line, b"\n"].concat())
+        .collect();
     group.throughput(Throughput::Elements(1_000_000));
     group.bench_function("1,000,000 blocks, text to every end point", |b| {
         b.iter(|| black_box(three_b::Document::read_with(million.clone(), &settings).trace()))
@@ -127,21 +176,31 @@ fn reading(c: &mut Criterion) {
 fn iso_programs(c: &mut Criterion) {
     for profile in ["generic", "fast-wire"] {
         let (set, _) = from_toml(&format!("[program]\nprofile = \"{profile}\"\n"));
-        let settings = Effective { correction: 0.1, ..Effective::of(&set) };
+        let settings = Effective {
+            correction: 0.1,
+            ..Effective::of(&set)
+        };
         let paths = paths(134_000);
         let written = iso::write(&paths, 1.0, &settings).expect("a proved program");
         let text = written.text;
-        println!("the {profile} program has {} blocks and {} bytes", written.blocks, text.len());
+        println!(
+            "the {profile} program has {} blocks and {} bytes",
+            written.blocks,
+            text.len()
+        );
         let mut group = c.benchmark_group(format!("an ISO program of 200,000 blocks, {profile}"));
         group.sample_size(20);
         group.throughput(Throughput::Elements(written.blocks as u64));
-        group.bench_function("write", |b| b.iter(|| black_box(iso::write(&paths, 1.0, &settings))));
+        group.bench_function("write", |b| {
+            b.iter(|| black_box(iso::write(&paths, 1.0, &settings)))
+        });
         group.throughput(Throughput::Bytes(text.len() as u64));
         group.bench_function("parse", |b| {
             b.iter(|| {
                 let mut blocks = 0_usize;
                 for line in text.lines() {
-                    blocks += usize::from(iso::read_line(line.as_bytes(), 1, |_| {}).has_coordinates());
+                    blocks +=
+                        usize::from(iso::read_line(line.as_bytes(), 1, |_| {}).has_coordinates());
                 }
                 black_box(blocks)
             })
@@ -155,8 +214,17 @@ fn iso_programs(c: &mut Criterion) {
         let mut document = Document::read(Language::Iso, text.clone().into_bytes(), &settings);
         group.bench_function("trace", |b| b.iter(|| black_box(document.trace())));
         group.bench_function("format, compact", |b| {
-            let settings = Effective { stated_layout: Some(Layout::Compact), ..settings.clone() };
-            b.iter(|| black_box(language::format(&document, &settings, 0..document.text().line_count())))
+            let settings = Effective {
+                stated_layout: Some(Layout::Compact),
+                ..settings.clone()
+            };
+            b.iter(|| {
+                black_box(language::format(
+                    &document,
+                    &settings,
+                    0..document.text().line_count(),
+                ))
+            })
         });
         // The last digit of an X in the middle of the file comes and goes.
         let line = text[..text.len() / 2].rfind('\n').map_or(0, |at| at + 1);
@@ -179,14 +247,27 @@ fn iso_programs(c: &mut Criterion) {
 
 fn formatting(c: &mut Criterion) {
     let settings = Effective::default();
-    let document = Document::read(Language::ThreeB, generated::three_b(200_000).into_bytes(), &settings);
+    let document = Document::read(
+        Language::ThreeB,
+        generated::three_b(200_000).into_bytes(),
+        &settings,
+    );
     let mut group = c.benchmark_group("format a program of 200,000 blocks");
     group.sample_size(10);
     group.throughput(Throughput::Bytes(document.text().len() as u64));
     for layout in [Layout::Compact, Layout::Aligned, Layout::Checking] {
-        let settings = Effective { stated_layout: Some(layout), ..settings.clone() };
+        let settings = Effective {
+            stated_layout: Some(layout),
+            ..settings.clone()
+        };
         group.bench_function(format!("compact to {layout:?}"), |b| {
-            b.iter(|| black_box(language::format(&document, &settings, 0..document.text().line_count())));
+            b.iter(|| {
+                black_box(language::format(
+                    &document,
+                    &settings,
+                    0..document.text().line_count(),
+                ))
+            });
         });
     }
     group.finish();

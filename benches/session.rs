@@ -17,28 +17,46 @@ use support::{Client, capabilities};
 type Named = (&'static str, fn() -> String);
 
 fn main() {
-    let (options, names): (Vec<String>, Vec<String>) = std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let (options, names): (Vec<String>, Vec<String>) = std::env::args()
+        .skip(1)
+        .partition(|argument| argument.starts_with("--"));
     let quick = options.iter().any(|option| option == "--quick");
     // Without names, all sessions but the large ones of a quick run.
-    let is_chosen = |session: &str| names.iter().any(|name| session.contains(name.as_str())) || names.is_empty();
+    let is_chosen = |session: &str| {
+        names.iter().any(|name| session.contains(name.as_str())) || names.is_empty()
+    };
     let rounds = if quick { 40 } else { 400 };
-    println!("{:<58} {:>10} {:>10} {:>10}   goal", "", "p50", "p99", "most");
+    println!(
+        "{:<58} {:>10} {:>10} {:>10}   goal",
+        "", "p50", "p99", "most"
+    );
     if is_chosen("start") {
         start(if quick { 5 } else { 30 });
     }
     let texts: [Named; 3] = [
         ("5 MB DXF of LWPOLYLINE", || generated::polylines(5_000_000)),
-        ("5 MB DXF of LINE and ARC", || generated::lines_and_arcs(5_000_000)),
-        ("5 MB DXF, one LWPOLYLINE", || generated::one_polyline(140_000)),
+        ("5 MB DXF of LINE and ARC", || {
+            generated::lines_and_arcs(5_000_000)
+        }),
+        ("5 MB DXF, one LWPOLYLINE", || {
+            generated::one_polyline(140_000)
+        }),
     ];
     for (name, text) in texts.into_iter().filter(|(name, _)| is_chosen(name)) {
         text_session(name, &text(), rounds);
     }
     let large: [Named; 2] = [
-        ("50 MB DXF of LWPOLYLINE", || generated::polylines(50_000_000)),
-        ("50 MB DXF of LINE and ARC", || generated::lines_and_arcs(50_000_000)),
+        ("50 MB DXF of LWPOLYLINE", || {
+            generated::polylines(50_000_000)
+        }),
+        ("50 MB DXF of LINE and ARC", || {
+            generated::lines_and_arcs(50_000_000)
+        }),
     ];
-    for (name, text) in large.into_iter().filter(|(name, _)| is_chosen(name) && !(quick && names.is_empty())) {
+    for (name, text) in large
+        .into_iter()
+        .filter(|(name, _)| is_chosen(name) && !(quick && names.is_empty()))
+    {
         large_session(name, &text(), rounds / 4);
     }
     for program in [THREE_B, ISO] {
@@ -59,7 +77,12 @@ fn row(name: &str, mut times: Vec<Duration>, goal: &str) {
     times.sort();
     let at = |share: f64| times[((times.len() as f64 * share) as usize).min(times.len() - 1)];
     let ms = |time: Duration| format!("{:.3} ms", time.as_secs_f64() * 1e3);
-    println!("{name:<58} {:>10} {:>10} {:>10}   {goal}", ms(at(0.5)), ms(at(0.99)), ms(at(1.0)));
+    println!(
+        "{name:<58} {:>10} {:>10} {:>10}   {goal}",
+        ms(at(0.5)),
+        ms(at(0.99)),
+        ms(at(1.0))
+    );
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
@@ -72,7 +95,11 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 fn resident(client: &Client) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
-    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kibibytes| kibibytes * 1024)
+    line.split_whitespace()
+        .nth(1)?
+        .parse::<u64>()
+        .ok()
+        .map(|kibibytes| kibibytes * 1024)
 }
 
 /// Right after the opening, and when what the opening left behind has been given back.
@@ -80,7 +107,10 @@ fn memory_row(name: &str, client: &Client, length: usize) {
     for (when, pause) in [("", 0), (", a second later", 1000)] {
         std::thread::sleep(Duration::from_millis(pause));
         if let Some(bytes) = resident(client) {
-            println!("{name}: resident memory{when} {:.1} times the text   goal 10 times", bytes as f64 / length as f64);
+            println!(
+                "{name}: resident memory{when} {:.1} times the text   goal 10 times",
+                bytes as f64 / length as f64
+            );
         }
     }
 }
@@ -90,9 +120,15 @@ fn large_session(name: &str, text: &str, rounds: usize) {
     let uri = "file:///bench.dxf";
     let mut client = Client::start();
     let (found, time) = timed(|| client.open_text(uri, "dxf", text));
-    row(&format!("{name}: open, {} findings", found.len()), vec![time], "");
+    row(
+        &format!("{name}: open, {} findings", found.len()),
+        vec![time],
+        "",
+    );
     memory_row(name, &client, text.len());
-    let middle = text[..text.len() / 2].rfind("\n10\n").map_or(0, |at| at + 4);
+    let middle = text[..text.len() / 2]
+        .rfind("\n10\n")
+        .map_or(0, |at| at + 4);
     let line = text[..middle].matches('\n').count();
     let dot = text[middle..].find('.').unwrap_or(0);
     let mut version = 1;
@@ -109,12 +145,18 @@ fn large_session(name: &str, text: &str, rounds: usize) {
         })
         .1
     });
-    row(&format!("{name}: one digit, edit to diagnostics"), edits.collect(), "p50 10 ms");
+    row(
+        &format!("{name}: one digit, edit to diagnostics"),
+        edits.collect(),
+        "p50 10 ms",
+    );
     client.shut_down();
 }
 
 fn start(rounds: usize) {
-    let times = (0..rounds).map(|_| timed(|| Client::start_with(capabilities(), json!({}))).1).collect();
+    let times = (0..rounds)
+        .map(|_| timed(|| Client::start_with(capabilities(), json!({}))).1)
+        .collect();
     row("start to initialize answered", times, "20 ms");
 }
 
@@ -122,10 +164,16 @@ fn text_session(name: &str, text: &str, rounds: usize) {
     let uri = "file:///bench.dxf";
     let mut client = Client::start();
     let (found, time) = timed(|| client.open_text(uri, "dxf", text));
-    row(&format!("{name}: open, {} findings", found.len()), vec![time], "250 ms");
+    row(
+        &format!("{name}: open, {} findings", found.len()),
+        vec![time],
+        "250 ms",
+    );
     memory_row(name, &client, text.len());
     // A digit of a coordinate in the middle of the file comes and goes.
-    let middle = text[..text.len() / 2].rfind("\n10\n").map_or(0, |at| at + 4);
+    let middle = text[..text.len() / 2]
+        .rfind("\n10\n")
+        .map_or(0, |at| at + 4);
     let line = text[..middle].matches('\n').count();
     let mut version = 1;
     let mut change = |client: &mut Client| {
@@ -143,7 +191,11 @@ fn text_session(name: &str, text: &str, rounds: usize) {
         })
         .1
     });
-    row(&format!("{name}: one character, edit to diagnostics"), edits.collect(), "p50 5 ms, p99 20 ms");
+    row(
+        &format!("{name}: one character, edit to diagnostics"),
+        edits.collect(),
+        "p50 5 ms, p99 20 ms",
+    );
     let bursts = (0..if rounds > 100 { 5 } else { 1 }).map(|_| {
         let mut last = 0;
         for _ in 0..30 {
@@ -152,33 +204,83 @@ fn text_session(name: &str, text: &str, rounds: usize) {
         }
         timed(|| client.diagnostics(uri, last)).1
     });
-    row(&format!("{name}: burst of 30 at 15/s, last answer"), bursts.collect(), "50 ms");
+    row(
+        &format!("{name}: burst of 30 at 15/s, last answer"),
+        bursts.collect(),
+        "50 ms",
+    );
     language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
     client.shut_down();
 }
 
 /// What an editor asks: about the place in the middle, the lines in sight, and the whole text.
-fn language_rows(client: &mut Client, name: &str, uri: &str, line: usize, lines: usize, rounds: usize) {
+fn language_rows(
+    client: &mut Client,
+    name: &str,
+    uri: &str,
+    line: usize,
+    lines: usize,
+    rounds: usize,
+) {
     let document = json!({ "uri": uri });
     let at = json!({ "textDocument": document, "position": { "line": line, "character": 0 } });
     let in_sight = |count: usize| {
         let range = json!({ "start": { "line": line, "character": 0 }, "end": { "line": (line + count).min(lines), "character": 0 } });
         json!({ "textDocument": document, "range": range })
     };
-    let places = json!({ "textDocument": document, "positions": [{ "line": line, "character": 0 }] });
+    let places =
+        json!({ "textDocument": document, "positions": [{ "line": line, "character": 0 }] });
     let whole = json!({ "textDocument": document });
     for (what, method, params, rounds, goal) in [
         ("hover", "hover", at.clone(), rounds, "p99 20 ms"),
         ("completion", "completion", at.clone(), rounds, "p99 20 ms"),
-        ("selection range", "selectionRange", places, rounds, "p99 20 ms"),
-        ("inlay hints of 100 lines", "inlayHint", in_sight(100), rounds, "p99 20 ms"),
-        ("semantic tokens of 100 lines", "semanticTokens/range", in_sight(100), rounds, "p99 20 ms"),
-        ("symbols", "documentSymbol", whole.clone(), rounds / 20, "200 ms"),
-        ("folds", "foldingRange", whole.clone(), rounds / 20, "200 ms"),
-        ("semantic tokens", "semanticTokens/full", whole, rounds / 20, ""),
+        (
+            "selection range",
+            "selectionRange",
+            places,
+            rounds,
+            "p99 20 ms",
+        ),
+        (
+            "inlay hints of 100 lines",
+            "inlayHint",
+            in_sight(100),
+            rounds,
+            "p99 20 ms",
+        ),
+        (
+            "semantic tokens of 100 lines",
+            "semanticTokens/range",
+            in_sight(100),
+            rounds,
+            "p99 20 ms",
+        ),
+        (
+            "symbols",
+            "documentSymbol",
+            whole.clone(),
+            rounds / 20,
+            "200 ms",
+        ),
+        (
+            "folds",
+            "foldingRange",
+            whole.clone(),
+            rounds / 20,
+            "200 ms",
+        ),
+        (
+            "semantic tokens",
+            "semanticTokens/full",
+            whole,
+            rounds / 20,
+            "",
+        ),
         ("definition", "definition", at, rounds / 20, "200 ms"),
     ] {
-        let times = (0..rounds).map(|_| timed(|| client.request(&format!("textDocument/{method}"), params.clone())).1).collect();
+        let times = (0..rounds)
+            .map(|_| timed(|| client.request(&format!("textDocument/{method}"), params.clone())).1)
+            .collect();
         row(&format!("{name}: {what}"), times, goal);
     }
 }
@@ -221,13 +323,24 @@ const ISO: Program = Program {
 
 /// What an editor asks about it.
 fn program_session(program: &Program, rounds: usize) {
-    let &Program { name, uri, edited, layout, .. } = program;
+    let &Program {
+        name,
+        uri,
+        edited,
+        layout,
+        ..
+    } = program;
     let text = (program.text)(200_000);
     let mut all = capabilities();
-    all["textDocument"] = json!({ "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } });
+    all["textDocument"] =
+        json!({ "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } });
     let mut client = Client::start_with(all, json!({}));
     let (found, time) = timed(|| client.open_text(uri, program.language, &text));
-    row(&format!("{name}: open, {} findings", found.len()), vec![time], "150 ms");
+    row(
+        &format!("{name}: open, {} findings", found.len()),
+        vec![time],
+        "150 ms",
+    );
     let half = text.lines().count() / 2;
     let (line, character) = text
         .lines()
@@ -249,14 +362,37 @@ fn program_session(program: &Program, rounds: usize) {
         })
         .1
     };
-    let edits = (0..rounds).map(|round| edit(&mut client, ["1", "2", "3", "4", "5", "6", "7", "8", "9"][round / 2 % 9])).collect();
-    row(&format!("{name}: one character, edit to diagnostics"), edits, "p50 1 ms");
+    let edits = (0..rounds)
+        .map(|round| {
+            edit(
+                &mut client,
+                ["1", "2", "3", "4", "5", "6", "7", "8", "9"][round / 2 % 9],
+            )
+        })
+        .collect();
+    row(
+        &format!("{name}: one character, edit to diagnostics"),
+        edits,
+        "p50 1 ms",
+    );
     language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
     let whole = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
-    let format = |client: &mut Client| timed(|| client.request("textDocument/formatting", whole.clone())).1;
-    row(&format!("{name}: formatting, nothing to change"), (0..rounds / 20).map(|_| format(&mut client)).collect(), "200 ms");
-    client.notify("workspace/didChangeConfiguration", json!({ "settings": { "wedm": { "program": { "layout": layout } } } }));
-    row(&format!("{name}: formatting every line"), (0..rounds / 20).map(|_| format(&mut client)).collect(), "200 ms");
+    let format =
+        |client: &mut Client| timed(|| client.request("textDocument/formatting", whole.clone())).1;
+    row(
+        &format!("{name}: formatting, nothing to change"),
+        (0..rounds / 20).map(|_| format(&mut client)).collect(),
+        "200 ms",
+    );
+    client.notify(
+        "workspace/didChangeConfiguration",
+        json!({ "settings": { "wedm": { "program": { "layout": layout } } } }),
+    );
+    row(
+        &format!("{name}: formatting every line"),
+        (0..rounds / 20).map(|_| format(&mut client)).collect(),
+        "200 ms",
+    );
     let place = json!({ "line": line, "character": 0 });
     for kind in program.refactorings {
         let context = json!({ "diagnostics": [], "only": [format!("refactor.rewrite.{kind}")] });
@@ -284,17 +420,32 @@ fn drawing_session(rounds: usize) {
         })
         .1
     });
-    row("polyline of 1,000,000 vertices: one moves", moves.collect(), "p50 1 ms");
+    row(
+        "polyline of 1,000,000 vertices: one moves",
+        moves.collect(),
+        "p50 1 ms",
+    );
     client.shut_down();
 }
 
 /// A trivial request while nothing happens, and while a program of 100,000 blocks is written.
 fn generate_session(rounds: usize) {
     let (uri, small) = ("cad:///large", "cad:///small");
-    let mut client = Client::start_with(capabilities(), json!({ "correction": 0.03, "side": "opening" }));
-    client.open_drawing(small, json!([{ "handle": "1", "type": "line", "start": [0, 0], "end": [1, 0] }]));
-    let ping = |client: &mut Client| timed(|| client.request("wedm/inspect", json!({ "uri": small }))).1;
-    row("a trivial request, nothing else under way", (0..rounds).map(|_| ping(&mut client)).collect(), "p99 1 ms");
+    let mut client = Client::start_with(
+        capabilities(),
+        json!({ "correction": 0.03, "side": "opening" }),
+    );
+    client.open_drawing(
+        small,
+        json!([{ "handle": "1", "type": "line", "start": [0, 0], "end": [1, 0] }]),
+    );
+    let ping =
+        |client: &mut Client| timed(|| client.request("wedm/inspect", json!({ "uri": small }))).1;
+    row(
+        "a trivial request, nothing else under way",
+        (0..rounds).map(|_| ping(&mut client)).collect(),
+        "p99 1 ms",
+    );
     // 12,500 openings of eight segments each: a block for each of them.
     let openings: Vec<Value> = (0..12_500)
         .map(|i| {
@@ -310,13 +461,20 @@ fn generate_session(rounds: usize) {
         let id = client.ask("wedm/generate", json!({ "uri": uri, "format": "3b" }));
         while !client.seen.iter().any(|message| message["id"] == id) {
             busy.push(ping(&mut client));
-            assert!(began.elapsed() < support::PATIENCE, "the program comes in time");
+            assert!(
+                began.elapsed() < support::PATIENCE,
+                "the program comes in time"
+            );
         }
         let program = client.answer(id).unwrap_or_else(|error| panic!("{error}"));
         programs.push((began.elapsed(), program["blocks"].as_u64().unwrap_or(0)));
     }
     row("a trivial request while 3B is generated", busy, "p99 20 ms");
     let blocks = programs.first().map_or(0, |(_, blocks)| *blocks);
-    row(&format!("3B of {blocks} blocks, proved"), programs.into_iter().map(|(time, _)| time).collect(), "");
+    row(
+        &format!("3B of {blocks} blocks, proved"),
+        programs.into_iter().map(|(time, _)| time).collect(),
+        "",
+    );
     client.shut_down();
 }

@@ -22,13 +22,24 @@ pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     if metadata.is_file() {
         if metadata.len() > cap {
-            return Err(format!("it has {} bytes, expected at most {cap}", metadata.len()));
+            return Err(format!(
+                "it has {} bytes, expected at most {cap}",
+                metadata.len()
+            ));
         }
-        bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or_default().saturating_add(1));
+        bytes.reserve_exact(
+            usize::try_from(metadata.len())
+                .unwrap_or_default()
+                .saturating_add(1),
+        );
     }
-    file.take(cap.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| plain(&error))?;
+    file.take(cap.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(|error| plain(&error))?;
     if bytes.len() as u64 > cap {
-        return Err(format!("it holds more than {cap} bytes, expected at most so many"));
+        return Err(format!(
+            "it holds more than {cap} bytes, expected at most so many"
+        ));
     }
     Ok(bytes)
 }
@@ -44,7 +55,11 @@ impl Seen {
         let metadata = file.metadata().map_err(|error| plain(&error))?;
         let mut hasher = DefaultHasher::new();
         hasher.write(bytes);
-        Ok(Seen { identity: identity(&metadata), length: bytes.len(), digest: hasher.finish() })
+        Ok(Seen {
+            identity: identity(&metadata),
+            length: bytes.len(),
+            digest: hasher.finish(),
+        })
     }
 }
 
@@ -64,7 +79,9 @@ fn identity(_: &Metadata) -> Option<[u64; 2]> {
 /// an old file has besides.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<u64, String> {
     match std::fs::metadata(path) {
-        Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => std::fs::write(path, bytes).map(|()| 0).map_err(|error| plain(&error)),
+        Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => std::fs::write(path, bytes)
+            .map(|()| 0)
+            .map_err(|error| plain(&error)),
         _ => replace(path, None, bytes),
     }
 }
@@ -85,15 +102,28 @@ pub(crate) fn replace(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> Result<
 fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
     let refused = |kind: ErrorKind, reason: &str| Err(io::Error::new(kind, reason));
     let old = match std::fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => return refused(ErrorKind::IsADirectory, "it is a folder"),
-        Ok(metadata) if !metadata.is_file() => return refused(ErrorKind::InvalidInput, "it is no regular file"),
-        Ok(metadata) if metadata.permissions().readonly() => return refused(ErrorKind::PermissionDenied, "it is read-only"),
+        Ok(metadata) if metadata.is_dir() => {
+            return refused(ErrorKind::IsADirectory, "it is a folder");
+        }
+        Ok(metadata) if !metadata.is_file() => {
+            return refused(ErrorKind::InvalidInput, "it is no regular file");
+        }
+        Ok(metadata) if metadata.permissions().readonly() => {
+            return refused(ErrorKind::PermissionDenied, "it is read-only");
+        }
         Ok(metadata) => Some(metadata),
         Err(error) if error.kind() == ErrorKind::NotFound && read.is_none() => None,
         Err(error) => return Err(error),
     };
-    let path = if old.is_some() { path.canonicalize()? } else { path.to_path_buf() };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let path = if old.is_some() {
+        path.canonicalize()?
+    } else {
+        path.to_path_buf()
+    };
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
     let mut beside = beside(folder, old.is_some())?;
     beside.write_all(bytes)?;
     if let Some(old) = &old {
@@ -105,7 +135,10 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
     if let Some(read) = read
         && !is_still(&path, read)?
     {
-        return refused(ErrorKind::InvalidData, "it is not the file any more that was read, nothing is changed");
+        return refused(
+            ErrorKind::InvalidData,
+            "it is not the file any more that was read, nothing is changed",
+        );
     }
     beside.persist(&path)?;
     sync(folder);
@@ -130,7 +163,11 @@ fn beside(folder: &Path, stands_for_old: bool) -> io::Result<tempfile::NamedTemp
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(if stands_for_old { 0o600 } else { 0o666 }));
+        builder.permissions(std::fs::Permissions::from_mode(if stands_for_old {
+            0o600
+        } else {
+            0o666
+        }));
     }
     #[cfg(not(unix))]
     let _ = stands_for_old;
@@ -145,7 +182,12 @@ fn give_owner(new: &File, old: &Metadata) -> io::Result<()> {
         return Ok(());
     }
     fchown(new, Some(old.uid()), Some(old.gid())).map_err(|error| {
-        let reason = format!("its owner (user {}, group {}) cannot be kept: {}", old.uid(), old.gid(), plain(&error));
+        let reason = format!(
+            "its owner (user {}, group {}) cannot be kept: {}",
+            old.uid(),
+            old.gid(),
+            plain(&error)
+        );
         io::Error::new(error.kind(), reason)
     })
 }
@@ -179,7 +221,9 @@ pub(crate) fn plain(error: &io::Error) -> String {
     let text = error.to_string();
     let short = text.split(" (os error").next().unwrap_or(&text);
     let mut characters = short.chars();
-    characters.next().map_or_else(String::new, |first| first.to_lowercase().chain(characters).collect())
+    characters.next().map_or_else(String::new, |first| {
+        first.to_lowercase().chain(characters).collect()
+    })
 }
 
 #[cfg(test)]
@@ -192,23 +236,36 @@ mod tests {
         let path = folder.path().join("a");
         std::fs::write(&path, "12345").unwrap();
         assert_eq!(read_path_at_most(&path, 5), Ok(b"12345".to_vec()));
-        assert_eq!(read_path_at_most(&path, 4), Err("it has 5 bytes, expected at most 4".into()));
-        assert_eq!(read_path_at_most(&folder.path().join("b"), 4), Err("no such file or directory".into()));
+        assert_eq!(
+            read_path_at_most(&path, 4),
+            Err("it has 5 bytes, expected at most 4".into())
+        );
+        assert_eq!(
+            read_path_at_most(&folder.path().join("b"), 4),
+            Err("no such file or directory".into())
+        );
     }
 
     #[cfg(unix)]
     #[test]
     fn what_has_no_end_is_read_up_to_the_cap() {
         let sentence = "it holds more than 1000 bytes, expected at most so many";
-        assert_eq!(read_path_at_most(Path::new("/dev/zero"), 1000), Err(sentence.into()));
-        assert_eq!(read_path_at_most(Path::new("/dev/null"), 1000), Ok(Vec::new()));
+        assert_eq!(
+            read_path_at_most(Path::new("/dev/zero"), 1000),
+            Err(sentence.into())
+        );
+        assert_eq!(
+            read_path_at_most(Path::new("/dev/null"), 1000),
+            Ok(Vec::new())
+        );
     }
 
     #[test]
     fn only_the_file_that_was_read_is_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a");
-        let read = || Seen::of(&File::open(&path).unwrap(), &std::fs::read(&path).unwrap()).unwrap();
+        let read =
+            || Seen::of(&File::open(&path).unwrap(), &std::fs::read(&path).unwrap()).unwrap();
         std::fs::write(&path, "old").unwrap();
         let seen = read();
         assert_eq!(replace(&path, Some(&seen), b"new"), Ok(0));
@@ -227,7 +284,11 @@ mod tests {
             assert!(replace(&path, Some(&seen), b"repaired").is_err(), "{index}");
             assert_eq!(std::fs::read(&path).ok(), now, "{index}");
         }
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "a temporary file is left");
+        assert_eq!(
+            std::fs::read_dir(folder.path()).unwrap().count(),
+            0,
+            "a temporary file is left"
+        );
     }
 
     #[cfg(unix)]
@@ -240,7 +301,10 @@ mod tests {
         }
         let seen = Seen::of(&File::open(&path).unwrap(), b"same").unwrap();
         std::fs::rename(&other, &path).unwrap();
-        assert_eq!(replace(&path, Some(&seen), b"new"), Err("it is not the file any more that was read, nothing is changed".into()));
+        assert_eq!(
+            replace(&path, Some(&seen), b"new"),
+            Err("it is not the file any more that was read, nothing is changed".into())
+        );
     }
 
     #[cfg(unix)]
@@ -248,7 +312,11 @@ mod tests {
     fn owner_mode_and_links_are_kept() {
         use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
         let folder = tempfile::tempdir().unwrap();
-        let (path, link, second) = (folder.path().join("a"), folder.path().join("link"), folder.path().join("second"));
+        let (path, link, second) = (
+            folder.path().join("a"),
+            folder.path().join("link"),
+            folder.path().join("second"),
+        );
         std::fs::write(&path, "old").unwrap();
         std::fs::set_permissions(&path, PermissionsExt::from_mode(0o640)).unwrap();
         // Only root may give a file away.
@@ -257,7 +325,13 @@ mod tests {
         std::fs::hard_link(&path, &second).unwrap();
         assert_eq!(replace(&link, None, b"new"), Ok(1));
         assert!(link.is_symlink());
-        assert_eq!((std::fs::read(&path).unwrap(), std::fs::read(&second).unwrap()), (b"new".to_vec(), b"old".to_vec()));
+        assert_eq!(
+            (
+                std::fs::read(&path).unwrap(),
+                std::fs::read(&second).unwrap()
+            ),
+            (b"new".to_vec(), b"old".to_vec())
+        );
         let metadata = std::fs::metadata(&path).unwrap();
         assert_eq!(metadata.mode() & 0o7777, 0o640);
         if is_given {
@@ -270,7 +344,15 @@ mod tests {
     fn what_stands_for_an_old_file_is_nobody_elses_to_read() {
         use std::os::unix::fs::MetadataExt;
         let folder = tempfile::tempdir().unwrap();
-        let mode = |stands_for_old| beside(folder.path(), stands_for_old).unwrap().as_file().metadata().unwrap().mode() & 0o777;
+        let mode = |stands_for_old| {
+            beside(folder.path(), stands_for_old)
+                .unwrap()
+                .as_file()
+                .metadata()
+                .unwrap()
+                .mode()
+                & 0o777
+        };
         assert_eq!(mode(true), 0o600);
         assert_ne!(mode(false), 0o600);
     }

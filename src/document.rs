@@ -68,7 +68,11 @@ impl Document {
         }
         assume_unit(&mut source, &settings);
         let analysis = judged(&source, settings);
-        Document { source, analysis, asked: Asked::default() }
+        Document {
+            source,
+            analysis,
+            asked: Asked::default(),
+        }
     }
 
     pub fn source(&self) -> &Source {
@@ -124,7 +128,11 @@ impl Document {
     pub fn snapshot(&self) -> Option<Snapshot> {
         let drawing = self.drawing()?.clone();
         let outlines = self.analysis.outlines(&drawing).clone();
-        Some(Snapshot { drawing, outlines, settings: self.settings().clone() })
+        Some(Snapshot {
+            drawing,
+            outlines,
+            settings: self.settings().clone(),
+        })
     }
 
     /// Replaces a range of bytes of the text. Nothing happens to a drawing that has none.
@@ -143,8 +151,13 @@ impl Document {
     /// Lets `change` edit a drawing that a CAD program sent and looks again at what it touched.
     ///
     /// When `change` fails, the drawing is as before. `None` for a document with text.
-    pub fn edit_drawing<E>(&mut self, change: impl FnOnce(&mut Drawing) -> Result<Delta, E>) -> Option<Result<(), E>> {
-        let Source::Cad(drawing) = &mut self.source else { return None };
+    pub fn edit_drawing<E>(
+        &mut self,
+        change: impl FnOnce(&mut Drawing) -> Result<Delta, E>,
+    ) -> Option<Result<(), E>> {
+        let Source::Cad(drawing) = &mut self.source else {
+            return None;
+        };
         self.asked = Asked::default();
         Some(change(Arc::make_mut(drawing)).map(|delta| self.analysis.update(drawing, &delta)))
     }
@@ -156,13 +169,22 @@ impl Document {
 
     /// All findings, for whoever shares the document and cannot keep what was found out on the way.
     pub fn all_findings(&self) -> Arc<[Finding]> {
-        self.asked.findings.get_or_init(|| findings(&self.source, &mut self.analysis.clone(), usize::MAX).0.into()).clone()
+        self.asked
+            .findings
+            .get_or_init(|| {
+                findings(&self.source, &mut self.analysis.clone(), usize::MAX)
+                    .0
+                    .into()
+            })
+            .clone()
     }
 
     /// True when an error stands in the document: programs are refused then.
     pub fn has_errors(&mut self) -> bool {
         let (findings, _) = self.findings(1);
-        findings.first().is_some_and(|finding| finding.severity == Severity::Error)
+        findings
+            .first()
+            .is_some_and(|finding| finding.severity == Severity::Error)
     }
 
     /// The fixes of one finding, the preferred one first.
@@ -170,9 +192,17 @@ impl Document {
         match &self.source {
             Source::Dxf(_) | Source::Cad(_) => {
                 let of_drawing = |drawing| self.analysis.fixes(drawing, finding);
-                self.drawing().map_or_else(Vec::new, |drawing| of_drawing(drawing)).into_iter().map(|fix| fix.map(Edit::Drawing)).collect()
+                self.drawing()
+                    .map_or_else(Vec::new, |drawing| of_drawing(drawing))
+                    .into_iter()
+                    .map(|fix| fix.map(Edit::Drawing))
+                    .collect()
             }
-            Source::Program(program) => program.fixes(finding).into_iter().map(|fix| fix.map(Edit::Text)).collect(),
+            Source::Program(program) => program
+                .fixes(finding)
+                .into_iter()
+                .map(|fix| fix.map(Edit::Text))
+                .collect(),
         }
     }
 
@@ -183,7 +213,11 @@ impl Document {
                 let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();
                 let all = self.analysis.fix_all(text.drawing())?;
                 // A fix that the text refuses does not stand in the way of the others.
-                let edit = if can(&all) { Some(all) } else { self.analysis.fix_all_that(text.drawing(), &can).filter(can) };
+                let edit = if can(&all) {
+                    Some(all)
+                } else {
+                    self.analysis.fix_all_that(text.drawing(), &can).filter(can)
+                };
                 edit.map(Edit::Drawing)
             }
             Source::Cad(drawing) => self.analysis.fix_all(drawing).map(Edit::Drawing),
@@ -203,11 +237,15 @@ impl Document {
                 while rounds < ROUNDS
                     && let Some(edits) = present.fix_all_in_text()
                     && let Some(longer) = patch.then(&edits)
-                    && let Some(bytes) = present.text().and_then(|text| edited(text.bytes(), &edits))
+                    && let Some(bytes) =
+                        present.text().and_then(|text| edited(text.bytes(), &edits))
                 {
                     rounds += 1;
                     patch = longer;
-                    present = Cow::Owned(Document::new(Source::Dxf(dxf::Document::read(bytes)), self.settings().clone()));
+                    present = Cow::Owned(Document::new(
+                        Source::Dxf(dxf::Document::read(bytes)),
+                        self.settings().clone(),
+                    ));
                 }
                 (rounds > 0).then(|| Rounds::OfText(patch.edits()))
             }
@@ -261,7 +299,10 @@ impl Document {
 
 fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Finding>, usize) {
     let (of_source, of_rules) = match source {
-        Source::Dxf(document) => (document.findings(), analysis.findings(document.drawing(), limit)),
+        Source::Dxf(document) => (
+            document.findings(),
+            analysis.findings(document.drawing(), limit),
+        ),
         Source::Cad(drawing) => (&[][..], analysis.findings(drawing, limit)),
         Source::Program(program) => return program.findings(analysis.settings(), limit),
     };
@@ -272,7 +313,10 @@ fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Find
         // A layer that has a role is cut or not as that says.
         let has_role = matches!(&finding.detail, Detail::Unseen { layer, .. } if settings.layers.contains_key(&**layer));
         if let Some(severity) = settings.severity_of(finding).filter(|_| !has_role) {
-            findings.push(Finding { severity, ..finding.clone() });
+            findings.push(Finding {
+                severity,
+                ..finding.clone()
+            });
             count += 1;
         }
     }
@@ -285,7 +329,9 @@ fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Find
 fn assume_unit(source: &mut Source, settings: &Effective) {
     match source {
         Source::Dxf(text) => text.assume_unit(settings.unit),
-        Source::Cad(drawing) if drawing.assumes_another(settings.unit) => Arc::make_mut(drawing).assume_unit(settings.unit),
+        Source::Cad(drawing) if drawing.assumes_another(settings.unit) => {
+            Arc::make_mut(drawing).assume_unit(settings.unit)
+        }
         Source::Cad(_) | Source::Program(_) => {}
     }
 }
@@ -309,7 +355,8 @@ mod tests {
         let (settings, errors): (Settings, _) = from_toml(settings);
         assert!(errors.is_empty(), "{errors:?}");
         let source = Source::Dxf(dxf::Document::read(text.into()));
-        let (findings, _) = Document::new(source, Arc::new(Effective::of(&settings))).findings(usize::MAX);
+        let (findings, _) =
+            Document::new(source, Arc::new(Effective::of(&settings))).findings(usize::MAX);
         let severities: Vec<Severity> = findings.iter().map(|finding| finding.severity).collect();
         assert_eq!(severities, expected, "{settings:?}");
     }

@@ -279,7 +279,10 @@ impl Rule {
             | Rule::MissingCancel
             | Rule::MixedNumbers
             | Rule::SuspectBlock => Severity::Warning,
-            Rule::UnsupportedEntity | Rule::AmbiguousCenter | Rule::MachineDependent | Rule::More => Severity::Information,
+            Rule::UnsupportedEntity
+            | Rule::AmbiguousCenter
+            | Rule::MachineDependent
+            | Rule::More => Severity::Information,
             Rule::NearTangent | Rule::ArcAsChords => Severity::Hint,
         }
     }
@@ -294,13 +297,28 @@ impl Place {
 impl Finding {
     /// True for what is said of one of the `entities`, of all where there are none named, and of the document as a whole or its text.
     pub fn concerns(&self, entities: Option<&FxHashSet<EntityId>>) -> bool {
-        let of_entities = |entities| self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities));
-        matches!(self.place, Place::Text { .. } | Place::Document) || entities.is_none_or(of_entities)
+        let of_entities = |entities| {
+            self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities))
+        };
+        matches!(self.place, Place::Text { .. } | Place::Document)
+            || entities.is_none_or(of_entities)
     }
 }
 
 /// How bad a finding is; the order is from worst to mildest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     Error,
@@ -655,7 +673,12 @@ pub enum Edit {
 impl<E> Fix<E> {
     /// The same repair with its edit in another form.
     pub fn map<F>(self, form: impl FnOnce(E) -> F) -> Fix<F> {
-        Fix { kind: self.kind, preferred: self.preferred, in_fix_all: self.in_fix_all, edit: form(self.edit) }
+        Fix {
+            kind: self.kind,
+            preferred: self.preferred,
+            in_fix_all: self.in_fix_all,
+            edit: form(self.edit),
+        }
     }
 }
 

@@ -44,15 +44,40 @@ const TOOLTIP_SEGMENTS: usize = 4000;
 /// the first ones are shown enlarged with the circle of the correction. `unit_mm` is the drawing's unit in mm: all
 /// figures that a reader sees are in mm. The y axis points up, as in the drawing. A drawing without geometry gives
 /// a sheet that says so.
-pub fn svg(drawing: &Drawing, outlines: &[Outline], findings: &[Finding], paths: &[WirePath], unit_mm: f64) -> String {
-    let Some(bounds) = extents(drawing, paths) else { return style::empty_sheet() };
+pub fn svg(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    findings: &[Finding],
+    paths: &[WirePath],
+    unit_mm: f64,
+) -> String {
+    let Some(bounds) = extents(drawing, paths) else {
+        return style::empty_sheet();
+    };
     let scale = scale_to_fit(&bounds);
     let height = (bounds.height() * scale).max(24.0);
     let faults = tight_arcs(drawing, findings);
-    let cut = outlines.iter().flat_map(|outline| outline.contour.pieces.iter().map(|piece| piece.entity)).collect();
-    let picture = Picture { drawing, bounds, outlines, cut, findings, faults, paths, unit_mm };
+    let cut = outlines
+        .iter()
+        .flat_map(|outline| outline.contour.pieces.iter().map(|piece| piece.entity))
+        .collect();
+    let picture = Picture {
+        drawing,
+        bounds,
+        outlines,
+        cut,
+        findings,
+        faults,
+        paths,
+        unit_mm,
+    };
     let left = (SHEET_WIDTH - bounds.width() * scale) / 2.0;
-    let frame = Frame { origin: bounds.min, scale, left, bottom: FIGURE_TOP + height };
+    let frame = Frame {
+        origin: bounds.min,
+        scale,
+        left,
+        bottom: FIGURE_TOP + height,
+    };
 
     let details_top = frame.bottom + 48.0;
     let details_height = lens::height_of(picture.faults.len());
@@ -61,14 +86,28 @@ pub fn svg(drawing: &Drawing, outlines: &[Outline], findings: &[Finding], paths:
     picture.header(&mut sheet);
     sheet.push_str("<g class=\"figure\">\n");
     picture.figure(&mut sheet, &frame);
-    marks::faults(&mut sheet, &frame, &picture.faults, unit_mm, FIGURE_TOP - 26.0);
+    marks::faults(
+        &mut sheet,
+        &frame,
+        &picture.faults,
+        unit_mm,
+        FIGURE_TOP - 26.0,
+    );
     sheet.push_str("</g>\n");
     lens::row(&mut sheet, &picture, details_top);
-    let shown =
-        style::Shown { faults: !picture.faults.is_empty(), others: findings.iter().any(is_other), paths: !picture.paths.is_empty() };
+    let shown = style::Shown {
+        faults: !picture.faults.is_empty(),
+        others: findings.iter().any(is_other),
+        paths: !picture.paths.is_empty(),
+    };
     sheet.push_str("<g class=\"chrome\">\n");
     style::legend(&mut sheet, legend_top + 12.0, shown);
-    style::scale_bar(&mut sheet, SHEET_WIDTH - MARGIN, legend_top + 12.0, scale / unit_mm);
+    style::scale_bar(
+        &mut sheet,
+        SHEET_WIDTH - MARGIN,
+        legend_top + 12.0,
+        scale / unit_mm,
+    );
     sheet.push_str("</g>\n</svg>\n");
     sheet
 }
@@ -99,7 +138,8 @@ impl Fault<'_> {
     /// The arc as it was found, which may differ from the drawing's present one.
     fn arc(&self) -> crate::geometry::Arc {
         let detail = self.detail;
-        let start_angle = (detail.start.y - detail.center.y).atan2(detail.start.x - detail.center.x);
+        let start_angle =
+            (detail.start.y - detail.center.y).atan2(detail.start.x - detail.center.x);
         crate::geometry::Arc {
             center: detail.center,
             radius: detail.radius,
@@ -113,14 +153,23 @@ impl Fault<'_> {
 
 fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> {
     let faults = findings.iter().filter_map(|finding| {
-        let Detail::SmallRadius(detail) = &finding.detail else { return None };
+        let Detail::SmallRadius(detail) = &finding.detail else {
+            return None;
+        };
         let (entity, segment) = match finding.place {
             Place::Segment { entity, segment } => (Some(entity), segment),
             Place::Entity { entity } => (Some(entity), 0),
             _ => (None, 0),
         };
-        let handle = entity.and_then(|id| drawing.get(id)).map_or_else(String::new, |entity| entity.handle.to_string());
-        Some(Fault { detail, handle, segment, entity })
+        let handle = entity
+            .and_then(|id| drawing.get(id))
+            .map_or_else(String::new, |entity| entity.handle.to_string());
+        Some(Fault {
+            detail,
+            handle,
+            segment,
+            entity,
+        })
     });
     faults.collect()
 }
@@ -133,17 +182,31 @@ fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
     }
     for path in paths {
         bounds.include(path.thread_hole);
-        path.segments.iter().for_each(|segment| bounds.merge(&segment.geometry.bounds()));
+        path.segments
+            .iter()
+            .for_each(|segment| bounds.merge(&segment.geometry.bounds()));
     }
     // Nothing gives an endless box, and so do coordinates whose difference is beyond all numbers.
-    let lengths = [bounds.min.x, bounds.min.y, bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y];
-    lengths.iter().all(|length| length.is_finite()).then_some(bounds)
+    let lengths = [
+        bounds.min.x,
+        bounds.min.y,
+        bounds.max.x - bounds.min.x,
+        bounds.max.y - bounds.min.y,
+    ];
+    lengths
+        .iter()
+        .all(|length| length.is_finite())
+        .then_some(bounds)
 }
 
 fn scale_to_fit(bounds: &Bounds) -> f64 {
     let scale = (FIGURE_WIDTH / bounds.width()).min(FIGURE_HEIGHT / bounds.height());
     // A single point has no extent to fit.
-    if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+    if scale.is_finite() && scale > 0.0 {
+        scale
+    } else {
+        1.0
+    }
 }
 
 impl Picture<'_> {
@@ -160,7 +223,11 @@ impl Picture<'_> {
     }
 
     fn header(&self, sheet: &mut String) {
-        let correction = self.faults.first().map(|fault| fault.detail.required).or(self.paths.first().map(|path| path.correction));
+        let correction = self
+            .faults
+            .first()
+            .map(|fault| fault.detail.required)
+            .or(self.paths.first().map(|path| path.correction));
         let mut facts = Vec::new();
         if let Some(correction) = correction {
             facts.push(format!("correction {:.3} mm", self.mm(correction)));
@@ -170,11 +237,24 @@ impl Picture<'_> {
             count => format!("{count} contours"),
         });
         if !self.paths.is_empty() {
-            let length: f64 = self.paths.iter().flat_map(|path| &path.segments).map(|segment| segment.geometry.length()).sum();
+            let length: f64 = self
+                .paths
+                .iter()
+                .flat_map(|path| &path.segments)
+                .map(|segment| segment.geometry.length())
+                .sum();
             facts.push(format!("wire path {:.3} mm", self.mm(length)));
         }
-        let _ = writeln!(sheet, r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#, escaped(&self.title()));
-        let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#, escaped(&facts.join(" · ")));
+        let _ = writeln!(
+            sheet,
+            r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
+            escaped(&self.title())
+        );
+        let _ = writeln!(
+            sheet,
+            r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#,
+            escaped(&facts.join(" · "))
+        );
     }
 
     fn figure(&self, sheet: &mut String, frame: &Frame) {
@@ -195,7 +275,13 @@ impl Picture<'_> {
             );
             let (x, y) = frame.local(lens::correction_disc(fault));
             let radius = fault.detail.required * frame.scale;
-            let _ = writeln!(sheet, r#"<circle class="correction fine" cx="{}" cy="{}" r="{}"/>"#, number(x), number(y), number(radius));
+            let _ = writeln!(
+                sheet,
+                r#"<circle class="correction fine" cx="{}" cy="{}" r="{}"/>"#,
+                number(x),
+                number(y),
+                number(radius)
+            );
         }
         marks::thread_holes(sheet, frame, self);
         sheet.push_str("</g>\n");
@@ -203,7 +289,10 @@ impl Picture<'_> {
 
     fn fault_label(&self, fault: &Fault) -> String {
         let (radius, required) = (self.mm(fault.detail.radius), self.mm(fault.detail.required));
-        format!("{} · segment {} · R {radius:.3} mm, the correction is {required:.3} mm", fault.handle, fault.segment)
+        format!(
+            "{} · segment {} · R {radius:.3} mm, the correction is {required:.3} mm",
+            fault.handle, fault.segment
+        )
     }
 
     /// The insides of closed contours, the largest first, so that openings lie upon the part that holds them.
@@ -211,19 +300,42 @@ impl Picture<'_> {
         let mut areas: Vec<(f64, &str, String)> = Vec::new();
         for (id, entity) in self.drawing.entities() {
             if entity.geometry.is_closed() && !self.cut.contains(&id) {
-                let segments: Vec<Segment> = entity.geometry.segments_of(self.drawing.flat()).collect();
+                let segments: Vec<Segment> =
+                    entity.geometry.segments_of(self.drawing.flat()).collect();
                 let bounds = entity.geometry.bounds(self.drawing.flat());
-                areas.push((bounds.width() * bounds.height() * 2.0, "part", path_data(frame, segments, true)));
+                areas.push((
+                    bounds.width() * bounds.height() * 2.0,
+                    "part",
+                    path_data(frame, segments, true),
+                ));
             }
         }
-        for outline in self.outlines.iter().filter(|outline| outline.contour.closed) {
-            let class = if outline.role == Role::Opening { "void" } else { "part" };
-            let segments = outline.contour.segments(self.drawing).map(|segment| segment.geometry);
-            areas.push((outline.twice_area.abs(), class, path_data(frame, segments, true)));
+        for outline in self
+            .outlines
+            .iter()
+            .filter(|outline| outline.contour.closed)
+        {
+            let class = if outline.role == Role::Opening {
+                "void"
+            } else {
+                "part"
+            };
+            let segments = outline
+                .contour
+                .segments(self.drawing)
+                .map(|segment| segment.geometry);
+            areas.push((
+                outline.twice_area.abs(),
+                class,
+                path_data(frame, segments, true),
+            ));
         }
         areas.sort_by(|a, b| b.0.total_cmp(&a.0));
         if areas.first().is_some_and(|(_, class, _)| *class == "void") {
-            let (width, height) = (self.bounds.width() * frame.scale, self.bounds.height() * frame.scale);
+            let (width, height) = (
+                self.bounds.width() * frame.scale,
+                self.bounds.height() * frame.scale,
+            );
             let _ = writeln!(
                 sheet,
                 r#"<rect class="part" x="-{GROUND}" y="-{GROUND}" width="{}" height="{}" rx="8"/>"#,
@@ -238,15 +350,31 @@ impl Picture<'_> {
 
     /// What is drawn and not cut.
     fn asides(&self, sheet: &mut String, frame: &Frame) {
-        for (_, entity) in self.drawing.entities().filter(|(id, _)| !self.cut.contains(id)) {
+        for (_, entity) in self
+            .drawing
+            .entities()
+            .filter(|(id, _)| !self.cut.contains(id))
+        {
             if let Geometry::Text { at, text } = &entity.geometry {
-                if !text.is_empty() && !self.paths.iter().any(|path| (path.thread_hole - at).norm() * frame.scale < 1.0) {
+                if !text.is_empty()
+                    && !self
+                        .paths
+                        .iter()
+                        .any(|path| (path.thread_hole - at).norm() * frame.scale < 1.0)
+                {
                     marks::text(sheet, frame, *at, text);
                 }
                 continue;
             }
-            let data = path_data(frame, entity.geometry.segments_of(self.drawing.flat()), entity.geometry.is_closed());
-            let label = format!("{} {} on layer {}, not cut", entity.kind, entity.handle, entity.layer);
+            let data = path_data(
+                frame,
+                entity.geometry.segments_of(self.drawing.flat()),
+                entity.geometry.is_closed(),
+            );
+            let label = format!(
+                "{} {} on layer {}, not cut",
+                entity.kind, entity.handle, entity.layer
+            );
             if !data.is_empty() {
                 let _ = writeln!(
                     sheet,
@@ -259,13 +387,28 @@ impl Picture<'_> {
     }
 
     fn contours(&self, sheet: &mut String, frame: &Frame) {
-        let count: usize = self.outlines.iter().map(|outline| outline.contour.len()).sum();
+        let count: usize = self
+            .outlines
+            .iter()
+            .map(|outline| outline.contour.len())
+            .sum();
         for outline in self.outlines {
             for piece in &outline.contour.pieces {
-                let Some(entity) = self.drawing.get(piece.entity) else { continue };
+                let Some(entity) = self.drawing.get(piece.entity) else {
+                    continue;
+                };
                 if count > TOOLTIP_SEGMENTS {
-                    let data = path_data(frame, entity.geometry.segments_of(self.drawing.flat()), entity.geometry.is_closed());
-                    let label = format!("{} {} · {} segments", entity.kind, entity.handle, piece.count());
+                    let data = path_data(
+                        frame,
+                        entity.geometry.segments_of(self.drawing.flat()),
+                        entity.geometry.is_closed(),
+                    );
+                    let label = format!(
+                        "{} {} · {} segments",
+                        entity.kind,
+                        entity.handle,
+                        piece.count()
+                    );
                     let _ = writeln!(
                         sheet,
                         r#"<path class="contour" data-handle="{}" d="{data}"><title>{}</title></path>"#,
@@ -274,11 +417,15 @@ impl Picture<'_> {
                     );
                     continue;
                 }
-                for (index, segment) in entity.geometry.segments_of(self.drawing.flat()).enumerate() {
+                for (index, segment) in entity.geometry.segments_of(self.drawing.flat()).enumerate()
+                {
                     let data = path_data(frame, [segment], false);
                     let label = escaped(&self.segment_label(entity, index, &segment));
                     let name = named(&entity.handle, index);
-                    let _ = writeln!(sheet, r#"<path class="contour" {name} d="{data}"><title>{label}</title></path>"#);
+                    let _ = writeln!(
+                        sheet,
+                        r#"<path class="contour" {name} d="{data}"><title>{label}</title></path>"#
+                    );
                 }
             }
         }
@@ -287,33 +434,70 @@ impl Picture<'_> {
     fn segment_label(&self, entity: &Entity, index: usize, segment: &Segment) -> String {
         let what = match segment {
             Segment::Line(line) => format!("line, {:.3} mm", self.mm(line.length())),
-            Segment::Arc(arc) => format!("arc R {:.3} mm, {:.1}°", self.mm(arc.radius), arc.sweep.to_degrees()),
+            Segment::Arc(arc) => format!(
+                "arc R {:.3} mm, {:.1}°",
+                self.mm(arc.radius),
+                arc.sweep.to_degrees()
+            ),
         };
-        format!("{} {} · segment {index} · {what}", entity.kind, entity.handle)
+        format!(
+            "{} {} · segment {index} · {what}",
+            entity.kind, entity.handle
+        )
     }
 
     fn wire(&self, sheet: &mut String, frame: &Frame) {
         for path in self.paths {
             let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
-            let label = format!("path of the wire's centre, {:.3} mm from the contour", self.mm(path.correction));
+            let label = format!(
+                "path of the wire's centre, {:.3} mm from the contour",
+                self.mm(path.correction)
+            );
             // Runs of one kind: the way round the contour is one line, the leads are others.
-            for run in path.segments.chunk_by(|a, b| is_lead(&a.source) == is_lead(&b.source)) {
+            for run in path
+                .segments
+                .chunk_by(|a, b| is_lead(&a.source) == is_lead(&b.source))
+            {
                 let lead = run.first().is_some_and(|segment| is_lead(&segment.source));
-                let (class, label) = if lead { ("lead", "lead-in and lead-out") } else { ("wire", label.as_str()) };
+                let (class, label) = if lead {
+                    ("lead", "lead-in and lead-out")
+                } else {
+                    ("wire", label.as_str())
+                };
                 let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
-                let _ = writeln!(sheet, r#"<path class="{class}" d="{data}"><title>{}</title></path>"#, escaped(label));
+                let _ = writeln!(
+                    sheet,
+                    r#"<path class="{class}" d="{data}"><title>{}</title></path>"#,
+                    escaped(label)
+                );
             }
         }
     }
 
     /// Errors and warnings that have no picture of their own: a dot where they are of a point, else the segment is marked.
     fn other_faults(&self, sheet: &mut String, frame: &Frame) {
-        let pieces = self.outlines.iter().flat_map(|outline| &outline.contour.pieces);
-        let reversed: FxHashSet<EntityId> = pieces.filter(|piece| piece.reversed).map(|piece| piece.entity).collect();
+        let pieces = self
+            .outlines
+            .iter()
+            .flat_map(|outline| &outline.contour.pieces);
+        let reversed: FxHashSet<EntityId> = pieces
+            .filter(|piece| piece.reversed)
+            .map(|piece| piece.entity)
+            .collect();
         for finding in self.findings.iter().filter(|finding| is_other(finding)) {
-            let Place::Segment { entity: id, segment } = finding.place else { continue };
-            let Some(entity) = self.drawing.get(id) else { continue };
-            let Some(geometry) = entity.geometry.segment_of(segment, self.drawing.flat()) else { continue };
+            let Place::Segment {
+                entity: id,
+                segment,
+            } = finding.place
+            else {
+                continue;
+            };
+            let Some(entity) = self.drawing.get(id) else {
+                continue;
+            };
+            let Some(geometry) = entity.geometry.segment_of(segment, self.drawing.flat()) else {
+                continue;
+            };
             let point = match finding.detail {
                 Detail::SelfIntersection { at, .. }
                 | Detail::LostPocket { near: at }
@@ -321,24 +505,53 @@ impl Picture<'_> {
                 | Detail::DeadEnd { near: at, .. } => Some(at),
                 // Seen where the segment begins in the direction of travel.
                 Detail::SharpCorner { .. } | Detail::NearTangent { .. } | Detail::Gap { .. } => {
-                    Some(if reversed.contains(&id) { geometry.end() } else { geometry.start() })
+                    Some(if reversed.contains(&id) {
+                        geometry.end()
+                    } else {
+                        geometry.start()
+                    })
                 }
                 // Too short to be seen.
                 _ if geometry.length() * frame.scale < DOT => Some(geometry.point_at(0.5)),
                 _ => None,
             };
-            let label = format!("<title>{} · segment {segment} · {}</title>", escaped(&entity.handle), finding.rule.name());
+            let label = format!(
+                "<title>{} · segment {segment} · {}</title>",
+                escaped(&entity.handle),
+                finding.rule.name()
+            );
             let name = named(&entity.handle, segment);
             let _ = match point.map(|point| frame.local(point)) {
                 Some((x, y)) => {
-                    writeln!(sheet, r#"<circle class="dot" {name} cx="{}" cy="{}" r="{DOT}">{label}</circle>"#, number(x), number(y))
+                    writeln!(
+                        sheet,
+                        r#"<circle class="dot" {name} cx="{}" cy="{}" r="{DOT}">{label}</circle>"#,
+                        number(x),
+                        number(y)
+                    )
                 }
                 None => {
                     // Chords are shown in full where they are of one entity.
-                    let count = if let Detail::ArcAsChords { chords, .. } = finding.detail { chords } else { 1 };
-                    let from = if reversed.contains(&id) { (segment + 1).saturating_sub(count) } else { segment };
-                    let all = entity.geometry.segments_of(self.drawing.flat()).skip(from).take(count);
-                    writeln!(sheet, r#"<path class="other" {name} d="{}">{label}</path>"#, path_data(frame, all, false))
+                    let count = if let Detail::ArcAsChords { chords, .. } = finding.detail {
+                        chords
+                    } else {
+                        1
+                    };
+                    let from = if reversed.contains(&id) {
+                        (segment + 1).saturating_sub(count)
+                    } else {
+                        segment
+                    };
+                    let all = entity
+                        .geometry
+                        .segments_of(self.drawing.flat())
+                        .skip(from)
+                        .take(count);
+                    writeln!(
+                        sheet,
+                        r#"<path class="other" {name} d="{}">{label}</path>"#,
+                        path_data(frame, all, false)
+                    )
                 }
             };
         }
@@ -348,8 +561,13 @@ impl Picture<'_> {
 /// An error or a warning on a segment, of any rule but `small-radius`; and the hints that are of one place.
 fn is_other(finding: &Finding) -> bool {
     let is_of_segment = matches!(finding.place, Place::Segment { .. });
-    let is_of_one_place = matches!(finding.detail, Detail::NearTangent { .. } | Detail::ArcAsChords { .. });
-    is_of_segment && (finding.severity <= Severity::Warning || is_of_one_place) && !matches!(finding.detail, Detail::SmallRadius(_))
+    let is_of_one_place = matches!(
+        finding.detail,
+        Detail::NearTangent { .. } | Detail::ArcAsChords { .. }
+    );
+    is_of_segment
+        && (finding.severity <= Severity::Warning || is_of_one_place)
+        && !matches!(finding.detail, Detail::SmallRadius(_))
 }
 
 #[cfg(test)]

@@ -134,7 +134,10 @@ impl SourceText {
             self.bytes.splice(start..end, replacement.bytes());
         }
         let new_end = start + replacement.len();
-        let fresh: Vec<u32> = (start.max(1)..=new_end).filter(|&at| self.begins_line(at)).map(|at| at as u32).collect();
+        let fresh: Vec<u32> = (start.max(1)..=new_end)
+            .filter(|&at| self.begins_line(at))
+            .map(|at| at as u32)
+            .collect();
         let shift = (new_end as u32).wrapping_sub(end as u32);
         self.line_starts.replace(first..last, &fresh, shift);
     }
@@ -177,7 +180,9 @@ impl SourceText {
     /// Characters from the byte `from` on to the byte `to` of the same line, and where the last of them ends: before `to` where that lies
     /// within a character.
     pub fn counted(&self, from: usize, to: usize, encoding: Encoding) -> (usize, usize) {
-        let Some(bytes) = self.bytes.get(from..to) else { return (from, 0) };
+        let Some(bytes) = self.bytes.get(from..to) else {
+            return (from, 0);
+        };
         if bytes.is_ascii() {
             return (to, bytes.len());
         }
@@ -204,7 +209,10 @@ fn measure(bytes: &[u8], encoding: Encoding) -> (usize, usize) {
         Some(0xf0..=0xf4) => 4,
         Some(_) => 1,
     };
-    let valid = length > 1 && bytes.get(..length).is_some_and(|character| std::str::from_utf8(character).is_ok());
+    let valid = length > 1
+        && bytes
+            .get(..length)
+            .is_some_and(|character| std::str::from_utf8(character).is_ok());
     match (valid, encoding) {
         (false, _) => (1, 1),
         (true, Encoding::Utf8) => (length, length),
@@ -220,7 +228,9 @@ mod tests {
     #[test]
     fn all_three_line_ends_end_a_line() {
         let text = SourceText::new(b"a\nbb\r\nc\rd\r\r\n".to_vec());
-        let lines: Vec<_> = (0..text.line_count()).map(|line| &text.bytes()[text.line_range(line)]).collect();
+        let lines: Vec<_> = (0..text.line_count())
+            .map(|line| &text.bytes()[text.line_range(line)])
+            .collect();
         assert_eq!(lines, [&b"a"[..], b"bb", b"c", b"d", b"", b""]);
         assert_eq!(text.line_of(4), 1);
         assert_eq!(text.line_of(99), 5);
@@ -229,7 +239,14 @@ mod tests {
 
     #[test]
     fn positions_are_counted_in_the_clients_units_and_clamped() {
-        let text = SourceText::new("é𝄞x\r\nб".as_bytes().iter().copied().chain([0xff, b'y']).collect());
+        let text = SourceText::new(
+            "é𝄞x\r\nб"
+                .as_bytes()
+                .iter()
+                .copied()
+                .chain([0xff, b'y'])
+                .collect(),
+        );
         let cases = [
             (0, 0, 0, 0),
             (0, 1, 2, 0),
@@ -246,8 +263,16 @@ mod tests {
             (7, 0, 13, 13),
         ];
         for (line, character, utf16, utf8) in cases {
-            assert_eq!(text.offset_of(line, character, Encoding::Utf16), utf16, "{line}:{character} in UTF-16");
-            assert_eq!(text.offset_of(line, character, Encoding::Utf8), utf8, "{line}:{character} in UTF-8");
+            assert_eq!(
+                text.offset_of(line, character, Encoding::Utf16),
+                utf16,
+                "{line}:{character} in UTF-16"
+            );
+            assert_eq!(
+                text.offset_of(line, character, Encoding::Utf8),
+                utf8,
+                "{line}:{character} in UTF-8"
+            );
         }
         assert_eq!(text.position_of(4, Encoding::Utf16), (0, 1));
         assert_eq!(text.position_of(8, Encoding::Utf16), (0, 4));

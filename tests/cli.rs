@@ -14,7 +14,9 @@ struct Desk(tempfile::TempDir);
 impl Desk {
     fn new() -> Desk {
         let folder = tempfile::tempdir().unwrap();
-        for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")).unwrap() {
+        for entry in
+            std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")).unwrap()
+        {
             let entry = entry.unwrap();
             if entry.file_type().unwrap().is_file() {
                 std::fs::copy(entry.path(), folder.path().join(entry.file_name())).unwrap();
@@ -38,7 +40,10 @@ impl Desk {
 
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_wedm"));
-        command.args(arguments.split_whitespace()).current_dir(self.0.path()).stdin(Stdio::null());
+        command
+            .args(arguments.split_whitespace())
+            .current_dir(self.0.path())
+            .stdin(Stdio::null());
         command
     }
 
@@ -57,7 +62,11 @@ struct Ended {
 impl Ended {
     fn of(output: Output) -> Ended {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        Ended { code: output.status.code(), stdout: text(&output.stdout), stderr: text(&output.stderr) }
+        Ended {
+            code: output.status.code(),
+            stdout: text(&output.stdout),
+            stderr: text(&output.stderr),
+        }
     }
 
     fn json(&self) -> Value {
@@ -75,9 +84,15 @@ fn check(desk: &Desk, arguments: &str, code: i32, texts: &[&str]) {
             Some(text) => (&ended.stderr, text),
             None => (&ended.stdout, *text),
         };
-        assert!(stream.contains(text), "wedm {arguments}: no {text:?} in {ended:?}");
+        assert!(
+            stream.contains(text),
+            "wedm {arguments}: no {text:?} in {ended:?}"
+        );
     }
-    assert!(!ended.stdout.contains('\x1b') && !ended.stderr.contains('\x1b'), "colours without a terminal: {ended:?}");
+    assert!(
+        !ended.stdout.contains('\x1b') && !ended.stderr.contains('\x1b'),
+        "colours without a terminal: {ended:?}"
+    );
 }
 
 #[test]
@@ -100,56 +115,185 @@ fn commands_print_and_end_as_they_say() {
             ],
         ),
         ("check tight.dxf --correction 0.07", 0, &["nothing found"]),
-        ("check clean.dxf --correction 0.6", 1, &["arc R 0.500 mm is below the correction 0.600 mm"]),
+        (
+            "check clean.dxf --correction 0.6",
+            1,
+            &["arc R 0.500 mm is below the correction 0.600 mm"],
+        ),
         ("check tight.dxf --side punch", 0, &["nothing found"]),
-        ("check chain.dxf", 1, &["--> chain.dxf:40:1", "^^^^ 32, segment 0"]),
+        (
+            "check chain.dxf",
+            1,
+            &["--> chain.dxf:40:1", "^^^^ 32, segment 0"],
+        ),
         ("check inch.dxf", 1, &["arc R 0.080 mm"]),
-        ("check narrow.dxf", 1, &["narrow-slot", "2 errors, 1 warning"]),
+        (
+            "check narrow.dxf",
+            1,
+            &["narrow-slot", "2 errors, 1 warning"],
+        ),
         ("check no_unit.dxf", 0, &["warning[units]", "1 warning"]),
         ("check no_unit.dxf --deny warning", 1, &["1 warning"]),
         ("check clean.dxf --deny warning", 0, &[]),
         ("check garbage.dxf", 1, &["1 error\n"]),
-        ("check missing.dxf", 2, &["!error: missing.dxf: no such file"]),
-        ("check tight.dxf missing.dxf clean.dxf", 2, &["2 files checked: 1 error", "!missing.dxf"]),
+        (
+            "check missing.dxf",
+            2,
+            &["!error: missing.dxf: no such file"],
+        ),
+        (
+            "check tight.dxf missing.dxf clean.dxf",
+            2,
+            &["2 files checked: 1 error", "!missing.dxf"],
+        ),
         ("check", 2, &["!PATH"]),
         ("check clean.dxf --correction -1", 2, &["!above 0"]),
         ("check clean.dxf --correction NaN", 2, &["!above 0"]),
-        ("check clean.dxf --side left", 2, &["!both, auto, opening, punch"]),
-        ("check clean.dxf --config missing.toml", 2, &["!missing.toml: no such file"]),
+        (
+            "check clean.dxf --side left",
+            2,
+            &["!both, auto, opening, punch"],
+        ),
+        (
+            "check clean.dxf --config missing.toml",
+            2,
+            &["!missing.toml: no such file"],
+        ),
         ("fix tight.dxf", 2, &["!--output", "!--in-place", "!--diff"]),
-        ("fix tight.dxf --in-place --diff", 2, &["!cannot be used with"]),
+        (
+            "fix tight.dxf --in-place --diff",
+            2,
+            &["!cannot be used with"],
+        ),
         ("fix tight.dxf -o tight.dxf", 2, &["!is the input"]),
         ("fix tight.dxf -o ./tight.dxf", 2, &["!is the input"]),
         ("fix hole.3b --diff", 0, &["!nothing to repair"]),
-        ("fix tight.dxf --diff", 0, &["--- tight.dxf", "@@ -", "-19.92", "+19.899", "!1 arc repaired"]),
+        (
+            "fix tight.dxf --diff",
+            0,
+            &[
+                "--- tight.dxf",
+                "@@ -",
+                "-19.92",
+                "+19.899",
+                "!1 arc repaired",
+            ],
+        ),
         ("fix clean.dxf --diff", 0, &["!nothing to repair"]),
-        ("fix narrow.dxf --diff", 1, &["!nothing could be repaired", "!left: narrow.dxf:34:1", "!narrow-slot"]),
-        ("generate tight.dxf --side opening", 1, &["!error[small-radius]", "!no program is written, the drawing has 1 error"]),
-        ("generate clean.dxf", 1, &["!side of contour 2A is not known"]),
-        ("generate clean.dxf --side opening", 0, &["DD\n", "!written stdout", "!decoded again: at most"]),
-        ("generate clean.dxf --side opening --format 4b", 0, &["GYDDNR4\n", "DD\n", "!decoded again"]),
-        ("generate clean.dxf --side opening --format iso", 0, &["G92 X12.250 Y3.000\n", "M02\n", "!decoded again"]),
-        ("generate clean.dxf --side punch --thread -3,-2 --layout checking", 0, &["Start Point = -3", "DD"]),
-        ("generate clean.dxf --side punch --thread=-3,-2 --entry -0.0,5", 0, &["DD"]),
-        ("generate clean.dxf --side punch --thread 3", 2, &["!such as -115,-10"]),
+        (
+            "fix narrow.dxf --diff",
+            1,
+            &[
+                "!nothing could be repaired",
+                "!left: narrow.dxf:34:1",
+                "!narrow-slot",
+            ],
+        ),
+        (
+            "generate tight.dxf --side opening",
+            1,
+            &[
+                "!error[small-radius]",
+                "!no program is written, the drawing has 1 error",
+            ],
+        ),
+        (
+            "generate clean.dxf",
+            1,
+            &["!side of contour 2A is not known"],
+        ),
+        (
+            "generate clean.dxf --side opening",
+            0,
+            &["DD\n", "!written stdout", "!decoded again: at most"],
+        ),
+        (
+            "generate clean.dxf --side opening --format 4b",
+            0,
+            &["GYDDNR4\n", "DD\n", "!decoded again"],
+        ),
+        (
+            "generate clean.dxf --side opening --format iso",
+            0,
+            &["G92 X12.250 Y3.000\n", "M02\n", "!decoded again"],
+        ),
+        (
+            "generate clean.dxf --side punch --thread -3,-2 --layout checking",
+            0,
+            &["Start Point = -3", "DD"],
+        ),
+        (
+            "generate clean.dxf --side punch --thread=-3,-2 --entry -0.0,5",
+            0,
+            &["DD"],
+        ),
+        (
+            "generate clean.dxf --side punch --thread 3",
+            2,
+            &["!such as -115,-10"],
+        ),
         ("generate clean.dxf --side punch --handle 99", 1, &["!99"]),
-        ("generate clean.dxf --side opening -o clean.dxf", 2, &["!is the input"]),
-        ("inspect tight.dxf", 1, &["LWPOLYLINE 2A on layer DIE, closed", "0.080", "small-radius", "1 not ok"]),
+        (
+            "generate clean.dxf --side opening -o clean.dxf",
+            2,
+            &["!is the input"],
+        ),
+        (
+            "inspect tight.dxf",
+            1,
+            &[
+                "LWPOLYLINE 2A on layer DIE, closed",
+                "0.080",
+                "small-radius",
+                "1 not ok",
+            ],
+        ),
         ("inspect clean.dxf", 0, &["all of them can be cut"]),
         ("inspect missing.dxf", 2, &["!missing.dxf"]),
-        ("contours chain.dxf", 0, &["contour 0: closed, counter-clockwise, both sides, 6 segments", "1 contour\n"]),
-        ("draw tight.dxf", 0, &["<svg", "R 0.080 mm, the correction is 0.100 mm", "</svg>"]),
-        ("draw tight.dxf -o tight.pdf", 2, &["!.pdf is not written, expected .svg or .dxf"]),
+        (
+            "contours chain.dxf",
+            0,
+            &[
+                "contour 0: closed, counter-clockwise, both sides, 6 segments",
+                "1 contour\n",
+            ],
+        ),
+        (
+            "draw tight.dxf",
+            0,
+            &["<svg", "R 0.080 mm, the correction is 0.100 mm", "</svg>"],
+        ),
+        (
+            "draw tight.dxf -o tight.pdf",
+            2,
+            &["!.pdf is not written, expected .svg or .dxf"],
+        ),
         ("completions bash", 0, &["_wedm"]),
         ("completions zsh", 0, &["#compdef wedm"]),
-        ("convert hole.3b -o hole.dxf", 0, &["!written hole.dxf: 1 contour"]),
+        (
+            "convert hole.3b -o hole.dxf",
+            0,
+            &["!written hole.dxf: 1 contour"],
+        ),
         (
             "simulate hole.3b --feed 2",
             0,
-            &["R 9.900 mm, +360.000\u{b0}", "3 blocks, 82.004 mm, 41.0 min, ends 0, 0 \u{b5}m from its start", "19.800 x 19.800 mm"],
+            &[
+                "R 9.900 mm, +360.000\u{b0}",
+                "3 blocks, 82.004 mm, 41.0 min, ends 0, 0 \u{b5}m from its start",
+                "19.800 x 19.800 mm",
+            ],
         ),
-        ("simulate hole.3b --output json", 0, &["\"closure\":{\"x\":0.0,\"y\":0.0}", "\"kind\":\"arc\""]),
-        ("simulate clean.dxf", 2, &["!it is a drawing, expected a program"]),
+        (
+            "simulate hole.3b --output json",
+            0,
+            &["\"closure\":{\"x\":0.0,\"y\":0.0}", "\"kind\":\"arc\""],
+        ),
+        (
+            "simulate clean.dxf",
+            2,
+            &["!it is a drawing, expected a program"],
+        ),
         ("simulate hole.3b --feed 0", 2, &["!above 0"]),
         ("draw hole.3b", 0, &["<svg", "data-line=\"1\"", "</svg>"]),
         ("--version", 0, &["wedm "]),
@@ -163,26 +307,67 @@ fn commands_print_and_end_as_they_say() {
 #[test]
 fn programs_are_formatted_where_they_are_told_to_be() {
     let desk = Desk::new();
-    let untidy = "b9900b0b9900gxl1 ; in\r\nB9900B0B39600GYNR1\r\nB99B9900GXL3\r\n9900B0B9900GXL3\r\ndd\r\n";
+    let untidy =
+        "b9900b0b9900gxl1 ; in\r\nB9900B0B39600GYNR1\r\nB99B9900GXL3\r\n9900B0B9900GXL3\r\ndd\r\n";
     desk.write("shop/untidy.3b", untidy);
     desk.write("shop/tidy.3b", "B9900B0B9900GXL1\nDD\n");
     desk.write("shop/plate.dxf", "0\nEOF\n");
     let cases: &[(&str, i32, &[&str])] = &[
-        ("format hole.3b", 0, &["B9900B0B9900GXL1\nB9900B0B39600GYNR1\n"]),
-        ("format hole.3b --layout checking", 0, &["N    1: B   9900 B      0 B   9900 GX L1  ;      9.900 ,      0.000\n"]),
-        ("format --check hole.3b", 0, &["!0 programs would be formatted, 1 unchanged"]),
+        (
+            "format hole.3b",
+            0,
+            &["B9900B0B9900GXL1\nB9900B0B39600GYNR1\n"],
+        ),
+        (
+            "format hole.3b --layout checking",
+            0,
+            &["N    1: B   9900 B      0 B   9900 GX L1  ;      9.900 ,      0.000\n"],
+        ),
+        (
+            "format --check hole.3b",
+            0,
+            &["!0 programs would be formatted, 1 unchanged"],
+        ),
         (
             "format --check shop",
             1,
-            &["would be formatted: shop/untidy.3b\n", "!1 program would be formatted, 1 unchanged", "!2 lines with a syntax error"],
+            &[
+                "would be formatted: shop/untidy.3b\n",
+                "!1 program would be formatted, 1 unchanged",
+                "!2 lines with a syntax error",
+            ],
         ),
-        ("format --diff shop", 1, &["-b9900b0b9900gxl1 ; in", "+B9900B0B9900GXL1 ; in", " 9900B0B9900GXL3"]),
+        (
+            "format --diff shop",
+            1,
+            &[
+                "-b9900b0b9900gxl1 ; in",
+                "+B9900B0B9900GXL1 ; in",
+                " 9900B0B9900GXL3",
+            ],
+        ),
         ("format shop", 2, &["!2 programs found, expected one"]),
-        ("format clean.dxf", 2, &["!clean.dxf: it is a drawing, expected a program"]),
-        ("format missing.3b --check", 2, &["!missing.3b: no such file"]),
+        (
+            "format clean.dxf",
+            2,
+            &["!clean.dxf: it is a drawing, expected a program"],
+        ),
+        (
+            "format missing.3b --check",
+            2,
+            &["!missing.3b: no such file"],
+        ),
         ("format hole.3b -o hole.3b", 2, &["!is the input"]),
-        ("format hole.3b --check --diff", 2, &["!cannot be used with"]),
-        ("format hole.3b --layout wide", 2, &["!compact, aligned, checking"]),
+        (
+            "format hole.3b --check --diff",
+            2,
+            &["!cannot be used with"],
+        ),
+        (
+            "format hole.3b --layout wide",
+            2,
+            &["!compact, aligned, checking"],
+        ),
         ("format", 2, &["!PATH"]),
     ];
     for (arguments, code, texts) in cases {
@@ -190,20 +375,52 @@ fn programs_are_formatted_where_they_are_told_to_be() {
     }
     assert_eq!(desk.read("shop/untidy.3b"), untidy.as_bytes());
     desk.write("shop/wedm.toml", "[program]\nlayout = \"compact\"\n");
-    check(&desk, "format --in-place shop", 0, &["!1 program formatted, 1 unchanged"]);
-    let tidy = "B9900B0B9900GXL1 ; in\r\nB9900B0B39600GYNR1\r\nB99B9900GXL3\r\n9900B0B9900GXL3\r\nDD\r\n";
-    assert_eq!(String::from_utf8(desk.read("shop/untidy.3b")).unwrap(), tidy);
-    check(&desk, "format --in-place shop --layout checking --pause D", 0, &["!2 programs formatted"]);
+    check(
+        &desk,
+        "format --in-place shop",
+        0,
+        &["!1 program formatted, 1 unchanged"],
+    );
+    let tidy =
+        "B9900B0B9900GXL1 ; in\r\nB9900B0B39600GYNR1\r\nB99B9900GXL3\r\n9900B0B9900GXL3\r\nDD\r\n";
+    assert_eq!(
+        String::from_utf8(desk.read("shop/untidy.3b")).unwrap(),
+        tidy
+    );
+    check(
+        &desk,
+        "format --in-place shop --layout checking --pause D",
+        0,
+        &["!2 programs formatted"],
+    );
     // ISO: words in upper case, apart or closed up; no number is written otherwise, and lines that cannot be read stay.
     let untidy = "%\r\nn10 g01 x1.50y-0 (in)\r\nG02  X3.  Y4. i1.\r\ng01 x1,5\r\nm02\r\n";
     desk.write("iso/untidy.nc", untidy);
     let parted = "%\r\nN10 G01 X1.50 Y-0 (in)\r\nG02 X3. Y4. I1.\r\ng01 x1,5\r\nM02\r\n";
     check(&desk, "format iso/untidy.nc", 0, &[parted]);
-    check(&desk, "format iso/untidy.nc --layout compact", 0, &["N10G01X1.50Y-0 (in)\r\nG02X3.Y4.I1.\r\ng01 x1,5\r\nM02\r\n"]);
-    check(&desk, "format --check iso", 1, &["would be formatted: iso/untidy.nc\n"]);
+    check(
+        &desk,
+        "format iso/untidy.nc --layout compact",
+        0,
+        &["N10G01X1.50Y-0 (in)\r\nG02X3.Y4.I1.\r\ng01 x1,5\r\nM02\r\n"],
+    );
+    check(
+        &desk,
+        "format --check iso",
+        1,
+        &["would be formatted: iso/untidy.nc\n"],
+    );
     check(&desk, "format --in-place iso", 0, &["!1 program formatted"]);
-    assert_eq!(String::from_utf8(desk.read("iso/untidy.nc")).unwrap(), parted);
-    check(&desk, "format --check iso", 0, &["!0 programs would be formatted, 1 unchanged"]);
+    assert_eq!(
+        String::from_utf8(desk.read("iso/untidy.nc")).unwrap(),
+        parted
+    );
+    check(
+        &desk,
+        "format --check iso",
+        0,
+        &["!0 programs would be formatted, 1 unchanged"],
+    );
 }
 
 #[test]
@@ -211,7 +428,12 @@ fn formats_that_are_not_read_are_named_and_not_skipped() {
     let desk = Desk::new();
     for (name, reason) in [("a.dwg", "DWG"), ("a.txt", ".txt"), ("a", "no ending")] {
         desk.write(&format!("strange/{name}"), "x");
-        check(&desk, &format!("check strange/{name}"), 2, &[&format!("!{name}: "), &format!("!{reason}")]);
+        check(
+            &desk,
+            &format!("check strange/{name}"),
+            2,
+            &[&format!("!{name}: "), &format!("!{reason}")],
+        );
     }
     // In a folder the strange ones are left.
     check(&desk, "check strange", 0, &["0 files checked"]);
@@ -221,13 +443,22 @@ fn formats_that_are_not_read_are_named_and_not_skipped() {
 #[test]
 fn of_more_than_a_hundred_thousand_findings_the_rest_is_counted() {
     let desk = Desk::new();
-    desk.write("heap.dxf", format!("0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n", "0\nLINE\n".repeat(100_050)));
+    desk.write(
+        "heap.dxf",
+        format!(
+            "0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n",
+            "0\nLINE\n".repeat(100_050)
+        ),
+    );
     let ended = desk.run("check heap.dxf --output json");
     let json = ended.json();
     let rows = json["diagnostics"].as_array().unwrap();
     let last = rows.last().unwrap();
     assert_eq!((ended.code, rows.len()), (Some(1), 100_001));
-    assert_eq!((last["rule"].as_str(), last["message"].as_str()), (Some("more"), Some("51 more findings are not shown")));
+    assert_eq!(
+        (last["rule"].as_str(), last["message"].as_str()),
+        (Some("more"), Some("51 more findings are not shown"))
+    );
 }
 
 #[test]
@@ -237,14 +468,33 @@ fn json_holds_each_finding_with_its_place_and_its_numbers() {
     assert_eq!(ended.code, Some(1));
     let json = ended.json();
     let rows = json["diagnostics"].as_array().unwrap();
-    let places: Vec<_> = rows.iter().map(|row| (row["path"].as_str().unwrap(), row["line"].as_u64().unwrap())).collect();
+    let places: Vec<_> = rows
+        .iter()
+        .map(|row| (row["path"].as_str().unwrap(), row["line"].as_u64().unwrap()))
+        .collect();
     assert_eq!(places, [("tight.dxf", 34), ("chain.dxf", 40)]);
     let row = &rows[0];
     let keys: Vec<&String> = row.as_object().unwrap().keys().collect();
     assert_eq!(keys.len(), 9, "{keys:?}");
-    assert_eq!((row["column"].as_u64(), row["endLine"].as_u64(), row["endColumn"].as_u64()), (Some(1), Some(34), Some(15)));
-    assert_eq!((row["rule"].as_str(), row["severity"].as_str()), (Some("small-radius"), Some("error")));
-    assert_eq!((row["data"]["handle"].as_str(), row["data"]["segment"].as_u64()), (Some("2A"), Some(1)));
+    assert_eq!(
+        (
+            row["column"].as_u64(),
+            row["endLine"].as_u64(),
+            row["endColumn"].as_u64()
+        ),
+        (Some(1), Some(34), Some(15))
+    );
+    assert_eq!(
+        (row["rule"].as_str(), row["severity"].as_str()),
+        (Some("small-radius"), Some("error"))
+    );
+    assert_eq!(
+        (
+            row["data"]["handle"].as_str(),
+            row["data"]["segment"].as_u64()
+        ),
+        (Some("2A"), Some(1))
+    );
     assert!((row["data"]["radius"].as_f64().unwrap() - 0.08).abs() < 1e-9);
     assert_eq!(row["data"]["required"].as_f64(), Some(0.1));
 }
@@ -252,14 +502,23 @@ fn json_holds_each_finding_with_its_place_and_its_numbers() {
 #[test]
 fn json_is_printed_also_when_the_command_fails() {
     let desk = Desk::new();
-    for (arguments, code) in
-        [("inspect tight.dxf --output json", 1), ("inspect missing.dxf --output json", 2), ("inspect hole.3b --output json", 2)]
-    {
+    for (arguments, code) in [
+        ("inspect tight.dxf --output json", 1),
+        ("inspect missing.dxf --output json", 2),
+        ("inspect hole.3b --output json", 2),
+    ] {
         let ended = desk.run(arguments);
         assert_eq!(ended.code, Some(code), "{ended:?}");
-        assert!(ended.json()["entities"].is_array() && ended.json()["diagnostics"].is_array() && ended.json()["unitsToMm"].is_number());
+        assert!(
+            ended.json()["entities"].is_array()
+                && ended.json()["diagnostics"].is_array()
+                && ended.json()["unitsToMm"].is_number()
+        );
     }
-    assert_eq!(desk.run("check missing.dxf --output json").json()["diagnostics"], serde_json::json!([]));
+    assert_eq!(
+        desk.run("check missing.dxf --output json").json()["diagnostics"],
+        serde_json::json!([])
+    );
 }
 
 #[test]
@@ -267,16 +526,29 @@ fn the_radius_list_names_vertex_radius_and_verdict() {
     let desk = Desk::new();
     let json = desk.run("inspect tight.dxf --output json").json();
     let segments = json["entities"][0]["segments"].as_array().unwrap();
-    let verdicts: Vec<_> = segments.iter().map(|segment| segment["verdict"].as_str().unwrap()).collect();
+    let verdicts: Vec<_> = segments
+        .iter()
+        .map(|segment| segment["verdict"].as_str().unwrap())
+        .collect();
     assert_eq!(verdicts, ["ok", "small-radius", "ok", "ok", "ok", "ok"]);
     assert_eq!(segments[1]["kind"], "arc");
     assert_eq!(json["diagnostics"].as_array().unwrap().len(), 1);
-    assert_eq!(desk.run("inspect inch.dxf --output json").json()["unitsToMm"], 25.4);
+    assert_eq!(
+        desk.run("inspect inch.dxf --output json").json()["unitsToMm"],
+        25.4
+    );
     // What is there and not cut is listed: an arc that is a point.
     let tags = "0\nSECTION\n2\nENTITIES\n0\nARC\n5\nA\n10\n1\n20\n2\n40\n0\n50\n90\n51\n90\n0\nENDSEC\n0\nEOF\n";
     desk.write("point.dxf", tags);
     let listed = desk.run("inspect point.dxf --output json").json()["entities"][0].clone();
-    assert_eq!((&listed["type"], &listed["cut"], &listed["segments"][0]["radius"]), (&"ARC".into(), &false.into(), &0.0.into()));
+    assert_eq!(
+        (
+            &listed["type"],
+            &listed["cut"],
+            &listed["segments"][0]["radius"]
+        ),
+        (&"ARC".into(), &false.into(), &0.0.into())
+    );
 }
 
 #[test]
@@ -289,13 +561,21 @@ fn sarif_names_rules_places_and_what_could_not_be_read() {
     let run = &log["runs"][0];
     let result = &run["results"][0];
     let index = result["ruleIndex"].as_u64().unwrap() as usize;
-    assert_eq!(run["tool"]["driver"]["rules"][index]["id"], result["ruleId"]);
+    assert_eq!(
+        run["tool"]["driver"]["rules"][index]["id"],
+        result["ruleId"]
+    );
     let place = &result["locations"][0]["physicalLocation"];
     assert_eq!(place["artifactLocation"]["uri"], "sub%20folder/tight.dxf");
     assert_eq!(place["region"]["startLine"], 34);
     assert_eq!(result["level"], "error");
     assert_eq!(run["invocations"][0]["executionSuccessful"], false);
-    assert!(run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"].as_str().unwrap().contains("missing.dxf"));
+    assert!(
+        run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"]
+            .as_str()
+            .unwrap()
+            .contains("missing.dxf")
+    );
 }
 
 #[test]
@@ -304,7 +584,12 @@ fn a_folder_is_searched_in_all_its_depth_and_every_file_stands_once() {
     desk.write("parts/a.DXF", desk.read("tight.dxf"));
     desk.write("parts/deep/er/b.dxf", desk.read("clean.dxf"));
     desk.write("parts/notes.txt", "nothing");
-    check(&desk, "check parts parts/a.DXF", 1, &["2 files checked: 1 error"]);
+    check(
+        &desk,
+        "check parts parts/a.DXF",
+        1,
+        &["2 files checked: 1 error"],
+    );
     for ending in ["dxf", "dxb", "3b", "4b", "iso", "nc"] {
         desk.write(&format!("all/a.{ending}"), "");
     }
@@ -320,14 +605,24 @@ fn a_link_to_a_file_is_checked_and_a_circle_of_folders_ends() {
     desk.write("parts/notes.txt", "nothing");
     std::os::unix::fs::symlink("../tight.dxf", desk.path("parts/link.dxf")).unwrap();
     std::os::unix::fs::symlink("..", desk.path("parts/up")).unwrap();
-    check(&desk, "check parts", 1, &["--> parts/link.dxf", "1 file checked: 1 error"]);
+    check(
+        &desk,
+        "check parts",
+        1,
+        &["--> parts/link.dxf", "1 file checked: 1 error"],
+    );
 }
 
 /// `check` knows no limit of findings.
 #[test]
 fn check_sees_all_findings() {
     let desk = Desk::new();
-    let circle = |index: usize| format!("  0\nCIRCLE\n  5\n{:X}\n  8\nDIE\n 10\n{index}\n 20\n0\n 40\n0.05\n", 256 + index);
+    let circle = |index: usize| {
+        format!(
+            "  0\nCIRCLE\n  5\n{:X}\n  8\nDIE\n 10\n{index}\n 20\n0\n 40\n0.05\n",
+            256 + index
+        )
+    };
     let circles: String = (0..700).map(circle).collect();
     let text = format!(
         "  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n{circles}  0\nENDSEC\n  0\nEOF\n"
@@ -340,17 +635,30 @@ fn check_sees_all_findings() {
 #[test]
 fn a_fix_changes_its_numbers_and_no_other_byte() {
     let desk = Desk::new();
-    for (name, lines) in [("tight.dxf", 3), ("chain.dxf", 5), ("code_page.dxf", 3), ("inch.dxf", 3)] {
+    for (name, lines) in [
+        ("tight.dxf", 3),
+        ("chain.dxf", 5),
+        ("code_page.dxf", 3),
+        ("inch.dxf", 3),
+    ] {
         let before = desk.read(name);
         let ended = desk.run(&format!("fix {name} -o fixed.dxf"));
         assert_eq!(ended.code, Some(0), "{ended:?}");
         assert_eq!(desk.read(name), before, "{name} has been changed");
         let after = desk.read("fixed.dxf");
-        let (old, new): (Vec<_>, Vec<_>) = (before.split(|&byte| byte == b'\n').collect(), after.split(|&byte| byte == b'\n').collect());
+        let (old, new): (Vec<_>, Vec<_>) = (
+            before.split(|&byte| byte == b'\n').collect(),
+            after.split(|&byte| byte == b'\n').collect(),
+        );
         assert_eq!(old.len(), new.len(), "{name}");
         let changed: Vec<_> = old.iter().zip(&new).filter(|(a, b)| a != b).collect();
         assert_eq!(changed.len(), lines, "{name}: {changed:?}");
-        assert!(changed.iter().all(|(a, b)| a.ends_with(b"\r") == b.ends_with(b"\r")), "{name}");
+        assert!(
+            changed
+                .iter()
+                .all(|(a, b)| a.ends_with(b"\r") == b.ends_with(b"\r")),
+            "{name}"
+        );
         check(&desk, "check fixed.dxf", 0, &["nothing found"]);
     }
 }
@@ -360,11 +668,21 @@ fn a_fix_changes_its_numbers_and_no_other_byte() {
 fn repairs_of_every_rule_are_said() {
     let desk = Desk::new();
     let text = String::from_utf8(desk.read("tight.dxf")).unwrap();
-    let circles: String =
-        ["2B", "2C"].iter().map(|handle| format!("  0\nCIRCLE\n  5\n{handle}\n  8\nDIE\n 10\n50\n 20\n0\n 40\n3\n")).collect();
+    let circles: String = ["2B", "2C"]
+        .iter()
+        .map(|handle| format!("  0\nCIRCLE\n  5\n{handle}\n  8\nDIE\n 10\n50\n 20\n0\n 40\n3\n"))
+        .collect();
     let end = text.rfind("  0\nENDSEC").unwrap();
-    desk.write("doubled.dxf", format!("{}{circles}{}", &text[..end], &text[end..]));
-    check(&desk, "fix doubled.dxf -o fixed.dxf", 0, &["!doubled.dxf: 1 arc, 1 double repaired in 2 rounds"]);
+    desk.write(
+        "doubled.dxf",
+        format!("{}{circles}{}", &text[..end], &text[end..]),
+    );
+    check(
+        &desk,
+        "fix doubled.dxf -o fixed.dxf",
+        0,
+        &["!doubled.dxf: 1 arc, 1 double repaired in 2 rounds"],
+    );
     check(&desk, "check fixed.dxf", 0, &["nothing found"]);
 }
 
@@ -374,25 +692,74 @@ fn what_cannot_be_repaired_is_said_and_the_rest_is_repaired() {
     let desk = Desk::new();
     let text = String::from_utf8(desk.read("tight.dxf")).unwrap();
     // A line is missing just before the second of two circles: how the text goes on there is told from the circle's lines.
-    let circle = |handle: &str| format!("  0\nCIRCLE\n  5\n{handle}\n  8\nDIE\n 10\n50\n 20\n0\n 40\n3\n");
+    let circle =
+        |handle: &str| format!("  0\nCIRCLE\n  5\n{handle}\n  8\nDIE\n 10\n50\n 20\n0\n 40\n3\n");
     let damaged = "  0\nLINE\n  5\n2D\n  8\nDIE\n 10\n1\n 20\n2\n 11\n3\n 21\n";
     let end = text.rfind("  0\nENDSEC").unwrap();
-    desk.write("both.dxf", format!("{}{}{damaged}{}{}", &text[..end], circle("2B"), circle("2C"), &text[end..]));
-    check(&desk, "fix both.dxf -o fixed.dxf", 1, &["!1 arc repaired", "!not repaired: both.dxf:", "!which is damaged: mend that first"]);
+    desk.write(
+        "both.dxf",
+        format!(
+            "{}{}{damaged}{}{}",
+            &text[..end],
+            circle("2B"),
+            circle("2C"),
+            &text[end..]
+        ),
+    );
+    check(
+        &desk,
+        "fix both.dxf -o fixed.dxf",
+        1,
+        &[
+            "!1 arc repaired",
+            "!not repaired: both.dxf:",
+            "!which is damaged: mend that first",
+        ],
+    );
     check(&desk, "inspect fixed.dxf --output json", 1, &["0.101"]);
-    check(&desk, "fix fixed.dxf -o again.dxf", 1, &["!nothing could be repaired safely", "!not repaired: fixed.dxf:"]);
+    check(
+        &desk,
+        "fix fixed.dxf -o again.dxf",
+        1,
+        &[
+            "!nothing could be repaired safely",
+            "!not repaired: fixed.dxf:",
+        ],
+    );
 }
 
 #[test]
 fn a_fix_in_place_writes_what_a_fix_beside_writes() {
     let desk = Desk::new();
-    check(&desk, "fix code_page.dxf -o beside.dxf", 0, &["!1 arc repaired"]);
-    let printed = desk.command("fix code_page.dxf -o -").output().unwrap().stdout;
-    check(&desk, "fix code_page.dxf --in-place", 0, &["!1 arc repaired"]);
+    check(
+        &desk,
+        "fix code_page.dxf -o beside.dxf",
+        0,
+        &["!1 arc repaired"],
+    );
+    let printed = desk
+        .command("fix code_page.dxf -o -")
+        .output()
+        .unwrap()
+        .stdout;
+    check(
+        &desk,
+        "fix code_page.dxf --in-place",
+        0,
+        &["!1 arc repaired"],
+    );
     assert_eq!(desk.read("code_page.dxf"), desk.read("beside.dxf"));
     assert_eq!(printed, desk.read("beside.dxf"));
-    let names: Vec<_> = std::fs::read_dir(desk.0.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert!(names.iter().all(|name| !name.to_string_lossy().starts_with(".wedm")), "{names:?}");
+    let names: Vec<_> = std::fs::read_dir(desk.0.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    assert!(
+        names
+            .iter()
+            .all(|name| !name.to_string_lossy().starts_with(".wedm")),
+        "{names:?}"
+    );
 }
 
 #[cfg(unix)]
@@ -400,40 +767,107 @@ fn a_fix_in_place_writes_what_a_fix_beside_writes() {
 fn a_fix_in_place_keeps_permissions_and_links() {
     use std::os::unix::fs::PermissionsExt;
     let desk = Desk::new();
-    std::fs::set_permissions(desk.path("tight.dxf"), std::fs::Permissions::from_mode(0o640)).unwrap();
+    std::fs::set_permissions(
+        desk.path("tight.dxf"),
+        std::fs::Permissions::from_mode(0o640),
+    )
+    .unwrap();
     std::os::unix::fs::symlink("tight.dxf", desk.path("link.dxf")).unwrap();
     check(&desk, "fix link.dxf --in-place", 0, &["!1 arc repaired"]);
-    assert!(std::fs::symlink_metadata(desk.path("link.dxf")).unwrap().is_symlink());
-    assert_eq!(std::fs::metadata(desk.path("tight.dxf")).unwrap().permissions().mode() & 0o777, 0o640);
+    assert!(
+        std::fs::symlink_metadata(desk.path("link.dxf"))
+            .unwrap()
+            .is_symlink()
+    );
+    assert_eq!(
+        std::fs::metadata(desk.path("tight.dxf"))
+            .unwrap()
+            .permissions()
+            .mode()
+            & 0o777,
+        0o640
+    );
     check(&desk, "check tight.dxf", 0, &[]);
 }
 
 #[test]
 fn a_program_decodes_to_where_it_began_and_lands_in_its_file() {
     let desk = Desk::new();
-    check(&desk, "generate clean.dxf --side opening -o clean.3b", 0, &["!written clean.3b", "!1 contour"]);
+    check(
+        &desk,
+        "generate clean.dxf --side opening -o clean.3b",
+        0,
+        &["!written clean.3b", "!1 contour"],
+    );
     let program = String::from_utf8(desk.read("clean.3b")).unwrap();
-    assert!(program.lines().all(|line| line == "DD" || line.starts_with('B')), "{program}");
+    assert!(
+        program
+            .lines()
+            .all(|line| line == "DD" || line.starts_with('B')),
+        "{program}"
+    );
     check(&desk, "check clean.3b", 0, &["nothing found"]);
-    check(&desk, "generate tight.dxf --side opening --correction 0.07", 0, &["DD"]);
-    check(&desk, "generate tight.dxf --side opening --force", 0, &["DD"]);
+    check(
+        &desk,
+        "generate tight.dxf --side opening --correction 0.07",
+        0,
+        &["DD"],
+    );
+    check(
+        &desk,
+        "generate tight.dxf --side opening --force",
+        0,
+        &["DD"],
+    );
 }
 
 /// Errors of contours that are not cut do not stand in the way of those that are.
 #[test]
 fn only_what_is_cut_refuses_a_program() {
     let desk = Desk::new();
-    let hole = |handle: &str, x: f64, radius: f64| format!("0\nCIRCLE\n5\n{handle}\n8\n0\n10\n{x}\n20\n0\n40\n{radius}\n");
-    let holes = [hole("2A", 0.0, 5.0), hole("2B", 20.0, 0.05), hole("2C", 30.0, 0.1)].concat();
+    let hole = |handle: &str, x: f64, radius: f64| {
+        format!("0\nCIRCLE\n5\n{handle}\n8\n0\n10\n{x}\n20\n0\n40\n{radius}\n")
+    };
+    let holes = [
+        hole("2A", 0.0, 5.0),
+        hole("2B", 20.0, 0.05),
+        hole("2C", 30.0, 0.1),
+    ]
+    .concat();
     desk.write(
         "holes.dxf",
         format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{holes}0\nENDSEC\n0\nEOF\n"),
     );
-    check(&desk, "generate holes.dxf --side opening", 1, &["!error[small-radius]", "!has 1 error"]);
-    check(&desk, "generate holes.dxf --side opening --handle 2B", 1, &["!error[small-radius]"]);
-    check(&desk, "generate holes.dxf --side opening --handle 2A", 0, &["DD", "!1 contour"]);
-    check(&desk, "generate holes.dxf --side opening --handle 2C --handle 2A", 0, &["D\n", "!warning[offset-collapse]", "!2 contours"]);
-    check(&desk, "check holes.dxf --side opening", 1, &["warning[offset-collapse]", "1 error"]);
+    check(
+        &desk,
+        "generate holes.dxf --side opening",
+        1,
+        &["!error[small-radius]", "!has 1 error"],
+    );
+    check(
+        &desk,
+        "generate holes.dxf --side opening --handle 2B",
+        1,
+        &["!error[small-radius]"],
+    );
+    check(
+        &desk,
+        "generate holes.dxf --side opening --handle 2A",
+        0,
+        &["DD", "!1 contour"],
+    );
+    check(
+        &desk,
+        "generate holes.dxf --side opening --handle 2C --handle 2A",
+        0,
+        &["D\n", "!warning[offset-collapse]", "!2 contours"],
+    );
+    check(
+        &desk,
+        "check holes.dxf --side opening",
+        1,
+        &["warning[offset-collapse]", "1 error"],
+    );
 }
 
 #[test]
@@ -443,24 +877,58 @@ fn settings_come_from_the_project_then_the_option_file_then_the_options() {
     desk.write("job/wedm.toml", "correction = 0.05\n");
     desk.write("fine.toml", "correction = 0.2\n");
     check(&desk, "check job/deep/tight.dxf", 0, &["nothing found"]);
-    check(&desk, "check job/deep/tight.dxf --config fine.toml", 1, &["the correction 0.200 mm"]);
-    check(&desk, "check job/deep/tight.dxf --config fine.toml --correction 0.3", 1, &["the correction 0.300 mm"]);
+    check(
+        &desk,
+        "check job/deep/tight.dxf --config fine.toml",
+        1,
+        &["the correction 0.200 mm"],
+    );
+    check(
+        &desk,
+        "check job/deep/tight.dxf --config fine.toml --correction 0.3",
+        1,
+        &["the correction 0.300 mm"],
+    );
 }
 
 #[test]
 fn a_fault_in_the_settings_is_a_finding_in_them() {
     let desk = Desk::new();
-    for (toml, line) in [("side = \"both\"\ncorrection = \"thick\"\n", 2), ("correction = \n", 1), ("corection = 0.1\n", 1)] {
+    for (toml, line) in [
+        ("side = \"both\"\ncorrection = \"thick\"\n", 2),
+        ("correction = \n", 1),
+        ("corection = 0.1\n", 1),
+    ] {
         desk.write("job/wedm.toml", toml);
         desk.write("job/clean.dxf", desk.read("clean.dxf"));
         desk.write("job/again.dxf", desk.read("clean.dxf"));
-        check(&desk, "check job", 1, &["error[settings]", "wedm.toml:", "2 files checked: 1 error"]);
+        check(
+            &desk,
+            "check job",
+            1,
+            &["error[settings]", "wedm.toml:", "2 files checked: 1 error"],
+        );
         let json = desk.run("check job/clean.dxf --output json").json();
         assert_eq!(json["diagnostics"][0]["line"], line, "{json}");
-        assert!(json["diagnostics"][0]["path"].as_str().unwrap().ends_with("wedm.toml"));
+        assert!(
+            json["diagnostics"][0]["path"]
+                .as_str()
+                .unwrap()
+                .ends_with("wedm.toml")
+        );
         // Nothing is made with settings that may not be those that were meant.
-        check(&desk, "generate job/clean.dxf --side opening", 2, &["!error[settings]", "!settings that do not fit"]);
-        check(&desk, "fix job/clean.dxf --diff", 2, &["!settings that do not fit"]);
+        check(
+            &desk,
+            "generate job/clean.dxf --side opening",
+            2,
+            &["!error[settings]", "!settings that do not fit"],
+        );
+        check(
+            &desk,
+            "fix job/clean.dxf --diff",
+            2,
+            &["!settings that do not fit"],
+        );
     }
 }
 
@@ -483,23 +951,55 @@ fn a_folder_that_cannot_be_read_is_named() {
 #[test]
 fn a_target_that_cannot_be_written_is_named_and_nothing_is_left_behind() {
     let desk = Desk::new();
-    check(&desk, "fix tight.dxf -o no/such/folder/out.dxf", 2, &["!no/such/folder/out.dxf could not be written"]);
+    check(
+        &desk,
+        "fix tight.dxf -o no/such/folder/out.dxf",
+        2,
+        &["!no/such/folder/out.dxf could not be written"],
+    );
     desk.write("folder/x", "");
-    check(&desk, "fix tight.dxf -o folder", 2, &["!folder could not be written"]);
+    check(
+        &desk,
+        "fix tight.dxf -o folder",
+        2,
+        &["!folder could not be written"],
+    );
 }
 
 /// A reader that goes away is no reason to panic.
 #[test]
 fn stdout_may_close_early() {
     let desk = Desk::new();
-    for arguments in ["check tight.dxf --output sarif", "inspect tight.dxf", "draw tight.dxf", "completions bash", "fix tight.dxf -o -"] {
-        let mut child = desk.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    for arguments in [
+        "check tight.dxf --output sarif",
+        "inspect tight.dxf",
+        "draw tight.dxf",
+        "completions bash",
+        "fix tight.dxf -o -",
+    ] {
+        let mut child = desk
+            .command(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
         drop(child.stdout.take());
         let mut stderr = String::new();
-        child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+        child
+            .stderr
+            .take()
+            .unwrap()
+            .read_to_string(&mut stderr)
+            .unwrap();
         let status = child.wait().unwrap();
-        assert!(matches!(status.code(), Some(0 | 1)), "wedm {arguments}: {status}");
-        assert!(!stderr.contains("panicked") && !stderr.contains("pipe"), "wedm {arguments}: {stderr}");
+        assert!(
+            matches!(status.code(), Some(0 | 1)),
+            "wedm {arguments}: {status}"
+        );
+        assert!(
+            !stderr.contains("panicked") && !stderr.contains("pipe"),
+            "wedm {arguments}: {stderr}"
+        );
     }
 }
 
@@ -507,21 +1007,41 @@ fn stdout_may_close_early() {
 #[test]
 fn a_full_disk_is_an_error() {
     let desk = Desk::new();
-    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
-    let ended = Ended::of(desk.command("draw tight.dxf").stdout(full).output().unwrap());
+    let full = std::fs::File::options()
+        .write(true)
+        .open("/dev/full")
+        .unwrap();
+    let ended = Ended::of(
+        desk.command("draw tight.dxf")
+            .stdout(full)
+            .output()
+            .unwrap(),
+    );
     assert_eq!(ended.code, Some(2), "{ended:?}");
-    assert!(ended.stderr.contains("stdout could not be written"), "{ended:?}");
+    assert!(
+        ended.stderr.contains("stdout could not be written"),
+        "{ended:?}"
+    );
 }
 
 #[test]
 fn a_picture_is_well_formed_enough_to_be_shown() {
     let desk = Desk::new();
-    check(&desk, "draw narrow.dxf -o narrow.svg", 0, &["!drawn without the path of the wire"]);
+    check(
+        &desk,
+        "draw narrow.dxf -o narrow.svg",
+        0,
+        &["!drawn without the path of the wire"],
+    );
     let picture = String::from_utf8(desk.read("narrow.svg")).unwrap();
     assert!(picture.starts_with("<svg xmlns=") && picture.ends_with("</svg>\n"));
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
     check(&desk, "draw clean.dxf --side opening -o clean.svg", 0, &[]);
-    assert!(String::from_utf8(desk.read("clean.svg")).unwrap().contains("class=\"wire\""));
+    assert!(
+        String::from_utf8(desk.read("clean.svg"))
+            .unwrap()
+            .contains("class=\"wire\"")
+    );
 }
 
 /// `UPDATE_EXPECT=1 cargo test --test cli` makes the pictures anew.
@@ -530,9 +1050,19 @@ fn the_pictures_of_the_documentation_are_current() {
     let desk = Desk::new();
     let drawing = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures/small-radius.dxf");
     desk.write("small-radius.dxf", std::fs::read(drawing).unwrap());
-    check(&desk, "check small-radius.dxf --side opening", 1, &["3 errors"]);
+    check(
+        &desk,
+        "check small-radius.dxf --side opening",
+        1,
+        &["3 errors"],
+    );
     let faulty = desk.run("draw small-radius.dxf --side opening").stdout;
-    check(&desk, "fix small-radius.dxf --side opening --in-place", 0, &["!3 arcs repaired"]);
+    check(
+        &desk,
+        "fix small-radius.dxf --side opening --in-place",
+        0,
+        &["!3 arcs repaired"],
+    );
     let fixed = desk.run("draw small-radius.dxf --side opening").stdout;
     expect_test::expect_file!["../docs/pictures/small-radius.svg"].assert_eq(&faulty);
     expect_test::expect_file!["../docs/pictures/small-radius-fixed.svg"].assert_eq(&fixed);
@@ -542,8 +1072,17 @@ fn the_pictures_of_the_documentation_are_current() {
 fn a_new_drawing_holds_the_contours_and_the_path_of_the_wire() {
     let desk = Desk::new();
     check(&desk, "draw clean.dxf --side opening -o path.dxf", 0, &[]);
-    let list = desk.run("inspect path.dxf --output json --side opening").json();
-    let layers = |layer: &str| list["entities"].as_array().unwrap().iter().filter(|entity| entity["layer"] == layer).count();
+    let list = desk
+        .run("inspect path.dxf --output json --side opening")
+        .json();
+    let layers = |layer: &str| {
+        list["entities"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|entity| entity["layer"] == layer)
+            .count()
+    };
     // A lead in and out, and a piece of path for each segment and for the one that is cut in two by the entry.
     let contour = desk.run("inspect clean.dxf --output json").json();
     let segments = contour["entities"][0]["segments"].as_array().unwrap().len();
@@ -554,13 +1093,26 @@ fn a_new_drawing_holds_the_contours_and_the_path_of_the_wire() {
 #[test]
 fn one_long_line_is_formatted_as_fast_as_many_short_ones() {
     let desk = Desk::new();
-    for (ending, piece) in
-        [("3b", "D "), ("3b", "B"), ("3b", "b1000b0b1000gxl1"), ("3b", "1.5 "), ("3b", "ab B1 "), ("iso", "g01x1y1 "), ("iso", "(a)")]
-    {
-        desk.write(&format!("long.{ending}"), piece.repeat(200_000 / piece.len()));
+    for (ending, piece) in [
+        ("3b", "D "),
+        ("3b", "B"),
+        ("3b", "b1000b0b1000gxl1"),
+        ("3b", "1.5 "),
+        ("3b", "ab B1 "),
+        ("iso", "g01x1y1 "),
+        ("iso", "(a)"),
+    ] {
+        desk.write(
+            &format!("long.{ending}"),
+            piece.repeat(200_000 / piece.len()),
+        );
         let begun = std::time::Instant::now();
         let ended = desk.run(&format!("format --check --layout aligned long.{ending}"));
         assert!(matches!(ended.code, Some(0 | 1)), "{piece:?}: {ended:?}");
-        assert!(begun.elapsed() < std::time::Duration::from_secs(60), "{piece:?} took {:?}", begun.elapsed());
+        assert!(
+            begun.elapsed() < std::time::Duration::from_secs(60),
+            "{piece:?} took {:?}",
+            begun.elapsed()
+        );
     }
 }

@@ -15,9 +15,20 @@ struct Played {
 fn play(arguments: &[&str]) -> Played {
     let folder = tempfile::tempdir().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_wedm"));
-    let output = command.arg("demo").args(arguments).arg("plate").current_dir(folder.path()).stdin(Stdio::null()).output().unwrap();
+    let output = command
+        .arg("demo")
+        .args(arguments)
+        .arg("plate")
+        .current_dir(folder.path())
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{said}\n{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{said}\n{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     Played { said, folder }
 }
 
@@ -29,9 +40,20 @@ impl Played {
 
 /// The repaired plate under `correction`, read from the file that was written.
 fn document(text: &str, correction: f64) -> Document {
-    let layers = [("DIE", Role::Opening), ("HOLES", Role::Opening), ("PLATE", Role::Ignore)];
-    let layers = layers.into_iter().map(|(layer, role)| (layer.to_string(), role)).collect();
-    let settings = Settings { correction: Some(correction), layers: Some(layers), ..Settings::default() };
+    let layers = [
+        ("DIE", Role::Opening),
+        ("HOLES", Role::Opening),
+        ("PLATE", Role::Ignore),
+    ];
+    let layers = layers
+        .into_iter()
+        .map(|(layer, role)| (layer.to_string(), role))
+        .collect();
+    let settings = Settings {
+        correction: Some(correction),
+        layers: Some(layers),
+        ..Settings::default()
+    };
     let source = Source::Dxf(wedm::dxf::Document::read(text.as_bytes().to_vec()));
     Document::new(source, std::sync::Arc::new(Effective::of(&settings)))
 }
@@ -41,12 +63,24 @@ fn document(text: &str, correction: f64) -> Document {
 fn check(correction: f64, said: &[&str], not_said: &[&str]) -> Played {
     let played = play(&["--correction", &correction.to_string()]);
     for text in said {
-        assert!(played.said.contains(text), "{text:?} is not said:\n{}", played.said);
+        assert!(
+            played.said.contains(text),
+            "{text:?} is not said:\n{}",
+            played.said
+        );
     }
     for text in not_said {
-        assert!(!played.said.contains(text), "{text:?} is said:\n{}", played.said);
+        assert!(
+            !played.said.contains(text),
+            "{text:?} is said:\n{}",
+            played.said
+        );
     }
-    assert!(played.said.lines().all(|line| line.chars().count() <= 80), "more than 80 columns:\n{}", played.said);
+    assert!(
+        played.said.lines().all(|line| line.chars().count() <= 80),
+        "more than 80 columns:\n{}",
+        played.said
+    );
     assert!(!played.said.contains('\x1b'), "colours without a terminal");
 
     let (findings, _) = document(&played.file("demo.dxf"), correction).findings(usize::MAX);
@@ -54,9 +88,19 @@ fn check(correction: f64, said: &[&str], not_said: &[&str]) -> Played {
     let program = played.file("demo.3b");
     let (items, faults) = three_b::read(program.as_bytes(), &three_b::Words::default());
     assert!(faults.is_empty() && items.len() > 30, "{faults:?}");
-    assert!(three_b::Document::read(program.into_bytes()).findings().is_empty());
+    assert!(
+        three_b::Document::read(program.into_bytes())
+            .findings()
+            .is_empty()
+    );
     let picture = played.file("demo.svg");
-    for part in ["class=\"contour\"", "class=\"fault\"", "class=\"wire\"", "class=\"correction\"", "</svg>"] {
+    for part in [
+        "class=\"contour\"",
+        "class=\"fault\"",
+        "class=\"wire\"",
+        "class=\"correction\"",
+        "</svg>",
+    ] {
         assert!(picture.contains(part), "{part} is missing in the picture");
     }
     played
@@ -83,26 +127,45 @@ fn at_a_tenth_two_fillets_of_the_plate_are_too_tight() {
         ],
         &["R 0.110"],
     );
-    assert!(played.file("demo.3b").starts_with("B2900B0B2900GXL1\n"), "R3 less 0.1 begins with 2.9 mm");
+    assert!(
+        played.file("demo.3b").starts_with("B2900B0B2900GXL1\n"),
+        "R3 less 0.1 begins with 2.9 mm"
+    );
 }
 
 #[test]
 fn another_correction_gives_other_figures() {
     let played = check(
         0.12,
-        &["version 1: 3 diagnostics", "arc R 0.110 mm is below the correction 0.120 mm", "becomes R 0.108", "one of R 0.121 mm"],
+        &[
+            "version 1: 3 diagnostics",
+            "arc R 0.110 mm is below the correction 0.120 mm",
+            "becomes R 0.108",
+            "one of R 0.121 mm",
+        ],
         &["0.101", "0.100 mm"],
     );
-    assert!(played.file("demo.3b").starts_with("B2880B0B2880GXL1\n"), "R3 less 0.12 begins with 2.88 mm");
+    assert!(
+        played.file("demo.3b").starts_with("B2880B0B2880GXL1\n"),
+        "R3 less 0.12 begins with 2.88 mm"
+    );
 }
 
 #[test]
 fn the_folder_is_wedm_demo_when_none_is_named() {
     let folder = tempfile::tempdir().unwrap();
-    let status = Command::new(env!("CARGO_BIN_EXE_wedm")).arg("demo").current_dir(folder.path()).stdout(Stdio::null()).status().unwrap();
+    let status = Command::new(env!("CARGO_BIN_EXE_wedm"))
+        .arg("demo")
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .status()
+        .unwrap();
     assert!(status.success());
     for name in ["demo.dxf", "demo.3b", "demo.svg"] {
-        assert!(folder.path().join("wedm-demo").join(name).is_file(), "{name}");
+        assert!(
+            folder.path().join("wedm-demo").join(name).is_file(),
+            "{name}"
+        );
     }
 }
 
@@ -110,16 +173,37 @@ fn the_folder_is_wedm_demo_when_none_is_named() {
 #[test]
 fn a_settings_file_nearby_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("wedm.toml"), "correction = 3.0\nside = \"punch\"\n").unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_wedm")).args(["demo", "here"]).current_dir(folder.path()).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    std::fs::write(
+        folder.path().join("wedm.toml"),
+        "correction = 3.0\nside = \"punch\"\n",
+    )
+    .unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_wedm"))
+        .args(["demo", "here"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 #[test]
 fn what_the_plate_is_not_made_for_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    for arguments in [["--correction", "5"], ["--correction", "0.001"], ["--side", "punch"]] {
-        let output = Command::new(env!("CARGO_BIN_EXE_wedm")).arg("demo").args(arguments).current_dir(folder.path()).output().unwrap();
+    for arguments in [
+        ["--correction", "5"],
+        ["--correction", "0.001"],
+        ["--side", "punch"],
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_wedm"))
+            .arg("demo")
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     }
     assert!(!Path::new(&folder.path().join("wedm-demo")).exists());

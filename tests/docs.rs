@@ -14,14 +14,24 @@ fn read(path: &Path) -> String {
 }
 
 fn wedm(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_wedm")).args(arguments).current_dir(folder).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_wedm"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
 }
 
 /// README.md, CHANGELOG.md and every page of `docs`.
 fn pages() -> Vec<PathBuf> {
-    let of_docs = walkdir::WalkDir::new(root().join("docs")).sort_by_file_name().into_iter().map(|entry| entry.unwrap().into_path());
+    let of_docs = walkdir::WalkDir::new(root().join("docs"))
+        .sort_by_file_name()
+        .into_iter()
+        .map(|entry| entry.unwrap().into_path());
     let pages = of_docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
-    [root().join("README.md"), root().join("CHANGELOG.md")].into_iter().chain(pages).collect()
+    [root().join("README.md"), root().join("CHANGELOG.md")]
+        .into_iter()
+        .chain(pages)
+        .collect()
 }
 
 /// Targets of all links and pictures of a page, what stands in fenced blocks and in code left out.
@@ -34,7 +44,10 @@ fn links(page: &str) -> Vec<String> {
             continue;
         }
         let text: String = line.split('`').step_by(2).collect();
-        let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let targets = text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next());
         links.extend(targets.filter(|_| !fenced).map(str::to_owned));
     }
     links
@@ -42,9 +55,17 @@ fn links(page: &str) -> Vec<String> {
 
 /// The anchors that headings make: lower case, spaces to hyphens, punctuation dropped.
 fn anchors(page: &str) -> Vec<String> {
-    let headings = page.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim().to_lowercase());
-    let anchor =
-        |heading: String| heading.chars().filter(|c| c.is_alphanumeric() || *c == ' ' || *c == '-').collect::<String>().replace(' ', "-");
+    let headings = page
+        .lines()
+        .filter(|line| line.starts_with('#'))
+        .map(|line| line.trim_start_matches('#').trim().to_lowercase());
+    let anchor = |heading: String| {
+        heading
+            .chars()
+            .filter(|c| c.is_alphanumeric() || *c == ' ' || *c == '-')
+            .collect::<String>()
+            .replace(' ', "-")
+    };
     headings.map(anchor).collect()
 }
 
@@ -52,8 +73,17 @@ fn anchors(page: &str) -> Vec<String> {
 fn every_rule_has_its_page() {
     for rule in Rule::ALL {
         let page = read(&root().join(format!("docs/rules/{}.md", rule.name())));
-        assert!(page.starts_with(&format!("# {}\n", rule.name())), "{}", rule.name());
-        for heading in ["## What it does", "## Why it matters for the cut", "## Example", "## Settings"] {
+        assert!(
+            page.starts_with(&format!("# {}\n", rule.name())),
+            "{}",
+            rule.name()
+        );
+        for heading in [
+            "## What it does",
+            "## Why it matters for the cut",
+            "## Example",
+            "## Settings",
+        ] {
             assert!(page.contains(heading), "{}: no {heading:?}", rule.name());
         }
     }
@@ -81,12 +111,33 @@ fn every_rule_of_drawings_has_a_picture_that_shows_it() {
     ];
     for name in of_drawings.map(Rule::name) {
         let page = read(&root().join(format!("docs/rules/{name}.md")));
-        assert!(page.contains(&format!("](../pictures/{name}.svg)")), "the page of {name} shows no picture");
+        assert!(
+            page.contains(&format!("](../pictures/{name}.svg)")),
+            "the page of {name} shows no picture"
+        );
         let drawing = root().join(format!("docs/pictures/{name}.dxf"));
-        let output = wedm(&root(), &["check", drawing.to_str().unwrap(), "--side", "opening", "--output", "json"]);
+        let output = wedm(
+            &root(),
+            &[
+                "check",
+                drawing.to_str().unwrap(),
+                "--side",
+                "opening",
+                "--output",
+                "json",
+            ],
+        );
         let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let rules: Vec<&str> = found["diagnostics"].as_array().unwrap().iter().filter_map(|row| row["rule"].as_str()).collect();
-        assert!(rules.contains(&name), "{name} is not found in its own picture: {rules:?}");
+        let rules: Vec<&str> = found["diagnostics"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(|row| row["rule"].as_str())
+            .collect();
+        assert!(
+            rules.contains(&name),
+            "{name} is not found in its own picture: {rules:?}"
+        );
     }
 }
 
@@ -96,9 +147,14 @@ fn every_relative_link_leads_somewhere() {
         let page = read(&path);
         for link in links(&page).iter().filter(|link| !link.contains("://")) {
             let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
-            let target = if file.is_empty() { path.clone() } else { path.parent().unwrap().join(file) };
+            let target = if file.is_empty() {
+                path.clone()
+            } else {
+                path.parent().unwrap().join(file)
+            };
             assert!(target.exists(), "{}: {link} leads nowhere", path.display());
-            let known = anchor.is_empty() || anchors(&read(&target)).iter().any(|known| known == anchor);
+            let known =
+                anchor.is_empty() || anchors(&read(&target)).iter().any(|known| known == anchor);
             assert!(known, "{}: {link} names no heading", path.display());
         }
     }
@@ -120,10 +176,18 @@ fn commands(page: &str) -> Vec<Shown> {
         } else if within && line == "$ echo $?" {
             asks_for_code = true;
         } else if within && let Some(command) = line.strip_prefix("$ ") {
-            commands.push(Shown { command: command.into(), lines: Vec::new(), code: 0 });
+            commands.push(Shown {
+                command: command.into(),
+                lines: Vec::new(),
+                code: 0,
+            });
         } else if within && let Some(last) = commands.last_mut() {
             match std::mem::take(&mut asks_for_code) {
-                true => last.code = line.parse().unwrap_or_else(|_| panic!("{line:?} is no exit code")),
+                true => {
+                    last.code = line
+                        .parse()
+                        .unwrap_or_else(|_| panic!("{line:?} is no exit code"))
+                }
                 false => last.lines.push(line.to_owned()),
             }
         }
@@ -134,13 +198,19 @@ fn commands(page: &str) -> Vec<Shown> {
 /// True when `line` is what is shown, in which `...` stands for anything.
 fn is_shown(shown: &str, line: &str) -> bool {
     let parts: Vec<&str> = shown.split("...").collect();
-    let (Some(first), Some(last)) = (parts.first(), parts.last()) else { return false };
-    let Some(mut rest) = line.strip_prefix(first) else { return false };
+    let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
+        return false;
+    };
+    let Some(mut rest) = line.strip_prefix(first) else {
+        return false;
+    };
     if parts.len() == 1 {
         return rest.is_empty();
     }
     for part in &parts[1..parts.len() - 1] {
-        let Some(at) = rest.find(part) else { return false };
+        let Some(at) = rest.find(part) else {
+            return false;
+        };
         rest = &rest[at + part.len()..];
     }
     rest.ends_with(last)
@@ -159,16 +229,30 @@ fn the_commands_of_the_readme_do_what_it_shows() {
     }
     let shown = commands(&read(&root().join("README.md")));
     let ours = shown.iter().filter_map(|shown| {
-        let arguments = shown.command.strip_prefix("wedm ").or_else(|| shown.command.strip_prefix("cargo run --release -- "))?;
+        let arguments = shown
+            .command
+            .strip_prefix("wedm ")
+            .or_else(|| shown.command.strip_prefix("cargo run --release -- "))?;
         Some((shown, arguments.split_whitespace().collect::<Vec<_>>()))
     });
     let mut count = 0;
     for (shown, arguments) in ours {
         let output = wedm(folder.path(), &arguments);
-        let printed = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
-        assert_eq!(output.status.code(), Some(shown.code), "{}: {printed}", shown.command);
+        let printed = [output.stdout, output.stderr]
+            .map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+            .concat();
+        assert_eq!(
+            output.status.code(),
+            Some(shown.code),
+            "{}: {printed}",
+            shown.command
+        );
         for line in &shown.lines {
-            assert!(printed.lines().any(|other| is_shown(line, other)), "{}: no line {line:?} in\n{printed}", shown.command);
+            assert!(
+                printed.lines().any(|other| is_shown(line, other)),
+                "{}: no line {line:?} in\n{printed}",
+                shown.command
+            );
         }
         count += 1;
     }
@@ -182,7 +266,10 @@ fn check_picture(name: &str, drawn: &str) {
     if std::env::var_os("UPDATE_EXPECT").is_some() {
         std::fs::write(&path, drawn).unwrap();
     }
-    assert!(read(&path) == drawn, "docs/pictures/{name} is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs");
+    assert!(
+        read(&path) == drawn,
+        "docs/pictures/{name} is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+    );
 }
 
 #[test]
@@ -192,9 +279,15 @@ fn the_pictures_are_what_the_program_draws() {
     for entry in std::fs::read_dir(&pictures).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|ending| ending == "dxf") {
-            let output = wedm(folder.path(), &["draw", path.to_str().unwrap(), "--side", "opening"]);
+            let output = wedm(
+                folder.path(),
+                &["draw", path.to_str().unwrap(), "--side", "opening"],
+            );
             let name = path.with_extension("svg");
-            check_picture(name.file_name().unwrap().to_str().unwrap(), &String::from_utf8(output.stdout).unwrap());
+            check_picture(
+                name.file_name().unwrap().to_str().unwrap(),
+                &String::from_utf8(output.stdout).unwrap(),
+            );
         }
     }
     assert!(wedm(folder.path(), &["demo", "."]).status.success());
@@ -205,12 +298,32 @@ fn the_pictures_are_what_the_program_draws() {
 fn the_readme_says_what_each_dependency_is_for() {
     let readme = read(&root().join("README.md"));
     let (_, table) = readme.split_once("## What each dependency is for").unwrap();
-    let named: Vec<&str> = table.lines().filter_map(|line| line.strip_prefix("| ")?.split(" |").next()).collect();
-    let named: Vec<&str> = named.iter().flat_map(|cell| cell.trim_start_matches("*for tests:* ").split(", ")).collect();
+    let named: Vec<&str> = table
+        .lines()
+        .filter_map(|line| line.strip_prefix("| ")?.split(" |").next())
+        .collect();
+    let named: Vec<&str> = named
+        .iter()
+        .flat_map(|cell| cell.trim_start_matches("*for tests:* ").split(", "))
+        .collect();
     let manifest: toml::Table = read(&root().join("Cargo.toml")).parse().unwrap();
-    let of = |table: &toml::Value| table.as_table().unwrap().keys().cloned().collect::<Vec<_>>();
+    let of = |table: &toml::Value| {
+        table
+            .as_table()
+            .unwrap()
+            .keys()
+            .cloned()
+            .collect::<Vec<_>>()
+    };
     let unix = &manifest["target"]["cfg(unix)"]["dependencies"];
-    for name in [&manifest["dependencies"], unix, &manifest["dev-dependencies"]].into_iter().flat_map(of) {
+    for name in [
+        &manifest["dependencies"],
+        unix,
+        &manifest["dev-dependencies"],
+    ]
+    .into_iter()
+    .flat_map(of)
+    {
         assert!(named.contains(&name.as_str()), "{name} is not in the table");
     }
 }
@@ -219,7 +332,11 @@ fn the_readme_says_what_each_dependency_is_for() {
 #[test]
 fn the_settings_of_the_readme_are_the_defaults() {
     let readme = read(&root().join("README.md"));
-    let example = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let example = readme
+        .split("```toml\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next())
+        .unwrap();
     let mut settings = String::new();
     let mut in_example = false;
     for line in example.lines() {
@@ -235,15 +352,30 @@ fn the_settings_of_the_readme_are_the_defaults() {
     assert!(all.layers.is_some() && all.passes.is_some());
     let (defaults, _) = wedm::settings::from_toml(&settings);
     // That a layout is set counts, whichever it is: programs are formatted to it.
-    let shown = wedm::settings::Effective { stated_layout: None, ..wedm::settings::Effective::of(&defaults) };
+    let shown = wedm::settings::Effective {
+        stated_layout: None,
+        ..wedm::settings::Effective::of(&defaults)
+    };
     assert_eq!(shown, wedm::settings::Effective::default());
     // A rule that is set is no milder anywhere, so the defaults of the rules stand in comments.
     let (_, rules) = example.split_once("[rules]").unwrap();
-    let shown: Vec<&str> = rules.lines().filter_map(|line| line.strip_prefix("# ")?.split_once(" =")).map(|(name, _)| name).collect();
+    let shown: Vec<&str> = rules
+        .lines()
+        .filter_map(|line| line.strip_prefix("# ")?.split_once(" ="))
+        .map(|(name, _)| name)
+        .collect();
     for rule in Rule::ALL.into_iter().filter(|rule| *rule != Rule::Settings) {
         let severity = format!("{:?}", rule.default_severity()).to_lowercase();
         let line = format!("# {} = \"{severity}\"", rule.name());
-        assert!(rules.lines().any(|shown| shown.starts_with(&line)), "no {line:?}");
-        assert_eq!(shown.iter().filter(|name| **name == rule.name()).count(), 1, "{}", rule.name());
+        assert!(
+            rules.lines().any(|shown| shown.starts_with(&line)),
+            "no {line:?}"
+        );
+        assert_eq!(
+            shown.iter().filter(|name| **name == rule.name()).count(),
+            1,
+            "{}",
+            rule.name()
+        );
     }
 }

@@ -54,9 +54,19 @@ impl Tally {
     }
 
     fn row(&self, name: &str) -> String {
-        let share = |count: usize| format!("{} %", (100 * count + self.faults / 2) / self.faults.max(1));
-        let Tally { faults, right, untouched, plausible, wrong, .. } = self;
-        let shares = [self.found, self.right_line, self.first_fix].map(share).join(" | ");
+        let share =
+            |count: usize| format!("{} %", (100 * count + self.faults / 2) / self.faults.max(1));
+        let Tally {
+            faults,
+            right,
+            untouched,
+            plausible,
+            wrong,
+            ..
+        } = self;
+        let shares = [self.found, self.right_line, self.first_fix]
+            .map(share)
+            .join(" | ");
         format!("| {name} | {faults} | {shares} | {right} | {untouched} | {plausible} | {wrong} |")
     }
 }
@@ -69,25 +79,39 @@ fn run(group: Group, seed: u64, programs: usize, each: &mut dyn FnMut(&str, &Fau
         if taken == programs {
             break;
         }
-        let Some(sound) = program(group, &mut chance) else { continue };
+        let Some(sound) = program(group, &mut chance) else {
+            continue;
+        };
         let findings = judge::findings(&mut judge::read(group, &sound));
         if !findings.is_empty() {
             continue;
         }
         taken += 1;
         for kind in kinds(group) {
-            let Some(faulty) = inject(group, kind, &sound, &mut chance) else { continue };
+            let Some(faulty) = inject(group, kind, &sound, &mut chance) else {
+                continue;
+            };
             if let Some(verdict) = judge(group, &sound, &faulty) {
                 each(&sound, &faulty, &verdict);
             }
         }
     }
-    assert!(taken > programs / 2, "{}: {taken} of {programs} programs are sound", group.name());
+    assert!(
+        taken > programs / 2,
+        "{}: {taken} of {programs} programs are sound",
+        group.name()
+    );
 }
 
 fn shown(group: Group, sound: &str, faulty: &Faulty, verdict: &Verdict) -> String {
     let lines: Vec<usize> = faulty.lines.iter().map(|line| line + 1).collect();
-    let Verdict { outcome, said, first, left, .. } = verdict;
+    let Verdict {
+        outcome,
+        said,
+        first,
+        left,
+        ..
+    } = verdict;
     format!(
         "--- {}: {}, line {lines:?}: {outcome:?}\nsaid {said:#?}\nfirst fix {first:?}\n{}\n--- left\n{left}\n--- of\n{sound}",
         group.name(),
@@ -107,14 +131,21 @@ fn fix_all_spoils_no_program() {
             }
         });
     }
-    assert!(failures.is_empty(), "{} faults were made worse:\n{}", failures.len(), failures.join("\n"));
+    assert!(
+        failures.is_empty(),
+        "{} faults were made worse:\n{}",
+        failures.len(),
+        failures.join("\n")
+    );
 }
 
 #[test]
 #[ignore = "makes the table of docs/programs.md"]
 fn table() {
     let wanted = std::env::var("WEDM_FAULTS").unwrap_or_default();
-    let mut wanted = wanted.split(',').map(|number| number.trim().parse::<u64>().ok());
+    let mut wanted = wanted
+        .split(',')
+        .map(|number| number.trim().parse::<u64>().ok());
     let seed = wanted.next().flatten().unwrap_or(2026);
     let programs = wanted.next().flatten().map_or(40, |count| count as usize);
     let show = std::env::var("WEDM_FAULTS_SHOW").ok();
@@ -126,7 +157,10 @@ fn table() {
     let mut details = String::new();
     let mut cases = String::new();
     for group in Group::ALL {
-        if groups.as_ref().is_some_and(|wanted| !group.name().contains(wanted.as_str())) {
+        if groups
+            .as_ref()
+            .is_some_and(|wanted| !group.name().contains(wanted.as_str()))
+        {
             continue;
         }
         let mut all = Tally::default();
@@ -139,16 +173,24 @@ fn table() {
                 group.name(),
                 faulty.kind,
                 verdict.outcome,
-                if verdict.first_fix { "first" } else { "not first" }
+                if verdict.first_fix {
+                    "first"
+                } else {
+                    "not first"
+                }
             );
-            if show.as_ref().is_some_and(|show| label.contains(show.as_str())) {
+            if show
+                .as_ref()
+                .is_some_and(|show| label.contains(show.as_str()))
+            {
                 cases += &format!("{label}\n{}\n", shown(group, sound, faulty, verdict));
             }
         });
         println!("{}", all.row(group.name()));
         for kind in kinds(group) {
-            details +=
-                &by_kind.get(kind).map_or_else(String::new, |tally| format!("{}\n", tally.row(&format!("{}: {kind}", group.name()))));
+            details += &by_kind.get(kind).map_or_else(String::new, |tally| {
+                format!("{}\n", tally.row(&format!("{}: {kind}", group.name())))
+            });
         }
     }
     println!("\n{details}\n{cases}");

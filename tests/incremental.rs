@@ -5,7 +5,9 @@ use std::fmt::Write;
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::document::{Document, Source};
-use wedm::drawing::{Chains, Contour, Delta, Drawing, Entity, EntityId, Geometry, Role, Touched, Vertex};
+use wedm::drawing::{
+    Chains, Contour, Delta, Drawing, Entity, EntityId, Geometry, Role, Touched, Vertex,
+};
 use wedm::dxf;
 use wedm::finding::Place;
 use wedm::geometry::Point;
@@ -21,12 +23,17 @@ enum Edit {
 
 /// Points of a coarse grid, so that ends often coincide and nodes branch; now and then a little off.
 fn point() -> impl Strategy<Value = Point> {
-    (0..4i32, 0..4i32, prop_oneof![8 => Just(0.0), 1 => Just(0.004), 1 => Just(0.02)])
+    (
+        0..4i32,
+        0..4i32,
+        prop_oneof![8 => Just(0.0), 1 => Just(0.004), 1 => Just(0.02)],
+    )
         .prop_map(|(x, y, off)| Point::new(f64::from(x) + off, f64::from(y)))
 }
 
 fn vertex() -> impl Strategy<Value = Vertex> {
-    (point(), prop_oneof![2 => Just(0.0), 1 => -1.5..1.5f64]).prop_map(|(point, bulge)| Vertex { point, bulge })
+    (point(), prop_oneof![2 => Just(0.0), 1 => -1.5..1.5f64])
+        .prop_map(|(point, bulge)| Vertex { point, bulge })
 }
 
 fn geometry() -> impl Strategy<Value = Geometry> {
@@ -56,11 +63,19 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
-    Entity { handle: "A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::Line, geometry }
+    Entity {
+        handle: "A".into(),
+        layer: "0".into(),
+        role,
+        kind: wedm::drawing::Kind::Line,
+        geometry,
+    }
 }
 
 fn apply(drawing: &mut Drawing, edit: &Edit) -> Option<Touched> {
-    let pick = |drawing: &Drawing, at: usize| (!drawing.is_empty()).then(|| drawing.order()[at % drawing.len()]);
+    let pick = |drawing: &Drawing, at: usize| {
+        (!drawing.is_empty()).then(|| drawing.order()[at % drawing.len()])
+    };
     match edit {
         Edit::Add(at, geometry, role) => {
             let position = at % (drawing.len() + 1);
@@ -77,13 +92,18 @@ fn apply(drawing: &mut Drawing, edit: &Edit) -> Option<Touched> {
             drawing.remove(id);
             Some(Touched::Removed { entity: id })
         }
-        Edit::Splice(at, start, count, insert) => drawing.splice(pick(drawing, *at)?, *start, *count, insert).ok(),
+        Edit::Splice(at, start, count, insert) => drawing
+            .splice(pick(drawing, *at)?, *start, *count, insert)
+            .ok(),
     }
 }
 
 /// Number of cases: `usual`, unless the environment asks for another one (`PROPTEST_CASES`).
 fn cases(usual: u32) -> u32 {
-    std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok()).unwrap_or(usual)
+    std::env::var("PROPTEST_CASES")
+        .ok()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(usual)
 }
 
 /// A place on a circle of many chords: now and then a little off it, or where the next chord is a different one.
@@ -95,8 +115,12 @@ fn on_circle(at: usize, off: f64) -> Vertex {
 /// Chords in a row from a place on.
 fn chords(most: usize) -> impl Strategy<Value = Vec<Vertex>> {
     let off = prop_oneof![12 => Just(0.0), 1 => Just(0.001), 1 => Just(0.3)];
-    (0..40usize, proptest::collection::vec(off, 0..most))
-        .prop_map(|(from, offs)| offs.into_iter().enumerate().map(|(at, off)| on_circle(from + at, off)).collect())
+    (0..40usize, proptest::collection::vec(off, 0..most)).prop_map(|(from, offs)| {
+        offs.into_iter()
+            .enumerate()
+            .map(|(at, off)| on_circle(from + at, off))
+            .collect()
+    })
 }
 
 /// An outline of many short segments with a corner now and then; half of it is a polyline that is travelled as it is drawn, or
@@ -114,14 +138,33 @@ fn mixed_outline(backwards: bool) -> (Drawing, EntityId) {
         from + (to - from) * ((at % PARTS) as f64 / PARTS as f64)
     };
     let mut drawing = Drawing::new(None);
-    let line = |at: usize| entity(Geometry::Line { start: point(at), end: point(at + 1) }, Some(Role::Opening));
+    let line = |at: usize| {
+        entity(
+            Geometry::Line {
+                start: point(at),
+                end: point(at + 1),
+            },
+            Some(Role::Opening),
+        )
+    };
     // The first entity says which way the contour is travelled.
     drawing.push(line(0));
-    let mut vertices: Vec<Vertex> = (1..=ALL / 2).map(|at| Vertex { point: point(at), bulge: 0.0 }).collect();
+    let mut vertices: Vec<Vertex> = (1..=ALL / 2)
+        .map(|at| Vertex {
+            point: point(at),
+            bulge: 0.0,
+        })
+        .collect();
     if backwards {
         vertices.reverse();
     }
-    let polyline = drawing.push(entity(Geometry::Polyline { closed: false, vertices }, Some(Role::Opening)));
+    let polyline = drawing.push(entity(
+        Geometry::Polyline {
+            closed: false,
+            vertices,
+        },
+        Some(Role::Opening),
+    ));
     for at in ALL / 2..ALL {
         drawing.push(line(at));
     }
@@ -133,24 +176,54 @@ fn mixed_outline(backwards: bool) -> (Drawing, EntityId) {
 fn outlines_that_come_to_lie_on_each_other_are_told_as_if_afresh() {
     const COUNT: usize = 300;
     let vertex = |at: usize| {
-        let (angle, radius) = (at as f64 * std::f64::consts::TAU / COUNT as f64, if at.is_multiple_of(2) { 100.0 } else { 101.0 });
+        let (angle, radius) = (
+            at as f64 * std::f64::consts::TAU / COUNT as f64,
+            if at.is_multiple_of(2) { 100.0 } else { 101.0 },
+        );
         Vertex::new(radius * angle.cos(), radius * angle.sin(), 0.0)
     };
-    let ring = |from: usize| (0..COUNT).map(|at| vertex((from + at) % COUNT)).collect::<Vec<_>>();
+    let ring = |from: usize| {
+        (0..COUNT)
+            .map(|at| vertex((from + at) % COUNT))
+            .collect::<Vec<_>>()
+    };
     let settings = Arc::new(Effective::of(&Settings::default()));
     for edited in 0..2 {
         let mut drawing = Drawing::new(None);
-        let ids = [0, 150].map(|from| drawing.push(entity(Geometry::Polyline { closed: true, vertices: ring(from) }, None)));
+        let ids = [0, 150].map(|from| {
+            drawing.push(entity(
+                Geometry::Polyline {
+                    closed: true,
+                    vertices: ring(from),
+                },
+                None,
+            ))
+        });
         let mut analysis = Analysis::new(&drawing, settings.clone());
         let home = ring([0, 150][edited])[230];
-        let away = Vertex { point: home.point * 0.9, bulge: 0.0 };
+        let away = Vertex {
+            point: home.point * 0.9,
+            bulge: 0.0,
+        };
         for (to, doubles) in [(away, 0), (home, 1)] {
             let touched = drawing.splice(ids[edited], 230, 1, &[to]).unwrap();
-            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            analysis.update(
+                &drawing,
+                &Delta {
+                    touched: vec![touched],
+                },
+            );
             let told = analysis.findings(&drawing, usize::MAX).0;
-            let fresh = Analysis::new(&drawing, settings.clone()).findings(&drawing, usize::MAX).0;
+            let fresh = Analysis::new(&drawing, settings.clone())
+                .findings(&drawing, usize::MAX)
+                .0;
             assert_eq!(told, fresh, "polyline {edited}");
-            assert_eq!(told.iter().filter(|finding| finding.rule == wedm::finding::Rule::DuplicateEntity).count(), doubles);
+            assert_eq!(
+                told.iter()
+                    .filter(|finding| finding.rule == wedm::finding::Rule::DuplicateEntity)
+                    .count(),
+                doubles
+            );
         }
     }
 }
@@ -159,18 +232,34 @@ fn outlines_that_come_to_lie_on_each_other_are_told_as_if_afresh() {
 /// what lies before it in the entity.
 #[test]
 fn a_splice_that_changes_the_count_moves_what_was_seen_behind_it() {
-    for (backwards, start, removed, inserted) in
-        [(false, 20, 0, 1), (true, 20, 0, 1), (false, 90, 2, 0), (true, 90, 2, 0), (true, 140, 1, 3), (false, 5, 1, 3)]
-    {
+    for (backwards, start, removed, inserted) in [
+        (false, 20, 0, 1),
+        (true, 20, 0, 1),
+        (false, 90, 2, 0),
+        (true, 90, 2, 0),
+        (true, 140, 1, 3),
+        (false, 5, 1, 3),
+    ] {
         let settings = Arc::new(Effective::of(&Settings::default()));
         let (mut drawing, polyline) = mixed_outline(backwards);
         let mut analysis = Analysis::new(&drawing, settings.clone());
-        let inserted: Vec<Vertex> = (0..inserted).map(|at| Vertex::new(at as f64, 3.0, 0.0)).collect();
+        let inserted: Vec<Vertex> = (0..inserted)
+            .map(|at| Vertex::new(at as f64, 3.0, 0.0))
+            .collect();
         let touched = drawing.splice(polyline, start, removed, &inserted).unwrap();
-        analysis.update(&drawing, &Delta { touched: vec![touched] });
+        analysis.update(
+            &drawing,
+            &Delta {
+                touched: vec![touched],
+            },
+        );
         let mut fresh = Analysis::new(&drawing, settings.clone());
         let case = (backwards, start, removed, inserted.len());
-        assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX), "{case:?}");
+        assert_eq!(
+            analysis.findings(&drawing, usize::MAX),
+            fresh.findings(&drawing, usize::MAX),
+            "{case:?}"
+        );
     }
 }
 
@@ -252,18 +341,46 @@ proptest! {
 
 #[test]
 fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_from() {
-    let settings = Arc::new(Effective::of(&Settings { correction: Some(0.8), side: Some(SideSetting::Opening), ..Settings::default() }));
+    let settings = Arc::new(Effective::of(&Settings {
+        correction: Some(0.8),
+        side: Some(SideSetting::Opening),
+        ..Settings::default()
+    }));
     for number in 1..60 {
-        let place = |share: f64| Point::new(0.1 * f64::from(number) + 1.1 * share, 0.3 + 0.7 / f64::from(number) * share);
+        let place = |share: f64| {
+            Point::new(
+                0.1 * f64::from(number) + 1.1 * share,
+                0.3 + 0.7 / f64::from(number) * share,
+            )
+        };
         let vertex = |point: Point| Vertex { point, bulge: 0.0 };
         let mut drawing = Drawing::new(None);
-        let vertices = [Point::new(-7.3, 91.7), place(9.0), place(4.0)].map(vertex).to_vec();
-        let polyline = drawing.push(entity(Geometry::Polyline { closed: true, vertices }, None));
+        let vertices = [Point::new(-7.3, 91.7), place(9.0), place(4.0)]
+            .map(vertex)
+            .to_vec();
+        let polyline = drawing.push(entity(
+            Geometry::Polyline {
+                closed: true,
+                vertices,
+            },
+            None,
+        ));
         let mut analysis = Analysis::new(&drawing, settings.clone());
-        let touched = drawing.splice(polyline, 0, 1, &[vertex(place(0.1))]).unwrap();
-        analysis.update(&drawing, &Delta { touched: vec![touched] });
+        let touched = drawing
+            .splice(polyline, 0, 1, &[vertex(place(0.1))])
+            .unwrap();
+        analysis.update(
+            &drawing,
+            &Delta {
+                touched: vec![touched],
+            },
+        );
         let mut fresh = Analysis::new(&drawing, settings.clone());
-        assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX), "{number}");
+        assert_eq!(
+            analysis.findings(&drawing, usize::MAX),
+            fresh.findings(&drawing, usize::MAX),
+            "{number}"
+        );
     }
 }
 
@@ -274,17 +391,38 @@ fn told(drawing: &Drawing) -> Vec<String> {
         Place::Segment { entity, segment } => format!("{:?}/{segment}", order(entity)),
         _ => String::new(),
     };
-    let (findings, _) = Analysis::new(drawing, Arc::new(Effective::default())).findings(drawing, usize::MAX);
+    let (findings, _) =
+        Analysis::new(drawing, Arc::new(Effective::default())).findings(drawing, usize::MAX);
     findings
         .iter()
-        .map(|finding| format!("{:?} {} {:?}", finding.rule, place(&finding.place), finding.related.iter().map(place).collect::<Vec<_>>()))
+        .map(|finding| {
+            format!(
+                "{:?} {} {:?}",
+                finding.rule,
+                place(&finding.place),
+                finding.related.iter().map(place).collect::<Vec<_>>()
+            )
+        })
         .collect()
 }
 
 #[test]
 fn what_was_drawn_later_in_between_is_told_as_if_it_had_always_stood_there() {
-    let line = |x0: f64, y0: f64, x1: f64, y1: f64| entity(Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) }, None);
-    let lines = [line(0.0, 0.0, 4.0, 4.0), line(0.0, 4.0, 4.0, 0.0), line(1.0, -1.0, 1.0, 5.0), line(0.0, 0.0, 4.0, 4.0)];
+    let line = |x0: f64, y0: f64, x1: f64, y1: f64| {
+        entity(
+            Geometry::Line {
+                start: Point::new(x0, y0),
+                end: Point::new(x1, y1),
+            },
+            None,
+        )
+    };
+    let lines = [
+        line(0.0, 0.0, 4.0, 4.0),
+        line(0.0, 4.0, 4.0, 0.0),
+        line(1.0, -1.0, 1.0, 5.0),
+        line(0.0, 0.0, 4.0, 4.0),
+    ];
     let mut fresh = Drawing::new(None);
     lines.iter().for_each(|line| {
         fresh.push(line.clone());
@@ -305,7 +443,13 @@ fn what_was_drawn_later_in_between_is_told_as_if_it_had_always_stood_there() {
 #[test]
 fn ranks_rise_in_machining_order_however_often_something_goes_in_between() {
     let mut drawing = Drawing::new(None);
-    let line = entity(Geometry::Line { start: Point::origin(), end: Point::new(1.0, 0.0) }, None);
+    let line = entity(
+        Geometry::Line {
+            start: Point::origin(),
+            end: Point::new(1.0, 0.0),
+        },
+        None,
+    );
     for _ in 0..3 {
         drawing.push(line.clone());
     }
@@ -318,10 +462,16 @@ fn ranks_rise_in_machining_order_however_often_something_goes_in_between() {
 
 /// Contours in the machining order of their first entities.
 fn contours(drawing: &Drawing, chains: &Chains) -> Vec<Contour> {
-    let mut keys: Vec<_> = drawing.order().iter().filter_map(|&id| chains.contour_of(id)).collect();
+    let mut keys: Vec<_> = drawing
+        .order()
+        .iter()
+        .filter_map(|&id| chains.contour_of(id))
+        .collect();
     let mut seen = std::collections::HashSet::new();
     keys.retain(|key| seen.insert(*key));
-    keys.iter().filter_map(|&key| chains.get(key).cloned()).collect()
+    keys.iter()
+        .filter_map(|&key| chains.get(key).cloned())
+        .collect()
 }
 
 proptest! {
@@ -368,16 +518,34 @@ proptest! {
 /// Polylines that come near themselves and each other, and a line.
 fn typed_text() -> String {
     let outlines: [&[(f64, f64)]; 4] = [
-        &[(0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (5.1, 4.0), (5.1, 1.0), (5.0, 1.0), (5.0, 4.0), (0.0, 4.0)],
+        &[
+            (0.0, 0.0),
+            (10.0, 0.0),
+            (10.0, 4.0),
+            (5.1, 4.0),
+            (5.1, 1.0),
+            (5.0, 1.0),
+            (5.0, 4.0),
+            (0.0, 4.0),
+        ],
         &[(0.0, 4.1), (10.0, 4.1), (10.0, 8.0), (0.0, 8.0)],
         &[(2.0, 9.0), (4.0, 9.0), (4.0, 12.0), (2.0, 9.001)],
         &[(20.0, 0.0), (21.0, 0.0), (20.5, 0.9)],
     ];
     let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
     for (number, outline) in outlines.iter().enumerate() {
-        let _ = write!(text, "0\nLWPOLYLINE\n5\n{:X}\n8\nDIE\n90\n{}\n70\n1\n", number + 1, outline.len());
+        let _ = write!(
+            text,
+            "0\nLWPOLYLINE\n5\n{:X}\n8\nDIE\n90\n{}\n70\n1\n",
+            number + 1,
+            outline.len()
+        );
         for (at, (x, y)) in outline.iter().enumerate() {
-            let _ = write!(text, "10\n{x}\n20\n{y}\n42\n{}\n", if at % 3 == 2 { 0.4 } else { 0.0 });
+            let _ = write!(
+                text,
+                "10\n{x}\n20\n{y}\n42\n{}\n",
+                if at % 3 == 2 { 0.4 } else { 0.0 }
+            );
         }
     }
     text + "0\nLINE\n5\nA\n8\nDIE\n10\n0.0\n20\n9.0\n11\n3.0\n21\n4.05\n0\nENDSEC\n0\nEOF\n"
@@ -387,16 +555,40 @@ fn typed_text() -> String {
 fn shown(document: &mut Document) -> (Vec<String>, Vec<String>) {
     let (findings, _) = document.findings(usize::MAX);
     let line = |finding: &wedm::finding::Finding| {
-        let related: Vec<_> = finding.related.iter().map(|place| document.range_of(place)).collect();
-        format!("{:?} {:?} {:?} {:?} {related:?}", finding.rule, finding.severity, document.range_of(&finding.place), finding.detail)
+        let related: Vec<_> = finding
+            .related
+            .iter()
+            .map(|place| document.range_of(place))
+            .collect();
+        format!(
+            "{:?} {:?} {:?} {:?} {related:?}",
+            finding.rule,
+            finding.severity,
+            document.range_of(&finding.place),
+            finding.detail
+        )
     };
     let findings = findings.iter().map(line).collect();
-    let Some(snapshot) = document.snapshot() else { return (findings, Vec::new()) };
+    let Some(snapshot) = document.snapshot() else {
+        return (findings, Vec::new());
+    };
     let handles = |contour: &Contour| {
-        let pieces = contour.pieces.iter().map(|piece| snapshot.drawing.get(piece.entity).map(|entity| entity.handle.to_string()));
+        let pieces = contour.pieces.iter().map(|piece| {
+            snapshot
+                .drawing
+                .get(piece.entity)
+                .map(|entity| entity.handle.to_string())
+        });
         format!("{:?} {}", pieces.collect::<Vec<_>>(), contour.closed)
     };
-    (findings, snapshot.outlines.iter().map(|outline| handles(&outline.contour)).collect())
+    (
+        findings,
+        snapshot
+            .outlines
+            .iter()
+            .map(|outline| handles(&outline.contour))
+            .collect(),
+    )
 }
 
 proptest! {
@@ -430,7 +622,12 @@ proptest! {
 
 /// What is found, entities by their place in the machining order: that of another drawing with the same entities is the same.
 fn found(drawing: &Drawing, mut analysis: Analysis) -> Vec<String> {
-    let order: std::collections::HashMap<EntityId, usize> = drawing.order().iter().enumerate().map(|(at, &id)| (id, at)).collect();
+    let order: std::collections::HashMap<EntityId, usize> = drawing
+        .order()
+        .iter()
+        .enumerate()
+        .map(|(at, &id)| (id, at))
+        .collect();
     let place = |place: &Place| match *place {
         Place::Segment { entity, segment } => format!("{:?}/{segment}", order.get(&entity)),
         _ => String::new(),
@@ -438,7 +635,13 @@ fn found(drawing: &Drawing, mut analysis: Analysis) -> Vec<String> {
     let (findings, _) = analysis.findings(drawing, usize::MAX);
     let said = |finding: &wedm::finding::Finding| {
         let related: Vec<String> = finding.related.iter().map(place).collect();
-        format!("{:?} {} {:?} {:?}", finding.rule, place(&finding.place), finding.detail, related)
+        format!(
+            "{:?} {} {:?} {:?}",
+            finding.rule,
+            place(&finding.place),
+            finding.detail,
+            related
+        )
     };
     findings.iter().map(said).collect()
 }

@@ -9,16 +9,27 @@ use wedm::program::{self, Language};
 use wedm::settings::Effective;
 
 fn folder(name: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/programs").join(name);
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.retain(|path| path.extension().is_some_and(|ending| ending == "3b" || ending == "4b"));
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data/programs")
+        .join(name);
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    files.retain(|path| {
+        path.extension()
+            .is_some_and(|ending| ending == "3b" || ending == "4b")
+    });
     files.sort();
     files
 }
 
 fn read(bytes: Vec<u8>) -> Document {
     let settings = Arc::new(Effective::default());
-    Document::new(Source::Program(program::Document::read(Language::ThreeB, bytes, &settings)), settings)
+    Document::new(
+        Source::Program(program::Document::read(Language::ThreeB, bytes, &settings)),
+        settings,
+    )
 }
 
 /// `LINE:COLUMN severity rule` of every finding, in the order of the text.
@@ -28,11 +39,17 @@ fn said(document: &mut Document) -> Vec<String> {
     let mut said: Vec<(usize, usize, String)> = findings
         .iter()
         .map(|finding| {
-            let Place::Text { range } = &finding.place else { panic!("{finding:?} has no place") };
+            let Place::Text { range } = &finding.place else {
+                panic!("{finding:?} has no place")
+            };
             let line = text.line_of(range.start);
             let column = range.start - text.line_start(line) + 1;
             let severity = format!("{:?}", finding.severity).to_lowercase();
-            (line, column, format!("{}:{column} {severity} {}", line + 1, finding.rule.name()))
+            (
+                line,
+                column,
+                format!("{}:{column} {severity} {}", line + 1, finding.rule.name()),
+            )
         })
         .collect();
     said.sort();
@@ -42,7 +59,9 @@ fn said(document: &mut Document) -> Vec<String> {
 /// The text after every safe fix, made again and again until there is none left.
 fn repaired(mut document: Document) -> Document {
     for _ in 0..12 {
-        let Some(Edit::Text(edits)) = document.fix_all() else { break };
+        let Some(Edit::Text(edits)) = document.fix_all() else {
+            break;
+        };
         let mut bytes = document.text().unwrap().bytes().to_vec();
         for edit in edits.iter().rev() {
             bytes.splice(edit.range.clone(), edit.text.bytes());
@@ -57,12 +76,30 @@ fn right_programs_are_silent() {
     for path in folder("right") {
         let mut document = read(std::fs::read(&path).unwrap());
         let (findings, _) = document.findings(usize::MAX);
-        let worse: Vec<_> = findings.iter().filter(|finding| finding.severity < Severity::Information).collect();
+        let worse: Vec<_> = findings
+            .iter()
+            .filter(|finding| finding.severity < Severity::Information)
+            .collect();
         assert!(worse.is_empty(), "{}: {worse:?}", path.display());
-        let blocks = document.program().unwrap().trace().steps.iter().filter(|step| step.moves()).count();
+        let blocks = document
+            .program()
+            .unwrap()
+            .trace()
+            .steps
+            .iter()
+            .filter(|step| step.moves())
+            .count();
         let is_fragment = blocks == 1;
-        assert!(findings.is_empty() || is_fragment, "{}: {findings:?}", path.display());
-        assert!(document.fix_all().is_none() || is_fragment, "{}", path.display());
+        assert!(
+            findings.is_empty() || is_fragment,
+            "{}: {findings:?}",
+            path.display()
+        );
+        assert!(
+            document.fix_all().is_none() || is_fragment,
+            "{}",
+            path.display()
+        );
     }
 }
 
@@ -74,11 +111,18 @@ fn every_fault_of_wrong_programs_is_found_at_its_place() {
         let mut document = read(std::fs::read(&path).unwrap());
         let is_clean = |line: &&str| *line == "fixed: clean";
         let rows: Vec<&str> = expected.lines().filter(|line| !is_clean(line)).collect();
-        let sentences: Vec<String> =
-            document.findings(usize::MAX).0.iter().map(|finding| wedm::message::en::sentence(finding, 1.0)).collect();
+        let sentences: Vec<String> = document
+            .findings(usize::MAX)
+            .0
+            .iter()
+            .map(|finding| wedm::message::en::sentence(finding, 1.0))
+            .collect();
         let found = said(&mut document);
         if found != rows {
-            failures.push(format!("{}:\n  found {found:?}\n  expected {rows:?}\n  {sentences:#?}", path.display()));
+            failures.push(format!(
+                "{}:\n  found {found:?}\n  expected {rows:?}\n  {sentences:#?}",
+                path.display()
+            ));
             continue;
         }
         if expected.lines().any(|line| is_clean(&line)) {
@@ -111,7 +155,9 @@ fn every_fix_that_is_offered_repairs_and_makes_nothing_worse() {
         let before = counts(&mut document);
         for finding in document.findings(usize::MAX).0 {
             for fix in document.fixes(&finding) {
-                let Edit::Text(edits) = fix.edit else { panic!("a fix of a program edits its text") };
+                let Edit::Text(edits) = fix.edit else {
+                    panic!("a fix of a program edits its text")
+                };
                 let mut repaired = bytes.clone();
                 for edit in edits.iter().rev() {
                     repaired.splice(edit.range.clone(), edit.text.bytes());
@@ -120,11 +166,18 @@ fn every_fix_that_is_offered_repairs_and_makes_nothing_worse() {
                 let after = counts(&mut repaired);
                 let rule = finding.rule.name();
                 let is_less = after.get(rule).copied().unwrap_or(0) < before[rule];
-                let worse = after.iter().filter(|(rule, count)| **count > before.get(*rule).copied().unwrap_or(0));
+                let worse = after
+                    .iter()
+                    .filter(|(rule, count)| **count > before.get(*rule).copied().unwrap_or(0));
                 let worse: Vec<_> = worse.collect();
                 if !is_less || !worse.is_empty() {
-                    let text = String::from_utf8_lossy(repaired.text().unwrap().bytes()).into_owned();
-                    failures.push(format!("{}: {rule} by {:?}: {before:?} became {after:?}\n{text}", path.display(), fix.kind));
+                    let text =
+                        String::from_utf8_lossy(repaired.text().unwrap().bytes()).into_owned();
+                    failures.push(format!(
+                        "{}: {rule} by {:?}: {before:?} became {after:?}\n{text}",
+                        path.display(),
+                        fix.kind
+                    ));
                 }
             }
         }

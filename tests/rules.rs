@@ -18,20 +18,39 @@ struct Shape {
 }
 
 fn closed(vertices: &[(f64, f64, f64)]) -> Shape {
-    Shape { closed: true, vertices: vertices.to_vec() }
+    Shape {
+        closed: true,
+        vertices: vertices.to_vec(),
+    }
 }
 
 fn open(vertices: &[(f64, f64, f64)]) -> Shape {
-    Shape { closed: false, vertices: vertices.to_vec() }
+    Shape {
+        closed: false,
+        vertices: vertices.to_vec(),
+    }
 }
 
 fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
-    Entity { handle: "A".into(), layer: "0".into(), role, kind: Kind::Line, geometry }
+    Entity {
+        handle: "A".into(),
+        layer: "0".into(),
+        role,
+        kind: Kind::Line,
+        geometry,
+    }
 }
 
 impl Shape {
     fn geometry(&self) -> Geometry {
-        Geometry::Polyline { closed: self.closed, vertices: self.vertices.iter().map(|&(x, y, bulge)| Vertex::new(x, y, bulge)).collect() }
+        Geometry::Polyline {
+            closed: self.closed,
+            vertices: self
+                .vertices
+                .iter()
+                .map(|&(x, y, bulge)| Vertex::new(x, y, bulge))
+                .collect(),
+        }
     }
 
     fn as_polyline(&self, role: Option<Role>) -> Drawing {
@@ -44,11 +63,22 @@ impl Shape {
         let mut drawing = Drawing::new(None);
         for segment in self.geometry().segments() {
             let geometry = match segment {
-                Segment::Line(line) => Geometry::Line { start: line.start, end: line.end },
+                Segment::Line(line) => Geometry::Line {
+                    start: line.start,
+                    end: line.end,
+                },
                 Segment::Arc(arc) => {
                     let arc = if arc.sweep > 0.0 { arc } else { arc.reversed() };
-                    let (start_angle, end_angle) = (positive_angle(arc.start_angle), positive_angle(arc.start_angle + arc.sweep));
-                    Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle }
+                    let (start_angle, end_angle) = (
+                        positive_angle(arc.start_angle),
+                        positive_angle(arc.start_angle + arc.sweep),
+                    );
+                    Geometry::Arc {
+                        center: arc.center,
+                        radius: arc.radius,
+                        start_angle,
+                        end_angle,
+                    }
                 }
             };
             drawing.push(entity(geometry, role));
@@ -58,7 +88,14 @@ impl Shape {
 
     /// Mirrored at the y axis: what turned left turns right.
     fn mirrored(&self) -> Shape {
-        Shape { vertices: self.vertices.iter().map(|&(x, y, bulge)| (-x, y, -bulge)).collect(), ..*self }
+        Shape {
+            vertices: self
+                .vertices
+                .iter()
+                .map(|&(x, y, bulge)| (-x, y, -bulge))
+                .collect(),
+            ..*self
+        }
     }
 
     /// The other way round.
@@ -72,7 +109,10 @@ impl Shape {
             };
             (x, y, -bulge)
         });
-        Shape { vertices: vertices.collect(), ..*self }
+        Shape {
+            vertices: vertices.collect(),
+            ..*self
+        }
     }
 
     fn begun_elsewhere(&self) -> Shape {
@@ -85,7 +125,10 @@ impl Shape {
 }
 
 fn settings() -> Arc<Effective> {
-    Arc::new(Effective::of(&Settings { correction: Some(0.1), ..Settings::default() }))
+    Arc::new(Effective::of(&Settings {
+        correction: Some(0.1),
+        ..Settings::default()
+    }))
 }
 
 fn analysed(drawing: &Drawing) -> (Analysis, Vec<Finding>) {
@@ -95,14 +138,25 @@ fn analysed(drawing: &Drawing) -> (Analysis, Vec<Finding>) {
 }
 
 fn count(findings: &[Finding], rule: Rule) -> usize {
-    findings.iter().filter(|finding| finding.rule == rule).count()
+    findings
+        .iter()
+        .filter(|finding| finding.rule == rule)
+        .count()
 }
 
 /// Every way to draw the shape.
 fn drawings(shape: &Shape, role: Option<Role>) -> Vec<Drawing> {
-    let shapes =
-        [shape.clone(), shape.mirrored(), shape.reversed(), shape.begun_elsewhere(), shape.reversed().mirrored().begun_elsewhere()];
-    shapes.iter().flat_map(|shape| [shape.as_polyline(role), shape.as_chain(role)]).collect()
+    let shapes = [
+        shape.clone(),
+        shape.mirrored(),
+        shape.reversed(),
+        shape.begun_elsewhere(),
+        shape.reversed().mirrored().begun_elsewhere(),
+    ];
+    shapes
+        .iter()
+        .flat_map(|shape| [shape.as_polyline(role), shape.as_chain(role)])
+        .collect()
 }
 
 /// Asserts that the rule sees so many places however the shape is drawn, and, one at a time, that its fixes let them go where
@@ -111,33 +165,77 @@ fn check(shape: &Shape, role: Option<Role>, rule: Rule, expected: usize, fixable
     for (way, mut drawing) in drawings(shape, role).into_iter().enumerate() {
         let (mut analysis, mut findings) = analysed(&drawing);
         assert_eq!(count(&findings, rule), expected, "way {way}: {findings:#?}");
-        let worse = |findings: &[Finding]| findings.iter().filter(|finding| finding.severity <= Severity::Warning).count();
+        let worse = |findings: &[Finding]| {
+            findings
+                .iter()
+                .filter(|finding| finding.severity <= Severity::Warning)
+                .count()
+        };
         let before = worse(&findings);
         for left in (0..expected).rev().filter(|_| fixable) {
-            let finding = findings.iter().find(|finding| finding.rule == rule).unwrap();
+            let finding = findings
+                .iter()
+                .find(|finding| finding.rule == rule)
+                .unwrap();
             let fixes = analysis.fixes(&drawing, finding);
-            let fix = fixes.first().unwrap_or_else(|| panic!("way {way}: no fix for {finding:?}"));
+            let fix = fixes
+                .first()
+                .unwrap_or_else(|| panic!("way {way}: no fix for {finding:?}"));
             drawing.apply(&fix.edit).unwrap();
             (analysis, findings) = analysed(&drawing);
-            assert_eq!(count(&findings, rule), left, "way {way}: {fix:#?} {findings:#?}");
+            assert_eq!(
+                count(&findings, rule),
+                left,
+                "way {way}: {fix:#?} {findings:#?}"
+            );
         }
         assert!(worse(&findings) <= before, "way {way}: {findings:#?}");
     }
 }
 
-const SQUARE: [(f64, f64, f64); 4] = [(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)];
+const SQUARE: [(f64, f64, f64); 4] = [
+    (0.0, 0.0, 0.0),
+    (10.0, 0.0, 0.0),
+    (10.0, 10.0, 0.0),
+    (0.0, 10.0, 0.0),
+];
 
 #[test]
 fn corners_are_sharp_where_the_wire_runs_inside() {
-    let l = closed(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 5.0, 0.0), (5.0, 5.0, 0.0), (5.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
-    check(&closed(&SQUARE), Some(Role::Opening), Rule::SharpCorner, 4, true);
-    check(&closed(&SQUARE), Some(Role::Punch), Rule::SharpCorner, 0, true);
+    let l = closed(&[
+        (0.0, 0.0, 0.0),
+        (10.0, 0.0, 0.0),
+        (10.0, 5.0, 0.0),
+        (5.0, 5.0, 0.0),
+        (5.0, 10.0, 0.0),
+        (0.0, 10.0, 0.0),
+    ]);
+    check(
+        &closed(&SQUARE),
+        Some(Role::Opening),
+        Rule::SharpCorner,
+        4,
+        true,
+    );
+    check(
+        &closed(&SQUARE),
+        Some(Role::Punch),
+        Rule::SharpCorner,
+        0,
+        true,
+    );
     check(&l, Some(Role::Opening), Rule::SharpCorner, 5, true);
     check(&l, Some(Role::Punch), Rule::SharpCorner, 1, true);
     // A hint that stands for all of them.
     check(&l, None, Rule::SharpCorner, 1, false);
     // A corner between a line and an arc; at its other end the arc meets a line from outside.
-    let step = closed(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 5.0, 0.4), (7.0, 5.0, 0.0), (0.0, 5.0, 0.0)]);
+    let step = closed(&[
+        (0.0, 0.0, 0.0),
+        (10.0, 0.0, 0.0),
+        (10.0, 5.0, 0.4),
+        (7.0, 5.0, 0.0),
+        (0.0, 5.0, 0.0),
+    ]);
     check(&step, Some(Role::Opening), Rule::SharpCorner, 4, true);
     check(&step, Some(Role::Punch), Rule::SharpCorner, 1, true);
 }
@@ -145,19 +243,41 @@ fn corners_are_sharp_where_the_wire_runs_inside() {
 /// A corner between two entities names both.
 #[test]
 fn corners_and_kinks_name_the_other_entity() {
-    let kinked = closed(&[(0.0, 0.0, 0.0), (5.0, 0.1, 0.0), (10.0, 0.0, 0.0), (5.0, 10.0, 0.0)]);
+    let kinked = closed(&[
+        (0.0, 0.0, 0.0),
+        (5.0, 0.1, 0.0),
+        (10.0, 0.0, 0.0),
+        (5.0, 10.0, 0.0),
+    ]);
     let related = |drawing: &Drawing, rule: Rule| {
         let findings = analysed(drawing).1;
-        findings.iter().filter(|finding| finding.rule == rule).map(|finding| finding.related.len()).collect::<Vec<_>>()
+        findings
+            .iter()
+            .filter(|finding| finding.rule == rule)
+            .map(|finding| finding.related.len())
+            .collect::<Vec<_>>()
     };
-    let flat = closed(&[(0.0, 0.0, 0.0), (5.0, 0.05, 0.0), (10.0, 0.0, 0.0), (5.0, 10.0, 0.0)]);
+    let flat = closed(&[
+        (0.0, 0.0, 0.0),
+        (5.0, 0.05, 0.0),
+        (10.0, 0.0, 0.0),
+        (5.0, 10.0, 0.0),
+    ]);
     for (shape, role, rule, expected) in [
         (&kinked, Some(Role::Opening), Rule::SharpCorner, 3),
         (&kinked, Some(Role::Punch), Rule::SharpCorner, 1),
         (&flat, None, Rule::NearTangent, 1),
     ] {
-        assert_eq!(related(&shape.as_chain(role), rule), vec![1; expected], "{rule:?}");
-        assert_eq!(related(&shape.as_polyline(role), rule), vec![0; expected], "{rule:?}");
+        assert_eq!(
+            related(&shape.as_chain(role), rule),
+            vec![1; expected],
+            "{rule:?}"
+        );
+        assert_eq!(
+            related(&shape.as_polyline(role), rule),
+            vec![0; expected],
+            "{rule:?}"
+        );
     }
     // One hint for all corners names none of them.
     assert_eq!(related(&kinked.as_chain(None), Rule::SharpCorner), [0]);
@@ -170,28 +290,62 @@ fn doubles_of_curves_are_deleted_and_those_in_blocks_are_not() {
         let all = format!(
             "0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS {blocks} 0 ENDSEC 0 SECTION 2 ENTITIES {entities} 0 ENDSEC 0 EOF"
         );
-        all.split_whitespace().map(|tag| format!("{tag}\n")).collect::<String>()
+        all.split_whitespace()
+            .map(|tag| format!("{tag}\n"))
+            .collect::<String>()
     };
-    let spline = |handle: &str| format!("0 SPLINE 5 {handle} 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 50 10 10 20 70 10 20 20 50 ");
+    let spline = |handle: &str| {
+        format!(
+            "0 SPLINE 5 {handle} 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 50 10 10 20 70 10 20 20 50 "
+        )
+    };
     let ellipse = |handle: &str| format!("0 ELLIPSE 5 {handle} 10 0 20 0 11 10 21 0 40 0.5 ");
     let line = "0 LINE 5 9 8 0 10 20 20 50 11 0 21 50 ";
     let block = "0 BLOCK 2 B 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 3 0 ENDBLK ";
     let insert = |handle: &str| format!("0 INSERT 5 {handle} 2 B 10 0 20 0 ");
     for (blocks, entities, rule, expected) in [
-        ("", format!("{}{line}{}", spline("1"), spline("2")), Rule::DuplicateEntity, Some(format!("{}{line}", spline("1")))),
-        ("", ellipse("1") + &ellipse("2"), Rule::DuplicateEntity, Some(ellipse("1"))),
-        ("", spline("1"), Rule::OpenContour, Some(spline("1") + "0 LINE 5 2 10 20.0 20 50.0 11 0.0 21 50.0 ")),
-        (block, insert("1") + &insert("2"), Rule::DuplicateEntity, None),
+        (
+            "",
+            format!("{}{line}{}", spline("1"), spline("2")),
+            Rule::DuplicateEntity,
+            Some(format!("{}{line}", spline("1"))),
+        ),
+        (
+            "",
+            ellipse("1") + &ellipse("2"),
+            Rule::DuplicateEntity,
+            Some(ellipse("1")),
+        ),
+        (
+            "",
+            spline("1"),
+            Rule::OpenContour,
+            Some(spline("1") + "0 LINE 5 2 10 20.0 20 50.0 11 0.0 21 50.0 "),
+        ),
+        (
+            block,
+            insert("1") + &insert("2"),
+            Rule::DuplicateEntity,
+            None,
+        ),
     ] {
-        let source = Source::Dxf(wedm::dxf::Document::read(text(blocks, &entities).into_bytes()));
+        let source = Source::Dxf(wedm::dxf::Document::read(
+            text(blocks, &entities).into_bytes(),
+        ));
         let mut document = Document::new(source, settings());
         let findings = document.findings(usize::MAX).0;
-        let finding = findings.iter().find(|finding| finding.rule == rule).unwrap_or_else(|| panic!("{findings:#?}"));
+        let finding = findings
+            .iter()
+            .find(|finding| finding.rule == rule)
+            .unwrap_or_else(|| panic!("{findings:#?}"));
         let fix = document.fixes(finding).into_iter().next();
         assert_eq!(fix.is_some(), expected.is_some(), "{entities}");
         if let (Some(fix), Some(expected), Source::Dxf(dxf)) = (fix, expected, document.source()) {
-            let wedm::finding::Edit::Drawing(edit) = fix.edit else { panic!("an edit of the drawing") };
-            let edited = wedm::text::edited(dxf.text().bytes(), &dxf.text_edits(&edit).unwrap()).unwrap();
+            let wedm::finding::Edit::Drawing(edit) = fix.edit else {
+                panic!("an edit of the drawing")
+            };
+            let edited =
+                wedm::text::edited(dxf.text().bytes(), &dxf.text_edits(&edit).unwrap()).unwrap();
             assert_eq!(String::from_utf8(edited).unwrap(), text(blocks, &expected));
         }
     }
@@ -201,72 +355,212 @@ fn doubles_of_curves_are_deleted_and_those_in_blocks_are_not() {
 /// corner again.
 #[test]
 fn a_corner_too_flat_for_a_fillet_has_none() {
-    let bend = |degrees: f64| closed(&[(0.0, 0.0, 0.0), (5.0, 0.0, 0.0), (10.0, 5.0 * degrees.to_radians().tan(), 0.0), (5.0, 9.0, 0.0)]);
+    let bend = |degrees: f64| {
+        closed(&[
+            (0.0, 0.0, 0.0),
+            (5.0, 0.0, 0.0),
+            (10.0, 5.0 * degrees.to_radians().tan(), 0.0),
+            (5.0, 9.0, 0.0),
+        ])
+    };
     for (degrees, has_fix) in [(2.5, false), (3.5, true)] {
         let drawing = bend(degrees).as_polyline(Some(Role::Opening));
         let (analysis, findings) = analysed(&drawing);
         let is_flat = |finding: &&Finding| matches!(finding.detail, Detail::SharpCorner { turn, .. } if turn.abs() < 0.1);
         let flat = findings.iter().find(is_flat).expect("the flat corner");
-        assert_eq!(!analysis.fixes(&drawing, flat).is_empty(), has_fix, "{degrees}");
+        assert_eq!(
+            !analysis.fixes(&drawing, flat).is_empty(),
+            has_fix,
+            "{degrees}"
+        );
     }
 }
 
 /// A line that lies there twice: the fix of the arc beside it would move one of the two, and the contour would fall apart.
 #[test]
 fn an_arc_is_not_made_larger_beside_a_line_that_lies_there_twice() {
-    let fillet = closed(&[(0.0, 0.0, 0.0), (9.95, 0.0, (PI / 8.0).tan()), (10.0, 0.05, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    let fillet = closed(&[
+        (0.0, 0.0, 0.0),
+        (9.95, 0.0, (PI / 8.0).tan()),
+        (10.0, 0.05, 0.0),
+        (10.0, 10.0, 0.0),
+        (0.0, 10.0, 0.0),
+    ]);
     let mut drawing = fillet.as_chain(Some(Role::Opening));
-    let line = drawing.entities().nth(2).expect("the line behind the arc").1.clone();
+    let line = drawing
+        .entities()
+        .nth(2)
+        .expect("the line behind the arc")
+        .1
+        .clone();
     drawing.push(line);
     let (analysis, findings) = analysed(&drawing);
-    assert_eq!((count(&findings, Rule::SmallRadius), count(&findings, Rule::DuplicateEntity)), (1, 1), "{findings:#?}");
+    assert_eq!(
+        (
+            count(&findings, Rule::SmallRadius),
+            count(&findings, Rule::DuplicateEntity)
+        ),
+        (1, 1),
+        "{findings:#?}"
+    );
     for fix in analysis.fixes(&drawing, &findings[0]) {
         let mut edited = drawing.clone();
         edited.apply(&fix.edit).unwrap();
-        assert_eq!(count(&analysed(&edited).1, Rule::OpenContour), 0, "{fix:#?}");
+        assert_eq!(
+            count(&analysed(&edited).1, Rule::OpenContour),
+            0,
+            "{fix:#?}"
+        );
     }
     let findings = analysed(&all_fixed(drawing)).1;
-    assert_eq!(findings.iter().filter(|finding| finding.rule != Rule::SharpCorner).count(), 0, "{findings:#?}");
+    assert_eq!(
+        findings
+            .iter()
+            .filter(|finding| finding.rule != Rule::SharpCorner)
+            .count(),
+        0,
+        "{findings:#?}"
+    );
 }
 
 /// Two closed outlines in one place begin where they like, and have their vertices where they like.
 #[test]
 fn closed_outlines_that_lie_on_each_other_are_doubles() {
     let polyline = |vertices: &[(f64, f64, f64)]| closed(vertices).geometry();
-    let l: Vec<(f64, f64, f64)> =
-        vec![(0.0, 0.0, 0.0), (8.0, 0.0, 0.3), (8.0, 4.0, 0.0), (3.0, 4.0, 0.0), (3.0, 9.0, 0.0), (0.0, 9.0, 0.0)];
+    let l: Vec<(f64, f64, f64)> = vec![
+        (0.0, 0.0, 0.0),
+        (8.0, 0.0, 0.3),
+        (8.0, 4.0, 0.0),
+        (3.0, 4.0, 0.0),
+        (3.0, 9.0, 0.0),
+        (0.0, 9.0, 0.0),
+    ];
     let with = |at: usize, vertex: (f64, f64, f64)| {
         let mut more = l.clone();
         more.insert(at, vertex);
         polyline(&more)
     };
-    let circle = Geometry::Circle { center: Point::new(5.0, 5.0), radius: 3.0 };
-    let moved = |by: f64| polyline(&l.iter().map(|&(x, y, bulge)| (x + by, y, bulge)).collect::<Vec<_>>());
+    let circle = Geometry::Circle {
+        center: Point::new(5.0, 5.0),
+        radius: 3.0,
+    };
+    let moved = |by: f64| {
+        polyline(
+            &l.iter()
+                .map(|&(x, y, bulge)| (x + by, y, bulge))
+                .collect::<Vec<_>>(),
+        )
+    };
     for (name, one, other, expected) in [
-        ("begun elsewhere", polyline(&l), closed(&l).begun_elsewhere().geometry(), true),
-        ("the other way round", polyline(&l), closed(&l).reversed().geometry(), true),
-        ("the other way round from elsewhere", polyline(&l), closed(&l).reversed().begun_elsewhere().geometry(), true),
-        ("one vertex more", polyline(&l), with(3, (5.0, 4.0, 0.0)), true),
-        ("a vertex more at the begin", with(0, (0.0, 2.0, 0.0)), polyline(&l), true),
-        ("a vertex twice", polyline(&l), with(4, (3.0, 4.0, 0.0)), true),
-        ("one corner more", polyline(&l), with(3, (5.0, 4.01, 0.0)), false),
-        ("a circle and its two halves", circle.clone(), polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 1.0)]), true),
-        ("a circle and its two halves backwards", polyline(&[(5.0, 8.0, -1.0), (5.0, 2.0, -1.0)]), circle.clone(), true),
-        ("a circle and half of another", circle, polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 0.9)]), false),
-        ("beside each other by less than a place", polyline(&l), moved(0.004), true),
-        ("beside each other by more than a place", polyline(&l), moved(0.006), false),
+        (
+            "begun elsewhere",
+            polyline(&l),
+            closed(&l).begun_elsewhere().geometry(),
+            true,
+        ),
+        (
+            "the other way round",
+            polyline(&l),
+            closed(&l).reversed().geometry(),
+            true,
+        ),
+        (
+            "the other way round from elsewhere",
+            polyline(&l),
+            closed(&l).reversed().begun_elsewhere().geometry(),
+            true,
+        ),
+        (
+            "one vertex more",
+            polyline(&l),
+            with(3, (5.0, 4.0, 0.0)),
+            true,
+        ),
+        (
+            "a vertex more at the begin",
+            with(0, (0.0, 2.0, 0.0)),
+            polyline(&l),
+            true,
+        ),
+        (
+            "a vertex twice",
+            polyline(&l),
+            with(4, (3.0, 4.0, 0.0)),
+            true,
+        ),
+        (
+            "one corner more",
+            polyline(&l),
+            with(3, (5.0, 4.01, 0.0)),
+            false,
+        ),
+        (
+            "a circle and its two halves",
+            circle.clone(),
+            polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 1.0)]),
+            true,
+        ),
+        (
+            "a circle and its two halves backwards",
+            polyline(&[(5.0, 8.0, -1.0), (5.0, 2.0, -1.0)]),
+            circle.clone(),
+            true,
+        ),
+        (
+            "a circle and half of another",
+            circle,
+            polyline(&[(2.0, 5.0, 1.0), (8.0, 5.0, 0.9)]),
+            false,
+        ),
+        (
+            "beside each other by less than a place",
+            polyline(&l),
+            moved(0.004),
+            true,
+        ),
+        (
+            "beside each other by more than a place",
+            polyline(&l),
+            moved(0.006),
+            false,
+        ),
     ] {
         for swapped in [false, true] {
             let mut drawing = Drawing::new(None);
-            for geometry in if swapped { [&other, &one] } else { [&one, &other] } {
+            for geometry in if swapped {
+                [&other, &one]
+            } else {
+                [&one, &other]
+            } {
                 drawing.push(entity(geometry.clone(), Some(Role::Opening)));
             }
             let (analysis, findings) = analysed(&drawing);
-            let double = findings.iter().find(|finding| finding.rule == Rule::DuplicateEntity);
-            assert_eq!(double.is_some(), expected, "{name}, swapped {swapped}: {findings:#?}");
+            let double = findings
+                .iter()
+                .find(|finding| finding.rule == Rule::DuplicateEntity);
+            assert_eq!(
+                double.is_some(),
+                expected,
+                "{name}, swapped {swapped}: {findings:#?}"
+            );
             if let Some(double) = double {
-                assert_eq!((count(&findings, Rule::DuplicateEntity), count(&findings, Rule::Overlap)), (1, 0), "{name}: {findings:#?}");
-                drawing.apply(&analysis.fixes(&drawing, double).first().expect("a fix").edit).unwrap();
+                assert_eq!(
+                    (
+                        count(&findings, Rule::DuplicateEntity),
+                        count(&findings, Rule::Overlap)
+                    ),
+                    (1, 0),
+                    "{name}: {findings:#?}"
+                );
+                drawing
+                    .apply(
+                        &analysis
+                            .fixes(&drawing, double)
+                            .first()
+                            .expect("a fix")
+                            .edit,
+                    )
+                    .unwrap();
                 assert_eq!(drawing.len(), 1, "{name}");
             }
         }
@@ -277,17 +571,32 @@ fn closed_outlines_that_lie_on_each_other_are_doubles() {
 fn joints_that_are_nearly_tangent() {
     // Fillets of a quarter turn whose bulge is a little off, and a line with a bend of half a degree.
     let bulge = (PI / 8.0 + 0.0005f64).tan();
-    let fillet = closed(&[(0.0, 0.0, 0.0), (9.0, 0.0, bulge), (10.0, 1.0, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    let fillet = closed(&[
+        (0.0, 0.0, 0.0),
+        (9.0, 0.0, bulge),
+        (10.0, 1.0, 0.0),
+        (10.0, 10.0, 0.0),
+        (0.0, 10.0, 0.0),
+    ]);
     for drawing in drawings(&fillet, None) {
         let (analysis, findings) = analysed(&drawing);
-        let near: Vec<&Finding> = findings.iter().filter(|finding| finding.rule == Rule::NearTangent).collect();
+        let near: Vec<&Finding> = findings
+            .iter()
+            .filter(|finding| finding.rule == Rule::NearTangent)
+            .collect();
         assert_eq!(near.len(), 2, "{findings:#?}");
         let fixes = analysis.fixes(&drawing, near[0]);
         let mut edited = drawing.clone();
         edited.apply(&fixes.first().expect("a fix").edit).unwrap();
         assert_eq!(count(&analysed(&edited).1, Rule::NearTangent), 0);
     }
-    let bend = closed(&[(0.0, 0.0, 0.0), (0.3, 0.002, 0.0), (10.0, 0.0, 0.0), (10.0, 10.0, 0.0), (0.0, 10.0, 0.0)]);
+    let bend = closed(&[
+        (0.0, 0.0, 0.0),
+        (0.3, 0.002, 0.0),
+        (10.0, 0.0, 0.0),
+        (10.0, 10.0, 0.0),
+        (0.0, 10.0, 0.0),
+    ]);
     check(&bend, None, Rule::NearTangent, 1, true);
     check(&closed(&SQUARE), None, Rule::NearTangent, 0, true);
 }
@@ -328,7 +637,13 @@ fn segments_too_short_to_cut() {
     check(&closed(&vertices), None, Rule::ShortSegment, 1, true);
     vertices.insert(3, (10.0, 9.998, 0.0));
     check(&closed(&vertices), None, Rule::ShortSegment, 2, true);
-    check(&open(&[(0.0, 0.0, 0.0), (0.003, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::ShortSegment, 1, false);
+    check(
+        &open(&[(0.0, 0.0, 0.0), (0.003, 0.0, 0.0), (10.0, 0.0, 0.0)]),
+        None,
+        Rule::ShortSegment,
+        1,
+        false,
+    );
 }
 
 #[test]
@@ -341,14 +656,41 @@ fn what_has_no_length_is_a_point_that_is_not_cut() {
     check(&closed(&vertices), None, Rule::ShortSegment, 1, true);
     // Two on each other are cut no times, and a contour beside them is cut as if they were not there.
     for mut drawing in drawings(&closed(&SQUARE), Some(Role::Punch)) {
-        let alone = plan(&drawing, Analysis::new(&drawing, settings()).outlines(&drawing), &settings(), None).unwrap();
+        let alone = plan(
+            &drawing,
+            Analysis::new(&drawing, settings()).outlines(&drawing),
+            &settings(),
+            None,
+        )
+        .unwrap();
         for handle in ["dot", "dot too"] {
-            let geometry = Geometry::Line { start: Point::new(20.0, 20.0), end: Point::new(20.0, 20.0) };
-            drawing.push(Entity { handle: handle.into(), layer: "0".into(), role: None, kind: Kind::Line, geometry });
+            let geometry = Geometry::Line {
+                start: Point::new(20.0, 20.0),
+                end: Point::new(20.0, 20.0),
+            };
+            drawing.push(Entity {
+                handle: handle.into(),
+                layer: "0".into(),
+                role: None,
+                kind: Kind::Line,
+                geometry,
+            });
         }
         let (analysis, findings) = analysed(&drawing);
-        assert_eq!((count(&findings, Rule::ShortSegment), count(&findings, Rule::DuplicateEntity)), (2, 0), "{findings:#?}");
-        assert!(findings.iter().all(|finding| finding.severity > Severity::Error), "{findings:#?}");
+        assert_eq!(
+            (
+                count(&findings, Rule::ShortSegment),
+                count(&findings, Rule::DuplicateEntity)
+            ),
+            (2, 0),
+            "{findings:#?}"
+        );
+        assert!(
+            findings
+                .iter()
+                .all(|finding| finding.severity > Severity::Error),
+            "{findings:#?}"
+        );
         let paths = plan(&drawing, analysis.outlines(&drawing), &settings(), None).unwrap();
         assert_eq!(paths, alone);
     }
@@ -357,32 +699,107 @@ fn what_has_no_length_is_a_point_that_is_not_cut() {
 #[test]
 fn contours_that_are_open() {
     check(&open(&SQUARE), None, Rule::OpenContour, 1, true);
-    check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.3), (10.0, 10.0, 0.0), (0.0, 0.5, 0.0)]), None, Rule::OpenContour, 1, true);
-    check(&open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]), None, Rule::OpenContour, 1, false);
+    check(
+        &open(&[
+            (0.0, 0.0, 0.0),
+            (10.0, 0.0, 0.3),
+            (10.0, 10.0, 0.0),
+            (0.0, 0.5, 0.0),
+        ]),
+        None,
+        Rule::OpenContour,
+        1,
+        true,
+    );
+    check(
+        &open(&[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]),
+        None,
+        Rule::OpenContour,
+        1,
+        false,
+    );
     check(&closed(&SQUARE), None, Rule::OpenContour, 0, true);
     // Once it is closed the wire has a side on it, and four corners to leave round: that is no reason to leave it open.
     for drawing in drawings(&open(&SQUARE), Some(Role::Opening)) {
         let (analysis, findings) = analysed(&drawing);
-        let finding = findings.iter().find(|finding| finding.rule == Rule::OpenContour).unwrap();
+        let finding = findings
+            .iter()
+            .find(|finding| finding.rule == Rule::OpenContour)
+            .unwrap();
         let mut closed = drawing.clone();
-        closed.apply(&analysis.fixes(&drawing, finding).first().expect("a fix").edit).unwrap();
+        closed
+            .apply(
+                &analysis
+                    .fixes(&drawing, finding)
+                    .first()
+                    .expect("a fix")
+                    .edit,
+            )
+            .unwrap();
         let findings = analysed(&closed).1;
-        assert_eq!((count(&findings, Rule::OpenContour), count(&findings, Rule::SharpCorner)), (0, 4));
+        assert_eq!(
+            (
+                count(&findings, Rule::OpenContour),
+                count(&findings, Rule::SharpCorner)
+            ),
+            (0, 4)
+        );
     }
 }
 
 #[test]
 fn ends_that_do_not_meet() {
     let (line, arc) = (
-        |x0: f64, y0: f64, x1: f64, y1: f64| Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) },
-        Geometry::Arc { center: Point::new(10.0, 5.0), radius: 5.0, start_angle: -PI / 2.0, end_angle: PI / 2.0 },
+        |x0: f64, y0: f64, x1: f64, y1: f64| Geometry::Line {
+            start: Point::new(x0, y0),
+            end: Point::new(x1, y1),
+        },
+        Geometry::Arc {
+            center: Point::new(10.0, 5.0),
+            radius: 5.0,
+            start_angle: -PI / 2.0,
+            end_angle: PI / 2.0,
+        },
     );
-    let polyline = Geometry::Polyline { closed: false, vertices: vec![Vertex::new(10.0, 10.003, 0.0), Vertex::new(0.0, 10.0, 0.0)] };
+    let polyline = Geometry::Polyline {
+        closed: false,
+        vertices: vec![Vertex::new(10.0, 10.003, 0.0), Vertex::new(0.0, 10.0, 0.0)],
+    };
     for (geometries, gaps) in [
-        (vec![line(0.0, 0.0, 10.0, 0.0), line(10.004, 0.0, 10.0, 10.0), line(0.0, 0.003, 10.0, 10.0)], 2),
-        (vec![line(0.0, 0.0, 9.995, 0.0), arc.clone(), line(10.0, 10.0, 0.0, 10.0), line(0.0, 10.004, 0.0, 0.0)], 2),
-        (vec![line(0.0, 0.0, 10.0, 0.0), arc, polyline, line(0.0, 0.0, 0.0, 10.0)], 1),
-        (vec![line(0.0, 0.0, 10.0, 0.0), line(10.0, 0.0, 10.0, 10.0), line(0.0, 0.0, 10.0, 10.0)], 0),
+        (
+            vec![
+                line(0.0, 0.0, 10.0, 0.0),
+                line(10.004, 0.0, 10.0, 10.0),
+                line(0.0, 0.003, 10.0, 10.0),
+            ],
+            2,
+        ),
+        (
+            vec![
+                line(0.0, 0.0, 9.995, 0.0),
+                arc.clone(),
+                line(10.0, 10.0, 0.0, 10.0),
+                line(0.0, 10.004, 0.0, 0.0),
+            ],
+            2,
+        ),
+        (
+            vec![
+                line(0.0, 0.0, 10.0, 0.0),
+                arc,
+                polyline,
+                line(0.0, 0.0, 0.0, 10.0),
+            ],
+            1,
+        ),
+        (
+            vec![
+                line(0.0, 0.0, 10.0, 0.0),
+                line(10.0, 0.0, 10.0, 10.0),
+                line(0.0, 0.0, 10.0, 10.0),
+            ],
+            0,
+        ),
     ] {
         let mut drawing = Drawing::new(None);
         geometries.into_iter().for_each(|geometry| {
@@ -393,7 +810,15 @@ fn ends_that_do_not_meet() {
         for finding in findings.iter().filter(|finding| finding.rule == Rule::Gap) {
             assert_eq!(finding.related.len(), 1);
             let mut edited = drawing.clone();
-            edited.apply(&analysis.fixes(&drawing, finding).first().expect("a fix").edit).unwrap();
+            edited
+                .apply(
+                    &analysis
+                        .fixes(&drawing, finding)
+                        .first()
+                        .expect("a fix")
+                        .edit,
+                )
+                .unwrap();
             assert_eq!(count(&analysed(&edited).1, Rule::Gap), gaps - 1);
         }
         let quiet = all_fixed(drawing);
@@ -403,8 +828,16 @@ fn ends_that_do_not_meet() {
 
 #[test]
 fn what_lies_wholly_on_another_entity_goes_with_fix_all() {
-    let line = |x0: f64, x1: f64| Geometry::Line { start: Point::new(x0, 0.0), end: Point::new(x1, 0.0) };
-    let arc = |from: f64, to: f64| Geometry::Arc { center: Point::new(0.0, 20.0), radius: 5.0, start_angle: from, end_angle: to };
+    let line = |x0: f64, x1: f64| Geometry::Line {
+        start: Point::new(x0, 0.0),
+        end: Point::new(x1, 0.0),
+    };
+    let arc = |from: f64, to: f64| Geometry::Arc {
+        center: Point::new(0.0, 20.0),
+        radius: 5.0,
+        start_angle: from,
+        end_angle: to,
+    };
     for (geometries, overlaps, left) in [
         (vec![line(0.0, 10.0), line(2.0, 4.0), line(6.0, 8.0)], 2, 1),
         (vec![line(2.0, 4.0), line(10.0, 0.0)], 1, 1),
@@ -449,19 +882,33 @@ fn sizes_that_no_wire_cuts_speak_for_another_unit() {
         // In inches all of it is larger.
         let mut inches = drawing.clone();
         inches.unit = Some(Unit::INCH);
-        assert_eq!(said(&analysed(&inches).1).is_some(), sides.iter().any(|side| side * 25.4 > 5000.0), "{sides:?}");
+        assert_eq!(
+            said(&analysed(&inches).1).is_some(),
+            sides.iter().any(|side| side * 25.4 > 5000.0),
+            "{sides:?}"
+        );
         // And once the odd ones are gone, nothing is said.
         let last = *drawing.order().last().unwrap();
-        let delta = drawing.apply(&DrawingEdit { changes: vec![Change::RemoveEntity { entity: last }] }).unwrap();
+        let delta = drawing
+            .apply(&DrawingEdit {
+                changes: vec![Change::RemoveEntity { entity: last }],
+            })
+            .unwrap();
         analysis.update(&drawing, &delta);
-        assert_eq!(analysis.findings(&drawing, 100).0, analysed(&drawing).1, "{sides:?}");
+        assert_eq!(
+            analysis.findings(&drawing, 100).0,
+            analysed(&drawing).1,
+            "{sides:?}"
+        );
     }
 }
 
 /// The drawing after "fix all", again and again until it has nothing more to offer.
 fn all_fixed(mut drawing: Drawing) -> Drawing {
     for _ in 0..12 {
-        let Some(edit) = Analysis::new(&drawing, settings()).fix_all(&drawing) else { return drawing };
+        let Some(edit) = Analysis::new(&drawing, settings()).fix_all(&drawing) else {
+            return drawing;
+        };
         let before = analysed(&drawing).1.len();
         drawing.apply(&edit).unwrap();
         assert!(analysed(&drawing).1.len() < before);
@@ -482,10 +929,23 @@ fn fix_all_goes_on_until_nothing_safe_is_left() {
         }
         let quiet = all_fixed(doubled);
         let findings = analysed(&quiet).1;
-        for rule in [Rule::DuplicateEntity, Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords, Rule::OpenContour] {
+        for rule in [
+            Rule::DuplicateEntity,
+            Rule::ShortSegment,
+            Rule::Gap,
+            Rule::ArcAsChords,
+            Rule::OpenContour,
+        ] {
             assert_eq!(count(&findings, rule), 0, "{findings:#?}");
         }
-        assert_eq!(quiet.entities().map(|(_, entity)| entity.geometry.segment_count()).sum::<usize>(), 5, "{quiet:#?}");
+        assert_eq!(
+            quiet
+                .entities()
+                .map(|(_, entity)| entity.geometry.segment_count())
+                .sum::<usize>(),
+            5,
+            "{quiet:#?}"
+        );
     }
 }
 
@@ -496,11 +956,18 @@ fn an_open_contour_is_no_error_where_it_is_the_wires_path() {
         ("", Severity::Error),
         ("[program]\ncompensation = \"none\"", Severity::Information),
         ("[rules]\nopen-contour = \"warning\"", Severity::Warning),
-        ("[program]\ncompensation = \"none\"\n[rules]\nopen-contour = \"error\"", Severity::Error),
+        (
+            "[program]\ncompensation = \"none\"\n[rules]\nopen-contour = \"error\"",
+            Severity::Error,
+        ),
     ] {
         let settings: Settings = toml::from_str(text).unwrap();
-        let (findings, _) = Analysis::new(&drawing, Arc::new(Effective::of(&settings))).findings(&drawing, 100);
-        let severity = findings.iter().find(|finding| finding.rule == Rule::OpenContour).map(|finding| finding.severity);
+        let (findings, _) =
+            Analysis::new(&drawing, Arc::new(Effective::of(&settings))).findings(&drawing, 100);
+        let severity = findings
+            .iter()
+            .find(|finding| finding.rule == Rule::OpenContour)
+            .map(|finding| finding.severity);
         assert_eq!(severity, Some(expected), "{text}");
     }
 }
@@ -508,13 +975,18 @@ fn an_open_contour_is_no_error_where_it_is_the_wires_path() {
 #[test]
 fn what_the_reader_finds_keeps_its_severity_unless_somebody_sets_it() {
     let text = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n5\nA\n90\n7\n70\n1\n10\n0\n20\n0\n10\n5\n20\n0\n10\n5\n20\n5\n0\nENDSEC\n0\nEOF\n";
-    for (toml, expected) in
-        [("", Some(Severity::Warning)), ("[rules]\nsyntax = \"error\"", Some(Severity::Error)), ("[rules]\nsyntax = \"off\"", None)]
-    {
+    for (toml, expected) in [
+        ("", Some(Severity::Warning)),
+        ("[rules]\nsyntax = \"error\"", Some(Severity::Error)),
+        ("[rules]\nsyntax = \"off\"", None),
+    ] {
         let settings: Settings = toml::from_str(toml).unwrap();
         let source = Source::Dxf(wedm::dxf::Document::read(text.into()));
         let (findings, _) = Document::new(source, Arc::new(Effective::of(&settings))).findings(100);
-        let severity = findings.iter().find(|finding| finding.rule == Rule::Syntax).map(|finding| finding.severity);
+        let severity = findings
+            .iter()
+            .find(|finding| finding.rule == Rule::Syntax)
+            .map(|finding| finding.severity);
         assert_eq!(severity, expected, "{toml}");
     }
 }

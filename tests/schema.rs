@@ -10,5 +10,8 @@ fn the_committed_schema_is_current() {
         std::fs::write(&path, &schema).unwrap();
     }
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(committed == schema, "docs/protocol.schema.json is out of date; update it with: UPDATE_EXPECT=1 cargo test --test schema");
+    assert!(
+        committed == schema,
+        "docs/protocol.schema.json is out of date; update it with: UPDATE_EXPECT=1 cargo test --test schema"
+    );
 }

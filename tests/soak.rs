@@ -29,27 +29,45 @@ struct Told(Vec<Value>);
 
 impl Told {
     fn errors(&self) -> usize {
-        self.0.iter().filter(|finding| finding["severity"] == 1).count()
+        self.0
+            .iter()
+            .filter(|finding| finding["severity"] == 1)
+            .count()
     }
 
     fn of_rule(&self, code: &Value) -> usize {
-        self.0.iter().filter(|finding| finding["code"] == *code).count()
+        self.0
+            .iter()
+            .filter(|finding| finding["code"] == *code)
+            .count()
     }
 
     fn alike(&self, finding: &Value) -> usize {
-        self.0.iter().filter(|other| other["code"] == finding["code"] && other["message"] == finding["message"]).count()
+        self.0
+            .iter()
+            .filter(|other| {
+                other["code"] == finding["code"] && other["message"] == finding["message"]
+            })
+            .count()
     }
 }
 
 fn number(name: &str, usual: u64) -> u64 {
-    std::env::var(name).ok().and_then(|number| number.parse().ok()).unwrap_or(usual)
+    std::env::var(name)
+        .ok()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(usual)
 }
 
 #[test]
 fn whatever_is_edited_and_repaired_the_server_stays_right_and_small() {
     let seed = number("WEDM_SOAK_SEED", 20_261_122);
     let seconds = number("WEDM_SOAK_SECONDS", SECONDS);
-    let steps = if std::env::var("WEDM_SOAK_SECONDS").is_ok() { u64::MAX } else { STEPS } as usize;
+    let steps = if std::env::var("WEDM_SOAK_SECONDS").is_ok() {
+        u64::MAX
+    } else {
+        STEPS
+    } as usize;
     println!("WEDM_SOAK_SEED={seed} WEDM_SOAK_SECONDS={seconds}");
     let mut soak = Soak::new(seed);
     let until = Instant::now() + Duration::from_secs(seconds);
@@ -81,7 +99,10 @@ fn whatever_is_edited_and_repaired_the_server_stays_right_and_small() {
         median(first),
         median(second)
     );
-    assert!(late_memory <= early_memory + early_memory / 2 + 64 * 1024, "memory grows: {early_memory} kB, {late_memory} kB");
+    assert!(
+        late_memory <= early_memory + early_memory / 2 + 64 * 1024,
+        "memory grows: {early_memory} kB, {late_memory} kB"
+    );
     soak.client.shut_down();
 }
 
@@ -93,9 +114,11 @@ fn median(times: &[Duration]) -> Duration {
 
 /// Resident memory in kB; 0 where the system does not say.
 fn resident(client: &Client) -> u64 {
-    let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).unwrap_or_default();
+    let status =
+        std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmRSS:"));
-    line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok()).unwrap_or(0)
+    line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok())
+        .unwrap_or(0)
 }
 
 struct Soak {
@@ -123,10 +146,24 @@ impl Soak {
     fn new(seed: u64) -> Soak {
         let mut client = start();
         let models = seeds::models();
-        let told = models.iter().map(|model| Told(open(&mut client, model, model.uri()))).collect();
+        let told = models
+            .iter()
+            .map(|model| Told(open(&mut client, model, model.uri())))
+            .collect();
         let random = Random::new(seed);
         let history = models.iter().map(|_| Vec::new()).collect();
-        Soak { seed, random, client, fresh: start(), models, told, history, steps: 0, applied: 0, latencies: Vec::new() }
+        Soak {
+            seed,
+            random,
+            client,
+            fresh: start(),
+            models,
+            told,
+            history,
+            steps: 0,
+            applied: 0,
+            latencies: Vec::new(),
+        }
     }
 
     fn step(&mut self) {
@@ -182,7 +219,11 @@ impl Soak {
     /// Asks for all actions, and applies each of them to the document as it is.
     fn act(&mut self, at: usize) {
         let uri = self.models[at].uri().to_owned();
-        let range = if self.random.below(3) == 0 { self.models[at].random_line(&mut self.random) } else { everywhere() };
+        let range = if self.random.below(3) == 0 {
+            self.models[at].random_line(&mut self.random)
+        } else {
+            everywhere()
+        };
         let mut context = json!({ "diagnostics": [] });
         match self.random.below(4) {
             0 => context["only"] = json!(["source.fixAll.wedm"]),
@@ -190,14 +231,27 @@ impl Soak {
             _ => {}
         }
         let params = json!({ "textDocument": { "uri": uri }, "range": range, "context": context });
-        let offered = self.request("textDocument/codeAction", params, at).as_array().cloned().unwrap_or_default();
+        let offered = self
+            .request("textDocument/codeAction", params, at)
+            .as_array()
+            .cloned()
+            .unwrap_or_default();
         let (before, asked) = (self.told[at].clone(), self.models[at].version);
-        let offered: Vec<Value> = offered.into_iter().filter(|action| action.get("disabled").is_none()).collect();
+        let offered: Vec<Value> = offered
+            .into_iter()
+            .filter(|action| action.get("disabled").is_none())
+            .collect();
         // All of a few; of many some, so that no document takes all the time.
-        let first = if offered.len() > 12 { self.random.below(offered.len() - 12) } else { 0 };
+        let first = if offered.len() > 12 {
+            self.random.below(offered.len() - 12)
+        } else {
+            0
+        };
         for action in offered.iter().skip(first).take(12) {
             let kept = self.models[at].clone();
-            let Some(changes) = self.models[at].changes_of(action, asked) else { self.fail(at, &kept, action, "its edit cannot be made") };
+            let Some(changes) = self.models[at].changes_of(action, asked) else {
+                self.fail(at, &kept, action, "its edit cannot be made")
+            };
             let after = self.changed(at, &changes);
             self.applied += 1;
             self.judge(at, &kept, action, &before, &after);
@@ -209,7 +263,15 @@ impl Soak {
             let back = kept.restoring(&self.models[at]);
             let again = self.changed(at, &back);
             if again != before {
-                self.fail(at, &kept, action, &format!("taken back, other things are said:\n{:#?}\nbefore:\n{:#?}", again.0, before.0));
+                self.fail(
+                    at,
+                    &kept,
+                    action,
+                    &format!(
+                        "taken back, other things are said:\n{:#?}\nbefore:\n{:#?}",
+                        again.0, before.0
+                    ),
+                );
             }
         }
     }
@@ -219,21 +281,43 @@ impl Soak {
         // one to light.
         // What is only written otherwise, turned or mirrored brings nothing to a sound program; in another one the likeliest fault may
         // come to lie elsewhere.
-        let is_sound = before.0.iter().all(|finding| finding["severity"].as_u64() > Some(2));
-        let is_refactoring = action["kind"].as_str().is_some_and(|kind| kind.starts_with("refactor"));
-        let is_proved = if is_refactoring { is_sound } else { action["isPreferred"] == true || action["kind"] != "quickfix" };
+        let is_sound = before
+            .0
+            .iter()
+            .all(|finding| finding["severity"].as_u64() > Some(2));
+        let is_refactoring = action["kind"]
+            .as_str()
+            .is_some_and(|kind| kind.starts_with("refactor"));
+        let is_proved = if is_refactoring {
+            is_sound
+        } else {
+            action["isPreferred"] == true || action["kind"] != "quickfix"
+        };
         if is_proved && after.errors() > before.errors() {
-            self.fail(at, kept, action, &format!("it brings an error:\n{:#?}\nbefore:\n{:#?}", after.0, before.0));
+            self.fail(
+                at,
+                kept,
+                action,
+                &format!(
+                    "it brings an error:\n{:#?}\nbefore:\n{:#?}",
+                    after.0, before.0
+                ),
+            );
         }
         if action["kind"] == "quickfix" {
             let finding = &action["diagnostics"][0];
             // Where several say the same, one of them goes.
-            let is_gone =
-                after.alike(finding) < before.alike(finding) || after.of_rule(&finding["code"]) < before.of_rule(&finding["code"]);
+            let is_gone = after.alike(finding) < before.alike(finding)
+                || after.of_rule(&finding["code"]) < before.of_rule(&finding["code"]);
             // Several guesses stand beside each other there, and some of them only move the suspicion.
             let is_guess = finding["code"] == "suspect-block" && action["isPreferred"] != true;
             if !is_gone && !is_guess {
-                self.fail(at, kept, action, &format!("its finding stays:\n{:#?}", after.0));
+                self.fail(
+                    at,
+                    kept,
+                    action,
+                    &format!("its finding stays:\n{:#?}", after.0),
+                );
             }
         }
     }
@@ -251,12 +335,30 @@ impl Soak {
             ("textDocument/definition", there.clone()),
             ("textDocument/documentHighlight", there.clone()),
             ("textDocument/prepareRename", there),
-            ("textDocument/documentSymbol", json!({ "textDocument": document })),
-            ("textDocument/foldingRange", json!({ "textDocument": document })),
-            ("textDocument/semanticTokens/full", json!({ "textDocument": document })),
-            ("textDocument/inlayHint", json!({ "textDocument": document, "range": everywhere() })),
-            ("textDocument/selectionRange", json!({ "textDocument": document, "positions": [position] })),
-            ("textDocument/formatting", json!({ "textDocument": document, "options": { "tabSize": 4, "insertSpaces": true } })),
+            (
+                "textDocument/documentSymbol",
+                json!({ "textDocument": document }),
+            ),
+            (
+                "textDocument/foldingRange",
+                json!({ "textDocument": document }),
+            ),
+            (
+                "textDocument/semanticTokens/full",
+                json!({ "textDocument": document }),
+            ),
+            (
+                "textDocument/inlayHint",
+                json!({ "textDocument": document, "range": everywhere() }),
+            ),
+            (
+                "textDocument/selectionRange",
+                json!({ "textDocument": document, "positions": [position] }),
+            ),
+            (
+                "textDocument/formatting",
+                json!({ "textDocument": document, "options": { "tabSize": 4, "insertSpaces": true } }),
+            ),
         ];
         let of_all = [
             ("wedm/inspect", json!({ "uri": uri })),
@@ -266,9 +368,16 @@ impl Soak {
             ("wedm/simulate", json!({ "uri": uri })),
             ("wedm/settings", json!({ "uri": uri })),
             ("wedm/generate", json!({ "uri": uri, "format": "3b" })),
-            ("wedm/generate", json!({ "uri": uri, "format": "iso", "force": true, "options": { "side": "opening" } })),
+            (
+                "wedm/generate",
+                json!({ "uri": uri, "format": "iso", "force": true, "options": { "side": "opening" } }),
+            ),
         ];
-        let of_text = if self.models[at].is_text() { &of_text[..] } else { &[] };
+        let of_text = if self.models[at].is_text() {
+            &of_text[..]
+        } else {
+            &[]
+        };
         for (method, params) in of_text.iter().chain(&of_all) {
             self.request(method, params.clone(), at);
         }
@@ -280,7 +389,12 @@ impl Soak {
             Ok(answer) => answer,
             Err(error) if error["code"] == -32603 => {
                 let model = self.models[at].clone();
-                self.fail(at, &model, &params, &format!("{method} is answered {error}"))
+                self.fail(
+                    at,
+                    &model,
+                    &params,
+                    &format!("{method} is answered {error}"),
+                )
             }
             Err(_) => Value::Null,
         }
@@ -295,7 +409,12 @@ impl Soak {
         self.fresh.notify(method, params);
         self.fresh.published(model.uri());
         if afresh != self.told[at] {
-            self.fail(at, &model, &Value::Null, &format!("afresh:\n{:#?}\nedited:\n{:#?}", afresh.0, self.told[at].0));
+            self.fail(
+                at,
+                &model,
+                &Value::Null,
+                &format!("afresh:\n{:#?}\nedited:\n{:#?}", afresh.0, self.told[at].0),
+            );
         }
     }
 
@@ -313,7 +432,12 @@ impl Soak {
             self.steps,
             self.models[at].uri(),
             model.shown(),
-            self.history[at].iter().rev().take(12).map(|change| format!("{change}\n")).collect::<String>()
+            self.history[at]
+                .iter()
+                .rev()
+                .take(12)
+                .map(|change| format!("{change}\n"))
+                .collect::<String>()
         )
     }
 }

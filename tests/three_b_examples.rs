@@ -13,7 +13,10 @@ use wedm::settings::{Compensation, Direction, Effective, PointSetting};
 use wedm::toolpath::plan;
 
 fn examples() -> Option<Vec<Value>> {
-    let shared = std::env::var_os("WEDM_SHARED").map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared"), PathBuf::from);
+    let shared = std::env::var_os("WEDM_SHARED").map_or_else(
+        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared"),
+        PathBuf::from,
+    );
     let text = std::fs::read_to_string(shared.join("oracles/3b.json")).ok();
     if text.is_none() {
         println!("skipped: no oracles/3b.json");
@@ -31,14 +34,29 @@ fn segments(list: &Value) -> Vec<Segment> {
         let (start, end) = (point(&value["start"]), point(&value["end"]));
         match value["type"].as_str() {
             Some("line") => Segment::line(start, end),
-            _ => Segment::Arc(Arc::about(point(&value["center"]), start, end, value["dir"] == "ccw")),
+            _ => Segment::Arc(Arc::about(
+                point(&value["center"]),
+                start,
+                end,
+                value["dir"] == "ccw",
+            )),
         }
     };
-    list.as_array().expect("a list").iter().map(segment).collect()
+    list.as_array()
+        .expect("a list")
+        .iter()
+        .map(segment)
+        .collect()
 }
 
 fn entity(geometry: Geometry) -> Entity {
-    Entity { handle: "2A".into(), layer: "0".into(), role: None, kind: wedm::drawing::Kind::LightPolyline, geometry }
+    Entity {
+        handle: "2A".into(),
+        layer: "0".into(),
+        role: None,
+        kind: wedm::drawing::Kind::LightPolyline,
+        geometry,
+    }
 }
 
 /// LINE, ARC and CIRCLE entities, chained as the server chains them.
@@ -46,32 +64,73 @@ fn as_entities(path: &[Segment]) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     for segment in path {
         let geometry = match segment {
-            Segment::Line(line) => Geometry::Line { start: line.start, end: line.end },
-            Segment::Arc(arc) if arc.is_full_turn() => Geometry::Circle { center: arc.center, radius: arc.radius },
+            Segment::Line(line) => Geometry::Line {
+                start: line.start,
+                end: line.end,
+            },
+            Segment::Arc(arc) if arc.is_full_turn() => Geometry::Circle {
+                center: arc.center,
+                radius: arc.radius,
+            },
             Segment::Arc(arc) => {
                 let (start, end) = (arc.start_angle, arc.start_angle + arc.sweep);
-                let (start_angle, end_angle) = if arc.sweep > 0.0 { (start, end) } else { (end, start) };
-                Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle }
+                let (start_angle, end_angle) = if arc.sweep > 0.0 {
+                    (start, end)
+                } else {
+                    (end, start)
+                };
+                Geometry::Arc {
+                    center: arc.center,
+                    radius: arc.radius,
+                    start_angle,
+                    end_angle,
+                }
             }
         };
         drawing.push(entity(geometry));
     }
-    let outlines = Analysis::new(&drawing, Effective::default().into()).outlines(&drawing).to_vec();
+    let outlines = Analysis::new(&drawing, Effective::default().into())
+        .outlines(&drawing)
+        .to_vec();
     (drawing, outlines)
 }
 
 fn as_polyline(path: &[Segment]) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-    let mut vertices: Vec<Vertex> = path.iter().map(|s| Vertex { point: s.start(), bulge: s.bulge() }).collect();
-    vertices.extend(path.last().map(|last| Vertex { point: last.end(), bulge: 0.0 }));
-    let id = drawing.push(entity(Geometry::Polyline { closed: false, vertices }));
+    let mut vertices: Vec<Vertex> = path
+        .iter()
+        .map(|s| Vertex {
+            point: s.start(),
+            bulge: s.bulge(),
+        })
+        .collect();
+    vertices.extend(path.last().map(|last| Vertex {
+        point: last.end(),
+        bulge: 0.0,
+    }));
+    let id = drawing.push(entity(Geometry::Polyline {
+        closed: false,
+        vertices,
+    }));
     let contour = Contour::new(&drawing, [(id, false)], false);
-    (drawing, Vec::from([Outline { contour, role: Role::Both, twice_area: 0.0 }]))
+    (
+        drawing,
+        Vec::from([Outline {
+            contour,
+            role: Role::Both,
+            twice_area: 0.0,
+        }]),
+    )
 }
 
 fn settings_from(start: Point) -> Effective {
     let at = PointSetting::One([start.x, start.y]);
-    Effective { compensation: Compensation::None, thread: Some(at.clone()), entry: Some(at), ..Effective::default() }
+    Effective {
+        compensation: Compensation::None,
+        thread: Some(at.clone()),
+        entry: Some(at),
+        ..Effective::default()
+    }
 }
 
 fn blocks(text: &str) -> Vec<Block> {
@@ -88,8 +147,13 @@ fn blocks(text: &str) -> Vec<Block> {
 fn assert_same(id: &str, written: &[Block], expected: &[Block]) {
     assert_eq!(written.len(), expected.len(), "{id}: {written:?}");
     for (written, expected) in written.iter().zip(expected) {
-        let same = (written.x, written.y) == (expected.x, expected.y) || matches!(expected.motion, Motion::Line(_));
-        let end = |block| decode(block, Point::origin()).expect("a decodable block").end();
+        let same = (written.x, written.y) == (expected.x, expected.y)
+            || matches!(expected.motion, Motion::Line(_));
+        let end = |block| {
+            decode(block, Point::origin())
+                .expect("a decodable block")
+                .end()
+        };
         let near = (end(written) - end(expected)).norm() <= 3.0;
         let tie = (expected.x - expected.y).abs() <= 1;
         assert!(
@@ -116,16 +180,38 @@ fn wire_paths_give_the_published_blocks() {
     for example in examples().unwrap_or_default() {
         let id = example["id"].as_str().expect("id");
         let path = segments(&example["geometry"]["wire_path"]);
-        let lines: Vec<&str> = example["program"].as_array().expect("blocks").iter().filter_map(Value::as_str).collect();
+        let lines: Vec<&str> = example["program"]
+            .as_array()
+            .expect("blocks")
+            .iter()
+            .filter_map(Value::as_str)
+            .collect();
         let expected = blocks(&lines.join("\n"));
-        let circle = path.iter().any(|s| s.as_arc().is_some_and(Arc::is_full_turn));
-        let drawn: &[Drawer] = if circle { &[as_entities] } else { &[as_entities, as_polyline] };
+        let circle = path
+            .iter()
+            .any(|s| s.as_arc().is_some_and(Arc::is_full_turn));
+        let drawn: &[Drawer] = if circle {
+            &[as_entities]
+        } else {
+            &[as_entities, as_polyline]
+        };
         for draw in drawn {
             let (drawing, outlines) = draw(&path);
             let clockwise = matches!(path[..], [Segment::Arc(arc)] if arc.sweep < 0.0);
-            let direction = if clockwise { Direction::Cw } else { Direction::Ccw };
-            let settings = Effective { direction, ..settings_from(point(&example["geometry"]["wire_start"])) };
-            assert_same(id, &blocks(&program(&drawing, &outlines, &settings)), &expected);
+            let direction = if clockwise {
+                Direction::Cw
+            } else {
+                Direction::Ccw
+            };
+            let settings = Effective {
+                direction,
+                ..settings_from(point(&example["geometry"]["wire_start"]))
+            };
+            assert_same(
+                id,
+                &blocks(&program(&drawing, &outlines, &settings)),
+                &expected,
+            );
         }
         compared += 1;
     }
@@ -138,33 +224,75 @@ fn nominal_contours_give_the_published_blocks_of_the_offset() {
         let nominal = &example["geometry"]["nominal_contour"];
         let circle = &nominal[0];
         if circle["type"] != "circle" {
-            assert!(nominal.is_null(), "{}: only circles are known here", example["id"]);
+            assert!(
+                nominal.is_null(),
+                "{}: only circles are known here",
+                example["id"]
+            );
             continue;
         }
         let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
         let radius = circle["radius"].as_f64().expect("radius");
-        let id = drawing.push(entity(Geometry::Circle { center: point(&circle["center"]), radius }));
+        let id = drawing.push(entity(Geometry::Circle {
+            center: point(&circle["center"]),
+            radius,
+        }));
         let contour = Contour::new(&drawing, [(id, false)], true);
-        let outline = Outline { twice_area: contour.twice_area(&drawing), contour, role: Role::Opening };
+        let outline = Outline {
+            twice_area: contour.twice_area(&drawing),
+            contour,
+            role: Role::Opening,
+        };
         let start = point(&example["geometry"]["wire_start"]);
-        let correction = example["compensation"]["offset_mm"].as_f64().expect("offset");
-        let settings = Effective { correction, thread: Some(PointSetting::One([start.x, start.y])), ..Effective::default() };
-        let lines: Vec<&str> = example["program"].as_array().expect("blocks").iter().filter_map(Value::as_str).collect();
-        assert_same(example["id"].as_str().expect("id"), &blocks(&program(&drawing, &[outline], &settings)), &blocks(&lines.join("\n")));
+        let correction = example["compensation"]["offset_mm"]
+            .as_f64()
+            .expect("offset");
+        let settings = Effective {
+            correction,
+            thread: Some(PointSetting::One([start.x, start.y])),
+            ..Effective::default()
+        };
+        let lines: Vec<&str> = example["program"]
+            .as_array()
+            .expect("blocks")
+            .iter()
+            .filter_map(Value::as_str)
+            .collect();
+        assert_same(
+            example["id"].as_str().expect("id"),
+            &blocks(&program(&drawing, &[outline], &settings)),
+            &blocks(&lines.join("\n")),
+        );
     }
 }
 
 #[test]
 fn published_text_decodes_to_its_path() {
     for example in examples().unwrap_or_default() {
-        let lines: Vec<&str> = example["program"].as_array().expect("blocks").iter().filter_map(Value::as_str).collect();
+        let lines: Vec<&str> = example["program"]
+            .as_array()
+            .expect("blocks")
+            .iter()
+            .filter_map(Value::as_str)
+            .collect();
         let mut at = point(&example["geometry"]["wire_start"]) * 1000.0;
-        for (block, expected) in blocks(&lines.join("\n")).iter().zip(segments(&example["geometry"]["wire_path"])) {
+        for (block, expected) in blocks(&lines.join("\n"))
+            .iter()
+            .zip(segments(&example["geometry"]["wire_path"]))
+        {
             let decoded = decode(block, at).expect("a decodable block");
             let distance = (decoded.end() - expected.end() * 1000.0).norm();
-            assert!(distance <= 2.0, "{}: {block:?} ends {distance} µm away", example["id"]);
+            assert!(
+                distance <= 2.0,
+                "{}: {block:?} ends {distance} µm away",
+                example["id"]
+            );
             let middle = (decoded.point_at(0.5) - expected.point_at(0.5) * 1000.0).norm();
-            assert!(middle <= 3.0, "{}: {block:?} runs {middle} µm beside", example["id"]);
+            assert!(
+                middle <= 3.0,
+                "{}: {block:?} runs {middle} µm beside",
+                example["id"]
+            );
             at = decoded.end();
         }
     }
@@ -174,20 +302,42 @@ fn published_text_decodes_to_its_path() {
 #[test]
 fn a_circle_and_its_leads_drawn_are_one_path() {
     let (hole, edge) = (Point::origin(), Point::new(9.9, 0.0));
-    let path = [Segment::line(hole, edge), Segment::Arc(Arc::about(hole, edge, edge, true)), Segment::line(edge, hole)];
+    let path = [
+        Segment::line(hole, edge),
+        Segment::Arc(Arc::about(hole, edge, edge, true)),
+        Segment::line(edge, hole),
+    ];
     let (drawing, outlines) = as_entities(&path);
     let written = program(&drawing, &outlines, &settings_from(hole));
-    assert_eq!(written.split_whitespace().collect::<Vec<_>>(), ["B9900B0B9900GXL1", "B9900B0B39600GYNR1", "B9900B0B9900GXL3", "DD"]);
+    assert_eq!(
+        written.split_whitespace().collect::<Vec<_>>(),
+        [
+            "B9900B0B9900GXL1",
+            "B9900B0B39600GYNR1",
+            "B9900B0B9900GXL3",
+            "DD"
+        ]
+    );
 }
 
 /// The rules let such a drawing pass: with compensation "none" what touches and doubles is the wire's way, not a fault.
 #[test]
 fn no_error_stands_in_a_wire_path_that_is_drawn() {
     let (hole, edge) = (Point::origin(), Point::new(9.9, 0.0));
-    let path = [Segment::line(hole, edge), Segment::Arc(Arc::about(hole, edge, edge, true)), Segment::line(edge, hole)];
+    let path = [
+        Segment::line(hole, edge),
+        Segment::Arc(Arc::about(hole, edge, edge, true)),
+        Segment::line(edge, hole),
+    ];
     let (drawing, _) = as_entities(&path);
-    let settings = Effective { compensation: Compensation::None, ..Effective::default() };
+    let settings = Effective {
+        compensation: Compensation::None,
+        ..Effective::default()
+    };
     let (findings, _) = Analysis::new(&drawing, settings.into()).findings(&drawing, usize::MAX);
-    let errors: Vec<_> = findings.iter().filter(|finding| finding.severity == wedm::finding::Severity::Error).collect();
+    let errors: Vec<_> = findings
+        .iter()
+        .filter(|finding| finding.severity == wedm::finding::Severity::Error)
+        .collect();
     assert!(errors.is_empty(), "{errors:?}");
 }

@@ -10,8 +10,12 @@ use std::fmt::Write;
 pub fn opening(x: f64, y: f64, tight: f64) -> Vec<[f64; 3]> {
     let bulge = (std::f64::consts::PI / 8.0).tan();
     let (width, height, wide) = (6.0, 4.0, 0.5);
-    let corners =
-        [(width, 0.0, tight, 1.0, 0.0), (width, height, wide, 0.0, 1.0), (0.0, height, wide, -1.0, 0.0), (0.0, 0.0, wide, 0.0, -1.0)];
+    let corners = [
+        (width, 0.0, tight, 1.0, 0.0),
+        (width, height, wide, 0.0, 1.0),
+        (0.0, height, wide, -1.0, 0.0),
+        (0.0, 0.0, wide, 0.0, -1.0),
+    ];
     let mut vertices = Vec::new();
     for (cx, cy, r, along_x, along_y) in corners {
         let (x, y): (f64, f64) = (x + cx, y + cy);
@@ -47,8 +51,12 @@ fn polylines_while(goes_on: impl Fn(usize, usize) -> bool) -> String {
     while goes_on(i, text.len()) {
         let (x, y) = place(i);
         let vertices = opening(x, y, if i % 50 == 7 { 0.05 } else { 0.3 });
-        let _ =
-            write!(text, "0\nLWPOLYLINE\n5\n{:X}\n100\nAcDbEntity\n8\nDIE\n100\nAcDbPolyline\n90\n{}\n70\n1\n", 100 + i, vertices.len());
+        let _ = write!(
+            text,
+            "0\nLWPOLYLINE\n5\n{:X}\n100\nAcDbEntity\n8\nDIE\n100\nAcDbPolyline\n90\n{}\n70\n1\n",
+            100 + i,
+            vertices.len()
+        );
         for [x, y, bulge] in vertices {
             let _ = write!(text, "10\n{x:.9}\n20\n{y:.9}\n");
             if bulge != 0.0 {
@@ -82,12 +90,16 @@ fn lines_and_arcs_while(goes_on: impl Fn(usize, usize) -> bool) -> String {
             let [x1, y1, _] = vertices[(k + 1) % vertices.len()];
             handle += 1;
             if bulge == 0.0 {
-                let _ = write!(text, "0\nLINE\n5\n{handle:X}\n8\nDIE\n10\n{x0:.9}\n20\n{y0:.9}\n11\n{x1:.9}\n21\n{y1:.9}\n");
+                let _ = write!(
+                    text,
+                    "0\nLINE\n5\n{handle:X}\n8\nDIE\n10\n{x0:.9}\n20\n{y0:.9}\n11\n{x1:.9}\n21\n{y1:.9}\n"
+                );
             } else {
                 let (dx, dy) = (x1 - x0, y1 - y0);
                 let h = (1.0 - bulge * bulge) / (4.0 * bulge);
                 let (cx, cy) = ((x0 + x1) / 2.0 - h * dy, (y0 + y1) / 2.0 + h * dx);
-                let angle = |px: f64, py: f64| (py - cy).atan2(px - cx).to_degrees().rem_euclid(360.0);
+                let angle =
+                    |px: f64, py: f64| (py - cy).atan2(px - cx).to_degrees().rem_euclid(360.0);
                 let _ = write!(
                     text,
                     "0\nARC\n5\n{handle:X}\n8\nDIE\n10\n{cx:.9}\n20\n{cy:.9}\n40\n{:.9}\n50\n{:.9}\n51\n{:.9}\n",
@@ -109,7 +121,11 @@ pub fn long_outline(count: usize) -> Vec<[f64; 3]> {
     let vertex = |i: usize| {
         let angle = i as f64 / count as f64 * std::f64::consts::TAU;
         let r = radius + if i.is_multiple_of(2) { 0.0 } else { 0.4 };
-        [r * angle.cos(), r * angle.sin(), if i.is_multiple_of(10) { 0.1 } else { 0.0 }]
+        [
+            r * angle.cos(),
+            r * angle.sin(),
+            if i.is_multiple_of(10) { 0.1 } else { 0.0 },
+        ]
     };
     (0..count).map(vertex).collect()
 }
@@ -131,7 +147,12 @@ pub fn one_polyline(count: usize) -> String {
 
 /// A 3B program of about 25 bytes for each of its blocks: squares that stand askew, each with a circle, beside each other with pauses between.
 pub fn three_b(blocks: usize) -> String {
-    let square = [(123_456, 23_456, "GXL1"), (23_456, 123_456, "GYL2"), (123_456, 23_456, "GXL3"), (23_456, 123_456, "GYL4")];
+    let square = [
+        (123_456, 23_456, "GXL1"),
+        (23_456, 123_456, "GYL2"),
+        (123_456, 23_456, "GXL3"),
+        (23_456, 123_456, "GYL4"),
+    ];
     let mut text = String::with_capacity(blocks * 26);
     let mut written = 0;
     loop {
@@ -151,8 +172,20 @@ pub fn three_b(blocks: usize) -> String {
 
 /// The same squares and circles as an ISO program of about 25 bytes for each block, absolute in mm, cut without compensation.
 pub fn iso(blocks: usize) -> String {
-    let mm = |um: i64| format!("{}{}.{:03}", if um < 0 { "-" } else { "" }, um.abs() / 1000, um.abs() % 1000);
-    let square = [(123_456, 23_456), (100_000, 146_912), (-23_456, 123_456), (0, 0)];
+    let mm = |um: i64| {
+        format!(
+            "{}{}.{:03}",
+            if um < 0 { "-" } else { "" },
+            um.abs() / 1000,
+            um.abs() % 1000
+        )
+    };
+    let square = [
+        (123_456, 23_456),
+        (100_000, 146_912),
+        (-23_456, 123_456),
+        (0, 0),
+    ];
     let mut text = String::with_capacity(blocks * 26);
     text.push_str("%\nG90\nG92 X0.000 Y0.000\n");
     let (mut written, mut x) = (0, 0);

@@ -11,22 +11,70 @@ pub struct Shape {
 
 /// All of them, with names that can be names of files.
 pub const ALL: [Shape; 16] = [
-    Shape { name: "comb", text: |count| polyline(&comb(count), true) },
-    Shape { name: "comb-of-lines", text: |count| lines(chain(&comb(count), true)) },
-    Shape { name: "circle-of-chords", text: |count| polyline(&circle(count), true) },
-    Shape { name: "circle-of-chords-of-lines", text: |count| lines(chain(&circle(count), true)) },
-    Shape { name: "circles-of-32-chords", text: |count| lines(small_circles(count)) },
-    Shape { name: "loose-lines", text: |count| lines(loose(count)) },
-    Shape { name: "crosses", text: |count| lines(crosses(count)) },
-    Shape { name: "hatch", text: |count| lines(hatch(count)) },
-    Shape { name: "star", text: |count| lines(star(count)) },
-    Shape { name: "spiral", text: |count| polyline(&spiral(count), false) },
-    Shape { name: "spiral-of-lines", text: |count| lines(chain(&spiral(count), false)) },
-    Shape { name: "doubles", text: |count| lines(doubles(count)) },
-    Shape { name: "gaps", text: |count| lines(gaps(count)) },
-    Shape { name: "gaps-in-one-chain", text: |count| lines(gaps_in_one_chain(count)) },
-    Shape { name: "one-handle", text: |count| lines(loose(count)).replace("\n5\n", "\n5\n1\n999\n") },
-    Shape { name: "short-segments", text: |count| polyline(&short(count), true) },
+    Shape {
+        name: "comb",
+        text: |count| polyline(&comb(count), true),
+    },
+    Shape {
+        name: "comb-of-lines",
+        text: |count| lines(chain(&comb(count), true)),
+    },
+    Shape {
+        name: "circle-of-chords",
+        text: |count| polyline(&circle(count), true),
+    },
+    Shape {
+        name: "circle-of-chords-of-lines",
+        text: |count| lines(chain(&circle(count), true)),
+    },
+    Shape {
+        name: "circles-of-32-chords",
+        text: |count| lines(small_circles(count)),
+    },
+    Shape {
+        name: "loose-lines",
+        text: |count| lines(loose(count)),
+    },
+    Shape {
+        name: "crosses",
+        text: |count| lines(crosses(count)),
+    },
+    Shape {
+        name: "hatch",
+        text: |count| lines(hatch(count)),
+    },
+    Shape {
+        name: "star",
+        text: |count| lines(star(count)),
+    },
+    Shape {
+        name: "spiral",
+        text: |count| polyline(&spiral(count), false),
+    },
+    Shape {
+        name: "spiral-of-lines",
+        text: |count| lines(chain(&spiral(count), false)),
+    },
+    Shape {
+        name: "doubles",
+        text: |count| lines(doubles(count)),
+    },
+    Shape {
+        name: "gaps",
+        text: |count| lines(gaps(count)),
+    },
+    Shape {
+        name: "gaps-in-one-chain",
+        text: |count| lines(gaps_in_one_chain(count)),
+    },
+    Shape {
+        name: "one-handle",
+        text: |count| lines(loose(count)).replace("\n5\n", "\n5\n1\n999\n"),
+    },
+    Shape {
+        name: "short-segments",
+        text: |count| polyline(&short(count), true),
+    },
 ];
 
 type Point = [f64; 2];
@@ -35,7 +83,12 @@ type Point = [f64; 2];
 fn polyline(points: &[Point], closed: bool) -> String {
     let mut text = String::new();
     super::header(&mut text);
-    let _ = write!(text, "0\nLWPOLYLINE\n5\n2A\n8\nDIE\n90\n{}\n70\n{}\n", points.len(), i32::from(closed));
+    let _ = write!(
+        text,
+        "0\nLWPOLYLINE\n5\n2A\n8\nDIE\n90\n{}\n70\n{}\n",
+        points.len(),
+        i32::from(closed)
+    );
     for [x, y] in points {
         let _ = write!(text, "10\n{x:.9}\n20\n{y:.9}\n");
     }
@@ -49,7 +102,10 @@ fn lines(ends: impl IntoIterator<Item = [Point; 2]>) -> String {
     super::header(&mut text);
     for (number, [[x0, y0], [x1, y1]]) in ends.into_iter().enumerate() {
         let handle = 100 + number;
-        let _ = write!(text, "0\nLINE\n5\n{handle:X}\n8\nDIE\n10\n{x0:.9}\n20\n{y0:.9}\n11\n{x1:.9}\n21\n{y1:.9}\n");
+        let _ = write!(
+            text,
+            "0\nLINE\n5\n{handle:X}\n8\nDIE\n10\n{x0:.9}\n20\n{y0:.9}\n11\n{x1:.9}\n21\n{y1:.9}\n"
+        );
     }
     text.push_str("0\nENDSEC\n0\nEOF\n");
     text
@@ -67,7 +123,10 @@ fn chain(points: &[Point], closed: bool) -> Vec<[Point; 2]> {
 fn comb(count: usize) -> Vec<Point> {
     let radius = count as f64 * 0.3;
     let at = |index: usize| {
-        let (angle, r) = (index as f64 / count as f64 * TAU, radius + if index.is_multiple_of(2) { 0.0 } else { 2.0 });
+        let (angle, r) = (
+            index as f64 / count as f64 * TAU,
+            radius + if index.is_multiple_of(2) { 0.0 } else { 2.0 },
+        );
         [r * angle.cos(), r * angle.sin()]
     };
     (0..count).map(at).collect()
@@ -76,17 +135,28 @@ fn comb(count: usize) -> Vec<Point> {
 /// A circle broken into chords of 0.1.
 fn circle(count: usize) -> Vec<Point> {
     let radius = count as f64 * 0.1 / TAU;
-    (0..count).map(|index| (index as f64 / count as f64 * TAU).sin_cos()).map(|(sine, cosine)| [radius * cosine, radius * sine]).collect()
+    (0..count)
+        .map(|index| (index as f64 / count as f64 * TAU).sin_cos())
+        .map(|(sine, cosine)| [radius * cosine, radius * sine])
+        .collect()
 }
 
 /// Circles of 32 chords each.
 fn small_circles(count: usize) -> Vec<[Point; 2]> {
     let circle = |number: usize| {
         let (x, y) = place(number, 4.0);
-        let corner = move |k: usize| [x + (k as f64 / 32.0 * TAU).cos(), y + (k as f64 / 32.0 * TAU).sin()];
+        let corner = move |k: usize| {
+            [
+                x + (k as f64 / 32.0 * TAU).cos(),
+                y + (k as f64 / 32.0 * TAU).sin(),
+            ]
+        };
         (0..32).map(move |k| [corner(k), corner((k + 1) % 32)])
     };
-    (0..count.div_ceil(32)).flat_map(circle).take(count).collect()
+    (0..count.div_ceil(32))
+        .flat_map(circle)
+        .take(count)
+        .collect()
 }
 
 fn place(number: usize, step: f64) -> (f64, f64) {
@@ -95,14 +165,21 @@ fn place(number: usize, step: f64) -> (f64, f64) {
 
 /// Lines that meet nothing.
 fn loose(count: usize) -> Vec<[Point; 2]> {
-    (0..count).map(|number| place(number, 2.0)).map(|(x, y)| [[x, y], [x + 1.0, y + 0.7]]).collect()
+    (0..count)
+        .map(|number| place(number, 2.0))
+        .map(|(x, y)| [[x, y], [x + 1.0, y + 0.7]])
+        .collect()
 }
 
 /// Pairs of lines that cross each other and nothing else.
 fn crosses(count: usize) -> Vec<[Point; 2]> {
     let line = |number: usize| {
         let (x, y) = place(number / 2, 2.0);
-        if number.is_multiple_of(2) { [[x, y], [x + 1.0, y + 1.0]] } else { [[x, y + 1.0], [x + 1.0, y]] }
+        if number.is_multiple_of(2) {
+            [[x, y], [x + 1.0, y + 1.0]]
+        } else {
+            [[x, y + 1.0], [x + 1.0, y]]
+        }
     };
     (0..count).map(line).collect()
 }
@@ -112,7 +189,11 @@ fn hatch(count: usize) -> Vec<[Point; 2]> {
     let size = count as f64;
     let line = |number: usize| {
         let at = number as f64;
-        if number.is_multiple_of(2) { [[-1.0, at], [size, at]] } else { [[at, -1.0], [at, size]] }
+        if number.is_multiple_of(2) {
+            [[-1.0, at], [size, at]]
+        } else {
+            [[at, -1.0], [at, size]]
+        }
     };
     (0..count).map(line).collect()
 }
@@ -122,7 +203,10 @@ fn star(count: usize) -> Vec<[Point; 2]> {
     let radius = count as f64;
     let line = |number: usize| {
         let (sine, cosine) = (number as f64 / count as f64 * TAU / 2.0).sin_cos();
-        [[-radius * cosine, -radius * sine], [radius * cosine, radius * sine]]
+        [
+            [-radius * cosine, -radius * sine],
+            [radius * cosine, radius * sine],
+        ]
     };
     (0..count).map(line).collect()
 }
@@ -161,7 +245,9 @@ fn gaps(count: usize) -> Vec<[Point; 2]> {
 
 /// One round wheel of pointed teeth whose lines do not quite meet.
 fn gaps_in_one_chain(count: usize) -> Vec<[Point; 2]> {
-    let apart = |[[ax, ay], [bx, by]]: [Point; 2]| [[ax + (bx - ax) * 0.002, ay + (by - ay) * 0.002], [bx, by]];
+    let apart = |[[ax, ay], [bx, by]]: [Point; 2]| {
+        [[ax + (bx - ax) * 0.002, ay + (by - ay) * 0.002], [bx, by]]
+    };
     chain(&comb(count), true).into_iter().map(apart).collect()
 }
 
@@ -169,7 +255,11 @@ fn gaps_in_one_chain(count: usize) -> Vec<[Point; 2]> {
 fn short(count: usize) -> Vec<Point> {
     let radius = count as f64 * 0.2;
     let at = |index: usize| {
-        let shift = if index.is_multiple_of(2) { 0.0 } else { 0.003 / radius - TAU / count as f64 };
+        let shift = if index.is_multiple_of(2) {
+            0.0
+        } else {
+            0.003 / radius - TAU / count as f64
+        };
         let angle = index as f64 / count as f64 * TAU + shift;
         [radius * angle.cos(), radius * angle.sin()]
     };

@@ -32,7 +32,11 @@ impl DeadEnds {
 impl Analysis {
     /// The dead ends of all contours on the sides that the wire may run on. Where two walls are `narrow-slot`, that says it; and a contour
     /// that crosses itself has no sides.
-    pub(super) fn dead_ends(&self, drawing: &Drawing, side_of: &dyn Fn(ContourKey) -> Option<Side>) -> DeadEnds {
+    pub(super) fn dead_ends(
+        &self,
+        drawing: &Drawing,
+        side_of: &dyn Fn(ContourKey) -> Option<Side>,
+    ) -> DeadEnds {
         let mut ends = DeadEnds::default();
         if self.settings.severity(Rule::LostPocket).is_none() {
             return ends;
@@ -44,12 +48,29 @@ impl Analysis {
         let crossed = self.pairs.contours_with(Rule::SelfIntersection);
         let slots = self.pairs.slots();
         for (key, [one, other], side, center) in seen {
-            let Some(outlook) = self.outlook(drawing, key).filter(|_| !crossed.contains(&key)) else { continue };
+            let Some(outlook) = self
+                .outlook(drawing, key)
+                .filter(|_| !crossed.contains(&key))
+            else {
+                continue;
+            };
             let is_concerned = side_of(key).is_none_or(|known| known == side);
-            let end = || DeadEnd::between(&Wall::new(&outlook, one)?, &Wall::new(&outlook, other)?, side, center);
-            let Some(end) = is_concerned.then(end).flatten() else { continue };
+            let end = || {
+                DeadEnd::between(
+                    &Wall::new(&outlook, one)?,
+                    &Wall::new(&outlook, other)?,
+                    side,
+                    center,
+                )
+            };
+            let Some(end) = is_concerned.then(end).flatten() else {
+                continue;
+            };
             let is_told = |of: &[FacingWalls]| {
-                of.iter().any(|(walls, of_side)| of_side.is_none_or(|of_side| of_side == side) && end.holds(outlook.contour.len(), *walls))
+                of.iter().any(|(walls, of_side)| {
+                    of_side.is_none_or(|of_side| of_side == side)
+                        && end.holds(outlook.contour.len(), *walls)
+                })
             };
             if slots.get(&key).is_none_or(|of| !is_told(of)) {
                 ends.enter(&outlook, key, &end);
@@ -67,8 +88,21 @@ impl Analysis {
                 && let Some(outlook) = self.outlook(drawing, *key)
                 && let Some(place) = outlook.place(left.index)
             {
-                let related = walls.iter().filter(|&&wall| wall != left.index).filter_map(|&wall| outlook.place(wall)).collect();
-                report.add(Rule::LostPocket, mildest, place, Detail::DeadEnd { near: left.near, uncut: left.depth }, related);
+                let related = walls
+                    .iter()
+                    .filter(|&&wall| wall != left.index)
+                    .filter_map(|&wall| outlook.place(wall))
+                    .collect();
+                report.add(
+                    Rule::LostPocket,
+                    mildest,
+                    place,
+                    Detail::DeadEnd {
+                        near: left.near,
+                        uncut: left.depth,
+                    },
+                    related,
+                );
             }
         }
     }
@@ -81,14 +115,25 @@ impl DeadEnds {
             let known = self.depths.entry((key, joint, is_left)).or_insert(depth);
             *known = known.min(depth);
         }
-        let Some(left) = end.left(outlook) else { return };
-        let Some(segment) = outlook.segment(left.index as isize) else { return };
-        let place = (outlook.drawing.rank(segment.entity), segment.segment, is_left);
+        let Some(left) = end.left(outlook) else {
+            return;
+        };
+        let Some(segment) = outlook.segment(left.index as isize) else {
+            return;
+        };
+        let place = (
+            outlook.drawing.rank(segment.entity),
+            segment.segment,
+            is_left,
+        );
         let new = (key, end.walls(), left);
         // One place is told once: of discs that touch the same walls within rounding the first.
         let known = self.left.entry(place).or_insert(new);
         let order = |(_, walls, left): &Told| (left.depth, *walls);
-        if order(&new).partial_cmp(&order(known)).is_some_and(std::cmp::Ordering::is_lt) {
+        if order(&new)
+            .partial_cmp(&order(known))
+            .is_some_and(std::cmp::Ordering::is_lt)
+        {
             *known = new;
         }
     }

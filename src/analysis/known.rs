@@ -22,13 +22,30 @@ pub struct Known {
 
 impl Known {
     pub fn new(index: ContourIndex, stated: Option<Role>) -> Known {
-        Known { index, stated, facts: Vec::new(), runs: 0 }
+        Known {
+            index,
+            stated,
+            facts: Vec::new(),
+            runs: 0,
+        }
     }
 
     /// Lets every local rule look again at the segments of `changed` and as far about as it reaches; at all behind when
     /// the number of segments has changed.
-    pub fn look(&mut self, drawing: &Drawing, contour: &Contour, limits: &Limits, settings: &Effective, changed: Range<usize>) {
-        let outlook = Outlook { drawing, contour, index: &self.index, limits };
+    pub fn look(
+        &mut self,
+        drawing: &Drawing,
+        contour: &Contour,
+        limits: &Limits,
+        settings: &Effective,
+        changed: Range<usize>,
+    ) {
+        let outlook = Outlook {
+            drawing,
+            contour,
+            index: &self.index,
+            limits,
+        };
         let (count, runs) = (contour.len(), self.index.run_count());
         let recounted = self.runs != runs;
         self.runs = runs;
@@ -38,8 +55,13 @@ impl Known {
                 continue;
             }
             let (before, behind) = (rule.reach)(&outlook, changed.clone());
-            let end = if recounted { count } else { (changed.end + behind).min(count) };
-            let mut ranges: Vec<Range<usize>> = once(changed.start.saturating_sub(before)..end).collect();
+            let end = if recounted {
+                count
+            } else {
+                (changed.end + behind).min(count)
+            };
+            let mut ranges: Vec<Range<usize>> =
+                once(changed.start.saturating_sub(before)..end).collect();
             if contour.closed && changed.start < before {
                 ranges.push(count.saturating_sub(before - changed.start)..count);
             }
@@ -49,7 +71,10 @@ impl Known {
             if let Some(facts) = self.facts.get_mut(number).filter(|facts| !facts.is_empty()) {
                 facts.resize(runs, Vec::new());
             }
-            for run in ranges.into_iter().flat_map(|range| range.start / RUN..range.end.div_ceil(RUN).min(runs)) {
+            for run in ranges
+                .into_iter()
+                .flat_map(|range| range.start / RUN..range.end.div_ceil(RUN).min(runs))
+            {
                 seen.clear();
                 (rule.look)(&outlook, self.index.range_of(run), &mut seen);
                 if seen.is_empty() && self.facts.get(number).is_none_or(Vec::is_empty) {
@@ -70,38 +95,62 @@ impl Known {
 
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel. `depth` gives how much of the corner in
     /// which a segment starts is left, where that is more than the corner itself tells.
-    pub fn report(&self, outlook: &Outlook, wire_side: Option<Side>, depth: &dyn Fn(usize, Side) -> Option<f64>, report: &mut Report) {
+    pub fn report(
+        &self,
+        outlook: &Outlook,
+        wire_side: Option<Side>,
+        depth: &dyn Fn(usize, Side) -> Option<f64>,
+        report: &mut Report,
+    ) {
         for (rule, facts) in LOCAL_RULES.iter().zip(&self.facts) {
             let concerned = |fact: &&Fact| {
                 let of_side = match wire_side {
                     Some(_) => fact.side.is_none() || fact.side == wire_side,
                     None => !fact.needs_side,
                 };
-                of_side && (fact.index > 0 || !outlook.contour.closed || (rule.holds)(outlook, **fact))
+                of_side
+                    && (fact.index > 0 || !outlook.contour.closed || (rule.holds)(outlook, **fact))
             };
             let mut facts = facts.iter().flatten().filter(concerned);
             if rule.one_hint_when_side_unknown && wire_side.is_none() {
                 let Some(&first) = facts.next() else { continue };
                 let (mildest, count) = (Some(Severity::Hint), 1 + facts.count());
                 if report.counts(rule.rule, mildest)
-                    && let (Some(place), Some(detail)) = (outlook.place(first.index as usize), (rule.detail)(outlook, first, Some(count)))
+                    && let (Some(place), Some(detail)) = (
+                        outlook.place(first.index as usize),
+                        (rule.detail)(outlook, first, Some(count)),
+                    )
                 {
-                    let related = if count == 1 { (rule.related)(outlook, first) } else { Vec::new() };
+                    let related = if count == 1 {
+                        (rule.related)(outlook, first)
+                    } else {
+                        Vec::new()
+                    };
                     report.add(rule.rule, mildest, place, detail, related);
                 }
                 continue;
             }
             for &fact in facts {
                 if report.counts(rule.rule, None)
-                    && let (Some(place), Some(mut detail)) = (outlook.place(fact.index as usize), (rule.detail)(outlook, fact, None))
+                    && let (Some(place), Some(mut detail)) = (
+                        outlook.place(fact.index as usize),
+                        (rule.detail)(outlook, fact, None),
+                    )
                 {
                     if let Detail::SharpCorner { radius, uncut, .. } = &mut detail
                         && *radius == outlook.limits.correction
-                        && let Some(depth) = fact.side.and_then(|side| depth(fact.index as usize, side))
+                        && let Some(depth) =
+                            fact.side.and_then(|side| depth(fact.index as usize, side))
                     {
                         *uncut = depth;
                     }
-                    report.add(rule.rule, None, place, detail, (rule.related)(outlook, fact));
+                    report.add(
+                        rule.rule,
+                        None,
+                        place,
+                        detail,
+                        (rule.related)(outlook, fact),
+                    );
                 }
             }
         }

@@ -7,14 +7,16 @@ mod repair;
 mod report;
 
 use crate::drawing::{
-    Chains, Contour, ContourIndex, ContourKey, ContourSegment, Delta, Drawing, DrawingEdit, EntityId, Outline, RUN, Role, Touched,
-    nesting_depths, stated_role,
+    Chains, Contour, ContourIndex, ContourKey, ContourSegment, Delta, Drawing, DrawingEdit,
+    EntityId, Outline, RUN, Role, Touched, nesting_depths, stated_role,
 };
 use crate::finding::{Detail, Finding, Fix, FixKind, NoFix, Place, Rule, Side};
 use crate::geometry::{Bounds, Point};
 use crate::rules::lost_pocket::{self, Lost};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
-use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall, units};
+use crate::rules::{
+    CONTOUR_RULES, Fact, LOCAL_RULES, Limits, NEIGHBOURS, Outlook, PAIR_RULES, Wall, units,
+};
 use crate::settings::{Compensation, Effective, SideSetting};
 use crate::toolpath;
 use known::Known;
@@ -88,7 +90,9 @@ pub struct Analysis {
 impl Analysis {
     pub fn new(drawing: &Drawing, settings: Arc<Effective>) -> Analysis {
         let limits = Limits::new(&settings, settings.unit_of(drawing).mm);
-        let chains = Chains::new(drawing, limits.tolerances.join, &|id| is_cut(drawing, &settings, id));
+        let chains = Chains::new(drawing, limits.tolerances.join, &|id| {
+            is_cut(drawing, &settings, id)
+        });
         let mut analysis = Analysis {
             settings,
             limits,
@@ -107,7 +111,11 @@ impl Analysis {
         };
         // In machining order: where not all is compared, it is the same that is left out, however the drawing came about.
         let keys = analysis.in_machining_order(drawing).to_vec();
-        let segments = keys.iter().filter_map(|&key| analysis.chains.get(key)).map(Contour::len).sum();
+        let segments = keys
+            .iter()
+            .filter_map(|&key| analysis.chains.get(key))
+            .map(Contour::len)
+            .sum();
         analysis.pairs = Pairs::new(&analysis.settings.budget, segments);
         analysis.known.reserve(keys.len());
         analysis.learn(drawing, &keys);
@@ -141,7 +149,9 @@ impl Analysis {
                 self.asleep = asleep;
                 return;
             }
-            (Some(entity), [Touched::Vertices { entity: woken, .. }]) if *woken == entity => self.order = OnceLock::new(),
+            (Some(entity), [Touched::Vertices { entity: woken, .. }]) if *woken == entity => {
+                self.order = OnceLock::new()
+            }
             (Some(entity), _) => moved.push(entity),
             (None, [Touched::Removed { entity }]) if self.may_sleep(*entity) => {
                 self.asleep = Some(*entity);
@@ -152,11 +162,18 @@ impl Analysis {
         }
         for touched in &delta.touched {
             let (entity, vertices) = match *touched {
-                Touched::Vertices { entity, start, removed, inserted } => (entity, Some((start, removed, inserted))),
+                Touched::Vertices {
+                    entity,
+                    start,
+                    removed,
+                    inserted,
+                } => (entity, Some((start, removed, inserted))),
                 Touched::Entity { entity } | Touched::Removed { entity } => (entity, None),
                 Touched::All => continue,
             };
-            let stays = self.chains.same_ends(drawing, entity, is_cut(drawing, &self.settings, entity));
+            let stays =
+                self.chains
+                    .same_ends(drawing, entity, is_cut(drawing, &self.settings, entity));
             if !stays || !self.look_again(drawing, entity, vertices) {
                 moved.push(entity);
             }
@@ -166,7 +183,9 @@ impl Analysis {
         }
         self.order = OnceLock::new();
         let settings = self.settings.clone();
-        let rechained = self.chains.update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
+        let rechained = self
+            .chains
+            .update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
         // Thousands of contours with ends in one place are one group, and lie on each other: to forget each of them costs a look at all.
         let gone = rechained.gone.len();
         if gone > MANY && gone * 4 > self.known.len() {
@@ -190,7 +209,8 @@ impl Analysis {
     fn may_sleep(&self, entity: EntityId) -> bool {
         let key = self.chains.contour_of(entity);
         let contour = key.and_then(|key| self.chains.get(key));
-        contour.is_some_and(|contour| contour.closed && contour.pieces.len() == 1) && key.is_some_and(|key| self.pairs.may_spare(key))
+        contour.is_some_and(|contour| contour.closed && contour.pieces.len() == 1)
+            && key.is_some_and(|key| self.pairs.may_spare(key))
     }
 
     fn enter_known(&mut self, key: ContourKey, known: Known) {
@@ -219,7 +239,11 @@ impl Analysis {
             Some(loud) => drop(self.loud.insert(key, loud)),
             None => drop(self.loud.remove(&key)),
         }
-        if self.known.get(&key).is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm)) {
+        if self
+            .known
+            .get(&key)
+            .is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm))
+        {
             self.vast.insert(key);
         } else {
             self.vast.remove(&key);
@@ -229,8 +253,13 @@ impl Analysis {
     /// The contours that have something to tell, in machining order.
     fn loud_in_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
         // What sleeps is not in the drawing.
-        let awake = self.loud.iter().filter(|(_, loud)| Some(loud.first) != self.asleep);
-        let mut loud: Vec<(u64, ContourKey)> = awake.map(|(&key, loud)| (drawing.rank(loud.first), key)).collect();
+        let awake = self
+            .loud
+            .iter()
+            .filter(|(_, loud)| Some(loud.first) != self.asleep);
+        let mut loud: Vec<(u64, ContourKey)> = awake
+            .map(|(&key, loud)| (drawing.rank(loud.first), key))
+            .collect();
         loud.sort_unstable();
         loud.into_iter().map(|(_, key)| key).collect()
     }
@@ -265,10 +294,25 @@ impl Analysis {
             let roles = self.roles(drawing, ordered);
             let outline = |(key, role): (ContourKey, Role)| {
                 let contour = self.chains.get(key)?.clone();
-                let twice_area = if contour.closed { self.known.get(&key)?.index.twice_area() } else { 0.0 };
-                Some(Outline { contour, role, twice_area })
+                let twice_area = if contour.closed {
+                    self.known.get(&key)?.index.twice_area()
+                } else {
+                    0.0
+                };
+                Some(Outline {
+                    contour,
+                    role,
+                    twice_area,
+                })
             };
-            Arc::new(ordered.iter().copied().zip(roles).filter_map(outline).collect())
+            Arc::new(
+                ordered
+                    .iter()
+                    .copied()
+                    .zip(roles)
+                    .filter_map(outline)
+                    .collect(),
+            )
         })
     }
 
@@ -285,7 +329,9 @@ impl Analysis {
         let mut hopeful: Vec<(&mut crate::finding::SmallRadius, EntityId, usize)> = findings
             .iter_mut()
             .filter_map(|finding| match (&mut finding.detail, &finding.place) {
-                (Detail::SmallRadius(numbers), Place::Segment { entity, segment }) if numbers.no_fix.is_none() => {
+                (Detail::SmallRadius(numbers), Place::Segment { entity, segment })
+                    if numbers.no_fix.is_none() =>
+                {
                     Some((&mut **numbers, *entity, *segment))
                 }
                 _ => None,
@@ -308,49 +354,86 @@ impl Analysis {
     fn larger_arc(&self, drawing: &Drawing, key: ContourKey, index: usize) -> Option<Fix> {
         let (travel, attempt) = self.attempt(drawing, key, index)?;
         let replacement = attempt.outcome.ok()?;
-        let kind = FixKind::Refillet { radius: replacement.arc.radius, arcs: replacement.arcs, moved: replacement.moved };
+        let kind = FixKind::Refillet {
+            radius: replacement.arc.radius,
+            arcs: replacement.arcs,
+            moved: replacement.moved,
+        };
         let in_fix_all = replacement.moved <= self.limits.correction;
-        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)]).filter(|edit| self.enlarges(drawing, edit, None))?;
-        Some(Fix { kind, preferred: true, in_fix_all, edit })
+        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)])
+            .filter(|edit| self.enlarges(drawing, edit, None))?;
+        Some(Fix {
+            kind,
+            preferred: true,
+            in_fix_all,
+            edit,
+        })
     }
 
     /// How many findings of which kind there are.
     fn tally(&mut self, drawing: &Drawing) -> Tally {
-        Tally { unseen: self.pairs.uncompared(), ..self.report(drawing, 0).tally() }
+        Tally {
+            unseen: self.pairs.uncompared(),
+            ..self.report(drawing, 0).tally()
+        }
     }
 
     fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
         let mut report = Report::new(self.settings.clone(), limit);
         // By nesting, the role of each depends on all.
-        let nested: Option<FxHashMap<ContourKey, Role>> = (self.settings.side == SideSetting::Auto).then(|| {
-            let ordered = self.in_machining_order(drawing);
-            ordered.iter().copied().zip(self.roles(drawing, ordered)).collect()
-        });
+        let nested: Option<FxHashMap<ContourKey, Role>> = (self.settings.side == SideSetting::Auto)
+            .then(|| {
+                let ordered = self.in_machining_order(drawing);
+                ordered
+                    .iter()
+                    .copied()
+                    .zip(self.roles(drawing, ordered))
+                    .collect()
+            });
         // Where nothing states a role and none depends on nesting.
         let everywhere = self.settings.side.role().filter(|_| self.stated == 0);
         let role_of = |analysis: &Analysis, key: ContourKey| match &nested {
             Some(roles) => roles.get(&key).copied().unwrap_or(Role::Both),
             None if everywhere.is_some() => everywhere.unwrap_or(Role::Both),
-            None => analysis.roles(drawing, &[key]).first().copied().unwrap_or(Role::Both),
+            None => analysis
+                .roles(drawing, &[key])
+                .first()
+                .copied()
+                .unwrap_or(Role::Both),
         };
-        let side_of = |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
+        let side_of =
+            |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
         let ends = self.dead_ends(drawing, &|key| side_of(self, key));
-        let loud: Vec<(ContourKey, Option<Side>)> = self.loud_in_order(drawing).into_iter().map(|key| (key, side_of(self, key))).collect();
+        let loud: Vec<(ContourKey, Option<Side>)> = self
+            .loud_in_order(drawing)
+            .into_iter()
+            .map(|key| (key, side_of(self, key)))
+            .collect();
         for &(key, wire_side) in &loud {
             self.report_small_radii(drawing, key, wire_side, &mut report);
         }
         for &(key, wire_side) in &loud {
             if self.loud.get(&key).is_some_and(|loud| loud.has_facts)
-                && let (Some(known), Some(outlook)) = (self.known.get(&key), self.outlook(drawing, key))
+                && let (Some(known), Some(outlook)) =
+                    (self.known.get(&key), self.outlook(drawing, key))
             {
                 let depth = |index: usize, side: Side| ends.depth(key, index, side);
                 known.report(&outlook, wire_side, &depth, &mut report);
             }
         }
         let as_a_whole = |key: &ContourKey| self.loud.get(key).is_some_and(|loud| loud.as_a_whole);
-        self.report_contours(drawing, loud.iter().map(|(key, _)| *key).filter(as_a_whole), &mut report);
+        self.report_contours(
+            drawing,
+            loud.iter().map(|(key, _)| *key).filter(as_a_whole),
+            &mut report,
+        );
         self.report_size(drawing, &mut report);
-        self.pairs.report(drawing, &|key| self.outlook(drawing, key), &|key| side_of(self, key), &mut report);
+        self.pairs.report(
+            drawing,
+            &|key| self.outlook(drawing, key),
+            &|key| side_of(self, key),
+            &mut report,
+        );
         self.report_dead_ends(drawing, &ends, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();
@@ -361,7 +444,12 @@ impl Analysis {
     }
 
     /// What the rules on whole contours see.
-    fn report_contours(&self, drawing: &Drawing, keys: impl Iterator<Item = ContourKey>, report: &mut Report) {
+    fn report_contours(
+        &self,
+        drawing: &Drawing,
+        keys: impl Iterator<Item = ContourKey>,
+        report: &mut Report,
+    ) {
         let outlook = |key| self.outlook(drawing, key);
         let concerned: Vec<Outlook> = keys
             .filter_map(outlook)
@@ -374,11 +462,20 @@ impl Analysis {
         let doubled = self.pairs.doubled(&outlook);
         for rule in CONTOUR_RULES {
             let mildest = (rule.mildest)(&self.settings);
-            for outlook in concerned.iter().copied().filter(|outlook| (rule.holds)(outlook)) {
+            for outlook in concerned
+                .iter()
+                .copied()
+                .filter(|outlook| (rule.holds)(outlook))
+            {
                 // What lies there twice is reported as that.
-                if !outlook.contour.pieces.iter().all(|piece| doubled.contains(&piece.entity))
+                if !outlook
+                    .contour
+                    .pieces
+                    .iter()
+                    .all(|piece| doubled.contains(&piece.entity))
                     && report.counts(rule.rule, mildest)
-                    && let (Some((place, related)), Some(detail)) = ((rule.places)(&outlook), (rule.detail)(&outlook))
+                    && let (Some((place, related)), Some(detail)) =
+                        ((rule.places)(&outlook), (rule.detail)(&outlook))
                 {
                     report.add(rule.rule, mildest, place, detail, related);
                 }
@@ -389,25 +486,57 @@ impl Analysis {
     /// Sizes that speak for another unit than the drawing's: of the largest contour.
     fn report_size(&self, drawing: &Drawing, report: &mut Report) {
         // What sleeps is not in the drawing.
-        let is_there = |key: ContourKey| self.chains.first_of(key).is_some_and(|first| drawing.get(first).is_some());
-        let bounds_of = |key: ContourKey| self.known.get(&key).filter(|_| is_there(key)).map(|known| known.index.bounds());
+        let is_there = |key: ContourKey| {
+            self.chains
+                .first_of(key)
+                .is_some_and(|first| drawing.get(first).is_some())
+        };
+        let bounds_of = |key: ContourKey| {
+            self.known
+                .get(&key)
+                .filter(|_| is_there(key))
+                .map(|known| known.index.bounds())
+        };
         let mut keys = self.known.keys().copied();
         let is_large = self.vast.iter().any(|&key| is_there(key));
         let is_absurd = is_large
             || (self.known.keys().any(|&key| is_there(key))
-                && !keys.any(|key| bounds_of(key).is_some_and(|bounds| units::is_sizable(&bounds, self.limits.unit_mm))));
+                && !keys.any(|key| {
+                    bounds_of(key)
+                        .is_some_and(|bounds| units::is_sizable(&bounds, self.limits.unit_mm))
+                }));
         if is_absurd && report.counts(Rule::Units, None) {
-            let all: Box<dyn Iterator<Item = &ContourKey>> =
-                if is_large { Box::new(self.vast.iter()) } else { Box::new(self.known.keys()) };
-            let size = all.filter_map(|&key| bounds_of(key)).map(|bounds| units::size(&bounds)).fold(0.0, f64::max);
-            report.add(Rule::Units, None, Place::Document, Detail::Size { size }, Vec::new());
+            let all: Box<dyn Iterator<Item = &ContourKey>> = if is_large {
+                Box::new(self.vast.iter())
+            } else {
+                Box::new(self.known.keys())
+            };
+            let size = all
+                .filter_map(|&key| bounds_of(key))
+                .map(|bounds| units::size(&bounds))
+                .fold(0.0, f64::max);
+            report.add(
+                Rule::Units,
+                None,
+                Place::Document,
+                Detail::Size { size },
+                Vec::new(),
+            );
         }
     }
 
     /// What the offsets of contours with a known wire side lose.
-    fn report_lost_pockets(&mut self, drawing: &Drawing, ordered: &[ContourKey], sides: &[Option<Side>], report: &mut Report) {
+    fn report_lost_pockets(
+        &mut self,
+        drawing: &Drawing,
+        ordered: &[ContourKey],
+        sides: &[Option<Side>],
+        report: &mut Report,
+    ) {
         let is_on = |rule| self.settings.severity(rule).is_some();
-        let of_rules = [Rule::LostPocket, Rule::OffsetCollapse, Rule::UnprovedPath].into_iter().any(is_on);
+        let of_rules = [Rule::LostPocket, Rule::OffsetCollapse, Rule::UnprovedPath]
+            .into_iter()
+            .any(is_on);
         if !of_rules || sides.iter().all(Option::is_none) {
             return;
         }
@@ -415,27 +544,60 @@ impl Analysis {
         let necks = is_on(Rule::NarrowSlot).then(|| self.pairs.contours_with(Rule::NarrowSlot));
         let crossed = self.pairs.contours_with(Rule::SelfIntersection);
         for (&key, &side) in ordered.iter().zip(sides) {
-            let Some(side) = side.filter(|_| !crossed.contains(&key)) else { continue };
-            let asked = (side, necks.as_ref().is_none_or(|necks| necks.contains(&key)));
-            if self.lost.get(&key).is_none_or(|answer| answer.asked != asked) {
-                let Some(outlook) = self.outlook(drawing, key) else { continue };
+            let Some(side) = side.filter(|_| !crossed.contains(&key)) else {
+                continue;
+            };
+            let asked = (
+                side,
+                necks.as_ref().is_none_or(|necks| necks.contains(&key)),
+            );
+            if self
+                .lost
+                .get(&key)
+                .is_none_or(|answer| answer.asked != asked)
+            {
+                let Some(outlook) = self.outlook(drawing, key) else {
+                    continue;
+                };
                 let lost = lost_pocket::look(&outlook, side, asked.1);
-                self.lost.insert(key, Answer { asked, lost, misfit: None });
+                self.lost.insert(
+                    key,
+                    Answer {
+                        asked,
+                        lost,
+                        misfit: None,
+                    },
+                );
             }
             // Fixes are held against each other by what is cheap to know.
-            if report.shows_findings() && self.lost.get(&key).is_some_and(|answer| answer.lost.is_empty() && answer.misfit.is_none()) {
+            if report.shows_findings()
+                && self
+                    .lost
+                    .get(&key)
+                    .is_some_and(|answer| answer.lost.is_empty() && answer.misfit.is_none())
+            {
                 let misfit = self.misfit(drawing, key, side).map(Box::new);
                 if let Some(answer) = self.lost.get_mut(&key) {
                     answer.misfit = Some(misfit);
                 }
             }
-            let (Some(Answer { lost, misfit, .. }), Some(outlook)) = (self.lost.get(&key), self.outlook(drawing, key)) else { continue };
+            let (Some(Answer { lost, misfit, .. }), Some(outlook)) =
+                (self.lost.get(&key), self.outlook(drawing, key))
+            else {
+                continue;
+            };
             let misfit = misfit.iter().flatten().next();
-            let slots = if lost.is_empty() && misfit.is_none() || necks.is_none() { Vec::new() } else { self.pairs.slots_of(key) };
+            let slots = if lost.is_empty() && misfit.is_none() || necks.is_none() {
+                Vec::new()
+            } else {
+                self.pairs.slots_of(key)
+            };
             // What a slot is told of is not told again as what is lost in it.
             let is_told = |near: Point, index: usize| {
                 slots.iter().any(|(walls, disc)| match disc {
-                    Some((center, radius)) => (near - center).norm() <= radius + self.limits.correction,
+                    Some((center, radius)) => {
+                        (near - center).norm() <= radius + self.limits.correction
+                    }
                     None => walls.contains(&index),
                 })
             };
@@ -444,8 +606,17 @@ impl Analysis {
                     continue;
                 }
                 let (rule, index, detail) = match *lost {
-                    Lost::All => (Rule::OffsetCollapse, 0, Detail::OffsetCollapse { required: self.limits.correction, point: false }),
-                    Lost::Pocket { near, index } => (Rule::LostPocket, index, Detail::LostPocket { near }),
+                    Lost::All => (
+                        Rule::OffsetCollapse,
+                        0,
+                        Detail::OffsetCollapse {
+                            required: self.limits.correction,
+                            point: false,
+                        },
+                    ),
+                    Lost::Pocket { near, index } => {
+                        (Rule::LostPocket, index, Detail::LostPocket { near })
+                    }
                 };
                 if report.counts(rule, None)
                     && let Some(place) = outlook.place(index)
@@ -453,14 +624,32 @@ impl Analysis {
                     report.add(rule, None, place, detail, Vec::new());
                 }
             }
-            if let Some(Finding { rule, severity, place, detail, .. }) = misfit.map(Box::as_ref) {
+            if let Some(Finding {
+                rule,
+                severity,
+                place,
+                detail,
+                ..
+            }) = misfit.map(Box::as_ref)
+            {
                 let index = match *place {
-                    Place::Segment { entity, segment } => self.chains.index_of(entity, segment).map(|(_, index)| index),
+                    Place::Segment { entity, segment } => self
+                        .chains
+                        .index_of(entity, segment)
+                        .map(|(_, index)| index),
                     _ => None,
                 };
                 let near = |near: Point| is_told(near, index.unwrap_or(usize::MAX));
-                if !matches!(*detail, Detail::LostPocket { near: at } if near(at)) && report.counts(*rule, Some(*severity)) {
-                    report.add(*rule, Some(*severity), place.clone(), detail.clone(), Vec::new());
+                if !matches!(*detail, Detail::LostPocket { near: at } if near(at))
+                    && report.counts(*rule, Some(*severity))
+                {
+                    report.add(
+                        *rule,
+                        Some(*severity),
+                        place.clone(),
+                        detail.clone(),
+                        Vec::new(),
+                    );
                 }
             }
         }
@@ -470,35 +659,72 @@ impl Analysis {
     /// wire's path itself, or of whose arcs each says so.
     fn misfit(&self, drawing: &Drawing, key: ContourKey, side: Side) -> Option<Finding> {
         let (contour, known) = (self.chains.get(key)?, self.known.get(&key)?);
-        if !contour.closed || contour.len() > lost_pocket::MOST_SEGMENTS || self.settings.compensation == Compensation::None {
+        if !contour.closed
+            || contour.len() > lost_pocket::MOST_SEGMENTS
+            || self.settings.compensation == Compensation::None
+        {
             return None;
         }
         if known.index.tight().count() == contour.len() {
             return None;
         }
         let twice_area = known.index.twice_area();
-        let role = if side.sign() * twice_area > 0.0 { Role::Opening } else { Role::Punch };
-        toolpath::misfit(drawing, &Outline { contour: contour.clone(), role, twice_area }, &self.settings)
+        let role = if side.sign() * twice_area > 0.0 {
+            Role::Opening
+        } else {
+            Role::Punch
+        };
+        toolpath::misfit(
+            drawing,
+            &Outline {
+                contour: contour.clone(),
+                role,
+                twice_area,
+            },
+            &self.settings,
+        )
     }
 
     /// Arcs below the correction in one contour.
-    fn report_small_radii(&mut self, drawing: &Drawing, key: ContourKey, wire_side: Option<Side>, report: &mut Report) {
-        let Some(loud) = self.loud.get(&key).filter(|loud| loud.has_tight_arcs) else { return };
+    fn report_small_radii(
+        &mut self,
+        drawing: &Drawing,
+        key: ContourKey,
+        wire_side: Option<Side>,
+        report: &mut Report,
+    ) {
+        let Some(loud) = self.loud.get(&key).filter(|loud| loud.has_tight_arcs) else {
+            return;
+        };
         if let Some((_, count)) = loud.faults.filter(|(side, _)| *side == wire_side)
             && report.is_full(Rule::SmallRadius, None)
         {
             report.count(Rule::SmallRadius, None, count);
             return;
         }
-        let tight: Vec<usize> = self.known.get(&key).map_or_else(Vec::new, |known| known.index.tight().collect());
+        let tight: Vec<usize> = self
+            .known
+            .get(&key)
+            .map_or_else(Vec::new, |known| known.index.tight().collect());
         let mut count = 0;
         for index in tight {
-            let Some((segment, mut numbers)) = self.fault(drawing, key, index, wire_side) else { continue };
+            let Some((segment, mut numbers)) = self.fault(drawing, key, index, wire_side) else {
+                continue;
+            };
             count += 1;
             if report.counts(Rule::SmallRadius, None) {
                 numbers.no_fix = self.answer(drawing, key, index);
-                let place = Place::Segment { entity: segment.entity, segment: segment.segment };
-                report.add(Rule::SmallRadius, None, place, Detail::SmallRadius(Box::new(numbers)), Vec::new());
+                let place = Place::Segment {
+                    entity: segment.entity,
+                    segment: segment.segment,
+                };
+                report.add(
+                    Rule::SmallRadius,
+                    None,
+                    place,
+                    Detail::SmallRadius(Box::new(numbers)),
+                    Vec::new(),
+                );
             }
         }
         if let Some(loud) = self.loud.get_mut(&key) {
@@ -508,54 +734,103 @@ impl Analysis {
 
     /// The fixes of one finding, the preferred one first; empty where none is right.
     pub fn fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
-        let Place::Segment { entity, segment } = &finding.place else { return Vec::new() };
+        let Place::Segment { entity, segment } = &finding.place else {
+            return Vec::new();
+        };
         if finding.rule != Rule::SmallRadius {
-            return self.checked(drawing, finding.rule, self.other_fixes(drawing, finding, (*entity, *segment)).unwrap_or_default());
+            return self.checked(
+                drawing,
+                finding.rule,
+                self.other_fixes(drawing, finding, (*entity, *segment))
+                    .unwrap_or_default(),
+            );
         }
-        let Some((key, index)) = self.chains.index_of(*entity, *segment) else { return Vec::new() };
+        let Some((key, index)) = self.chains.index_of(*entity, *segment) else {
+            return Vec::new();
+        };
         let mut fixes = Vec::new();
-        let found = self.attempt(drawing, key, index).and_then(|(_, attempt)| attempt.outcome.ok());
-        let old = self.chains.get(key).and_then(|contour| contour.segment(drawing, index)).map(|segment| segment.geometry);
+        let found = self
+            .attempt(drawing, key, index)
+            .and_then(|(_, attempt)| attempt.outcome.ok());
+        let old = self
+            .chains
+            .get(key)
+            .and_then(|contour| contour.segment(drawing, index))
+            .map(|segment| segment.geometry);
         let is_notch = found.zip(old).is_some_and(|(replacement, old)| {
             let ends = [old.start(), old.end()];
             ends.contains(&replacement.arc.start) && ends.contains(&replacement.arc.end)
         });
         fixes.extend(self.larger_arc(drawing, key, index));
-        let place = self.chains.get(key).and_then(|contour| contour.segment(drawing, index));
+        let place = self
+            .chains
+            .get(key)
+            .and_then(|contour| contour.segment(drawing, index));
         if let Some(place) = place.filter(|_| !is_notch)
             && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
             && self.enlarges(drawing, &edit, Some(Rule::LostPocket))
         {
-            let kind = FixKind::KeepEndPoints { radius: self.limits.fix_radius, kink };
-            fixes.push(Fix { kind, preferred: false, in_fix_all: false, edit });
+            let kind = FixKind::KeepEndPoints {
+                radius: self.limits.fix_radius,
+                kink,
+            };
+            fixes.push(Fix {
+                kind,
+                preferred: false,
+                in_fix_all: false,
+                edit,
+            });
         }
         fixes
     }
 
     /// The fixes of a finding of any rule but `small-radius`.
-    fn other_fixes(&self, drawing: &Drawing, finding: &Finding, at: (EntityId, usize)) -> Option<Vec<Fix>> {
+    fn other_fixes(
+        &self,
+        drawing: &Drawing,
+        finding: &Finding,
+        at: (EntityId, usize),
+    ) -> Option<Vec<Fix>> {
         let (key, index) = self.chains.index_of(at.0, at.1)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
             // A hint that stands for many corners is no place to mend one of them.
-            if matches!(finding.detail, Detail::SharpCorner { count: Some(count), .. } if count > 1) {
+            if matches!(finding.detail, Detail::SharpCorner { count: Some(count), .. } if count > 1)
+            {
                 return None;
             }
-            return Some((rule.fixes)(&outlook, Fact { index: index as u32, side: None, needs_side: false }));
+            return Some((rule.fixes)(
+                &outlook,
+                Fact {
+                    index: index as u32,
+                    side: None,
+                    needs_side: false,
+                },
+            ));
         }
         if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == finding.rule) {
             return Some((rule.fixes)(&outlook));
         }
         let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
-        let Place::Segment { entity, segment } = finding.related.first()? else { return None };
+        let Place::Segment { entity, segment } = finding.related.first()? else {
+            return None;
+        };
         let (other_key, other_index) = self.chains.index_of(*entity, *segment)?;
         let theirs = self.outlook(drawing, other_key)?;
-        Some((rule.fixes)(&Wall::new(&outlook, index)?, &Wall::new(&theirs, other_index)?))
+        Some((rule.fixes)(
+            &Wall::new(&outlook, index)?,
+            &Wall::new(&theirs, other_index)?,
+        ))
     }
 
     fn outlook<'a>(&'a self, drawing: &'a Drawing, key: ContourKey) -> Option<Outlook<'a>> {
         let contour = self.chains.get(key)?;
-        Some(Outlook { drawing, contour, index: &self.known.get(&key)?.index, limits: &self.limits })
+        Some(Outlook {
+            drawing,
+            contour,
+            index: &self.known.get(&key)?.index,
+            limits: &self.limits,
+        })
     }
 
     /// One edit that makes every safe fix; `None` where there is none.
@@ -567,13 +842,19 @@ impl Analysis {
     }
 
     /// As [`Analysis::fix_all`], of the fixes that `can` says can be made.
-    pub fn fix_all_that(&self, drawing: &Drawing, can: &dyn Fn(&DrawingEdit) -> bool) -> Option<DrawingEdit> {
+    pub fn fix_all_that(
+        &self,
+        drawing: &Drawing,
+        can: &dyn Fn(&DrawingEdit) -> bool,
+    ) -> Option<DrawingEdit> {
         self.fix_all_of(drawing, Some(can))
     }
 
     fn fix_all_of(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
         let doubles = self.fix_all_else(drawing, &repair::FIRST, can);
-        doubles.or_else(|| self.fix_all_arcs(drawing, can)).or_else(|| self.fix_all_else(drawing, &repair::THEN, can))
+        doubles
+            .or_else(|| self.fix_all_arcs(drawing, can))
+            .or_else(|| self.fix_all_else(drawing, &repair::THEN, can))
     }
 
     fn fix_all_arcs(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
@@ -585,24 +866,44 @@ impl Analysis {
                 if self.fault(drawing, key, index, wire_side).is_none() {
                     continue;
                 }
-                let Some((travel, Attempt { outcome: Ok(replacement), .. })) = self.attempt(drawing, key, index) else { continue };
+                let Some((
+                    travel,
+                    Attempt {
+                        outcome: Ok(replacement),
+                        ..
+                    },
+                )) = self.attempt(drawing, key, index)
+                else {
+                    continue;
+                };
                 let stretch = Stretch::of(&travel, &replacement);
-                let free = accepted.first().is_none_or(|(first, ..)| !first.overlaps(&stretch))
-                    && accepted.last().is_none_or(|(last, ..)| !last.overlaps(&stretch));
+                let free = accepted
+                    .first()
+                    .is_none_or(|(first, ..)| !first.overlaps(&stretch))
+                    && accepted
+                        .last()
+                        .is_none_or(|(last, ..)| !last.overlaps(&stretch));
                 if !free || replacement.moved > self.limits.correction {
                     continue;
                 }
                 let alone = [(travel, replacement)];
-                let can_be_made = can.is_none_or(|can| small_radius::drawing_edit(drawing, &alone).is_some_and(|edit| can(&edit)));
+                let can_be_made = can.is_none_or(|can| {
+                    small_radius::drawing_edit(drawing, &alone).is_some_and(|edit| can(&edit))
+                });
                 let [(travel, replacement)] = alone;
                 if can_be_made {
                     accepted.push((stretch, travel, replacement));
                 }
             }
-            replacements.extend(accepted.into_iter().map(|(_, travel, replacement)| (travel, replacement)));
+            replacements.extend(
+                accepted
+                    .into_iter()
+                    .map(|(_, travel, replacement)| (travel, replacement)),
+            );
         }
         repair::most_together(&replacements, self.tries(), |together, _| {
-            small_radius::drawing_edit(drawing, together).filter(|edit| self.enlarges(drawing, edit, None))
+            small_radius::drawing_edit(drawing, together)
+                .filter(|edit| self.enlarges(drawing, edit, None))
         })
     }
 
@@ -610,9 +911,14 @@ impl Analysis {
     fn with_tight_arcs(&self, drawing: &Drawing) -> Vec<(ContourKey, Option<Side>)> {
         let ordered = self.in_machining_order(drawing);
         let roles = self.roles(drawing, ordered);
-        let tight =
-            ordered.iter().zip(roles).filter(|(key, _)| self.known.get(key).is_some_and(|known| known.index.tight().next().is_some()));
-        tight.map(|(&key, role)| (key, self.wire_side(key, role))).collect()
+        let tight = ordered.iter().zip(roles).filter(|(key, _)| {
+            self.known
+                .get(key)
+                .is_some_and(|known| known.index.tight().next().is_some())
+        });
+        tight
+            .map(|(&key, role)| (key, self.wire_side(key, role)))
+            .collect()
     }
 
     fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {
@@ -624,7 +930,9 @@ impl Analysis {
     }
 
     fn tight_in_entity_order(&self, key: ContourKey) -> Vec<usize> {
-        self.known.get(&key).map_or_else(Vec::new, |known| known.index.tight().collect())
+        self.known
+            .get(&key)
+            .map_or_else(Vec::new, |known| known.index.tight().collect())
     }
 
     fn fault(
@@ -635,34 +943,60 @@ impl Analysis {
         wire_side: Option<Side>,
     ) -> Option<(ContourSegment, crate::finding::SmallRadius)> {
         let segment = self.chains.get(key)?.segment(drawing, index)?;
-        Some((segment, small_radius::check(&segment, wire_side, &self.limits)?))
+        Some((
+            segment,
+            small_radius::check(&segment, wire_side, &self.limits)?,
+        ))
     }
 
     /// The replacement of the run that holds a tight arc, looked for on the side of its centre.
-    fn attempt<'a>(&'a self, drawing: &'a Drawing, key: ContourKey, index: usize) -> Option<(Travel<'a>, Attempt)> {
+    fn attempt<'a>(
+        &'a self,
+        drawing: &'a Drawing,
+        key: ContourKey,
+        index: usize,
+    ) -> Option<(Travel<'a>, Attempt)> {
         let contour = self.chains.get(key)?;
         let segment = contour.segment(drawing, index)?;
         let arc = *segment.geometry.as_arc()?;
-        let travel = Travel { drawing, contour, index: &self.known.get(&key)?.index, side: small_radius::center_side(arc.sweep) };
+        let travel = Travel {
+            drawing,
+            contour,
+            index: &self.known.get(&key)?.index,
+            side: small_radius::center_side(arc.sweep),
+        };
         if !drawing.is_editable(segment.entity) {
             // Whatever a search would find, it could not be made; and a fitted curve may have a million tight arcs.
-            return Some((travel, Attempt { outcome: Err(NoFix::NotEditable), region: segment.geometry.bounds() }));
+            return Some((
+                travel,
+                Attempt {
+                    outcome: Err(NoFix::NotEditable),
+                    region: segment.geometry.bounds(),
+                },
+            ));
         }
         let position = travel.position_of(index);
         let run = small_radius::run_of(&travel, position, &self.limits)?;
         let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
         // Where the arc was drawn in two and rounded, the two are one run all the same.
         if attempt.outcome.is_err()
-            && let Some(longer) = small_radius::rounded_run_of(&travel, position, &self.limits).filter(|longer| *longer != run)
+            && let Some(longer) = small_radius::rounded_run_of(&travel, position, &self.limits)
+                .filter(|longer| *longer != run)
         {
             let again = small_radius::refillet(&travel, &longer, &self.limits);
             let mut region = attempt.region;
             region.merge(&again.region);
-            attempt = Attempt { outcome: again.outcome.or(attempt.outcome), region };
+            attempt = Attempt {
+                outcome: again.outcome.or(attempt.outcome),
+                region,
+            };
         }
         if let Ok(replacement) = &attempt.outcome
-            && !(replacement.before..=replacement.after)
-                .all(|position| travel.segment(position).is_none_or(|segment| drawing.is_editable(segment.entity)))
+            && !(replacement.before..=replacement.after).all(|position| {
+                travel
+                    .segment(position)
+                    .is_none_or(|segment| drawing.is_editable(segment.entity))
+            })
         {
             attempt.outcome = Err(NoFix::NotEditable);
         }
@@ -684,17 +1018,37 @@ impl Analysis {
     fn tight(&self, drawing: &Drawing, entities: &FxHashSet<EntityId>) -> usize {
         let entities = entities.iter().filter_map(|&id| drawing.get(id));
         let arcs = entities.flat_map(|entity| entity.geometry.segments_of(drawing.flat()));
-        arcs.filter(|segment| segment.as_arc().is_some_and(|arc| small_radius::is_too_small(arc.radius, &self.limits))).count()
+        arcs.filter(|segment| {
+            segment
+                .as_arc()
+                .is_some_and(|arc| small_radius::is_too_small(arc.radius, &self.limits))
+        })
+        .count()
     }
 
     /// Looks at whole contours for the first time.
     fn learn(&mut self, drawing: &Drawing, keys: &[ContourKey]) {
         let mut runs = Vec::new();
         for &key in keys {
-            let Some(contour) = self.chains.get(key) else { continue };
-            let index = ContourIndex::new(drawing, contour, self.limits.correction - self.limits.tolerances.report);
-            let mut known = Known::new(index, stated_role(contour, &|id| role_of(drawing, &self.settings, id)));
-            known.look(drawing, contour, &self.limits, &self.settings, 0..contour.len());
+            let Some(contour) = self.chains.get(key) else {
+                continue;
+            };
+            let index = ContourIndex::new(
+                drawing,
+                contour,
+                self.limits.correction - self.limits.tolerances.report,
+            );
+            let mut known = Known::new(
+                index,
+                stated_role(contour, &|id| role_of(drawing, &self.settings, id)),
+            );
+            known.look(
+                drawing,
+                contour,
+                &self.limits,
+                &self.settings,
+                0..contour.len(),
+            );
             runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
             self.enter_known(key, known);
             self.listen_to(drawing, key);
@@ -712,18 +1066,36 @@ impl Analysis {
     }
 
     /// Looks again at an entity whose contour still runs as it did. False where it is in none.
-    fn look_again(&mut self, drawing: &Drawing, entity: EntityId, vertices: Option<(usize, usize, usize)>) -> bool {
-        let Some(key) = self.chains.contour_of(entity) else { return drawing.get(entity).is_none_or(|e| e.geometry.segment_count() == 0) };
-        let Some(geometry) = drawing.get(entity).map(|entity| &entity.geometry) else { return false };
-        let Some(before) = self.chains.piece_of(entity) else { return false };
+    fn look_again(
+        &mut self,
+        drawing: &Drawing,
+        entity: EntityId,
+        vertices: Option<(usize, usize, usize)>,
+    ) -> bool {
+        let Some(key) = self.chains.contour_of(entity) else {
+            return drawing
+                .get(entity)
+                .is_none_or(|e| e.geometry.segment_count() == 0);
+        };
+        let Some(geometry) = drawing.get(entity).map(|entity| &entity.geometry) else {
+            return false;
+        };
+        let Some(before) = self.chains.piece_of(entity) else {
+            return false;
+        };
         let recounted = before.count() != geometry.segment_count();
         if recounted {
             self.chains.recount(drawing, entity);
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
-        let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.take_known(key)) else { return false };
-        let Some(contour) = self.chains.get(key) else { return false };
+        let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.take_known(key))
+        else {
+            return false;
+        };
+        let Some(contour) = self.chains.get(key) else {
+            return false;
+        };
         if vertices.is_none() {
             known.stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
         }
@@ -734,7 +1106,10 @@ impl Analysis {
         }
         let ranges = own.into_iter().map(|range| {
             let (start, end) = match piece.reversed {
-                true => (piece.range().end - range.end, piece.range().end - range.start),
+                true => (
+                    piece.range().end - range.end,
+                    piece.range().end - range.start,
+                ),
                 false => (piece.first() + range.start, piece.first() + range.end),
             };
             // What lies behind has other indices now; in a piece travelled against its own direction, and in the pieces
@@ -746,8 +1121,16 @@ impl Analysis {
         // have other segments.
         let mut runs = BTreeSet::new();
         for range in &ranges {
-            let count = if recounted { known.index.len().max(contour.len()) } else { contour.len() };
-            let behind = if recounted { count } else { (range.end + NEIGHBOURS).min(count) };
+            let count = if recounted {
+                known.index.len().max(contour.len())
+            } else {
+                contour.len()
+            };
+            let behind = if recounted {
+                count
+            } else {
+                (range.end + NEIGHBOURS).min(count)
+            };
             runs.extend(range.start.saturating_sub(NEIGHBOURS) / RUN..behind.div_ceil(RUN));
             if contour.closed && range.start < NEIGHBOURS {
                 runs.extend(count.saturating_sub(NEIGHBOURS) / RUN..count.div_ceil(RUN));
@@ -758,28 +1141,50 @@ impl Analysis {
         }
         // Two closed outlines that lie on each other begin where they like: what holds of both is kept where one of them begins.
         let is_ring = geometry.is_closed() && known.index.run_count() > 1;
-        let beside = if is_ring { self.pairs.beside(key, known.index.run_count()) } else { FxHashSet::default() };
-        let beginnings: Vec<RunId> = beside.into_iter().filter_map(|other| self.beginning_of(drawing, other)).collect();
+        let beside = if is_ring {
+            self.pairs.beside(key, known.index.run_count())
+        } else {
+            FxHashSet::default()
+        };
+        let beginnings: Vec<RunId> = beside
+            .into_iter()
+            .filter_map(|other| self.beginning_of(drawing, other))
+            .collect();
         for &(other, run) in &beginnings {
-            if let Some(bounds) = self.known.get(&other).map(|known| known.index.bounds_of_run(run as usize)) {
+            if let Some(bounds) = self
+                .known
+                .get(&other)
+                .map(|known| known.index.bounds_of_run(run as usize))
+            {
                 self.pairs.forget_run((other, run), &bounds);
             }
         }
         let mut forgotten = FxHashSet::default();
         for &run in &runs {
             if run < known.index.run_count() && forgotten.insert(run) {
-                self.pairs.forget_run((key, run as u32), &known.index.bounds_of_run(run));
+                self.pairs
+                    .forget_run((key, run as u32), &known.index.bounds_of_run(run));
             }
         }
         for range in ranges {
             let mut changed = known.index.bounds_about(range.clone());
             known.index.update(drawing, contour, range.clone());
             changed.merge(&known.index.bounds_about(range.clone()));
-            known.look(drawing, contour, &self.limits, &self.settings, range.clone());
-            self.answers.retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
+            known.look(
+                drawing,
+                contour,
+                &self.limits,
+                &self.settings,
+                range.clone(),
+            );
+            self.answers
+                .retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
         }
         let count = known.index.run_count();
-        let runs = runs.into_iter().filter(|&run| run < count).map(|run| (key, run as u32));
+        let runs = runs
+            .into_iter()
+            .filter(|&run| run < count)
+            .map(|run| (key, run as u32));
         let runs: BTreeSet<RunId> = runs.collect();
         self.enter_known(key, known);
         self.listen_to(drawing, key);
@@ -790,7 +1195,11 @@ impl Analysis {
 
     /// The run with the first segment of a contour that is one closed entity.
     fn beginning_of(&self, drawing: &Drawing, key: ContourKey) -> Option<RunId> {
-        let first = self.chains.first_of(key).filter(|&first| drawing.get(first).is_some_and(|entity| entity.geometry.is_closed()))?;
+        let first = self.chains.first_of(key).filter(|&first| {
+            drawing
+                .get(first)
+                .is_some_and(|entity| entity.geometry.is_closed())
+        })?;
         let (_, index) = self.chains.index_of(first, 0)?;
         Some((key, (index / RUN) as u32))
     }
@@ -821,13 +1230,26 @@ impl Analysis {
         let depths = match everywhere {
             Some(_) => Vec::new(),
             None => {
-                let contours: Vec<_> = keys.iter().filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index))).collect();
+                let contours: Vec<_> = keys
+                    .iter()
+                    .filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index)))
+                    .collect();
                 nesting_depths(drawing, &contours)
             }
         };
-        let nested = |position: usize| if depths.get(position).is_some_and(|depth| depth % 2 == 1) { Role::Opening } else { Role::Punch };
+        let nested = |position: usize| {
+            if depths.get(position).is_some_and(|depth| depth % 2 == 1) {
+                Role::Opening
+            } else {
+                Role::Punch
+            }
+        };
         let role = |(position, key): (usize, &ContourKey)| {
-            self.known.get(key).and_then(|known| known.stated).or(everywhere).unwrap_or_else(|| nested(position))
+            self.known
+                .get(key)
+                .and_then(|known| known.stated)
+                .or(everywhere)
+                .unwrap_or_else(|| nested(position))
         };
         keys.iter().enumerate().map(role).collect()
     }
@@ -836,25 +1258,57 @@ impl Analysis {
 /// The role that an entity states, else that of its handle, else that of its layer, else that of its colour.
 fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Role> {
     let entity = drawing.get(id)?;
-    let by_color = || if settings.colors.is_empty() { None } else { settings.colors.get(&drawing.color(id)?).copied() };
-    let by_handle = || if settings.contours.is_empty() { None } else { settings.contours.get(&*entity.handle).copied() };
-    entity.role.or_else(by_handle).or_else(|| settings.layers.get(&*entity.layer).copied()).or_else(by_color)
+    let by_color = || {
+        if settings.colors.is_empty() {
+            None
+        } else {
+            settings.colors.get(&drawing.color(id)?).copied()
+        }
+    };
+    let by_handle = || {
+        if settings.contours.is_empty() {
+            None
+        } else {
+            settings.contours.get(&*entity.handle).copied()
+        }
+    };
+    entity
+        .role
+        .or_else(by_handle)
+        .or_else(|| settings.layers.get(&*entity.layer).copied())
+        .or_else(by_color)
 }
 
 /// True when an entity is part of a contour: it has segments, its role is not `ignore`, and it is seen, or somebody has given it
 /// or its layer a role. A colour or a handle alone does not bring back what is frozen.
 pub fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
-    let Some(entity) = drawing.get(id).filter(|entity| entity.geometry.segment_count() > 0) else { return false };
+    let Some(entity) = drawing
+        .get(id)
+        .filter(|entity| entity.geometry.segment_count() > 0)
+    else {
+        return false;
+    };
     let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);
-    role_of(drawing, settings, id) != Some(Role::Ignore) && (drawing.visibility(id).is_seen() || is_asked_for())
+    role_of(drawing, settings, id) != Some(Role::Ignore)
+        && (drawing.visibility(id).is_seen() || is_asked_for())
 }
 
 /// The segments of an entity that a splice of its vertices changed, in one or two ranges.
-fn segments_of(vertices: Option<(usize, usize, usize)>, count: usize, closed: bool) -> Vec<Range<usize>> {
-    let Some((start, removed, inserted)) = vertices else { return once(0..count).collect() };
+fn segments_of(
+    vertices: Option<(usize, usize, usize)>,
+    count: usize,
+    closed: bool,
+) -> Vec<Range<usize>> {
+    let Some((start, removed, inserted)) = vertices else {
+        return once(0..count).collect();
+    };
     if removed != inserted {
         // What lies behind the splice has other indices now; the segment before it has another end.
-        let first = if closed && start == 0 { 0 } else { start.saturating_sub(1).min(count) };
+        let first = if closed && start == 0 {
+            0
+        } else {
+            start.saturating_sub(1).min(count)
+        };
         return once(first..count).collect();
     }
     let end = (start + inserted).min(count);
@@ -874,19 +1328,29 @@ struct Stretch {
 impl Stretch {
     fn of(travel: &Travel, replacement: &Replacement) -> Stretch {
         let place = |position: isize, point| {
-            let share = travel.segment(position).map_or(0.0, |segment| segment.geometry.share_of(point).clamp(0.0, 1.0));
+            let share = travel.segment(position).map_or(0.0, |segment| {
+                segment.geometry.share_of(point).clamp(0.0, 1.0)
+            });
             position as f64 + share
         };
-        let (start, end) = (place(replacement.before, replacement.arc.start), place(replacement.after, replacement.arc.end));
+        let (start, end) = (
+            place(replacement.before, replacement.arc.start),
+            place(replacement.after, replacement.arc.end),
+        );
         let round = travel.len() as f64;
         let from = match travel.side {
             Side::Left => start,
             Side::Right => round - end,
         };
-        Stretch { from: from.rem_euclid(round), length: end - start, round }
+        Stretch {
+            from: from.rem_euclid(round),
+            length: end - start,
+            round,
+        }
     }
 
     fn overlaps(&self, other: &Stretch) -> bool {
-        (other.from - self.from).rem_euclid(self.round) < self.length || (self.from - other.from).rem_euclid(self.round) < other.length
+        (other.from - self.from).rem_euclid(self.round) < self.length
+            || (self.from - other.from).rem_euclid(self.round) < other.length
     }
 }

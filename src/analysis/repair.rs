@@ -28,12 +28,21 @@ impl Analysis {
             return fixes;
         }
         let before = self.tallied(drawing);
-        fixes.into_iter().filter(|fix| self.mends(drawing, rule, before, &fix.edit).is_some()).collect()
+        fixes
+            .into_iter()
+            .filter(|fix| self.mends(drawing, rule, before, &fix.edit).is_some())
+            .collect()
     }
 
     /// What is found behind an edit that can be made, leaves no more errors and no more warnings than `before`, and fewer
     /// findings of `rule`; `None` for any other edit.
-    fn mends(&self, drawing: &Drawing, rule: Rule, before: &Tally, edit: &DrawingEdit) -> Option<Tally> {
+    fn mends(
+        &self,
+        drawing: &Drawing,
+        rule: Rule,
+        before: &Tally,
+        edit: &DrawingEdit,
+    ) -> Option<Tally> {
         let mut edited = drawing.clone();
         let delta = edited.apply(edit).ok()?;
         let after = self.updated(&edited, &delta).tally(&edited);
@@ -52,7 +61,11 @@ impl Analysis {
     /// How many edits are tried.
     pub(super) fn tries(&self) -> usize {
         let segments: usize = self.known.values().map(|known| known.index.len()).sum();
-        let most = if self.pairs.uncompared() > 0 { FEW_TRIES } else { TRIES };
+        let most = if self.pairs.uncompared() > 0 {
+            FEW_TRIES
+        } else {
+            TRIES
+        };
         (SEGMENTS / segments.max(1)).clamp(2, most)
     }
 
@@ -65,21 +78,41 @@ impl Analysis {
     /// crumb that was not there. A line that lies there twice is moved once: then the contour falls apart.
     ///
     /// An arc that keeps its ends leaves what it left before, whatever rule says it then: that one is `spared`.
-    pub(super) fn enlarges(&self, drawing: &Drawing, edit: &DrawingEdit, spared: Option<Rule>) -> bool {
+    pub(super) fn enlarges(
+        &self,
+        drawing: &Drawing,
+        edit: &DrawingEdit,
+        spared: Option<Rule>,
+    ) -> bool {
         let mut edited = drawing.clone();
-        let Ok(delta) = edited.apply(edit) else { return false };
+        let Ok(delta) = edited.apply(edit) else {
+            return false;
+        };
         let touched: FxHashSet<EntityId> = edit.changes.iter().map(Change::entity).collect();
         if self.tight(&edited, &touched) >= self.tight(drawing, &touched) {
             return false;
         }
-        let (before, after) = (self.tallied(drawing), self.updated(&edited, &delta).tally(&edited));
-        after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius) && after.spoils_nothing(before, spared)
+        let (before, after) = (
+            self.tallied(drawing),
+            self.updated(&edited, &delta).tally(&edited),
+        );
+        after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius)
+            && after.spoils_nothing(before, spared)
     }
 
     /// One edit that makes the safe repairs of one of the rules, as many as do not collide.
-    pub(super) fn fix_all_else(&self, drawing: &Drawing, rules: &[Rule], can: Can<'_>) -> Option<DrawingEdit> {
+    pub(super) fn fix_all_else(
+        &self,
+        drawing: &Drawing,
+        rules: &[Rule],
+        can: Can<'_>,
+    ) -> Option<DrawingEdit> {
         let before = self.tallied(drawing);
-        let rules: Vec<Rule> = rules.iter().copied().filter(|rule| before.of(*rule) > 0).collect();
+        let rules: Vec<Rule> = rules
+            .iter()
+            .copied()
+            .filter(|rule| before.of(*rule) > 0)
+            .collect();
         if rules.is_empty() {
             return None;
         }
@@ -87,11 +120,19 @@ impl Analysis {
         for rule in rules {
             let of_rule = findings.iter().filter(|finding| finding.rule == rule);
             let fixes = of_rule.filter_map(|finding| {
-                let crate::finding::Place::Segment { entity, segment } = finding.place else { return None };
+                let crate::finding::Place::Segment { entity, segment } = finding.place else {
+                    return None;
+                };
                 let fixes = self.other_fixes(drawing, finding, (entity, segment))?;
-                let fix = fixes.into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
+                let fix = fixes
+                    .into_iter()
+                    .find(|fix| fix.preferred && fix.in_fix_all)?;
                 // One that cannot be made must not stand in the way of the others.
-                let accepted = fix.edit.changes.iter().all(|change| drawing.accepts(change).is_ok());
+                let accepted = fix
+                    .edit
+                    .changes
+                    .iter()
+                    .all(|change| drawing.accepts(change).is_ok());
                 (accepted && can.is_none_or(|can| can(&fix.edit))).then_some(fix.edit)
             });
             if let Some(edit) = self.most_of(drawing, rule, before, &apart(fixes)) {
@@ -102,21 +143,49 @@ impl Analysis {
     }
 
     /// As many of the edits as one as go together without making anything worse.
-    fn most_of(&self, drawing: &Drawing, rule: Rule, before: &Tally, edits: &[DrawingEdit]) -> Option<DrawingEdit> {
-        let most = most_together(edits, self.tries(), |together, best: Option<&(DrawingEdit, Tally)>| {
-            let tried = DrawingEdit { changes: together.iter().flat_map(|edit| &edit.changes).cloned().collect() };
-            let after = self.mends(drawing, rule, best.map_or(before, |(_, tally)| tally), &tried)?;
-            Some((tried, after))
-        });
+    fn most_of(
+        &self,
+        drawing: &Drawing,
+        rule: Rule,
+        before: &Tally,
+        edits: &[DrawingEdit],
+    ) -> Option<DrawingEdit> {
+        let most = most_together(
+            edits,
+            self.tries(),
+            |together, best: Option<&(DrawingEdit, Tally)>| {
+                let tried = DrawingEdit {
+                    changes: together
+                        .iter()
+                        .flat_map(|edit| &edit.changes)
+                        .cloned()
+                        .collect(),
+                };
+                let after = self.mends(
+                    drawing,
+                    rule,
+                    best.map_or(before, |(_, tally)| tally),
+                    &tried,
+                )?;
+                Some((tried, after))
+            },
+        );
         most.map(|(edit, _)| edit)
     }
 }
 
 /// What comes of as many of the parts as go together: where all of them do not, each half is tried beside what has been taken so far,
 /// then the halves of that half. `made` is given the parts and what has come of those taken so far.
-pub(super) fn most_together<T: Clone, M>(parts: &[T], tries: usize, made: impl Fn(&[T], Option<&M>) -> Option<M>) -> Option<M> {
+pub(super) fn most_together<T: Clone, M>(
+    parts: &[T],
+    tries: usize,
+    made: impl Fn(&[T], Option<&M>) -> Option<M>,
+) -> Option<M> {
     let (mut taken, mut best) = (Vec::new(), None);
-    let mut waiting: Vec<&[T]> = [parts].into_iter().filter(|parts| !parts.is_empty()).collect();
+    let mut waiting: Vec<&[T]> = [parts]
+        .into_iter()
+        .filter(|parts| !parts.is_empty())
+        .collect();
     for _ in 0..tries {
         let Some(some) = waiting.pop() else { break };
         let together = [&taken, some].concat();
@@ -144,7 +213,8 @@ fn apart(edits: impl Iterator<Item = DrawingEdit>) -> Vec<DrawingEdit> {
             None => !claimed_in.contains(&entity),
             Some(index) => {
                 !claimed.contains(&(entity, None))
-                    && (index.saturating_sub(1)..=index + 1).all(|near| !claimed.contains(&(entity, Some(near))))
+                    && (index.saturating_sub(1)..=index + 1)
+                        .all(|near| !claimed.contains(&(entity, Some(near))))
             }
         });
         if is_free {
@@ -158,9 +228,9 @@ fn apart(edits: impl Iterator<Item = DrawingEdit>) -> Vec<DrawingEdit> {
 
 fn claim(change: &Change) -> Claim {
     match *change {
-        Change::SetVertex { entity, index, .. } | Change::RemoveVertex { entity, index } | Change::InsertVertex { entity, index, .. } => {
-            (entity, Some(index))
-        }
+        Change::SetVertex { entity, index, .. }
+        | Change::RemoveVertex { entity, index }
+        | Change::InsertVertex { entity, index, .. } => (entity, Some(index)),
         _ => (change.entity(), None),
     }
 }

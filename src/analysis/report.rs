@@ -32,7 +32,13 @@ const CORNERS: [Rule; 3] = [Rule::SharpCorner, Rule::NearTangent, Rule::ArcAsCho
 const SLOTS: [Rule; 2] = [Rule::NarrowSlot, Rule::OffsetCollapse];
 
 /// What a line that closes a contour may run into.
-const LINES_IN_THE_WAY: [Rule; 5] = [Rule::DuplicateEntity, Rule::Overlap, Rule::SelfIntersection, Rule::ShortSegment, Rule::OpenContour];
+const LINES_IN_THE_WAY: [Rule; 5] = [
+    Rule::DuplicateEntity,
+    Rule::Overlap,
+    Rule::SelfIntersection,
+    Rule::ShortSegment,
+    Rule::OpenContour,
+];
 
 impl Tally {
     pub fn of(&self, rule: Rule) -> usize {
@@ -50,7 +56,8 @@ impl Tally {
     /// True when there are no more errors, and nothing new but kinks and slots, which may have been beside a tight arc all the time,
     /// and what a rule that is `spared` says.
     pub fn spoils_nothing(&self, before: &Tally, spared: Option<Rule>) -> bool {
-        let is_spared = |rule| CORNERS.contains(&rule) || SLOTS.contains(&rule) || spared == Some(rule);
+        let is_spared =
+            |rule| CORNERS.contains(&rule) || SLOTS.contains(&rule) || spared == Some(rule);
         self.errors <= before.errors && self.brings_nothing_new(before, is_spared)
     }
 
@@ -59,13 +66,19 @@ impl Tally {
         // Where a contour comes to be closed, an end that does not quite meet is what is left of the opening.
         let is_closed = self.of(Rule::OpenContour) < before.of(Rule::OpenContour);
         let is_spared = |rule| is_spared(rule) || (rule == Rule::Gap && is_closed);
-        self.unseen < before.unseen || self.of_rule.iter().all(|(&rule, &count)| is_spared(rule) || count <= before.of(rule))
+        self.unseen < before.unseen
+            || self
+                .of_rule
+                .iter()
+                .all(|(&rule, &count)| is_spared(rule) || count <= before.of(rule))
     }
 
     /// True when closing a contour has brought nothing new to light but corners. The wire has a side on it now: what was one hint
     /// for all its corners is a warning for each that the wire runs inside of, and what was a warning may be an error.
     pub fn is_no_worse_once_closed(&self, before: &Tally) -> bool {
-        let corners = self.of(Rule::SharpCorner).saturating_sub(before.of(Rule::SharpCorner));
+        let corners = self
+            .of(Rule::SharpCorner)
+            .saturating_sub(before.of(Rule::SharpCorner));
         self.errors + self.warnings <= before.errors + before.warnings + corners
             && self.brings_nothing_new(before, |rule| !LINES_IN_THE_WAY.contains(&rule))
     }
@@ -73,7 +86,13 @@ impl Tally {
 
 impl Report {
     pub fn new(settings: Arc<Effective>, limit: usize) -> Report {
-        Report { settings, limit, kept: BTreeMap::new(), count: 0, tally: Tally::default() }
+        Report {
+            settings,
+            limit,
+            kept: BTreeMap::new(),
+            count: 0,
+            tally: Tally::default(),
+        }
     }
 
     /// False where findings are only counted.
@@ -89,7 +108,8 @@ impl Report {
     /// The severity of a rule, `mildest` where the case is milder than the rule and nobody has set it; `None` where it is off.
     fn severity(&self, rule: Rule, mildest: Option<Severity>) -> Option<Severity> {
         let set = self.settings.severity(rule)?;
-        self.settings.severity_over(rule, mildest.map_or(set, |mildest| set.max(mildest)))
+        self.settings
+            .severity_over(rule, mildest.map_or(set, |mildest| set.max(mildest)))
     }
 
     /// Counts a finding. True when it should be worked out and added.
@@ -100,7 +120,9 @@ impl Report {
 
     /// Counts so many findings, which are not added.
     pub fn count(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
-        let Some(severity) = self.severity(rule, mildest).filter(|_| count > 0) else { return };
+        let Some(severity) = self.severity(rule, mildest).filter(|_| count > 0) else {
+            return;
+        };
         self.count += count;
         match severity {
             Severity::Error => self.tally.errors += count,
@@ -113,13 +135,27 @@ impl Report {
     /// True when no finding of this severity is added any more, or the rule is off.
     pub fn is_full(&self, rule: Rule, mildest: Option<Severity>) -> bool {
         let kept = |severity| self.kept.get(&severity).map_or(0, Vec::len);
-        self.severity(rule, mildest).is_none_or(|severity| kept(severity) >= self.limit)
+        self.severity(rule, mildest)
+            .is_none_or(|severity| kept(severity) >= self.limit)
     }
 
     /// Adds a finding that has been counted.
-    pub fn add(&mut self, rule: Rule, mildest: Option<Severity>, place: Place, detail: Detail, related: Vec<Place>) {
+    pub fn add(
+        &mut self,
+        rule: Rule,
+        mildest: Option<Severity>,
+        place: Place,
+        detail: Detail,
+        related: Vec<Place>,
+    ) {
         if let Some(severity) = self.severity(rule, mildest) {
-            self.kept.entry(severity).or_default().push(Finding { rule, severity, place, detail, related });
+            self.kept.entry(severity).or_default().push(Finding {
+                rule,
+                severity,
+                place,
+                detail,
+                related,
+            });
         }
     }
 

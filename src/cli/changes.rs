@@ -10,7 +10,11 @@ use std::path::Path;
 pub fn print_diff(path: &Path, before: &[u8], after: &[u8]) -> Result<(), Failure> {
     let for_people = output::is_for_people();
     let diff = diff(path, before, after, for_people);
-    if for_people { output::print(String::from_utf8_lossy(&diff)) } else { output::print_bytes(&diff) }
+    if for_people {
+        output::print(String::from_utf8_lossy(&diff))
+    } else {
+        output::print_bytes(&diff)
+    }
 }
 
 fn diff(path: &Path, before: &[u8], after: &[u8], for_people: bool) -> Vec<u8> {
@@ -18,14 +22,26 @@ fn diff(path: &Path, before: &[u8], after: &[u8], for_people: bool) -> Vec<u8> {
     if before == after {
         return text;
     }
-    let push_line = if for_people { push_readable_line } else { push_bytes };
+    let push_line = if for_people {
+        push_readable_line
+    } else {
+        push_bytes
+    };
     let lines = |bytes| <[u8]>::split_inclusive(bytes, |&byte| byte == b'\n').collect::<Vec<_>>();
     let (old, new) = (lines(before), lines(after));
     for sign in ["---", "+++"] {
-        push_line(&mut text, output::STRONG, format!("{sign} {}", output::name(path)).as_bytes());
+        push_line(
+            &mut text,
+            output::STRONG,
+            format!("{sign} {}", output::name(path)).as_bytes(),
+        );
     }
     for ops in group_diff_ops(capture_diff_slices(Algorithm::Myers, &old, &new), 3) {
-        push_line(&mut text, output::NOTE, UnifiedHunkHeader::new(&ops).to_string().as_bytes());
+        push_line(
+            &mut text,
+            output::NOTE,
+            UnifiedHunkHeader::new(&ops).to_string().as_bytes(),
+        );
         for change in ops.iter().flat_map(|op| op.iter_changes(&old, &new)) {
             let (sign, style) = match change.tag() {
                 ChangeTag::Delete => (b'-', output::ERROR),
@@ -50,7 +66,10 @@ fn push_bytes(text: &mut Vec<u8>, _: anstyle::Style, line: &[u8]) {
 
 /// A line in a style; its line end stands behind the colours, which would reach into the next line's margin.
 fn push_readable_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
-    let end = line.iter().rposition(|byte| !matches!(byte, b'\r' | b'\n')).map_or(0, |last| last + 1);
+    let end = line
+        .iter()
+        .rposition(|byte| !matches!(byte, b'\r' | b'\n'))
+        .map_or(0, |last| last + 1);
     let shown = String::from_utf8_lossy(&line[..end]);
     text.extend_from_slice(format!("{}\n", output::styled(style, readable(&shown))).as_bytes());
 }

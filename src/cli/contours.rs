@@ -29,16 +29,24 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let opened = files::open_drawing(&arguments.path, &arguments.common, &arguments.common.settings())?;
+    let opened = files::open_drawing(
+        &arguments.path,
+        &arguments.common,
+        &arguments.common.settings(),
+    )?;
     files::refuse_faulty_settings(&opened)?;
     let Some(snapshot) = opened.document.snapshot() else {
-        return Err(Failure(format!("{}: there is no drawing in it", arguments.path.display())));
+        return Err(Failure(format!(
+            "{}: there is no drawing in it",
+            arguments.path.display()
+        )));
     };
     let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
     match arguments.output {
         Format::Text => output::print(list(&contours))?,
         Format::Json => {
-            let json = serde_json::to_string(&contours).map_err(|error| Failure(error.to_string()))?;
+            let json =
+                serde_json::to_string(&contours).map_err(|error| Failure(error.to_string()))?;
             output::print_json(&format!("{json}\n"))?;
         }
     }
@@ -48,10 +56,23 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn list(contours: &Contours) -> String {
     let mut text = String::new();
     for (index, contour) in contours.contours.iter().enumerate() {
-        let _ = writeln!(text, "{}", styled(output::STRONG, heading(index, contour, contours.units_to_mm)));
+        let _ = writeln!(
+            text,
+            "{}",
+            styled(
+                output::STRONG,
+                heading(index, contour, contours.units_to_mm)
+            )
+        );
         for run in contour.segments.chunk_by(|a, b| a.handle == b.handle) {
-            let (Some(first), Some(last)) = (run.first(), run.last()) else { continue };
-            let against = if first.reversed { ", against its own direction" } else { "" };
+            let (Some(first), Some(last)) = (run.first(), run.last()) else {
+                continue;
+            };
+            let against = if first.reversed {
+                ", against its own direction"
+            } else {
+                ""
+            };
             let range = if run.len() == 1 {
                 format!("segment {}", first.segment)
             } else {
@@ -61,7 +82,14 @@ fn list(contours: &Contours) -> String {
         }
         for gap in &contour.gaps {
             let distance = gap.distance * contours.units_to_mm * 1000.0;
-            let _ = writeln!(text, "  {}", styled(output::WARNING, format!("gap of {distance:.3} µm closed after segment {}", gap.after)));
+            let _ = writeln!(
+                text,
+                "  {}",
+                styled(
+                    output::WARNING,
+                    format!("gap of {distance:.3} µm closed after segment {}", gap.after)
+                )
+            );
         }
         text.push('\n');
     }
@@ -83,8 +111,17 @@ fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
         Role::Ignore => "not cut",
     };
     let length = contour.length * unit_mm;
-    let area = contour.area.map_or_else(String::new, |area| format!(", area {:.3} mm²", area * unit_mm * unit_mm));
-    let order = contour.order.map_or_else(String::new, |order| format!(", cut number {}", order + 1));
-    let mark = contour.mark.map_or_else(String::new, |[x, y]| format!(", start mark at {x:.3}, {y:.3}"));
-    format!("contour {index}: {shape}, {role}, {}, length {length:.3} mm{area}{order}{mark}", counted(contour.segments.len(), "segment"))
+    let area = contour.area.map_or_else(String::new, |area| {
+        format!(", area {:.3} mm²", area * unit_mm * unit_mm)
+    });
+    let order = contour
+        .order
+        .map_or_else(String::new, |order| format!(", cut number {}", order + 1));
+    let mark = contour.mark.map_or_else(String::new, |[x, y]| {
+        format!(", start mark at {x:.3}, {y:.3}")
+    });
+    format!(
+        "contour {index}: {shape}, {role}, {}, length {length:.3} mm{area}{order}{mark}",
+        counted(contour.segments.len(), "segment")
+    )
 }

@@ -69,37 +69,55 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(out) = &arguments.output {
         output::refuse_input(out, path)?;
     }
-    let last = Settings { program: Some(arguments.program.settings()), ..arguments.common.settings() };
+    let last = Settings {
+        program: Some(arguments.program.settings()),
+        ..arguments.common.settings()
+    };
     let opened = files::open(path, &arguments.common, &last)?;
     files::refuse_faulty_settings(&opened)?;
     let mut document = opened.document;
     if document.program().is_none() {
-        return Err(Failure(format!("{}: it is a drawing, expected a program: wedm generate makes one of it", path.display())));
+        return Err(Failure(format!(
+            "{}: it is a drawing, expected a program: wedm generate makes one of it",
+            path.display()
+        )));
     }
     if !arguments.force && refused_for_errors(path, &mut document) {
         return Ok(Verdict::Errors);
     }
-    let Some(program) = document.program() else { return Ok(Verdict::Errors) };
+    let Some(program) = document.program() else {
+        return Ok(Verdict::Errors);
+    };
     let cuts = convert::cuts(program);
     if cuts.cuts.is_empty() {
         output::complain(&format!("{}: it cuts nothing", path.display()));
         return Ok(Verdict::Errors);
     }
-    let Some((bytes, what)) = converted(arguments, target, &document, &cuts)? else { return Ok(Verdict::Errors) };
+    let Some((bytes, what)) = converted(arguments, target, &document, &cuts)? else {
+        return Ok(Verdict::Errors);
+    };
     output::write(arguments.output.as_deref(), &bytes)?;
     summarise(arguments, target, &cuts, &what);
     Ok(Verdict::Clean)
 }
 
 fn target(arguments: &Arguments) -> Result<Target, Failure> {
-    let ending = arguments.output.as_deref().and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
+    let ending = arguments
+        .output
+        .as_deref()
+        .and_then(Path::extension)
+        .map(|ending| ending.to_string_lossy().into_owned());
     match (&arguments.format, &arguments.output, ending) {
         (Some(format), ..) => Ok(*format),
-        (None, Some(out), Some(ending)) => {
-            Target::of(&ending.to_ascii_lowercase()).map_err(|reason| Failure(format!("{}: {reason}", out.display())))
-        }
-        (None, Some(out), None) => Err(Failure(format!("{}: its name has no ending, expected .dxf, .3b, .4b, .iso or .nc", out.display()))),
-        (None, None, _) => Err(Failure("nothing says what the program becomes, expected -o OUT or --format".into())),
+        (None, Some(out), Some(ending)) => Target::of(&ending.to_ascii_lowercase())
+            .map_err(|reason| Failure(format!("{}: {reason}", out.display()))),
+        (None, Some(out), None) => Err(Failure(format!(
+            "{}: its name has no ending, expected .dxf, .3b, .4b, .iso or .nc",
+            out.display()
+        ))),
+        (None, None, _) => Err(Failure(
+            "nothing says what the program becomes, expected -o OUT or --format".into(),
+        )),
     }
 }
 
@@ -107,11 +125,17 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
 fn refused_for_errors(path: &Path, document: &mut Document) -> bool {
     let mut rows = report::rows(path, document);
     // A radius that the wire cannot follow does not change where it goes.
-    rows.retain(|row| row.severity == Severity::Error && row.rule != crate::finding::Rule::SmallRadius);
-    rows.iter().for_each(|row| output::say(&format!("{}\n", row.rendered())));
+    rows.retain(|row| {
+        row.severity == Severity::Error && row.rule != crate::finding::Rule::SmallRadius
+    });
+    rows.iter()
+        .for_each(|row| output::say(&format!("{}\n", row.rendered())));
     if !rows.is_empty() {
         let errors = counted(rows.len(), "error");
-        output::complain(&format!("{}: nothing is written, the program has {errors}; repair them, or insist with --force", path.display()));
+        output::complain(&format!(
+            "{}: nothing is written, the program has {errors}; repair them, or insist with --force",
+            path.display()
+        ));
     }
     !rows.is_empty()
 }
@@ -137,9 +161,14 @@ fn converted(
     }
     // µm are the unit of the cuts.
     match format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true) {
-        Ok(written) => {
-            Ok(Some((written.text.into_bytes(), format!("{}, {}", counted(written.blocks, "block"), counted(cuts.cuts.len(), "contour")))))
-        }
+        Ok(written) => Ok(Some((
+            written.text.into_bytes(),
+            format!(
+                "{}, {}",
+                counted(written.blocks, "block"),
+                counted(cuts.cuts.len(), "contour")
+            ),
+        ))),
         Err(ProofError::Refused(sentence)) => {
             output::complain(&format!("{}: {sentence}", arguments.path.display()));
             Ok(None)
@@ -147,26 +176,50 @@ fn converted(
         // What comes of errors that were passed over is theirs.
         Err(error) if arguments.force || report::has_errors(document) => {
             let path = arguments.path.display();
-            output::complain(&format!("{path}: no other program could be proved for this one, and none is written: {error}"));
+            output::complain(&format!(
+                "{path}: no other program could be proved for this one, and none is written: {error}"
+            ));
             Ok(None)
         }
-        Err(error) => Err(Failure(format!("{}: internal error, nothing is written: {error}", arguments.path.display()))),
+        Err(error) => Err(Failure(format!(
+            "{}: internal error, nothing is written: {error}",
+            arguments.path.display()
+        ))),
     }
 }
 
 fn summarise(arguments: &Arguments, target: Target, cuts: &convert::Cuts, what: &str) {
-    let written = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| output::name(path));
-    output::say(&format!("{} {written}: {what}", styled(output::GOOD, "written")));
-    if target == Target::Drawing && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some())) {
+    let written = arguments
+        .output
+        .as_ref()
+        .map_or_else(|| "stdout".into(), |path| output::name(path));
+    output::say(&format!(
+        "{} {written}: {what}",
+        styled(output::GOOD, "written")
+    ));
+    if target == Target::Drawing
+        && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some()))
+    {
         output::say("the contours are those of the part: the correction is not in them");
     }
     cuts.losses().iter().for_each(|loss| output::say(loss));
     if cuts.closure >= 0.005 {
-        output::say(&format!("the machine misses the begin of a contour by up to {:.2} µm; its ends are made one there", cuts.closure));
+        output::say(&format!(
+            "the machine misses the begin of a contour by up to {:.2} µm; its ends are made one there",
+            cuts.closure
+        ));
     }
     if !cuts.lost.is_empty() {
-        let lines: Vec<String> = cuts.lost.iter().take(5).map(|line| (line + 1).to_string()).collect();
+        let lines: Vec<String> = cuts
+            .lost
+            .iter()
+            .take(5)
+            .map(|line| (line + 1).to_string())
+            .collect();
         let more = if cuts.lost.len() > 5 { ", …" } else { "" };
-        output::say(&format!("left out, since they lead nowhere: lines {}{more}", lines.join(", ")));
+        output::say(&format!(
+            "left out, since they lead nowhere: lines {}{more}",
+            lines.join(", ")
+        ));
     }
 }

@@ -40,7 +40,10 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         refuse_other_formats(target)?;
         output::refuse_input(target, &arguments.path)?;
     }
-    let last = Settings { program: Some(arguments.program.settings()), ..arguments.common.settings() };
+    let last = Settings {
+        program: Some(arguments.program.settings()),
+        ..arguments.common.settings()
+    };
     let opened = files::open(&arguments.path, &arguments.common, &last)?;
     files::refuse_faulty_settings(&opened)?;
     let mut document = opened.document;
@@ -49,22 +52,43 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let (findings, _) = document.findings(usize::MAX);
     let Some(snapshot) = document.snapshot() else {
-        return Err(Failure(format!("{}: there is no drawing in it", arguments.path.display())));
+        return Err(Failure(format!(
+            "{}: there is no drawing in it",
+            arguments.path.display()
+        )));
     };
     let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
-    let paths = toolpath::plan(&snapshot.drawing, &snapshot.outlines, &snapshot.settings, None).unwrap_or_else(|refusal| {
+    let paths = toolpath::plan(
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &snapshot.settings,
+        None,
+    )
+    .unwrap_or_else(|refusal| {
         let reason = match &refusal {
             Refusal::Sentence(sentence) => sentence.clone(),
             Refusal::Cancelled => "the path was given up".into(),
-            Refusal::Findings(findings) => findings.first().map_or_else(String::new, |finding| en::sentence(finding, unit_mm)),
+            Refusal::Findings(findings) => findings
+                .first()
+                .map_or_else(String::new, |finding| en::sentence(finding, unit_mm)),
         };
         let reason = readable(&reason);
-        output::say(&format!("{} drawn without the path of the wire: {reason}", styled(output::NOTE, "note:")));
+        output::say(&format!(
+            "{} drawn without the path of the wire: {reason}",
+            styled(output::NOTE, "note:")
+        ));
         Vec::new()
     });
     let picture = match arguments.output.as_deref().and_then(ending_of).as_deref() {
         Some("dxf") => dxf::write(&with_paths(&snapshot, &paths)).map_err(Failure)?,
-        _ => picture::svg(&snapshot.drawing, &snapshot.outlines, &findings, &paths, unit_mm).into_bytes(),
+        _ => picture::svg(
+            &snapshot.drawing,
+            &snapshot.outlines,
+            &findings,
+            &paths,
+            unit_mm,
+        )
+        .into_bytes(),
     };
     output::write(arguments.output.as_deref(), &picture)?;
     Ok(Verdict::Clean)
@@ -74,12 +98,24 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, Failure> {
     if arguments.output.as_deref().and_then(ending_of).as_deref() == Some("dxf") {
         let path = arguments.path.display();
-        return Err(Failure(format!("{path}: a program is drawn as .svg; as a drawing: wedm convert {path} -o OUT.dxf")));
+        return Err(Failure(format!(
+            "{path}: a program is drawn as .svg; as a drawing: wedm convert {path} -o OUT.dxf"
+        )));
     }
-    let trace = document.program().map(crate::program::Document::trace).unwrap_or_default();
-    let line = |finding: &Finding| Some(document.text()?.line_of(document.range_of(&finding.place)?.start));
+    let trace = document
+        .program()
+        .map(crate::program::Document::trace)
+        .unwrap_or_default();
+    let line = |finding: &Finding| {
+        Some(
+            document
+                .text()?
+                .line_of(document.range_of(&finding.place)?.start),
+        )
+    };
     let findings = document.all_findings();
-    let fault = |finding: &Finding| Some((line(finding)?, finding.severity, en::sentence(finding, 1.0)));
+    let fault =
+        |finding: &Finding| Some((line(finding)?, finding.severity, en::sentence(finding, 1.0)));
     let faults: Vec<(usize, Severity, String)> = findings.iter().filter_map(fault).collect();
     let svg = picture::program_svg(&trace, &faults);
     output::write(arguments.output.as_deref(), svg.as_bytes())?;
@@ -97,18 +133,42 @@ fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
     }
     for segment in paths.iter().flat_map(|path| &path.segments) {
         let (kind, geometry) = match segment.geometry {
-            Segment::Line(line) => (crate::drawing::Kind::Line, Geometry::Line { start: line.start, end: line.end }),
-            Segment::Arc(arc) if arc.is_full_turn() => {
-                (crate::drawing::Kind::Circle, Geometry::Circle { center: arc.center, radius: arc.radius })
-            }
+            Segment::Line(line) => (
+                crate::drawing::Kind::Line,
+                Geometry::Line {
+                    start: line.start,
+                    end: line.end,
+                },
+            ),
+            Segment::Arc(arc) if arc.is_full_turn() => (
+                crate::drawing::Kind::Circle,
+                Geometry::Circle {
+                    center: arc.center,
+                    radius: arc.radius,
+                },
+            ),
             Segment::Arc(arc) => {
                 // A DXF arc runs counter-clockwise, whichever way the wire goes.
                 let arc = if arc.sweep < 0.0 { arc.reversed() } else { arc };
                 let (start_angle, end_angle) = (arc.start_angle, arc.start_angle + arc.sweep);
-                (crate::drawing::Kind::Arc, Geometry::Arc { center: arc.center, radius: arc.radius, start_angle, end_angle })
+                (
+                    crate::drawing::Kind::Arc,
+                    Geometry::Arc {
+                        center: arc.center,
+                        radius: arc.radius,
+                        start_angle,
+                        end_angle,
+                    },
+                )
             }
         };
-        drawing.push(Entity { handle: WIRE.into(), layer: WIRE.into(), role: None, kind, geometry });
+        drawing.push(Entity {
+            handle: WIRE.into(),
+            layer: WIRE.into(),
+            role: None,
+            kind,
+            geometry,
+        });
     }
     drawing
 }
@@ -121,7 +181,13 @@ fn refuse_other_formats(target: &Path) -> Result<(), Failure> {
     match ending_of(target).as_deref() {
         Some("svg" | "dxf") => Ok(()),
         _ if target == Path::new("-") => Ok(()),
-        Some(ending) => Err(Failure(format!("{}: .{ending} is not written, expected .svg or .dxf", target.display()))),
-        None => Err(Failure(format!("{}: its name has no ending, expected .svg or .dxf", target.display()))),
+        Some(ending) => Err(Failure(format!(
+            "{}: .{ending} is not written, expected .svg or .dxf",
+            target.display()
+        ))),
+        None => Err(Failure(format!(
+            "{}: its name has no ending, expected .svg or .dxf",
+            target.display()
+        ))),
     }
 }

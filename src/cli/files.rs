@@ -38,8 +38,14 @@ enum Kind {
 pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let kind = kind_of(path)?;
     let (settings, settings_rows) = settings_for(path, common, last)?;
-    let (bytes, seen) = read(path).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?;
-    Ok(Opened { path: path.to_path_buf(), document: document(&kind, bytes, Arc::new(settings)), seen, settings_rows })
+    let (bytes, seen) =
+        read(path).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?;
+    Ok(Opened {
+        path: path.to_path_buf(),
+        document: document(&kind, bytes, Arc::new(settings)),
+        seen,
+        settings_rows,
+    })
 }
 
 /// A text that cannot be held whole is refused: what is written from it would lack its end.
@@ -59,22 +65,37 @@ fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
 pub fn open_drawing(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let opened = open(path, common, last)?;
     if opened.document.drawing().is_none() {
-        return Err(Failure(format!("{}: it is a program, expected a drawing (.dxf)", path.display())));
+        return Err(Failure(format!(
+            "{}: it is a program, expected a drawing (.dxf)",
+            path.display()
+        )));
     }
     Ok(opened)
 }
 
 /// An error where a settings file has a fault: nothing is made with settings that may not be those that were meant.
 pub fn refuse_faulty_settings(opened: &Opened) -> Result<(), Failure> {
-    opened.settings_rows.iter().for_each(|row| output::say(&row.rendered()));
-    if opened.settings_rows.iter().all(|row| row.severity != Severity::Error) {
+    opened
+        .settings_rows
+        .iter()
+        .for_each(|row| output::say(&row.rendered()));
+    if opened
+        .settings_rows
+        .iter()
+        .all(|row| row.severity != Severity::Error)
+    {
         return Ok(());
     }
-    Err(Failure("nothing is made with settings that do not fit, see above".into()))
+    Err(Failure(
+        "nothing is made with settings that do not fit, see above".into(),
+    ))
 }
 
 fn kind_of(path: &Path) -> Result<Kind, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_ascii_lowercase())
+        .unwrap_or_default();
     if let Some(language) = Language::of_ending(&ending) {
         return Ok(Kind::Program(language));
     }
@@ -91,29 +112,41 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
 fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
     let source = match kind {
         Kind::Dxf => Source::Dxf(dxf::Document::read_file(bytes)),
-        Kind::Program(language) => Source::Program(program::Document::read(*language, bytes, &settings)),
+        Kind::Program(language) => {
+            Source::Program(program::Document::read(*language, bytes, &settings))
+        }
     };
     Document::new(source, settings)
 }
 
 /// Other bytes of the same kind under given settings, such as a fix has made them.
 pub fn reread(before: &Document, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
-    let kind = before.program().map_or(Kind::Dxf, |program| Kind::Program(program.language()));
+    let kind = before
+        .program()
+        .map_or(Kind::Dxf, |program| Kind::Program(program.language()));
     document(&kind, bytes, settings)
 }
 
 /// The settings for an input, and the faults found in settings files.
-fn settings_for(path: &Path, common: &Common, last: &Settings) -> Result<(Effective, Vec<Row>), Failure> {
+fn settings_for(
+    path: &Path,
+    common: &Common,
+    last: &Settings,
+) -> Result<(Effective, Vec<Row>), Failure> {
     let mut settings = Settings::default();
     let (mut rows, mut sources) = (Vec::new(), Vec::new());
     let project = project_file(path);
     for file in project.iter().chain(&common.config) {
-        let bytes = settings::read_file(file).map_err(|reason| Failure(format!("{}: {reason}", file.display())))?;
-        let text = String::from_utf8(bytes).map_err(|_| Failure(format!("{}: it is not UTF-8 text", file.display())))?;
+        let bytes = settings::read_file(file)
+            .map_err(|reason| Failure(format!("{}: {reason}", file.display())))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| Failure(format!("{}: it is not UTF-8 text", file.display())))?;
         let (level, errors) = settings::from_toml(&text);
         settings = settings.overlaid(&level);
         let source = SourceText::new(text.clone().into_bytes());
-        let by_itself = errors.into_iter().filter(|error| error.rule == Rule::Settings);
+        let by_itself = errors
+            .into_iter()
+            .filter(|error| error.rule == Rule::Settings);
         rows.extend(by_itself.map(|error| settings_row(file, &source, error)));
         sources.push((file, text, source));
     }
@@ -121,7 +154,9 @@ fn settings_for(path: &Path, common: &Common, last: &Settings) -> Result<(Effect
     // What is wrong with the passes shows once all levels lie over each other: in the last file that speaks of them.
     for error in settings.pass_errors(&|_| None) {
         let place = |(file, text, source): &(&PathBuf, String, SourceText)| {
-            let mut own = settings.pass_errors(&|fault| settings::place_in(text, fault)).into_iter();
+            let mut own = settings
+                .pass_errors(&|fault| settings::place_in(text, fault))
+                .into_iter();
             let own = own.find(|own| own.message == error.message && own.range.is_some())?;
             Some(settings_row(file, source, own))
         };
@@ -135,17 +170,35 @@ fn settings_for(path: &Path, common: &Common, last: &Settings) -> Result<(Effect
 
 fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
     let range = error.range.unwrap_or(0..0);
-    let place = Place::Text { range: range.clone() };
+    let place = Place::Text {
+        range: range.clone(),
+    };
     let SettingsError { rule, severity, .. } = error;
-    let finding = Finding { rule, severity, place, detail: Detail::Settings(error.message), related: Vec::new() };
+    let finding = Finding {
+        rule,
+        severity,
+        place,
+        detail: Detail::Settings(error.message),
+        related: Vec::new(),
+    };
     let message = en::sentence(&finding, Unit::MILLIMETRE.mm);
-    Row::new(file, Some(source), range, (rule, severity), message, FindingData::default())
+    Row::new(
+        file,
+        Some(source),
+        range,
+        (rule, severity),
+        message,
+        FindingData::default(),
+    )
 }
 
 /// The nearest `wedm.toml` in the input's folder or one that holds it.
 fn project_file(path: &Path) -> Option<PathBuf> {
     let folder = path.canonicalize().ok()?.parent()?.to_path_buf();
-    let file = folder.ancestors().map(|folder| folder.join(settings::FILE_NAME)).find(|file| file.is_file())?;
+    let file = folder
+        .ancestors()
+        .map(|folder| folder.join(settings::FILE_NAME))
+        .find(|file| file.is_file())?;
     // A file that lies beside the input is named as the input is.
     match path.parent() {
         Some(parent) if file.parent() == Some(&folder) => Some(parent.join(settings::FILE_NAME)),
@@ -188,6 +241,8 @@ pub fn search(paths: &[PathBuf]) -> Found {
 }
 
 fn has_known_ending(path: &Path) -> bool {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
 }

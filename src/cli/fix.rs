@@ -74,8 +74,15 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let repair = repair(path, opened.document)?;
     deliver(arguments, &repair, &opened.seen)?;
     summarise(path, &repair);
-    let errors_left = repair.after.iter().any(|row| row.severity == Severity::Error);
-    Ok(if errors_left || !repair.refused.is_empty() { Verdict::Errors } else { Verdict::Clean })
+    let errors_left = repair
+        .after
+        .iter()
+        .any(|row| row.severity == Severity::Error);
+    Ok(if errors_left || !repair.refused.is_empty() {
+        Verdict::Errors
+    } else {
+        Verdict::Clean
+    })
 }
 
 /// A drawing or program before and after.
@@ -104,40 +111,72 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     if let Source::Dxf(text) = document.source()
         && text.is_binary()
     {
-        return Err(Failure(format!("{}: it is binary DXF, which is read but not edited: save it as ASCII DXF", path.display())));
+        return Err(Failure(format!(
+            "{}: it is binary DXF, which is read but not edited: save it as ASCII DXF",
+            path.display()
+        )));
     }
     let before = report::rows(path, &mut document);
-    let bytes_before = document.text().map_or_else(Vec::new, |text| text.bytes().to_vec());
+    let bytes_before = document
+        .text()
+        .map_or_else(Vec::new, |text| text.bytes().to_vec());
     let mut rounds = 0;
     while rounds < ROUNDS
         && let Some(edits) = document.fix_all_in_text()
     {
         let settings = document.settings().clone();
         let present = document.text().map_or(&[][..], |text| text.bytes());
-        let edited = edited(present, &edits).ok_or_else(|| Failure(format!("{}: the edits of a fix overlap", path.display())))?;
+        let edited = edited(present, &edits)
+            .ok_or_else(|| Failure(format!("{}: the edits of a fix overlap", path.display())))?;
         document = files::reread(&document, edited, settings);
         rounds += 1;
     }
     let after = report::rows(path, &mut document);
     let refused = refused(path, &document);
-    let repair = Repair { bytes_before, before, document, after, refused, rounds };
-    let errors = |rows: &[Row]| rows.iter().filter(|row| row.severity == Severity::Error).count();
+    let repair = Repair {
+        bytes_before,
+        before,
+        document,
+        after,
+        refused,
+        rounds,
+    };
+    let errors = |rows: &[Row]| {
+        rows.iter()
+            .filter(|row| row.severity == Severity::Error)
+            .count()
+    };
     if errors(&repair.after) > errors(&repair.before) {
         let sentence = "what was repaired has more errors than before; nothing is written";
-        return Err(Failure(format!("{}: internal error: {sentence}", path.display())));
+        return Err(Failure(format!(
+            "{}: internal error: {sentence}",
+            path.display()
+        )));
     }
     Ok(repair)
 }
 
 /// Findings with a safe fix that the text cannot take, each with the reason.
 fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
-    let Source::Dxf(text) = document.source() else { return Vec::new() };
+    let Source::Dxf(text) = document.source() else {
+        return Vec::new();
+    };
     let findings = document.all_findings();
-    let repaired = findings.iter().filter(|finding| REPAIRED.iter().any(|(rule, _)| *rule == finding.rule));
+    let repaired = findings
+        .iter()
+        .filter(|finding| REPAIRED.iter().any(|(rule, _)| *rule == finding.rule));
     let reason = |finding: &Finding| {
-        let fix = document.fixes(finding).into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
-        let Edit::Drawing(edit) = fix.edit else { return None };
-        Some((report::row(path, document, finding), text.text_edits(&edit).err()?))
+        let fix = document
+            .fixes(finding)
+            .into_iter()
+            .find(|fix| fix.preferred && fix.in_fix_all)?;
+        let Edit::Drawing(edit) = fix.edit else {
+            return None;
+        };
+        Some((
+            report::row(path, document, finding),
+            text.text_edits(&edit).err()?,
+        ))
     };
     repaired.take(LISTED).filter_map(reason).collect()
 }
@@ -162,15 +201,34 @@ fn summarise(path: &Path, repair: &Repair) {
         (count > 0).then(|| counted(count, noun))
     });
     let repaired = repaired.collect::<Vec<_>>().join(", ");
-    let is_sound = REPAIRED.iter().all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
+    let is_sound = REPAIRED
+        .iter()
+        .all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
     let name = output::name(path);
     if !repaired.is_empty() {
-        let rounds = if repair.rounds > 1 { format!(" in {} rounds", repair.rounds) } else { String::new() };
-        output::say(&format!("{name}: {}{rounds}", styled(output::GOOD, format!("{repaired} repaired"))));
+        let rounds = if repair.rounds > 1 {
+            format!(" in {} rounds", repair.rounds)
+        } else {
+            String::new()
+        };
+        output::say(&format!(
+            "{name}: {}{rounds}",
+            styled(output::GOOD, format!("{repaired} repaired"))
+        ));
     } else if repair.is_changed() {
-        let count = |rows: &[Row]| rows.iter().filter(|row| row.severity <= Severity::Warning).count();
+        let count = |rows: &[Row]| {
+            rows.iter()
+                .filter(|row| row.severity <= Severity::Warning)
+                .count()
+        };
         let gone = count(&repair.before).saturating_sub(count(&repair.after));
-        output::say(&format!("{name}: {}", styled(output::GOOD, format!("{} repaired", counted(gone, "finding")))));
+        output::say(&format!(
+            "{name}: {}",
+            styled(
+                output::GOOD,
+                format!("{} repaired", counted(gone, "finding"))
+            )
+        ));
     } else if is_sound {
         output::say(&format!("{name}: nothing to repair"));
     } else {
@@ -179,16 +237,33 @@ fn summarise(path: &Path, repair: &Repair) {
     for (row, reason) in &repair.refused {
         let place = format!("{name}:{}:{}", row.line, row.column);
         let reason = readable(reason);
-        output::say(&format!("{} {place}: {}: {reason}", styled(output::WARNING, "not repaired:"), row.message));
+        output::say(&format!(
+            "{} {place}: {}: {reason}",
+            styled(output::WARNING, "not repaired:"),
+            row.message
+        ));
     }
-    let is_refused =
-        |row: &Row| repair.refused.iter().any(|(other, _)| (other.rule, other.line, other.column) == (row.rule, row.line, row.column));
-    for row in repair.after.iter().filter(|row| row.severity <= Severity::Warning && !is_refused(row)) {
+    let is_refused = |row: &Row| {
+        repair.refused.iter().any(|(other, _)| {
+            (other.rule, other.line, other.column) == (row.rule, row.line, row.column)
+        })
+    };
+    for row in repair
+        .after
+        .iter()
+        .filter(|row| row.severity <= Severity::Warning && !is_refused(row))
+    {
         let reason = match &row.data.no_fix {
-            None if row.rule == Rule::SmallRadius => " (its fix moves the contour by more than the correction: choose it in the editor)",
+            None if row.rule == Rule::SmallRadius => {
+                " (its fix moves the contour by more than the correction: choose it in the editor)"
+            }
             _ => "",
         };
         let place = format!("{name}:{}:{}", row.line, row.column);
-        output::say(&format!("{} {place}: {}{reason}", styled(output::WARNING, "left:"), row.message));
+        output::say(&format!(
+            "{} {place}: {}{reason}",
+            styled(output::WARNING, "left:"),
+            row.message
+        ));
     }
 }

@@ -68,11 +68,17 @@ impl Target {
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let target = &arguments.target;
-    let files::Found { mut files, failures } = files::search(&arguments.paths);
+    let files::Found {
+        mut files,
+        failures,
+    } = files::search(&arguments.paths);
     // Folders hold drawings, too; a drawing that is named itself is refused.
     files.retain(|path| arguments.paths.contains(path) || is_program(path));
     if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {
-        return Err(Failure(format!("{} found, expected one, or --in-place, --check or --diff", counted(files.len(), "program"))));
+        return Err(Failure(format!(
+            "{} found, expected one, or --in-place, --check or --diff",
+            counted(files.len(), "program")
+        )));
     }
     if let (Some(out), [file]) = (&target.output, &files[..]) {
         output::refuse_input(out, file)?;
@@ -94,20 +100,36 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         }
     }
     if !target.is_one() {
-        let verb = if target.in_place { "formatted" } else { "would be formatted" };
-        output::say(&format!("{} {verb}, {unchanged} unchanged", counted(changed, "program")));
+        let verb = if target.in_place {
+            "formatted"
+        } else {
+            "would be formatted"
+        };
+        output::say(&format!(
+            "{} {verb}, {unchanged} unchanged",
+            counted(changed, "program")
+        ));
     }
     let differs = changed > 0 && (target.check || target.diff);
-    Ok(verdict.max(if differs { Verdict::Errors } else { Verdict::Clean }))
+    Ok(verdict.max(if differs {
+        Verdict::Errors
+    } else {
+        Verdict::Clean
+    }))
 }
 
 fn is_program(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| Language::of_ending(&ending.to_string_lossy().to_ascii_lowercase()).is_some())
+    path.extension().is_some_and(|ending| {
+        Language::of_ending(&ending.to_string_lossy().to_ascii_lowercase()).is_some()
+    })
 }
 
 /// Formats one program and delivers it; true where it was not in its layout.
 fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
-    let common = Common { config: arguments.config.clone(), ..Common::default() };
+    let common = Common {
+        config: arguments.config.clone(),
+        ..Common::default()
+    };
     let program = ProgramSettings {
         layout: arguments.layout,
         end: arguments.end.clone(),
@@ -117,23 +139,42 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     if arguments.target.in_place {
         output::refuse_irregular(path)?;
     }
-    let mut opened = files::open(path, &common, &Settings { program: Some(program), ..Settings::default() })?;
+    let mut opened = files::open(
+        path,
+        &common,
+        &Settings {
+            program: Some(program),
+            ..Settings::default()
+        },
+    )?;
     files::refuse_faulty_settings(&opened)?;
     let settings = opened.document.settings().clone();
     let Some(program) = opened.document.program() else {
-        return Err(Failure(format!("{}: it is a drawing, expected a program", path.display())));
+        return Err(Failure(format!(
+            "{}: it is a drawing, expected a program",
+            path.display()
+        )));
     };
     let text = program.text();
     let edits = language::format(program, &settings, 0..text.line_count());
     let before = text.bytes();
-    let after = edited(before, &edits).ok_or_else(|| Failure(format!("{}: internal error: the edits overlap", path.display())))?;
+    let after = edited(before, &edits).ok_or_else(|| {
+        Failure(format!(
+            "{}: internal error: the edits overlap",
+            path.display()
+        ))
+    })?;
     let is_changed = after != before;
     let target = &arguments.target;
     if target.diff {
         print_diff(path, before, &after)?;
     } else if target.check {
         if is_changed {
-            output::print(format!("{} {}\n", styled(STRONG, "would be formatted:"), output::name(path)))?;
+            output::print(format!(
+                "{} {}\n",
+                styled(STRONG, "would be formatted:"),
+                output::name(path)
+            ))?;
         }
     } else if !target.in_place {
         output::write(target.output.as_deref(), &after)?;
@@ -142,8 +183,12 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     }
     let (findings, _) = opened.document.findings(usize::MAX);
     // What was meant may be plain and the block read: its text is damaged all the same.
-    let is_of_text = |rule: Rule| matches!(rule, Rule::Syntax | Rule::MissingB | Rule::BlockNumberAsB);
-    let damaged = findings.iter().filter(|finding| is_of_text(finding.rule)).count();
+    let is_of_text =
+        |rule: Rule| matches!(rule, Rule::Syntax | Rule::MissingB | Rule::BlockNumberAsB);
+    let damaged = findings
+        .iter()
+        .filter(|finding| is_of_text(finding.rule))
+        .count();
     if damaged > 0 {
         output::say(&format!(
             "{}: left as they stand: {} with a syntax error, see wedm check",

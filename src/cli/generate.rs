@@ -49,7 +49,10 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.output {
         output::refuse_input(target, path)?;
     }
-    let last = Settings { program: Some(arguments.program.settings()), ..arguments.common.settings() };
+    let last = Settings {
+        program: Some(arguments.program.settings()),
+        ..arguments.common.settings()
+    };
     let opened = files::open_drawing(path, &arguments.common, &last)?;
     files::refuse_faulty_settings(&opened)?;
     let document = opened.document;
@@ -57,9 +60,16 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if !arguments.force && refused_for_errors(arguments, &document, &concerned) {
         return Ok(Verdict::Errors);
     }
-    let Some(paths) = planned(arguments, &document)? else { return Ok(Verdict::Errors) };
-    let unit_mm = document.drawing().map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
-    let program = match arguments.format.write(&paths, unit_mm, document.settings(), &mut |_, _| true) {
+    let Some(paths) = planned(arguments, &document)? else {
+        return Ok(Verdict::Errors);
+    };
+    let unit_mm = document
+        .drawing()
+        .map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
+    let program = match arguments
+        .format
+        .write(&paths, unit_mm, document.settings(), &mut |_, _| true)
+    {
         Ok(program) => program,
         Err(ProofError::Refused(sentence)) => {
             output::complain(&format!("{}: {sentence}", path.display()));
@@ -67,16 +77,33 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         }
         // What comes of errors that were passed over is theirs.
         Err(error) if arguments.force || report::has_errors(&document) => {
-            output::complain(&format!("{}: no program could be proved for this drawing, and none is written: {error}", path.display()));
+            output::complain(&format!(
+                "{}: no program could be proved for this drawing, and none is written: {error}",
+                path.display()
+            ));
             return Ok(Verdict::Errors);
         }
-        Err(error) => return Err(Failure(format!("{}: internal error, no program is written: {error}", path.display()))),
+        Err(error) => {
+            return Err(Failure(format!(
+                "{}: internal error, no program is written: {error}",
+                path.display()
+            )));
+        }
     };
     output::write(arguments.output.as_deref(), program.text.as_bytes())?;
-    let stands = |finding: &&Finding| matches!(finding.detail, Detail::OffsetCollapse { point: true, .. });
-    concerned.iter().filter(stands).for_each(|finding| output::say(&format!("{}\n", report::row(path, &document, finding).rendered())));
+    let stands =
+        |finding: &&Finding| matches!(finding.detail, Detail::OffsetCollapse { point: true, .. });
+    concerned.iter().filter(stands).for_each(|finding| {
+        output::say(&format!(
+            "{}\n",
+            report::row(path, &document, finding).rendered()
+        ))
+    });
     if let Some(finding) = document.settings().one_pass() {
-        output::say(&format!("{}\n", report::row(path, &document, &finding).rendered()));
+        output::say(&format!(
+            "{}\n",
+            report::row(path, &document, &finding).rendered()
+        ));
     }
     summarise(arguments, &program, paths.len());
     Ok(Verdict::Clean)
@@ -85,18 +112,31 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 /// What is said of the contours that are cut.
 fn concerned(arguments: &Arguments, document: &Document) -> Vec<Finding> {
     let handles = (!arguments.handle.is_empty()).then_some(arguments.handle.as_slice());
-    let entities = document.snapshot().and_then(|snapshot| toolpath::entities_of(&snapshot.drawing, &snapshot.outlines, handles));
-    document.all_findings().iter().filter(|finding| finding.concerns(entities.as_ref())).cloned().collect()
+    let entities = document
+        .snapshot()
+        .and_then(|snapshot| toolpath::entities_of(&snapshot.drawing, &snapshot.outlines, handles));
+    document
+        .all_findings()
+        .iter()
+        .filter(|finding| finding.concerns(entities.as_ref()))
+        .cloned()
+        .collect()
 }
 
 /// True when errors stand in the contours that are cut; they are listed then.
 fn refused_for_errors(arguments: &Arguments, document: &Document, concerned: &[Finding]) -> bool {
-    let errors = concerned.iter().filter(|finding| finding.severity == Severity::Error).take(report::MOST);
-    let rows: Vec<report::Row> = errors.map(|finding| report::row(&arguments.path, document, finding)).collect();
+    let errors = concerned
+        .iter()
+        .filter(|finding| finding.severity == Severity::Error)
+        .take(report::MOST);
+    let rows: Vec<report::Row> = errors
+        .map(|finding| report::row(&arguments.path, document, finding))
+        .collect();
     if rows.is_empty() {
         return false;
     }
-    rows.iter().for_each(|row| output::say(&format!("{}\n", row.rendered())));
+    rows.iter()
+        .for_each(|row| output::say(&format!("{}\n", row.rendered())));
     let path = arguments.path.display();
     let errors = counted(rows.len(), "error");
     output::complain(&format!(
@@ -109,7 +149,10 @@ fn refused_for_errors(arguments: &Arguments, document: &Document, concerned: &[F
 fn planned(arguments: &Arguments, document: &Document) -> Result<Option<Vec<WirePath>>, Failure> {
     let path = &arguments.path;
     let Some(snapshot) = document.snapshot() else {
-        return Err(Failure(format!("{}: there is no drawing in it", path.display())));
+        return Err(Failure(format!(
+            "{}: there is no drawing in it",
+            path.display()
+        )));
     };
     let handles = (!arguments.handle.is_empty()).then_some(arguments.handle.as_slice());
     let settings = arguments.format.settings(&snapshot.settings);
@@ -133,15 +176,26 @@ fn planned(arguments: &Arguments, document: &Document) -> Result<Option<Vec<Wire
 
 fn list(arguments: &Arguments, document: &Document, findings: &[Finding]) {
     for finding in findings {
-        output::say(&format!("{}\n", report::row(&arguments.path, document, finding).rendered()));
+        output::say(&format!(
+            "{}\n",
+            report::row(&arguments.path, document, finding).rendered()
+        ));
     }
-    output::complain(&format!("{}: no program is written", arguments.path.display()));
+    output::complain(&format!(
+        "{}: no program is written",
+        arguments.path.display()
+    ));
 }
 
 fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
-    let target = arguments.output.as_ref().map_or_else(|| "stdout".into(), |path| output::name(path));
+    let target = arguments
+        .output
+        .as_ref()
+        .map_or_else(|| "stdout".into(), |path| output::name(path));
     // A drift that rounds to zero has no sign.
-    let [x, y] = program.closure.map(|drift| (drift * 100.0).round() / 100.0 + 0.0);
+    let [x, y] = program
+        .closure
+        .map(|drift| (drift * 100.0).round() / 100.0 + 0.0);
     output::say(&format!(
         "{} {target}: {}, {}, wire path {:.3} mm",
         styled(output::GOOD, "written"),
@@ -150,8 +204,13 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         program.length
     ));
     let drift = match arguments.format {
-        Format::ThreeB | Format::FourB => format!("; a controller that counts J drifts by {x:.2}, {y:.2} µm"),
+        Format::ThreeB | Format::FourB => {
+            format!("; a controller that counts J drifts by {x:.2}, {y:.2} µm")
+        }
         Format::Iso => String::new(),
     };
-    output::say(&format!("decoded again: at most {:.2} µm from the path{drift}", program.deviation));
+    output::say(&format!(
+        "decoded again: at most {:.2} µm from the path{drift}",
+        program.deviation
+    ));
 }

@@ -50,33 +50,60 @@ struct Printed {
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let opened = files::open_drawing(&arguments.path, &arguments.common, &arguments.common.settings());
+    let opened = files::open_drawing(
+        &arguments.path,
+        &arguments.common,
+        &arguments.common.settings(),
+    );
     let (printed, failure) = match opened.map(|opened| inspected(arguments, opened)) {
         Ok(printed) => (printed, None),
         Err(failure) => {
-            let nothing = Inspection { units_to_mm: 1.0, entities: Vec::new() };
-            (Printed { inspection: nothing, diagnostics: Vec::new() }, Some(failure))
+            let nothing = Inspection {
+                units_to_mm: 1.0,
+                entities: Vec::new(),
+            };
+            (
+                Printed {
+                    inspection: nothing,
+                    diagnostics: Vec::new(),
+                },
+                Some(failure),
+            )
         }
     };
     match (arguments.output, failure) {
         (Format::Text, Some(failure)) => return Err(failure),
         (Format::Text, None) => output::print(table(&printed))?,
         (Format::Json, failure) => {
-            let json = serde_json::to_string(&printed).map_err(|error| Failure(error.to_string()))?;
+            let json =
+                serde_json::to_string(&printed).map_err(|error| Failure(error.to_string()))?;
             output::print_json(&format!("{json}\n"))?;
             failure.map_or(Ok(()), Err)?;
         }
     }
-    let errors = printed.diagnostics.iter().any(|row| row.severity == Severity::Error);
-    Ok(if errors { Verdict::Errors } else { Verdict::Clean })
+    let errors = printed
+        .diagnostics
+        .iter()
+        .any(|row| row.severity == Severity::Error);
+    Ok(if errors {
+        Verdict::Errors
+    } else {
+        Verdict::Clean
+    })
 }
 
 fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let mut diagnostics = opened.settings_rows;
     diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
     let inspection = Inspection::of(&opened.document, arguments.handle.as_deref());
-    let inspection = inspection.unwrap_or(Inspection { units_to_mm: 1.0, entities: Vec::new() });
-    Printed { inspection, diagnostics }
+    let inspection = inspection.unwrap_or(Inspection {
+        units_to_mm: 1.0,
+        entities: Vec::new(),
+    });
+    Printed {
+        inspection,
+        diagnostics,
+    }
 }
 
 fn table(printed: &Printed) -> String {
@@ -94,8 +121,18 @@ fn table(printed: &Printed) -> String {
     for row in printed.diagnostics.iter().filter(apart) {
         let _ = writeln!(text, "{}\n", row.rendered());
     }
-    let segments: usize = printed.inspection.entities.iter().map(|entity| entity.segments.len()).sum();
-    let faulty = printed.inspection.entities.iter().flat_map(|entity| &entity.segments).filter(|segment| segment.verdict != "ok");
+    let segments: usize = printed
+        .inspection
+        .entities
+        .iter()
+        .map(|entity| entity.segments.len())
+        .sum();
+    let faulty = printed
+        .inspection
+        .entities
+        .iter()
+        .flat_map(|entity| &entity.segments)
+        .filter(|segment| segment.verdict != "ok");
     let result = match faulty.count() {
         0 => styled(output::GOOD, "all of them can be cut"),
         count => styled(output::ERROR, format!("{count} not ok")),
@@ -104,19 +141,35 @@ fn table(printed: &Printed) -> String {
         1 => "1 entity".into(),
         count => format!("{count} entities"),
     };
-    let units = if unit == 1.0 { "mm".into() } else { format!("drawing units of {unit} mm; radius in mm") };
-    let _ = writeln!(text, "{entities}, {} in {units}: {result}", counted(segments, "segment"));
+    let units = if unit == 1.0 {
+        "mm".into()
+    } else {
+        format!("drawing units of {unit} mm; radius in mm")
+    };
+    let _ = writeln!(
+        text,
+        "{entities}, {} in {units}: {result}",
+        counted(segments, "segment")
+    );
     text
 }
 
 fn heading(entity: &InspectedEntity) -> String {
     let closed = if entity.closed { "closed" } else { "open" };
     let cut = if entity.cut { "" } else { ", not cut" };
-    format!("{} {} on layer {}, {closed}{cut}", entity.r#type, readable(&entity.handle), readable(&entity.layer))
+    format!(
+        "{} {} on layer {}, {closed}{cut}",
+        entity.r#type,
+        readable(&entity.handle),
+        readable(&entity.layer)
+    )
 }
 
 fn columns() -> String {
-    format!("{:>7} {:>13} {:>13}  {:<7} {:>10} {:>9}  verdict", "vertex", "x", "y", "segment", "radius", "sweep °")
+    format!(
+        "{:>7} {:>13} {:>13}  {:<7} {:>10} {:>9}  verdict",
+        "vertex", "x", "y", "segment", "radius", "sweep °"
+    )
 }
 
 fn line(segment: &InspectedSegment, unit_mm: f64) -> String {
@@ -126,9 +179,20 @@ fn line(segment: &InspectedSegment, unit_mm: f64) -> String {
         SegmentKind::Arc => "arc",
         SegmentKind::Circle => "circle",
     };
-    let radius = shape.radius.map_or_else(String::new, |radius| format!("{:.3}", radius * unit_mm));
-    let sweep = shape.sweep.map_or_else(String::new, |sweep| format!("{sweep:.2}"));
-    let row = format!("{:>7} {:>13.4} {:>13.4}  {kind:<7} {radius:>10} {sweep:>9}  ", segment.index, shape.start.0, shape.start.1);
-    let style = if segment.verdict == "ok" { output::GOOD } else { output::ERROR };
+    let radius = shape
+        .radius
+        .map_or_else(String::new, |radius| format!("{:.3}", radius * unit_mm));
+    let sweep = shape
+        .sweep
+        .map_or_else(String::new, |sweep| format!("{sweep:.2}"));
+    let row = format!(
+        "{:>7} {:>13.4} {:>13.4}  {kind:<7} {radius:>10} {sweep:>9}  ",
+        segment.index, shape.start.0, shape.start.1
+    );
+    let style = if segment.verdict == "ok" {
+        output::GOOD
+    } else {
+        output::ERROR
+    };
     format!("{row}{}", styled(style, &segment.verdict))
 }

@@ -95,8 +95,17 @@ struct Failure(String);
 pub fn run() -> ExitCode {
     let arguments = CommandLine::try_parse().unwrap_or_else(|error| {
         // Words that stand in the message may be names of files that a shell has put there.
-        if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden)) && error.use_stderr() {
-            output::say(&error.to_string().lines().map(readable).collect::<Vec<_>>().join("\n"));
+        if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden))
+            && error.use_stderr()
+        {
+            output::say(
+                &error
+                    .to_string()
+                    .lines()
+                    .map(readable)
+                    .collect::<Vec<_>>()
+                    .join("\n"),
+            );
             std::process::exit(Verdict::Failed.code().into());
         }
         error.exit()
@@ -114,7 +123,9 @@ pub fn run() -> ExitCode {
         Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
-        Some(Command::Completions(arguments)) => completions::run(&arguments, &mut CommandLine::command()),
+        Some(Command::Completions(arguments)) => {
+            completions::run(&arguments, &mut CommandLine::command())
+        }
     };
     let verdict = outcome.unwrap_or_else(|Failure(sentence)| {
         output::complain(&sentence);

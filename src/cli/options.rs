@@ -1,6 +1,9 @@
 //! Options that several commands share, and the settings that come of them.
 
-use crate::settings::{Compensation, Corner, Direction, Layout, Order, PointSetting, ProgramSettings, Settings, SideSetting};
+use crate::settings::{
+    Compensation, Corner, Direction, Layout, Order, PointSetting, ProgramSettings, Settings,
+    SideSetting,
+};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::de::DeserializeOwned;
@@ -66,7 +69,11 @@ pub struct Program {
 impl Common {
     /// The last level of settings: what the command line says.
     pub fn settings(&self) -> Settings {
-        Settings { correction: self.correction, side: self.side, ..Settings::default() }
+        Settings {
+            correction: self.correction,
+            side: self.side,
+            ..Settings::default()
+        }
     }
 }
 
@@ -107,8 +114,15 @@ fn positive(text: &str) -> Result<f64, String> {
 
 /// `X,Y`, both finite; either may be negative.
 pub fn point(text: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    let both = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    let number = |text: &str| {
+        text.trim()
+            .parse::<f64>()
+            .ok()
+            .filter(|number| number.is_finite())
+    };
+    let both = text
+        .split_once(',')
+        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
     both.ok_or_else(|| "expected two numbers with a comma between, such as -115,-10".into())
 }
 
@@ -118,7 +132,11 @@ mod tests {
 
     #[test]
     fn points_are_two_finite_numbers() {
-        let expected = [("1,2", Some([1.0, 2.0])), ("-115,-10.5", Some([-115.0, -10.5])), ("1, 2", Some([1.0, 2.0]))];
+        let expected = [
+            ("1,2", Some([1.0, 2.0])),
+            ("-115,-10.5", Some([-115.0, -10.5])),
+            ("1, 2", Some([1.0, 2.0])),
+        ];
         for (text, point_of_text) in expected {
             assert_eq!(point(text).ok(), point_of_text, "{text}");
         }

@@ -28,7 +28,12 @@ pub fn name(path: &Path) -> String {
 /// Text to stdout. A reader that has gone away has seen enough: no error.
 pub fn print(text: impl AsRef<str>) -> Result<(), Failure> {
     let mut stdout = anstream::stdout().lock();
-    accepted(stdout.write_all(shown(text.as_ref()).as_bytes()).and_then(|()| stdout.flush()), "stdout")
+    accepted(
+        stdout
+            .write_all(shown(text.as_ref()).as_bytes())
+            .and_then(|()| stdout.flush()),
+        "stdout",
+    )
 }
 
 /// JSON to stdout: what a terminal would obey is escaped, which changes nothing that is said.
@@ -42,7 +47,10 @@ pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
         return print(String::from_utf8_lossy(bytes));
     }
     let mut stdout = io::stdout().lock();
-    accepted(stdout.write_all(bytes).and_then(|()| stdout.flush()), "stdout")
+    accepted(
+        stdout.write_all(bytes).and_then(|()| stdout.flush()),
+        "stdout",
+    )
 }
 
 /// True where a person reads stdout: it is a terminal, or shows colours.
@@ -58,7 +66,11 @@ pub fn say(text: &str) {
 
 /// What went wrong, to stderr.
 pub fn complain(sentence: &str) {
-    say(&format!("{}: {}", styled(ERROR, "error"), readable(sentence)));
+    say(&format!(
+        "{}: {}",
+        styled(ERROR, "error"),
+        readable(sentence)
+    ));
 }
 
 /// Text of several lines with our own colours, nothing else of which a terminal obeys: what was forgotten before is caught here.
@@ -69,7 +81,11 @@ fn shown(text: &str) -> Cow<'_, str> {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(character) = rest.chars().next() {
-        let style = if character == '\u{1b}' { style_length(rest) } else { 0 };
+        let style = if character == '\u{1b}' {
+            style_length(rest)
+        } else {
+            0
+        };
         let length = style.max(character.len_utf8());
         match character {
             _ if style > 0 => out.push_str(&rest[..style]),
@@ -85,9 +101,18 @@ fn shown(text: &str) -> Cow<'_, str> {
 
 /// Bytes of the colour or weight that `text` begins with: `ESC [ digits m`.
 fn style_length(text: &str) -> usize {
-    let Some(numbers) = text.strip_prefix("\u{1b}[") else { return 0 };
-    let end = numbers.bytes().position(|byte| !matches!(byte, b'0'..=b'9' | b';')).unwrap_or(numbers.len());
-    if numbers[end..].starts_with('m') { 2 + end + 1 } else { 0 }
+    let Some(numbers) = text.strip_prefix("\u{1b}[") else {
+        return 0;
+    };
+    let end = numbers
+        .bytes()
+        .position(|byte| !matches!(byte, b'0'..=b'9' | b';'))
+        .unwrap_or(numbers.len());
+    if numbers[end..].starts_with('m') {
+        2 + end + 1
+    } else {
+        0
+    }
 }
 
 /// JSON with every character that [`is_hidden`] as an escape. Outside of strings there is none but line ends.
@@ -95,7 +120,10 @@ fn escaped(json: &str) -> String {
     let mut out = String::with_capacity(json.len());
     for character in json.chars() {
         if character != '\n' && is_hidden(character) {
-            character.encode_utf16(&mut [0; 2]).iter().for_each(|unit| out.push_str(&format!("\\u{unit:04x}")));
+            character
+                .encode_utf16(&mut [0; 2])
+                .iter()
+                .for_each(|unit| out.push_str(&format!("\\u{unit:04x}")));
         } else {
             out.push(character);
         }
@@ -105,7 +133,9 @@ fn escaped(json: &str) -> String {
 
 fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
     match written {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure(format!("{target} could not be written: {error}"))),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure(format!("{target} could not be written: {error}")))
+        }
         _ => Ok(()),
     }
 }
@@ -135,7 +165,12 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
             name(path),
             counted(usize::try_from(others).unwrap_or(usize::MAX), "name")
         )),
-        Err(reason) => return Err(Failure(format!("{} could not be written: {reason}", path.display()))),
+        Err(reason) => {
+            return Err(Failure(format!(
+                "{} could not be written: {reason}",
+                path.display()
+            )));
+        }
     }
     Ok(())
 }
@@ -143,9 +178,10 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
 /// An error where `path` is no regular file: nothing else can be changed in its place.
 pub fn refuse_irregular(path: &Path) -> Result<(), Failure> {
     match std::fs::metadata(path) {
-        Ok(metadata) if !metadata.is_file() => {
-            Err(Failure(format!("{}: it is no regular file, expected one to be changed in its place", path.display())))
-        }
+        Ok(metadata) if !metadata.is_file() => Err(Failure(format!(
+            "{}: it is no regular file, expected one to be changed in its place",
+            path.display()
+        ))),
         _ => Ok(()),
     }
 }
@@ -157,14 +193,21 @@ pub fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
         _ => false,
     };
     if same {
-        return Err(Failure(format!("{} is the input, expected another file", target.display())));
+        return Err(Failure(format!(
+            "{} is the input, expected another file",
+            target.display()
+        )));
     }
     Ok(())
 }
 
 /// "1 error", "3 errors".
 pub fn counted(count: usize, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+    if count == 1 {
+        format!("1 {noun}")
+    } else {
+        format!("{count} {noun}s")
+    }
 }
 
 #[cfg(test)]
@@ -176,7 +219,10 @@ mod tests {
         let check = |text: &str, expected: &str| assert_eq!(shown(text), expected, "{text:?}");
         check("plain\n\ttext\n", "plain\n\ttext\n");
         check(&styled(ERROR, "a"), &styled(ERROR, "a"));
-        check("a\u{1b}]0;title\u{7}\u{1b}[2Jb\u{1b}[31", "a\u{fffd}]0;title\u{fffd}\u{fffd}[2Jb\u{fffd}[31");
+        check(
+            "a\u{1b}]0;title\u{7}\u{1b}[2Jb\u{1b}[31",
+            "a\u{fffd}]0;title\u{fffd}\u{fffd}[2Jb\u{fffd}[31",
+        );
         check("a\r\nb\rc\u{9b}", "a\nb\u{fffd}c\u{fffd}");
         check("\u{202e}\u{1b}", "\u{fffd}\u{fffd}");
     }
@@ -185,7 +231,13 @@ mod tests {
     fn escaped_json_says_the_same() {
         let value = serde_json::json!({ "a\u{1b}\u{9b}": ["\u{202e}\n", "\u{e0041}ä模"] });
         let escaped = escaped(&format!("{value:#}\n"));
-        assert!(!escaped.contains(|character| is_hidden(character) && character != '\n'), "{escaped}");
-        assert_eq!(serde_json::from_str::<serde_json::Value>(&escaped).unwrap(), value);
+        assert!(
+            !escaped.contains(|character| is_hidden(character) && character != '\n'),
+            "{escaped}"
+        );
+        assert_eq!(
+            serde_json::from_str::<serde_json::Value>(&escaped).unwrap(),
+            value
+        );
     }
 }

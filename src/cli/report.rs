@@ -68,25 +68,52 @@ pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     if count > findings.len()
         && let Some(severity) = document.settings().severity(Rule::More)
     {
-        let detail = Detail::More { count: count - findings.len() };
-        findings.push(Finding { rule: Rule::More, severity, place: Place::Document, detail, related: Vec::new() });
+        let detail = Detail::More {
+            count: count - findings.len(),
+        };
+        findings.push(Finding {
+            rule: Rule::More,
+            severity,
+            place: Place::Document,
+            detail,
+            related: Vec::new(),
+        });
     }
-    findings.iter().map(|finding| row(path, document, finding)).collect()
+    findings
+        .iter()
+        .map(|finding| row(path, document, finding))
+        .collect()
 }
 
 pub fn has_errors(document: &Document) -> bool {
-    document.all_findings().iter().any(|finding| finding.severity == Severity::Error)
+    document
+        .all_findings()
+        .iter()
+        .any(|finding| finding.severity == Severity::Error)
 }
 
 /// One finding of a document.
 pub fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     let drawing = document.drawing();
-    let unit = drawing.map_or(Unit::MILLIMETRE, |drawing| document.settings().unit_of(drawing));
+    let unit = drawing.map_or(Unit::MILLIMETRE, |drawing| {
+        document.settings().unit_of(drawing)
+    });
     let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
     let range = document.range_of(&finding.place).unwrap_or(0..0);
     let message = en::sentence(finding, unit.mm);
-    let mut row = Row::new(path, document.text(), range, (finding.rule, finding.severity), message, data);
-    row.related = finding.related.iter().filter_map(|place| related(document, finding, place)).collect();
+    let mut row = Row::new(
+        path,
+        document.text(),
+        range,
+        (finding.rule, finding.severity),
+        message,
+        data,
+    );
+    row.related = finding
+        .related
+        .iter()
+        .filter_map(|place| related(document, finding, place))
+        .collect();
     row
 }
 
@@ -98,8 +125,15 @@ fn related(document: &Document, finding: &Finding, other: &Place) -> Option<Rela
         Place::Text { .. } | Place::Document => return None,
     };
     let message = en::related(finding, &document.drawing()?.get(entity)?.handle, segment);
-    let ((line, column), (end_line, end_column)) = (place(text, range.start), place(text, range.end));
-    Some(RelatedRow { line, column, end_line, end_column, message })
+    let ((line, column), (end_line, end_column)) =
+        (place(text, range.start), place(text, range.end));
+    Some(RelatedRow {
+        line,
+        column,
+        end_line,
+        end_column,
+        message,
+    })
 }
 
 impl Row {
@@ -113,7 +147,10 @@ impl Row {
         data: FindingData,
     ) -> Row {
         let (start, end) = match text {
-            Some(text) => (place(text, range.start), place(text, range.end.max(range.start))),
+            Some(text) => (
+                place(text, range.start),
+                place(text, range.end.max(range.start)),
+            ),
             None => ((1, 1), (1, 1)),
         };
         Row {
@@ -139,7 +176,9 @@ impl Row {
             Severity::Information => Level::INFO.with_name("information"),
             Severity::Hint => Level::NOTE.with_name("hint"),
         };
-        let title = level.primary_title(self.message.as_str()).id(self.rule.name());
+        let title = level
+            .primary_title(self.message.as_str())
+            .id(self.rule.name());
         let renderer = Renderer::styled();
         let path = readable(&self.path);
         match &self.excerpt {
@@ -148,11 +187,17 @@ impl Row {
                     .line_start(excerpt.first_line)
                     .path(path.as_ref())
                     .fold(false)
-                    .annotation(AnnotationKind::Primary.span(excerpt.span.clone()).label(self.label()));
+                    .annotation(
+                        AnnotationKind::Primary
+                            .span(excerpt.span.clone())
+                            .label(self.label()),
+                    );
                 renderer.render(&[title.element(snippet)])
             }
             None => {
-                let place = annotate_snippets::Origin::path(path.as_ref()).line(self.line).char_column(self.column);
+                let place = annotate_snippets::Origin::path(path.as_ref())
+                    .line(self.line)
+                    .char_column(self.column);
                 renderer.render(&[title.element(place)])
             }
         }
@@ -161,7 +206,10 @@ impl Row {
     /// What stands beside the caret.
     fn label(&self) -> Option<String> {
         let handle = self.data.handle.as_ref()?;
-        let place = self.data.segment.map_or_else(String::new, |segment| format!(", segment {segment}"));
+        let place = self
+            .data
+            .segment
+            .map_or_else(String::new, |segment| format!(", segment {segment}"));
         Some(format!("{}{place}", readable(handle)))
     }
 }
@@ -171,7 +219,10 @@ fn place(text: &SourceText, offset: usize) -> (usize, usize) {
     let line = text.line_of(offset);
     let start = text.line_range(line).start;
     let before = text.bytes().get(start..offset).unwrap_or_default();
-    (line + 1, String::from_utf8_lossy(before).chars().count() + 1)
+    (
+        line + 1,
+        String::from_utf8_lossy(before).chars().count() + 1,
+    )
 }
 
 /// The lines from the one above the fault (in DXF the group code of the number) to its end, at most six.
@@ -181,14 +232,22 @@ fn excerpt(text: &SourceText, range: &Range<usize>) -> Option<Excerpt> {
         return None;
     }
     let fault_line = text.line_of(range.start);
-    let last_line = text.line_of(range.start.max(range.end - 1)).min(fault_line + 4);
+    let last_line = text
+        .line_of(range.start.max(range.end - 1))
+        .min(fault_line + 4);
     let has_code = fault_line > 0 && is_group_code(&text.bytes()[text.line_range(fault_line - 1)]);
     let first_line = if has_code { fault_line - 1 } else { fault_line };
     let mut shown = String::new();
     let mut span = 0..0;
     for line in first_line..=last_line {
         let whole = text.line_range(line);
-        let from = if line == fault_line { whole.start.max(range.start.saturating_sub(LONGEST_LINE / 2)) } else { whole.start };
+        let from = if line == fault_line {
+            whole
+                .start
+                .max(range.start.saturating_sub(LONGEST_LINE / 2))
+        } else {
+            whole.start
+        };
         let to = whole.end.min(from + LONGEST_LINE);
         let fault = range.start.clamp(from, to)..range.end.clamp(from, to);
         if line > first_line {
@@ -205,18 +264,32 @@ fn excerpt(text: &SourceText, range: &Range<usize>) -> Option<Excerpt> {
         push_readable(&mut shown, &text.bytes()[fault.end..to]);
     }
     span.end = span.end.max(span.start);
-    Some(Excerpt { first_line: first_line + 1, text: shown, span })
+    Some(Excerpt {
+        first_line: first_line + 1,
+        text: shown,
+        span,
+    })
 }
 
 fn is_group_code(line: &[u8]) -> bool {
     let trimmed = line.trim_ascii();
-    !trimmed.is_empty() && trimmed.len() <= 5 && trimmed.iter().all(|byte| byte.is_ascii_digit() || *byte == b'-')
+    !trimmed.is_empty()
+        && trimmed.len() <= 5
+        && trimmed
+            .iter()
+            .all(|byte| byte.is_ascii_digit() || *byte == b'-')
 }
 
 /// Bytes as text that a terminal can show: what is no UTF-8 and what would move its cursor becomes U+FFFD.
 fn push_readable(shown: &mut String, bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
-    shown.extend(text.chars().map(|character| if is_hidden(character) && character != '\t' { '\u{fffd}' } else { character }));
+    shown.extend(text.chars().map(|character| {
+        if is_hidden(character) && character != '\t' {
+            '\u{fffd}'
+        } else {
+            character
+        }
+    }));
 }
 
 #[cfg(test)]
@@ -232,8 +305,14 @@ mod tests {
     #[test]
     fn an_excerpt_holds_the_group_code_and_the_value() {
         let text = b"  0\r\nLWPOLYLINE\r\n 42\r\n0.414\r\n 10\r\n";
-        assert_eq!(shown(text, 22..27), Some((3, " 42\n0.414".into(), "0.414".into())));
-        assert_eq!(shown(b"B1B2B3GXL1\nB\n", 2..4), Some((1, "B1B2B3GXL1".into(), "B2".into())));
+        assert_eq!(
+            shown(text, 22..27),
+            Some((3, " 42\n0.414".into(), "0.414".into()))
+        );
+        assert_eq!(
+            shown(b"B1B2B3GXL1\nB\n", 2..4),
+            Some((1, "B1B2B3GXL1".into(), "B2".into()))
+        );
     }
 
     #[test]
@@ -241,7 +320,14 @@ mod tests {
         assert_eq!(shown(b"", 0..0), None);
         assert_eq!(shown(b"a = \nb", 4..4), Some((1, "a = ".into(), "".into())));
         assert_eq!(shown(b"abc", 1..9), None);
-        assert_eq!(shown(b" 1\n\xff\x1b[31m\xfe", 4..5), Some((1, " 1\n\u{fffd}\u{fffd}[31m\u{fffd}".into(), "\u{fffd}".into())));
+        assert_eq!(
+            shown(b" 1\n\xff\x1b[31m\xfe", 4..5),
+            Some((
+                1,
+                " 1\n\u{fffd}\u{fffd}[31m\u{fffd}".into(),
+                "\u{fffd}".into()
+            ))
+        );
         let (_, text, fault) = shown(&vec![0; 5000], 1000..4000).unwrap();
         assert!(text.chars().count() <= LONGEST_LINE && !fault.is_empty());
     }

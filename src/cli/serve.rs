@@ -16,5 +16,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> ExitCode {
-    server::run_stdio(Options { watch_parent: !arguments.no_parent_watch })
+    server::run_stdio(Options {
+        watch_parent: !arguments.no_parent_watch,
+    })
 }

@@ -35,18 +35,29 @@ pub struct Arguments {
 }
 
 fn feed(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|feed: &f64| *feed > 0.0 && feed.is_finite()).ok_or_else(|| "expected a number above 0".into())
+    text.parse()
+        .ok()
+        .filter(|feed: &f64| *feed > 0.0 && feed.is_finite())
+        .ok_or_else(|| "expected a number above 0".into())
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let opened = files::open(&arguments.path, &arguments.common, &arguments.common.settings())?;
+    let opened = files::open(
+        &arguments.path,
+        &arguments.common,
+        &arguments.common.settings(),
+    )?;
     let Some(program) = opened.document.program() else {
-        return Err(Failure(format!("{}: it is a drawing, expected a program (.3b, .iso)", arguments.path.display())));
+        return Err(Failure(format!(
+            "{}: it is a drawing, expected a program (.3b, .iso)",
+            arguments.path.display()
+        )));
     };
     let simulation = Simulation::of(&program.trace(), arguments.feed);
     match arguments.output {
         Format::Json => {
-            let json = serde_json::to_string(&simulation).map_err(|error| Failure(error.to_string()))?;
+            let json =
+                serde_json::to_string(&simulation).map_err(|error| Failure(error.to_string()))?;
             output::print_json(&format!("{json}\n"))?;
         }
         Format::Text => output::print(table(&simulation))?,
@@ -59,10 +70,27 @@ const SHOWN: f64 = 0.01;
 
 fn table(simulation: &Simulation) -> String {
     let mut text = String::new();
-    let _ = writeln!(text, "{}", styled(FAINT, format!("{:>6} {:>6}  {:<6} {:>12} {:>12}", "line", "N", "", "end X", "end Y")));
-    simulation.blocks.iter().for_each(|block| row(&mut text, block));
+    let _ = writeln!(
+        text,
+        "{}",
+        styled(
+            FAINT,
+            format!(
+                "{:>6} {:>6}  {:<6} {:>12} {:>12}",
+                "line", "N", "", "end X", "end Y"
+            )
+        )
+    );
+    simulation
+        .blocks
+        .iter()
+        .for_each(|block| row(&mut text, block));
     let closure = &simulation.closure;
-    let moving = simulation.blocks.iter().filter(|block| !matches!(block.kind, StepKind::Pause | StepKind::End)).count();
+    let moving = simulation
+        .blocks
+        .iter()
+        .filter(|block| !matches!(block.kind, StepKind::Pause | StepKind::End))
+        .count();
     let _ = write!(text, "{moving} blocks, {:.3} mm", simulation.length);
     if let Some(minutes) = simulation.minutes {
         let _ = write!(text, ", {minutes:.1} min");
@@ -73,15 +101,22 @@ fn table(simulation: &Simulation) -> String {
         closure.x, closure.y, simulation.deviation
     );
     if let Some(bounds) = &simulation.bounds {
-        let [width, height] = [bounds.max.0 - bounds.min.0, bounds.max.1 - bounds.min.1].map(|um| um / 1000.0);
+        let [width, height] =
+            [bounds.max.0 - bounds.min.0, bounds.max.1 - bounds.min.1].map(|um| um / 1000.0);
         let corner = [bounds.min.0, bounds.min.1].map(|um| um / 1000.0);
-        let _ = writeln!(text, "{width:.3} x {height:.3} mm, from {:.3}, {:.3}", corner[0], corner[1]);
+        let _ = writeln!(
+            text,
+            "{width:.3} x {height:.3} mm, from {:.3}, {:.3}",
+            corner[0], corner[1]
+        );
     }
     text
 }
 
 fn row(text: &mut String, block: &SimulatedBlock) {
-    let number = block.number.map_or_else(String::new, |number| number.to_string());
+    let number = block
+        .number
+        .map_or_else(String::new, |number| number.to_string());
     let kind = match block.kind {
         StepKind::Line => "line",
         StepKind::Arc => "arc",
@@ -90,13 +125,35 @@ fn row(text: &mut String, block: &SimulatedBlock) {
         StepKind::End => "end",
     };
     let mm = |um: f64| um / 1000.0;
-    let _ = write!(text, "{:>6} {number:>6}  {kind:<6} {:>12.3} {:>12.3}", block.line + 1, mm(block.end.0), mm(block.end.1));
+    let _ = write!(
+        text,
+        "{:>6} {number:>6}  {kind:<6} {:>12.3} {:>12.3}",
+        block.line + 1,
+        mm(block.end.0),
+        mm(block.end.1)
+    );
     if let (Some(radius), Some(sweep)) = (block.radius, block.sweep) {
         let _ = write!(text, "  R {:.3} mm, {sweep:+.3}°", mm(radius));
     }
     if let Some(ideal) = block.ideal_end.filter(|_| block.deviation > SHOWN) {
-        let meant = format!("  meant {:.4}, {:.4}: {:.2} µm beside", mm(ideal.0), mm(ideal.1), block.deviation);
-        let _ = write!(text, "{}", styled(if block.deviation > 2.0 { WARNING } else { FAINT }, meant));
+        let meant = format!(
+            "  meant {:.4}, {:.4}: {:.2} µm beside",
+            mm(ideal.0),
+            mm(ideal.1),
+            block.deviation
+        );
+        let _ = write!(
+            text,
+            "{}",
+            styled(
+                if block.deviation > 2.0 {
+                    WARNING
+                } else {
+                    FAINT
+                },
+                meant
+            )
+        );
     }
     text.push('\n');
 }

@@ -45,12 +45,18 @@ impl Color {
     /// A colour of 24 bits; one of those that have a name is that one.
     pub fn of_rgb(rgb: u32) -> Color {
         let named = NAMED.iter().zip(1..).find(|((_, named), _)| *named == rgb);
-        named.map_or(Color::True(rgb & 0xFF_FFFF), |(_, index)| Color::Index(index))
+        named.map_or(Color::True(rgb & 0xFF_FFFF), |(_, index)| {
+            Color::Index(index)
+        })
     }
 
     /// A colour by the name that people write: `red` to `white`, `1` to `255`, or `#ff8000`. `None` for anything else.
     pub fn named(name: &str) -> Option<Color> {
-        if let Some((_, index)) = NAMED.iter().zip(1..).find(|((named, _), _)| named.eq_ignore_ascii_case(name)) {
+        if let Some((_, index)) = NAMED
+            .iter()
+            .zip(1..)
+            .find(|((named, _), _)| named.eq_ignore_ascii_case(name))
+        {
             return Some(Color::Index(index));
         }
         if let Some(digits) = name.strip_prefix('#') {
@@ -58,7 +64,10 @@ impl Color {
             let rgb = u32::from_str_radix(digits, 16).ok().filter(|_| is_rgb)?;
             return Some(Color::of_rgb(rgb));
         }
-        name.parse().ok().filter(|index| *index > 0).map(Color::Index)
+        name.parse()
+            .ok()
+            .filter(|index| *index > 0)
+            .map(Color::Index)
     }
 }
 

@@ -79,8 +79,16 @@ impl Chains {
             next_key: NO_KEY,
         };
         chains.grow(drawing);
-        let entities: Vec<EntityId> = drawing.order().iter().copied().filter(|&id| is_cut(id)).collect();
-        let ends: Vec<Ends> = entities.par_iter().map(|&id| free_ends(drawing, id).unwrap_or(NO_ENDS)).collect();
+        let entities: Vec<EntityId> = drawing
+            .order()
+            .iter()
+            .copied()
+            .filter(|&id| is_cut(id))
+            .collect();
+        let ends: Vec<Ends> = entities
+            .par_iter()
+            .map(|&id| free_ends(drawing, id).unwrap_or(NO_ENDS))
+            .collect();
         for (id, ends) in entities.iter().zip(ends) {
             chains.ends_of[id.0 as usize] = ends;
         }
@@ -109,23 +117,36 @@ impl Chains {
 
     /// The contour that holds an entity.
     pub fn contour_of(&self, entity: EntityId) -> Option<Key> {
-        self.contour_of.get(entity.0 as usize).copied().filter(|&key| key != NO_KEY)
+        self.contour_of
+            .get(entity.0 as usize)
+            .copied()
+            .filter(|&key| key != NO_KEY)
     }
 
     fn ends_of(&self, entity: EntityId) -> Option<Ends> {
-        self.ends_of.get(entity.0 as usize).copied().filter(has_ends)
+        self.ends_of
+            .get(entity.0 as usize)
+            .copied()
+            .filter(has_ends)
     }
 
     /// The piece of a contour that an entity is.
     pub fn piece_of(&self, entity: EntityId) -> Option<Piece> {
         let contour = self.get(self.contour_of(entity)?)?;
         let place = *self.piece_of.get(entity.0 as usize)?;
-        contour.pieces.get(place as usize).filter(|piece| piece.entity == entity).copied()
+        contour
+            .pieces
+            .get(place as usize)
+            .filter(|piece| piece.entity == entity)
+            .copied()
     }
 
     /// The contour that holds a segment of an entity, and its index in there.
     pub fn index_of(&self, entity: EntityId, segment: usize) -> Option<(Key, usize)> {
-        Some((self.contour_of(entity)?, self.piece_of(entity)?.index_of(segment)?))
+        Some((
+            self.contour_of(entity)?,
+            self.piece_of(entity)?.index_of(segment)?,
+        ))
     }
 
     /// Keys of all contours, in no order.
@@ -137,58 +158,107 @@ impl Chains {
     /// ends touch, or that others meet: what lies between its ends counts there.
     pub fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
         let known = self.ends_of(entity);
-        let now = if is_cut { free_ends(drawing, entity) } else { None };
+        let now = if is_cut {
+            free_ends(drawing, entity)
+        } else {
+            None
+        };
         let touching = now.is_some_and(|(start, end)| (end - start).norm() <= self.cells.join);
         let contour = self.contour_of(entity);
-        let by_ends = contour.and_then(|key| self.contours.get(&key)).is_none_or(|chain| chain.by_ends);
-        let is_chained = is_cut && drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() > 0);
+        let by_ends = contour
+            .and_then(|key| self.contours.get(&key))
+            .is_none_or(|chain| chain.by_ends);
+        let is_chained = is_cut
+            && drawing
+                .get(entity)
+                .is_some_and(|entity| entity.geometry.segment_count() > 0);
         known == now && !touching && by_ends && contour.is_some() == is_chained
     }
 
     /// The number of segments of an entity has changed: its contour counts them anew.
     pub fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
-        let Some(Chain { contour, .. }) = self.contour_of(entity).and_then(|key| self.contours.get_mut(&key)) else { return };
-        *contour = Contour::new(drawing, contour.pieces.iter().map(|piece| (piece.entity, piece.reversed)), contour.closed);
+        let Some(Chain { contour, .. }) = self
+            .contour_of(entity)
+            .and_then(|key| self.contours.get_mut(&key))
+        else {
+            return;
+        };
+        *contour = Contour::new(
+            drawing,
+            contour
+                .pieces
+                .iter()
+                .map(|piece| (piece.entity, piece.reversed)),
+            contour.closed,
+        );
     }
 
     /// Chains again what the entities of `touched` (new, changed or removed) belonged to or belong to now.
-    pub fn update(&mut self, drawing: &Drawing, touched: &[EntityId], is_cut: &dyn Fn(EntityId) -> bool) -> Rechained {
+    pub fn update(
+        &mut self,
+        drawing: &Drawing,
+        touched: &[EntityId],
+        is_cut: &dyn Fn(EntityId) -> bool,
+    ) -> Rechained {
         self.grow(drawing);
         let mut entities = FxHashSet::default();
         let distinct: FxHashSet<EntityId> = touched.iter().copied().collect();
-        let mut affected: FxHashSet<Key> = distinct.iter().filter_map(|&id| self.contour_of(id)).collect();
+        let mut affected: FxHashSet<Key> = distinct
+            .iter()
+            .filter_map(|&id| self.contour_of(id))
+            .collect();
         let few = distinct.len() * BULK <= self.ends_of.len();
         let mut ends = self.ends.take().filter(|_| few);
         for &id in &distinct {
             if let (Some(old), Some(ends)) = (self.ends_of(id), &mut ends) {
-                End::both(id.0).into_iter().for_each(|end| ends.remove(self.cells.of(end.of(old)), end));
+                End::both(id.0)
+                    .into_iter()
+                    .for_each(|end| ends.remove(self.cells.of(end.of(old)), end));
             }
             self.ends_of[id.0 as usize] = NO_ENDS;
         }
         let mut ends = ends.unwrap_or_else(|| self.sorted_ends());
         ends.grow(self.ends_of.len());
         let mut fresh = Vec::new();
-        for id in distinct.into_iter().filter(|&id| drawing.get(id).is_some() && is_cut(id)) {
+        for id in distinct
+            .into_iter()
+            .filter(|&id| drawing.get(id).is_some() && is_cut(id))
+        {
             entities.insert(id);
             if let Some(both) = free_ends(drawing, id) {
-                affected.extend([both.0, both.1].into_iter().flat_map(|point| self.contours_about(&ends, point)));
+                affected.extend(
+                    [both.0, both.1]
+                        .into_iter()
+                        .flat_map(|point| self.contours_about(&ends, point)),
+                );
                 fresh.push((id, both));
             }
         }
         for (id, both) in fresh {
             self.ends_of[id.0 as usize] = both;
-            End::both(id.0).into_iter().for_each(|end| ends.insert(self.cells.of(end.of(both)), end));
+            End::both(id.0)
+                .into_iter()
+                .for_each(|end| ends.insert(self.cells.of(end.of(both)), end));
         }
-        self.ends = Some(if ends.is_crowded() { self.sorted_ends() } else { ends });
+        self.ends = Some(if ends.is_crowded() {
+            self.sorted_ends()
+        } else {
+            ends
+        });
         for &id in touched {
             self.contour_of[id.0 as usize] = NO_KEY;
         }
         let mut rechained = Rechained::default();
         for contour in affected {
-            let group = self.group_of.get(&contour).and_then(|group| self.groups.remove(group));
+            let group = self
+                .group_of
+                .get(&contour)
+                .and_then(|group| self.groups.remove(group));
             for key in group.unwrap_or_else(|| vec![contour]) {
                 self.group_of.remove(&key);
-                let Some(chain) = self.contours.remove(&key) else { continue };
+                let Some(chain) = self.contours.remove(&key) else {
+                    continue;
+                };
                 rechained.gone.push(key);
                 for id in chain.contour.pieces.into_iter().map(|piece| piece.entity) {
                     if drawing.get(id).is_some() && is_cut(id) {
@@ -215,7 +285,9 @@ impl Chains {
         let open = self.ends_of.iter().filter(|ends| has_ends(ends)).count();
         let mut ends = Buckets::new(self.ends_of.len(), open);
         for (id, &both) in (0..).zip(&self.ends_of).filter(|(_, both)| has_ends(both)) {
-            End::both(id).into_iter().for_each(|end| ends.insert(self.cells.of(end.of(both)), end));
+            End::both(id)
+                .into_iter()
+                .for_each(|end| ends.insert(self.cells.of(end.of(both)), end));
         }
         ends
     }
@@ -226,9 +298,16 @@ impl Chains {
     }
 
     /// One contour of each cell about a point in which there are any: the others there are of its group.
-    fn contours_about<'a>(&'a self, ends: &'a Buckets, point: Point) -> impl Iterator<Item = Key> + 'a {
+    fn contours_about<'a>(
+        &'a self,
+        ends: &'a Buckets,
+        point: Point,
+    ) -> impl Iterator<Item = Key> + 'a {
         self.cells.about(point).filter_map(move |cell| {
-            let is_here = |end: &End| self.ends_of(EntityId(end.entity())).is_some_and(|ends| self.cells.of(end.of(ends)) == cell);
+            let is_here = |end: &End| {
+                self.ends_of(EntityId(end.entity()))
+                    .is_some_and(|ends| self.cells.of(end.of(ends)) == cell)
+            };
             self.contour_of(EntityId(ends.of_cell(cell).find(is_here)?.entity()))
         })
     }
@@ -240,13 +319,22 @@ impl Chains {
         let mut new = Vec::with_capacity(linked.ways.len());
         for way in &linked.ways {
             let key = self.fresh_key();
-            let pieces = linked.pieces[way.range.clone()].iter().map(|&(at, reversed)| (entities[at as usize], reversed));
+            let pieces = linked.pieces[way.range.clone()]
+                .iter()
+                .map(|&(at, reversed)| (entities[at as usize], reversed));
             let contour = Contour::new(drawing, pieces, way.closed);
             for (place, piece) in (0..).zip(&contour.pieces) {
                 self.contour_of[piece.entity.0 as usize] = key;
                 self.piece_of[piece.entity.0 as usize] = place;
             }
-            self.contours.insert(key, Chain { contour, first: entities[way.first as usize], by_ends: way.by_ends });
+            self.contours.insert(
+                key,
+                Chain {
+                    contour,
+                    first: entities[way.first as usize],
+                    by_ends: way.by_ends,
+                },
+            );
             new.push(key);
         }
         for (one, other) in self.neighbours(entities, &joints) {
@@ -260,7 +348,10 @@ impl Chains {
         let mut neighbours = Vec::new();
         let at = |end: End| {
             let id = entities[end.entity() as usize];
-            (end.of(self.ends_of[id.0 as usize]), self.contour_of[id.0 as usize])
+            (
+                end.of(self.ends_of[id.0 as usize]),
+                self.contour_of[id.0 as usize],
+            )
         };
         let mut cells: Vec<(Cell, Key)> = Vec::new();
         for list in joints.lists() {
@@ -276,8 +367,15 @@ impl Chains {
                 }
                 for beside in about {
                     // All others there are of its group.
-                    let other = joints.of_cell(beside).map(at).find(|(place, _)| self.cells.of(*place) == beside);
-                    neighbours.extend(other.filter(|(_, other)| *other != key).map(|(_, other)| (other, key)));
+                    let other = joints
+                        .of_cell(beside)
+                        .map(at)
+                        .find(|(place, _)| self.cells.of(*place) == beside);
+                    neighbours.extend(
+                        other
+                            .filter(|(_, other)| *other != key)
+                            .map(|(_, other)| (other, key)),
+                    );
                 }
             }
         }
@@ -291,7 +389,11 @@ impl Chains {
             (Some(one), Some(other)) if one == other => return,
             (Some(one), Some(other)) => {
                 let size = |group: Key| self.groups.get(&group).map_or(0, Vec::len);
-                let (larger, smaller) = if size(one) >= size(other) { (one, other) } else { (other, one) };
+                let (larger, smaller) = if size(one) >= size(other) {
+                    (one, other)
+                } else {
+                    (other, one)
+                };
                 (larger, self.groups.remove(&smaller).unwrap_or_default())
             }
             (Some(group), None) => (group, vec![other]),
@@ -323,13 +425,32 @@ struct Linked {
 
 impl Linked {
     fn new(drawing: &Drawing, entities: &[EntityId], ends_of: &[Ends], joints: &Joints) -> Linked {
-        let mut linked = Linked { pieces: Vec::with_capacity(entities.len()), ways: Vec::new() };
+        let mut linked = Linked {
+            pieces: Vec::with_capacity(entities.len()),
+            ways: Vec::new(),
+        };
         let mut is_taken = vec![false; entities.len()];
-        let mut is_special = vec![false; if joints.doubles.kept.is_empty() { 0 } else { entities.len() }];
-        joints.doubles.kept.iter().chain(&joints.doubles.aside).for_each(|&double| is_special[double as usize] = true);
+        let mut is_special = vec![
+            false;
+            if joints.doubles.kept.is_empty() {
+                0
+            } else {
+                entities.len()
+            }
+        ];
+        joints
+            .doubles
+            .kept
+            .iter()
+            .chain(&joints.doubles.aside)
+            .for_each(|&double| is_special[double as usize] = true);
         let (mut strands, mut ranges) = (Vec::new(), Vec::new());
         for (first, &id) in (0..).zip(entities) {
-            let has_segments = || drawing.get(id).is_some_and(|entity| entity.geometry.segment_count() > 0);
+            let has_segments = || {
+                drawing
+                    .get(id)
+                    .is_some_and(|entity| entity.geometry.segment_count() > 0)
+            };
             if is_taken[first as usize] || !has_segments() {
                 continue;
             }
@@ -338,21 +459,40 @@ impl Linked {
             let closed = linked.run(joints, first, &mut is_taken) || is_ring;
             let range = begin..linked.pieces.len();
             let pieces = &linked.pieces[range.clone()];
-            let (Some(&(head, head_reversed)), Some(&(last, last_reversed))) = (pieces.first(), pieces.last()) else { continue };
-            let [start, end] = [End::both(head)[usize::from(head_reversed)], End::both(last)[usize::from(!last_reversed)]];
+            let (Some(&(head, head_reversed)), Some(&(last, last_reversed))) =
+                (pieces.first(), pieces.last())
+            else {
+                continue;
+            };
+            let [start, end] = [
+                End::both(head)[usize::from(head_reversed)],
+                End::both(last)[usize::from(!last_reversed)],
+            ];
             if closed || joints.is_lone(start) && joints.is_lone(end) {
                 // Two that close a loop may come to lie on each other.
-                let by_ends =
-                    !(closed && pieces.len() == 2 || !is_special.is_empty() && pieces.iter().any(|(at, _)| is_special[*at as usize]));
-                linked.ways.push(Way { range, closed, first, by_ends });
+                let by_ends = !(closed && pieces.len() == 2
+                    || !is_special.is_empty()
+                        && pieces.iter().any(|(at, _)| is_special[*at as usize]));
+                linked.ways.push(Way {
+                    range,
+                    closed,
+                    first,
+                    by_ends,
+                });
                 continue;
             }
             let about = [start, end].map(|end| joints.place(end));
             let leads_round = pieces.len() == 1 && joints.leads_round(head);
             let is_crumb = !leads_round
                 && joints.distance(start, end) <= joints.join()
-                && pieces.iter().all(|(at, _)| about.iter().all(|&about| joints.is_crumb(*at, about)));
-            strands.push(Strand { ends: [start, end], count: pieces.len(), is_crumb });
+                && pieces
+                    .iter()
+                    .all(|(at, _)| about.iter().all(|&about| joints.is_crumb(*at, about)));
+            strands.push(Strand {
+                ends: [start, end],
+                count: pieces.len(),
+                is_crumb,
+            });
             ranges.push(range);
         }
         for joined in resolve(&strands, joints) {
@@ -360,8 +500,15 @@ impl Linked {
             for (strand, reversed) in joined.strands {
                 let range = ranges[strand].clone();
                 let piece = |index: usize| linked.pieces[index];
-                let pieces: Vec<(u32, bool)> =
-                    if reversed { range.rev().map(piece).map(|(at, turned)| (at, !turned)).collect() } else { range.map(piece).collect() };
+                let pieces: Vec<(u32, bool)> = if reversed {
+                    range
+                        .rev()
+                        .map(piece)
+                        .map(|(at, turned)| (at, !turned))
+                        .collect()
+                } else {
+                    range.map(piece).collect()
+                };
                 linked.pieces.extend(pieces);
             }
             linked.settle(begin, joined.closed);
@@ -400,23 +547,40 @@ impl Linked {
     /// Makes a contour of the pieces from `begin` on: in the direction of its first entity, and beginning with it where it is closed.
     fn settle(&mut self, begin: usize, closed: bool) {
         let pieces = &mut self.pieces[begin..];
-        let Some((place, &(first, reversed))) = pieces.iter().enumerate().min_by_key(|(_, (at, _))| *at) else { return };
+        let Some((place, &(first, reversed))) =
+            pieces.iter().enumerate().min_by_key(|(_, (at, _))| *at)
+        else {
+            return;
+        };
         let mut place = place;
         if reversed {
             pieces.reverse();
-            pieces.iter_mut().for_each(|(_, reversed)| *reversed = !*reversed);
+            pieces
+                .iter_mut()
+                .for_each(|(_, reversed)| *reversed = !*reversed);
             place = pieces.len() - 1 - place;
         }
         if closed {
             pieces.rotate_left(place);
         }
-        self.ways.push(Way { range: begin..self.pieces.len(), closed, first, by_ends: false });
+        self.ways.push(Way {
+            range: begin..self.pieces.len(),
+            closed,
+            first,
+            by_ends: false,
+        });
     }
 }
 
 /// Role that the entities of a contour state, or what they are drawn on or in: that of the first piece which has one.
-pub fn stated_role(contour: &Contour, of_entity: &dyn Fn(EntityId) -> Option<Role>) -> Option<Role> {
-    contour.pieces.iter().find_map(|piece| of_entity(piece.entity))
+pub fn stated_role(
+    contour: &Contour,
+    of_entity: &dyn Fn(EntityId) -> Option<Role>,
+) -> Option<Role> {
+    contour
+        .pieces
+        .iter()
+        .find_map(|piece| of_entity(piece.entity))
 }
 
 fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<EntityId> {
@@ -427,7 +591,12 @@ fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<E
     }
     let mut wanted = vec![false; drawing.id_bound()];
     entities.iter().for_each(|id| wanted[id.0 as usize] = true);
-    drawing.order().iter().copied().filter(|id| wanted[id.0 as usize]).collect()
+    drawing
+        .order()
+        .iter()
+        .copied()
+        .filter(|id| wanted[id.0 as usize])
+        .collect()
 }
 
 fn free_ends(drawing: &Drawing, id: EntityId) -> Option<Ends> {
@@ -447,7 +616,10 @@ mod tests {
     fn lines(lines: &[Coordinates]) -> Drawing {
         let mut drawing = Drawing::new(None);
         for (i, &(x0, y0, x1, y1)) in lines.iter().enumerate() {
-            let geometry = Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) };
+            let geometry = Geometry::Line {
+                start: Point::new(x0, y0),
+                end: Point::new(x1, y1),
+            };
             drawing.push(Entity {
                 handle: format!("{i}").into(),
                 layer: "0".into(),
@@ -463,13 +635,24 @@ mod tests {
     fn check(input: &[Coordinates], expected: &[&str]) {
         let drawing = lines(input);
         let chains = Chains::new(&drawing, 0.01, &|_| true);
-        let mut keys: Vec<Key> = drawing.order().iter().filter_map(|&id| chains.contour_of(id)).collect();
+        let mut keys: Vec<Key> = drawing
+            .order()
+            .iter()
+            .filter_map(|&id| chains.contour_of(id))
+            .collect();
         keys.dedup();
-        keys.sort_unstable_by_key(|key| chains.get(*key).map(|contour| contour.pieces.iter().map(|piece| piece.entity).min()));
+        keys.sort_unstable_by_key(|key| {
+            chains
+                .get(*key)
+                .map(|contour| contour.pieces.iter().map(|piece| piece.entity).min())
+        });
         keys.dedup();
         let text = |key: &Key| {
             let contour = chains.get(*key).unwrap();
-            let pieces = contour.pieces.iter().map(|p| format!("{}{}", p.entity.0, if p.reversed { "'" } else { "" }));
+            let pieces = contour
+                .pieces
+                .iter()
+                .map(|p| format!("{}{}", p.entity.0, if p.reversed { "'" } else { "" }));
             pieces.collect::<Vec<_>>().join(" ") + if contour.closed { " o" } else { "" }
         };
         assert_eq!(keys.iter().map(text).collect::<Vec<_>>(), expected);
@@ -477,32 +660,78 @@ mod tests {
 
     #[test]
     fn a_square_out_of_order_and_half_turned_about_is_one_loop() {
-        check(&[(0.0, 0.0, 1.0, 0.0), (1.0, 1.0, 0.0, 1.0), (1.0, 1.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0)], &["0 2' 1 3' o"]);
+        check(
+            &[
+                (0.0, 0.0, 1.0, 0.0),
+                (1.0, 1.0, 0.0, 1.0),
+                (1.0, 1.0, 1.0, 0.0),
+                (0.0, 0.0, 0.0, 1.0),
+            ],
+            &["0 2' 1 3' o"],
+        );
     }
 
     #[test]
     fn gaps_up_to_the_tolerance_are_joined_and_wider_ones_are_not() {
-        check(&[(0.0, 0.0, 1.0, 0.0), (1.009, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["0 1 2 o"]);
-        check(&[(0.0, 0.0, 1.0, 0.0), (1.02, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["1 2 0"]);
+        check(
+            &[
+                (0.0, 0.0, 1.0, 0.0),
+                (1.009, 0.0, 1.0, 1.0),
+                (1.0, 1.0, 0.0, 0.0),
+            ],
+            &["0 1 2 o"],
+        );
+        check(
+            &[
+                (0.0, 0.0, 1.0, 0.0),
+                (1.02, 0.0, 1.0, 1.0),
+                (1.0, 1.0, 0.0, 0.0),
+            ],
+            &["1 2 0"],
+        );
     }
 
     #[test]
     fn two_loops_that_touch_in_a_point_stay_two() {
         let (one, other) = (
-            [(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 0.0)],
-            [(0.0, 0.0, -1.0, 0.0), (-1.0, 0.0, 0.0, -1.0), (0.0, -1.0, 0.0, 0.0)],
+            [
+                (0.0, 0.0, 1.0, 0.0),
+                (1.0, 0.0, 0.0, 1.0),
+                (0.0, 1.0, 0.0, 0.0),
+            ],
+            [
+                (0.0, 0.0, -1.0, 0.0),
+                (-1.0, 0.0, 0.0, -1.0),
+                (0.0, -1.0, 0.0, 0.0),
+            ],
         );
         check(&[one, other].concat(), &["0 1 2 o", "3 4 5 o"]);
     }
 
     #[test]
     fn a_lead_line_is_no_part_of_the_loop_that_it_leads_to() {
-        check(&[(2.0, 0.0, 1.0, 0.0), (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, -1.0, 0.0), (-1.0, 0.0, 1.0, 0.0)], &["0", "1 2 3 o"]);
+        check(
+            &[
+                (2.0, 0.0, 1.0, 0.0),
+                (1.0, 0.0, 0.0, 1.0),
+                (0.0, 1.0, -1.0, 0.0),
+                (-1.0, 0.0, 1.0, 0.0),
+            ],
+            &["0", "1 2 3 o"],
+        );
     }
 
     #[test]
     fn a_line_shorter_than_the_tolerance_is_not_skipped() {
-        check(&[(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.005, 0.0), (1.005, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0)], &["0 1 2 3 o"]);
+        check(
+            &[
+                (0.0, 0.0, 1.0, 0.0),
+                (1.0, 0.0, 1.005, 0.0),
+                (1.005, 0.0, 1.0, 1.0),
+                (1.0, 1.0, 0.0, 0.0),
+            ],
+            &["0 1 2 3 o"],
+        );
         check(&[(0.0, 0.0, 0.005, 0.0)], &["0"]);
     }
 
@@ -516,17 +745,37 @@ mod tests {
             let (x0, y0, x1, y1, bulge) = shapes[number];
             let vertices = vec![Vertex::new(x0, y0, bulge), Vertex::new(x1, y1, 0.0)];
             let geometry = match bulge {
-                0.0 => Geometry::Line { start: Point::new(x0, y0), end: Point::new(x1, y1) },
-                _ => Geometry::Polyline { closed: false, vertices },
+                0.0 => Geometry::Line {
+                    start: Point::new(x0, y0),
+                    end: Point::new(x1, y1),
+                },
+                _ => Geometry::Polyline {
+                    closed: false,
+                    vertices,
+                },
             };
             let kind = crate::drawing::Kind::Line;
-            drawing.push(Entity { handle: format!("{number}").into(), layer: "0".into(), role: None, kind, geometry });
+            drawing.push(Entity {
+                handle: format!("{number}").into(),
+                layer: "0".into(),
+                role: None,
+                kind,
+                geometry,
+            });
         }
         let chains = Chains::new(&drawing, 0.01, &|_| true);
         let handle = |piece: &Piece| drawing.get(piece.entity).unwrap().handle.to_string();
-        let set = |key: Key| chains.get(key).map(|contour| (contour.pieces.iter().map(handle).collect(), contour.closed));
+        let set = |key: Key| {
+            chains
+                .get(key)
+                .map(|contour| (contour.pieces.iter().map(handle).collect(), contour.closed))
+        };
         let sets: Sets = chains.keys().filter_map(set).collect();
-        assert_eq!(sets.iter().map(|(handles, _)| handles.len()).sum::<usize>(), shapes.len(), "each entity in one contour");
+        assert_eq!(
+            sets.iter().map(|(handles, _)| handles.len()).sum::<usize>(),
+            shapes.len(),
+            "each entity in one contour"
+        );
         sets
     }
 
@@ -551,38 +800,82 @@ mod tests {
     #[track_caller]
     fn check_in_every_order(shapes: &[(f64, f64, f64, f64, f64)], closed: &[&str]) {
         let first = sets(shapes, &(0..shapes.len()).collect::<Vec<_>>());
-        let loops: Vec<String> =
-            first.iter().filter(|(_, closed)| *closed).map(|(handles, _)| handles.iter().cloned().collect::<Vec<_>>().join(" ")).collect();
+        let loops: Vec<String> = first
+            .iter()
+            .filter(|(_, closed)| *closed)
+            .map(|(handles, _)| handles.iter().cloned().collect::<Vec<_>>().join(" "))
+            .collect();
         assert_eq!(loops, closed, "{first:?}");
         for order in permutations(shapes.len()) {
             assert_eq!(sets(shapes, &order), first, "{order:?}");
         }
-        let counts = |sets: &Sets| sets.iter().map(|(handles, closed)| (handles.len(), *closed)).collect::<BTreeSet<_>>();
+        let counts = |sets: &Sets| {
+            sets.iter()
+                .map(|(handles, closed)| (handles.len(), *closed))
+                .collect::<BTreeSet<_>>()
+        };
         for turned in 0..shapes.len() {
             let mut shapes = shapes.to_vec();
             let (x0, y0, x1, y1, bulge) = shapes[turned];
             shapes[turned] = (x1, y1, x0, y0, -bulge);
-            assert_eq!(counts(&sets(&shapes, &(0..shapes.len()).collect::<Vec<_>>())), counts(&first), "{turned} turned round");
+            assert_eq!(
+                counts(&sets(&shapes, &(0..shapes.len()).collect::<Vec<_>>())),
+                counts(&first),
+                "{turned} turned round"
+            );
         }
     }
 
-    const SQUARE: [(f64, f64, f64, f64, f64); 4] =
-        [(0.0, 0.0, 10.0, 0.0, 0.0), (10.0, 0.0, 10.0, 10.0, 0.0), (10.0, 10.0, 0.0, 10.0, 0.0), (0.0, 10.0, 0.0, 0.0, 0.0)];
+    const SQUARE: [(f64, f64, f64, f64, f64); 4] = [
+        (0.0, 0.0, 10.0, 0.0, 0.0),
+        (10.0, 0.0, 10.0, 10.0, 0.0),
+        (10.0, 10.0, 0.0, 10.0, 0.0),
+        (0.0, 10.0, 0.0, 0.0, 0.0),
+    ];
 
     #[test]
     fn a_double_does_not_spoil_an_outline_in_any_order() {
         let with = |others: &[(f64, f64, f64, f64, f64)]| [&SQUARE[..], others].concat();
         check_in_every_order(&with(&[(10.0, 0.0, 0.0, 0.0, 0.0)]), &["0 1 2 3"]);
-        check_in_every_order(&with(&[(0.0, 0.0, 10.0, 0.0, 0.0), (0.0, 0.0, 10.0, 0.0, 0.0)]), &["0 1 2 3"]);
-        check_in_every_order(&with(&[(0.0, 0.003, 10.0, 0.002, 0.0), (10.0, 10.0, 10.0, 0.0, 0.0)]), &["0 1 2 3"]);
+        check_in_every_order(
+            &with(&[(0.0, 0.0, 10.0, 0.0, 0.0), (0.0, 0.0, 10.0, 0.0, 0.0)]),
+            &["0 1 2 3"],
+        );
+        check_in_every_order(
+            &with(&[(0.0, 0.003, 10.0, 0.002, 0.0), (10.0, 10.0, 10.0, 0.0, 0.0)]),
+            &["0 1 2 3"],
+        );
         // The one that lies off is not the one that is chained.
-        check_in_every_order(&[(0.0, -0.004, 10.0, -0.004, 0.0), SQUARE[1], SQUARE[2], SQUARE[3], SQUARE[0]], &["1 2 3 4"]);
+        check_in_every_order(
+            &[
+                (0.0, -0.004, 10.0, -0.004, 0.0),
+                SQUARE[1],
+                SQUARE[2],
+                SQUARE[3],
+                SQUARE[0],
+            ],
+            &["1 2 3 4"],
+        );
         // Two lines in one place alone, and two arcs on one chord: a double, and a circle.
         check_in_every_order(&[SQUARE[0], SQUARE[0]], &[]);
-        check_in_every_order(&[(0.0, 0.0, 10.0, 0.0, 1.0), (10.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 10.0, 0.0, 1.0)], &["0 1"]);
+        check_in_every_order(
+            &[
+                (0.0, 0.0, 10.0, 0.0, 1.0),
+                (10.0, 0.0, 0.0, 0.0, 1.0),
+                (0.0, 0.0, 10.0, 0.0, 1.0),
+            ],
+            &["0 1"],
+        );
         // Everything twice.
         check_in_every_order(
-            &[SQUARE[0], SQUARE[1], (10.0, 10.0, 0.0, 0.0, 0.0), SQUARE[0], SQUARE[1], (0.0, 0.0, 10.0, 10.0, 0.0)],
+            &[
+                SQUARE[0],
+                SQUARE[1],
+                (10.0, 10.0, 0.0, 0.0, 0.0),
+                SQUARE[0],
+                SQUARE[1],
+                (0.0, 0.0, 10.0, 10.0, 0.0),
+            ],
             &["0 1 2"],
         );
     }
@@ -593,14 +886,30 @@ mod tests {
         check_in_every_order(&with(&[(10.0, 10.0, 15.0, 12.0, 0.0)]), &["0 1 2 3"]);
         check_in_every_order(&with(&[(0.0, 0.0, 3.0, 3.0, 0.0)]), &["0 1 2 3"]);
         check_in_every_order(
-            &with(&[(10.0, 10.0, 15.0, 12.0, 0.0), (15.0, 12.0, 20.0, 12.0, 0.4), (0.0, 0.0, -3.0, 0.0, 0.0)]),
+            &with(&[
+                (10.0, 10.0, 15.0, 12.0, 0.0),
+                (15.0, 12.0, 20.0, 12.0, 0.4),
+                (0.0, 0.0, -3.0, 0.0, 0.0),
+            ]),
             &["0 1 2 3"],
         );
         // Off a corner whose own ends are a little apart.
-        check_in_every_order(&[(0.005, 0.0, 10.0, 0.0, 0.0), SQUARE[1], SQUARE[2], SQUARE[3], (0.0, 0.0, -5.0, 1.0, 0.0)], &["0 1 2 3"]);
+        check_in_every_order(
+            &[
+                (0.005, 0.0, 10.0, 0.0, 0.0),
+                SQUARE[1],
+                SQUARE[2],
+                SQUARE[3],
+                (0.0, 0.0, -5.0, 1.0, 0.0),
+            ],
+            &["0 1 2 3"],
+        );
         // Across: the outline is what closes.
         check_in_every_order(&with(&[(0.0, 0.0, 10.0, 10.0, 0.0)]), &["0 1 2 3"]);
-        check_in_every_order(&with(&[(0.0, 0.0, 10.0, 10.0, 0.2), (0.0, 10.0, -4.0, 14.0, 0.0)]), &["0 1 2 3"]);
+        check_in_every_order(
+            &with(&[(0.0, 0.0, 10.0, 10.0, 0.2), (0.0, 10.0, -4.0, 14.0, 0.0)]),
+            &["0 1 2 3"],
+        );
         // Two triangles in one point, and with a bridge between them.
         let triangles = [
             (0.0, 0.0, 4.0, 2.0, 0.0),
@@ -611,43 +920,87 @@ mod tests {
             (-4.0, -2.0, 0.0, 0.0, 0.0),
         ];
         check_in_every_order(&triangles, &["0 1 2", "3 4 5"]);
-        let apart = triangles
-            .map(|(x0, y0, x1, y1, bulge)| if x0 + x1 > 0.0 { (x0 + 5.0, y0, x1 + 5.0, y1, bulge) } else { (x0, y0, x1, y1, bulge) });
-        check_in_every_order(&[&apart[..], &[(0.0, 0.0, 5.0, 0.0, 0.0)]].concat(), &["0 1 2", "3 4 5"]);
+        let apart = triangles.map(|(x0, y0, x1, y1, bulge)| {
+            if x0 + x1 > 0.0 {
+                (x0 + 5.0, y0, x1 + 5.0, y1, bulge)
+            } else {
+                (x0, y0, x1, y1, bulge)
+            }
+        });
+        check_in_every_order(
+            &[&apart[..], &[(0.0, 0.0, 5.0, 0.0, 0.0)]].concat(),
+            &["0 1 2", "3 4 5"],
+        );
         // Rounded coordinates where two loops meet.
-        let rounded = triangles.map(|(x0, y0, x1, y1, bulge)| (x0 + 4e-7 * (y1 - x1), y0, x1, y1 + 3e-7 * (x0 - y0), bulge));
+        let rounded = triangles.map(|(x0, y0, x1, y1, bulge)| {
+            (x0 + 4e-7 * (y1 - x1), y0, x1, y1 + 3e-7 * (x0 - y0), bulge)
+        });
         check_in_every_order(&rounded, &["0 1 2", "3 4 5"]);
     }
 
     #[test]
     fn crumbs_and_notches_narrower_than_the_tolerance_stay_in_their_outline_in_any_order() {
         check_in_every_order(
-            &[(0.0, 0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 1.005, 0.0, 0.0), (1.005, 0.0, 1.0, 1.0, 0.0), (1.0, 1.0, 0.0, 0.0, 0.0)],
+            &[
+                (0.0, 0.0, 1.0, 0.0, 0.0),
+                (1.0, 0.0, 1.005, 0.0, 0.0),
+                (1.005, 0.0, 1.0, 1.0, 0.0),
+                (1.0, 1.0, 0.0, 0.0, 0.0),
+            ],
             &["0 1 2 3"],
         );
         check_in_every_order(
-            &[SQUARE[0], SQUARE[1], SQUARE[2], (0.0, 10.0, 0.0, 0.008, 0.0), (0.0, 0.008, 5.0, 0.002, 0.0), (5.0, 0.002, 0.0, 0.0, 0.0)],
+            &[
+                SQUARE[0],
+                SQUARE[1],
+                SQUARE[2],
+                (0.0, 10.0, 0.0, 0.008, 0.0),
+                (0.0, 0.008, 5.0, 0.002, 0.0),
+                (5.0, 0.002, 0.0, 0.0, 0.0),
+            ],
             &["0 1 2 3 4 5"],
         );
         // A triangle of crumbs.
-        check_in_every_order(&[(0.0, 0.0, 0.006, 0.0, 0.0), (0.006, 0.0, 0.0, 0.006, 0.0), (0.0, 0.006, 0.0, 0.0, 0.0)], &["0 1 2"]);
+        check_in_every_order(
+            &[
+                (0.0, 0.0, 0.006, 0.0, 0.0),
+                (0.006, 0.0, 0.0, 0.006, 0.0),
+                (0.0, 0.006, 0.0, 0.0, 0.0),
+            ],
+            &["0 1 2"],
+        );
     }
 
     /// So many lines from nearly one point outward, and a triangle with a corner there.
     fn star(count: usize) -> Drawing {
         let line = |number: usize| {
             let angle = number as f64 * 0.003;
-            let (x, y) = (1.001 + 0.0001 * (number % 7) as f64, 1.001 + 0.0001 * (number % 11) as f64);
+            let (x, y) = (
+                1.001 + 0.0001 * (number % 7) as f64,
+                1.001 + 0.0001 * (number % 11) as f64,
+            );
             (x, y, x + 9.0 * angle.cos(), y + 9.0 * angle.sin())
         };
-        let triangle = [(1.001, 1.001, -5.0, 1.0), (-5.0, 1.0, -5.0, -5.0), (-5.0, -5.0, 1.0012, 1.0011)];
+        let triangle = [
+            (1.001, 1.001, -5.0, 1.0),
+            (-5.0, 1.0, -5.0, -5.0),
+            (-5.0, -5.0, 1.0012, 1.0011),
+        ];
         lines(&(0..count).map(line).chain(triangle).collect::<Vec<_>>())
     }
 
     fn pieces(drawing: &Drawing, chains: &Chains) -> Vec<Vec<(EntityId, bool)>> {
         let mut keys: Vec<Key> = chains.keys().collect();
         keys.sort_unstable_by_key(|&key| drawing.rank(chains.first_of(key).unwrap()));
-        let pieces = |key| chains.get(key).unwrap().pieces.iter().map(|piece| (piece.entity, piece.reversed)).collect();
+        let pieces = |key| {
+            chains
+                .get(key)
+                .unwrap()
+                .pieces
+                .iter()
+                .map(|piece| (piece.entity, piece.reversed))
+                .collect()
+        };
         keys.into_iter().map(pieces).collect()
     }
 
@@ -658,11 +1011,28 @@ mod tests {
         let id = |number: usize| EntityId(number as u32);
         let pair = |pair: usize| vec![(id(2 * pair + 1), true), (id(2 * pair), false)];
         let mut expected: Vec<Vec<(EntityId, bool)>> = (0..CROWD).map(pair).collect();
-        expected.push([0, 1, 2].map(|number| (id(2 * CROWD + number), false)).to_vec());
+        expected.push(
+            [0, 1, 2]
+                .map(|number| (id(2 * CROWD + number), false))
+                .to_vec(),
+        );
         let found = pieces(&drawing, &chains);
-        let differs = (0..).zip(&found).zip(&expected).find(|((_, found), expected)| found != expected);
-        assert!(found.len() == expected.len() && differs.is_none(), "{} contours, {differs:?}", found.len());
-        assert!(chains.keys().filter(|&key| chains.get(key).unwrap().closed).count() == 1);
+        let differs = (0..)
+            .zip(&found)
+            .zip(&expected)
+            .find(|((_, found), expected)| found != expected);
+        assert!(
+            found.len() == expected.len() && differs.is_none(),
+            "{} contours, {differs:?}",
+            found.len()
+        );
+        assert!(
+            chains
+                .keys()
+                .filter(|&key| chains.get(key).unwrap().closed)
+                .count()
+                == 1
+        );
     }
 
     #[test]
@@ -673,7 +1043,10 @@ mod tests {
             drawing.remove(EntityId(number));
             chains.update(&drawing, &[EntityId(number)], &|_| true);
             let fresh = Chains::new(&drawing, 0.01, &|_| true);
-            assert!(pieces(&drawing, &chains) == pieces(&drawing, &fresh), "without entity {number}");
+            assert!(
+                pieces(&drawing, &chains) == pieces(&drawing, &fresh),
+                "without entity {number}"
+            );
         }
     }
 

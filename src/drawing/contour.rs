@@ -32,7 +32,11 @@ impl Piece {
 
     /// The index within the contour of one of the piece's own segments.
     pub fn index_of(&self, segment: usize) -> Option<usize> {
-        let along = if self.reversed { self.count().checked_sub(1 + segment)? } else { segment };
+        let along = if self.reversed {
+            self.count().checked_sub(1 + segment)?
+        } else {
+            segment
+        };
         (along < self.count()).then_some(self.first() + along)
     }
 }
@@ -58,14 +62,25 @@ pub struct ContourSegment {
 
 impl Contour {
     /// A contour of `(entity, reversed)` in order of travel; entities without segments are left out.
-    pub fn new(drawing: &Drawing, entities: impl IntoIterator<Item = (EntityId, bool)>, closed: bool) -> Contour {
+    pub fn new(
+        drawing: &Drawing,
+        entities: impl IntoIterator<Item = (EntityId, bool)>,
+        closed: bool,
+    ) -> Contour {
         let entities = entities.into_iter();
         let mut pieces = Vec::with_capacity(entities.size_hint().0);
         let mut first = 0;
         for (entity, reversed) in entities {
-            let count = drawing.get(entity).map_or(0, |entity| entity.geometry.segment_count()) as u32;
+            let count = drawing
+                .get(entity)
+                .map_or(0, |entity| entity.geometry.segment_count()) as u32;
             if count > 0 {
-                pieces.push(Piece { entity, reversed, first, count });
+                pieces.push(Piece {
+                    entity,
+                    reversed,
+                    first,
+                    count,
+                });
                 first += count;
             }
         }
@@ -83,28 +98,49 @@ impl Contour {
 
     /// False where there is nothing to cut: no segment is longer than `zero_length` (drawing units).
     pub fn has_length(&self, drawing: &Drawing, zero_length: f64) -> bool {
-        self.segments(drawing).any(|segment| segment.geometry.length() > zero_length)
+        self.segments(drawing)
+            .any(|segment| segment.geometry.length() > zero_length)
     }
 
     /// Segment `index` in the direction of travel, `None` past the end.
     pub fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
-        let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.range().end <= index))?;
-        segment_of(piece, &drawing.get(piece.entity)?.geometry, index - piece.first(), drawing.flat())
+        let piece = self.pieces.get(
+            self.pieces
+                .partition_point(|piece| piece.range().end <= index),
+        )?;
+        segment_of(
+            piece,
+            &drawing.get(piece.entity)?.geometry,
+            index - piece.first(),
+            drawing.flat(),
+        )
     }
 
     /// All segments in the direction of travel.
-    pub fn segments<'a>(&'a self, drawing: &'a Drawing) -> impl Iterator<Item = ContourSegment> + 'a {
+    pub fn segments<'a>(
+        &'a self,
+        drawing: &'a Drawing,
+    ) -> impl Iterator<Item = ContourSegment> + 'a {
         self.segments_in(drawing, 0..self.len())
     }
 
     /// The segments of a range of indices in the direction of travel.
-    pub fn segments_in<'a>(&'a self, drawing: &'a Drawing, range: Range<usize>) -> impl Iterator<Item = ContourSegment> + 'a {
-        let first = self.pieces.partition_point(|piece| piece.range().end <= range.start);
+    pub fn segments_in<'a>(
+        &'a self,
+        drawing: &'a Drawing,
+        range: Range<usize>,
+    ) -> impl Iterator<Item = ContourSegment> + 'a {
+        let first = self
+            .pieces
+            .partition_point(|piece| piece.range().end <= range.start);
         let flat = drawing.flat();
-        let pieces = self.pieces[first..].iter().take_while(move |piece| piece.first() < range.end);
+        let pieces = self.pieces[first..]
+            .iter()
+            .take_while(move |piece| piece.first() < range.end);
         pieces.flat_map(move |piece| {
             let geometry = drawing.get(piece.entity).map(|entity| &entity.geometry);
-            let along = range.start.saturating_sub(piece.first())..range.end.min(piece.range().end) - piece.first();
+            let along = range.start.saturating_sub(piece.first())
+                ..range.end.min(piece.range().end) - piece.first();
             along.filter_map(move |along| segment_of(piece, geometry?, along, flat))
         })
     }
@@ -112,13 +148,18 @@ impl Contour {
     /// Twice the signed area with the arcs counted in, positive counter-clockwise; meaningful for a closed contour.
     pub fn twice_area(&self, drawing: &Drawing) -> f64 {
         // Seen from a point of the contour itself, so that coordinates far from the origin cost no digits.
-        let origin = self.segment(drawing, 0).map_or_else(Point::origin, |first| first.geometry.start());
-        self.segments(drawing).map(|segment| segment.geometry.twice_area(origin)).sum()
+        let origin = self
+            .segment(drawing, 0)
+            .map_or_else(Point::origin, |first| first.geometry.start());
+        self.segments(drawing)
+            .map(|segment| segment.geometry.twice_area(origin))
+            .sum()
     }
 
     pub fn bounds(&self, drawing: &Drawing) -> Bounds {
         let mut bounds = Bounds::EMPTY;
-        self.segments(drawing).for_each(|segment| bounds.merge(&segment.geometry.bounds()));
+        self.segments(drawing)
+            .for_each(|segment| bounds.merge(&segment.geometry.bounds()));
         bounds
     }
 
@@ -126,18 +167,39 @@ impl Contour {
     pub fn reversed(&self) -> Contour {
         let mut first = 0;
         let pieces = self.pieces.iter().rev().map(|piece| {
-            let turned = Piece { reversed: !piece.reversed, first, ..*piece };
+            let turned = Piece {
+                reversed: !piece.reversed,
+                first,
+                ..*piece
+            };
             first += piece.count;
             turned
         });
-        Contour { pieces: pieces.collect(), closed: self.closed }
+        Contour {
+            pieces: pieces.collect(),
+            closed: self.closed,
+        }
     }
 }
 
 /// The segment `along` a piece in the direction of travel.
-fn segment_of(piece: &Piece, geometry: &Geometry, along: usize, flat: f64) -> Option<ContourSegment> {
-    let segment = if piece.reversed { piece.count().checked_sub(1 + along)? } else { along };
+fn segment_of(
+    piece: &Piece,
+    geometry: &Geometry,
+    along: usize,
+    flat: f64,
+) -> Option<ContourSegment> {
+    let segment = if piece.reversed {
+        piece.count().checked_sub(1 + along)?
+    } else {
+        along
+    };
     let own = geometry.segment_of(segment, flat)?;
     let geometry = if piece.reversed { own.reversed() } else { own };
-    Some(ContourSegment { entity: piece.entity, segment, reversed: piece.reversed, geometry })
+    Some(ContourSegment {
+        entity: piece.entity,
+        segment,
+        reversed: piece.reversed,
+        geometry,
+    })
 }

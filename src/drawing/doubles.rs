@@ -11,23 +11,50 @@ pub(super) const SAME_PLACE: f64 = 0.5;
 
 /// True when each segment of one entity lies within `tolerance` on that of the other in its turn; with `turned` the other is
 /// travelled against its own direction. `flat`: what rises less above its chord is a line.
-pub fn run_together(one: &Geometry, other: &Geometry, turned: bool, tolerance: f64, flat: f64) -> bool {
+pub fn run_together(
+    one: &Geometry,
+    other: &Geometry,
+    turned: bool,
+    tolerance: f64,
+    flat: f64,
+) -> bool {
     let count = one.segment_count();
     let same = |index: usize| {
         let beside = if turned { count - 1 - index } else { index };
-        let (Some(a), Some(b)) = (one.segment_of(index, flat), other.segment_of(beside, flat)) else { return false };
+        let (Some(a), Some(b)) = (one.segment_of(index, flat), other.segment_of(beside, flat))
+        else {
+            return false;
+        };
         let b = if turned { b.reversed() } else { b };
         let close = |share: f64| (a.point_at(share) - b.point_at(share)).norm() <= tolerance;
-        let kinds = matches!((a, b), (Segment::Line(_), Segment::Line(_)) | (Segment::Arc(_), Segment::Arc(_)));
+        let kinds = matches!(
+            (a, b),
+            (Segment::Line(_), Segment::Line(_)) | (Segment::Arc(_), Segment::Arc(_))
+        );
         kinds && [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().all(close)
     };
     count == other.segment_count() && (0..count).all(same)
 }
 
 /// Two entities with their ends in one place, as doubles or not.
-pub(super) fn are_doubles(drawing: &Drawing, one: EntityId, other: EntityId, tolerance: f64) -> bool {
-    let (Some(one), Some(other)) = (drawing.get(one), drawing.get(other)) else { return false };
-    [false, true].into_iter().any(|turned| run_together(&one.geometry, &other.geometry, turned, tolerance, drawing.flat()))
+pub(super) fn are_doubles(
+    drawing: &Drawing,
+    one: EntityId,
+    other: EntityId,
+    tolerance: f64,
+) -> bool {
+    let (Some(one), Some(other)) = (drawing.get(one), drawing.get(other)) else {
+        return false;
+    };
+    [false, true].into_iter().any(|turned| {
+        run_together(
+            &one.geometry,
+            &other.geometry,
+            turned,
+            tolerance,
+            drawing.flat(),
+        )
+    })
 }
 
 /// Orders entities by what they are and where they lie, not by when they were drawn: by their ends, by what lies between, at last by
@@ -36,29 +63,48 @@ pub(super) fn by_place(drawing: &Drawing, one: EntityId, other: EntityId) -> Ord
     if one == other {
         return Ordering::Equal;
     }
-    let (Some(a), Some(b)) = (drawing.get(one), drawing.get(other)) else { return one.cmp(&other) };
+    let (Some(a), Some(b)) = (drawing.get(one), drawing.get(other)) else {
+        return one.cmp(&other);
+    };
     let flat = drawing.flat();
     let numbers = |geometry: &Geometry| {
-        let (start, end) = geometry.ends().unwrap_or((Point::origin(), Point::origin()));
+        let (start, end) = geometry
+            .ends()
+            .unwrap_or((Point::origin(), Point::origin()));
         let turned = by_coordinates(&end, &start).is_lt();
         let (low, high) = if turned { (end, start) } else { (start, end) };
         let count = geometry.segment_count();
-        let shares = if turned { [0.75, 0.5, 0.25] } else { [0.25, 0.5, 0.75] };
+        let shares = if turned {
+            [0.75, 0.5, 0.25]
+        } else {
+            [0.25, 0.5, 0.75]
+        };
         let middle = shares.map(|share| {
             // The segment that a share of all of them falls into, and the share of it.
             let along = share * count as f64;
             let index = (along as usize).min(count.saturating_sub(1));
-            geometry.segment_of(index, flat).map_or(low, |segment| segment.point_at(along - index as f64))
+            geometry
+                .segment_of(index, flat)
+                .map_or(low, |segment| segment.point_at(along - index as f64))
         });
         [low, high, middle[0], middle[1], middle[2]]
     };
     let (of_a, of_b) = (numbers(&a.geometry), numbers(&b.geometry));
-    let differs = of_a.iter().zip(&of_b).map(|(p, q)| by_coordinates(p, q)).find(|order| order.is_ne());
+    let differs = of_a
+        .iter()
+        .zip(&of_b)
+        .map(|(p, q)| by_coordinates(p, q))
+        .find(|order| order.is_ne());
     let count = |geometry: &Geometry| geometry.segment_count();
     differs
         .unwrap_or(Ordering::Equal)
         .then_with(|| count(&a.geometry).cmp(&count(&b.geometry)))
-        .then_with(|| a.handle.len().cmp(&b.handle.len()).then_with(|| (*a.handle).cmp(&*b.handle)))
+        .then_with(|| {
+            a.handle
+                .len()
+                .cmp(&b.handle.len())
+                .then_with(|| (*a.handle).cmp(&*b.handle))
+        })
         .then(one.cmp(&other))
 }
 
@@ -82,16 +128,34 @@ pub(super) fn set_aside(joints: &Joints, pairs: &[(u32, u32)]) -> Doubles {
         partners.entry(one).or_default().push(other);
         partners.entry(other).or_default().push(one);
     }
-    let meets = |entity: u32| joints.count_met(entity, |other| partners.get(&entity).is_some_and(|doubles| doubles.contains(&other)));
-    let mut ranked: Vec<(Reverse<usize>, u32)> = partners.keys().map(|&entity| (Reverse(meets(entity)), entity)).collect();
-    ranked.sort_unstable_by(|(a, one), (b, other)| a.cmp(b).then_with(|| joints.by_place(*one, *other)));
+    let meets = |entity: u32| {
+        joints.count_met(entity, |other| {
+            partners
+                .get(&entity)
+                .is_some_and(|doubles| doubles.contains(&other))
+        })
+    };
+    let mut ranked: Vec<(Reverse<usize>, u32)> = partners
+        .keys()
+        .map(|&entity| (Reverse(meets(entity)), entity))
+        .collect();
+    ranked.sort_unstable_by(|(a, one), (b, other)| {
+        a.cmp(b).then_with(|| joints.by_place(*one, *other))
+    });
     let mut doubles = Doubles::default();
     let mut is_kept: FxHashMap<u32, bool> = FxHashMap::default();
     for (_, entity) in ranked {
         let of = partners.get(&entity).into_iter().flatten();
-        let is_double = of.into_iter().any(|other| is_kept.get(other) == Some(&true));
+        let is_double = of
+            .into_iter()
+            .any(|other| is_kept.get(other) == Some(&true));
         is_kept.insert(entity, !is_double);
-        if is_double { &mut doubles.aside } else { &mut doubles.kept }.push(entity);
+        if is_double {
+            &mut doubles.aside
+        } else {
+            &mut doubles.kept
+        }
+        .push(entity);
     }
     doubles
 }

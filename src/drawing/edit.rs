@@ -104,7 +104,9 @@ pub struct Delta {
 
 impl Delta {
     pub fn all() -> Delta {
-        Delta { touched: vec![Touched::All] }
+        Delta {
+            touched: vec![Touched::All],
+        }
     }
 }
 
@@ -128,11 +130,25 @@ impl std::fmt::Display for ChangeError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             ChangeError::UnknownEntity => write!(f, "there is no such entity"),
-            ChangeError::NotEditable => write!(f, "the entity is a part of a block or fitted to a curve, and cannot be edited"),
-            ChangeError::OnlyLines => write!(f, "the entity is a 3D polyline, whose vertices have no bulge"),
-            ChangeError::NotAPolyline => write!(f, "the entity is not a polyline and has no vertices"),
-            ChangeError::OutOfRange { index, count } => write!(f, "vertex {index} is out of range, the polyline has {count}"),
-            ChangeError::NotFinite => write!(f, "a coordinate, radius or bulge is not a finite number, or a radius is not positive"),
+            ChangeError::NotEditable => write!(
+                f,
+                "the entity is a part of a block or fitted to a curve, and cannot be edited"
+            ),
+            ChangeError::OnlyLines => write!(
+                f,
+                "the entity is a 3D polyline, whose vertices have no bulge"
+            ),
+            ChangeError::NotAPolyline => {
+                write!(f, "the entity is not a polyline and has no vertices")
+            }
+            ChangeError::OutOfRange { index, count } => write!(
+                f,
+                "vertex {index} is out of range, the polyline has {count}"
+            ),
+            ChangeError::NotFinite => write!(
+                f,
+                "a coordinate, radius or bulge is not a finite number, or a radius is not positive"
+            ),
         }
     }
 }
@@ -142,7 +158,13 @@ impl Drawing {
     /// stays, else the tail of the polyline.
     ///
     /// Errors: no such entity, not a polyline, a range past its end, a number that is not finite; nothing is changed then.
-    pub fn splice(&mut self, entity: EntityId, start: usize, delete_count: usize, insert: &[Vertex]) -> Result<Touched, ChangeError> {
+    pub fn splice(
+        &mut self,
+        entity: EntityId,
+        start: usize,
+        delete_count: usize,
+        insert: &[Vertex],
+    ) -> Result<Touched, ChangeError> {
         let count = match self.get(entity).map(|entity| &entity.geometry) {
             None => return Err(ChangeError::UnknownEntity),
             Some(Geometry::Polyline { vertices, .. }) => vertices.len(),
@@ -151,7 +173,10 @@ impl Drawing {
         let end = start
             .checked_add(delete_count)
             .filter(|&end| end <= count)
-            .ok_or(ChangeError::OutOfRange { index: start.saturating_add(delete_count), count })?;
+            .ok_or(ChangeError::OutOfRange {
+                index: start.saturating_add(delete_count),
+                count,
+            })?;
         if !insert.iter().all(Vertex::is_finite) {
             return Err(ChangeError::NotFinite);
         }
@@ -161,7 +186,12 @@ impl Drawing {
         } else {
             vertices.splice(start..end, insert.iter().copied());
         }
-        Ok(Touched::Vertices { entity, start, removed: delete_count, inserted: insert.len() })
+        Ok(Touched::Vertices {
+            entity,
+            start,
+            removed: delete_count,
+            inserted: insert.len(),
+        })
     }
 
     /// Applies a whole edit: all of it, or nothing and the first error. What is not editable refuses every change.
@@ -175,20 +205,60 @@ impl Drawing {
             let old = result.get(id).ok_or(ChangeError::UnknownEntity)?;
             result.accepts(change)?;
             match *change {
-                Change::SetVertex { entity, index, vertex } => delta.touched.push(result.splice(entity, index, 1, &[vertex])?),
-                Change::RemoveVertex { entity, index } => moving.entry(entity).or_default().push((index, None)),
-                Change::InsertVertex { entity, index, vertex } => moving.entry(entity).or_default().push((index, Some(vertex))),
+                Change::SetVertex {
+                    entity,
+                    index,
+                    vertex,
+                } => delta
+                    .touched
+                    .push(result.splice(entity, index, 1, &[vertex])?),
+                Change::RemoveVertex { entity, index } => {
+                    moving.entry(entity).or_default().push((index, None))
+                }
+                Change::InsertVertex {
+                    entity,
+                    index,
+                    vertex,
+                } => moving
+                    .entry(entity)
+                    .or_default()
+                    .push((index, Some(vertex))),
                 Change::SetLine { start, end, .. } => {
-                    let entity = Entity { geometry: Geometry::Line { start, end }, ..old.clone() };
+                    let entity = Entity {
+                        geometry: Geometry::Line { start, end },
+                        ..old.clone()
+                    };
                     result.replace_checked(id, entity, &mut delta)?;
                 }
-                Change::SetArc { center, radius, start_angle, end_angle, .. } => {
-                    let entity = Entity { geometry: Geometry::Arc { center, radius, start_angle, end_angle }, ..old.clone() };
+                Change::SetArc {
+                    center,
+                    radius,
+                    start_angle,
+                    end_angle,
+                    ..
+                } => {
+                    let entity = Entity {
+                        geometry: Geometry::Arc {
+                            center,
+                            radius,
+                            start_angle,
+                            end_angle,
+                        },
+                        ..old.clone()
+                    };
                     result.replace_checked(id, entity, &mut delta)?;
                 }
                 Change::SetClosed { closed, .. } => {
-                    let Geometry::Polyline { vertices, .. } = &old.geometry else { return Err(ChangeError::NotAPolyline) };
-                    let entity = Entity { geometry: Geometry::Polyline { closed, vertices: vertices.clone() }, ..old.clone() };
+                    let Geometry::Polyline { vertices, .. } = &old.geometry else {
+                        return Err(ChangeError::NotAPolyline);
+                    };
+                    let entity = Entity {
+                        geometry: Geometry::Polyline {
+                            closed,
+                            vertices: vertices.clone(),
+                        },
+                        ..old.clone()
+                    };
                     result.replace_checked(id, entity, &mut delta)?;
                 }
                 Change::RemoveEntity { .. } | Change::AddEntity { .. } => {}
@@ -211,8 +281,13 @@ impl Drawing {
             })
             .collect();
         result.remove_all(&gone);
-        let removed = edit.changes.iter().filter(|change| matches!(change, Change::RemoveEntity { .. }));
-        delta.touched.extend(removed.map(|change| Touched::Removed { entity: change.entity() }));
+        let removed = edit
+            .changes
+            .iter()
+            .filter(|change| matches!(change, Change::RemoveEntity { .. }));
+        delta.touched.extend(removed.map(|change| Touched::Removed {
+            entity: change.entity(),
+        }));
         *self = result;
         Ok(delta)
     }
@@ -224,7 +299,12 @@ impl Drawing {
             _ => 0.0,
         };
         match change.entity() {
-            entity if matches!(change, Change::RemoveEntity { .. } | Change::AddEntity { .. }) => {
+            entity
+                if matches!(
+                    change,
+                    Change::RemoveEntity { .. } | Change::AddEntity { .. }
+                ) =>
+            {
                 if self.is_whole(entity) {
                     Ok(())
                 } else {
@@ -239,7 +319,11 @@ impl Drawing {
 
     /// Vertices of one polyline come and go, in one pass over it. A vertex comes in before the one at its index; of several
     /// in one place the last stands first.
-    fn move_vertices(&mut self, entity: EntityId, mut moving: Vec<Moving>) -> Result<Touched, ChangeError> {
+    fn move_vertices(
+        &mut self,
+        entity: EntityId,
+        mut moving: Vec<Moving>,
+    ) -> Result<Touched, ChangeError> {
         let count = match self.get(entity).map(|entity| &entity.geometry) {
             None => return Err(ChangeError::UnknownEntity),
             Some(Geometry::Polyline { vertices, .. }) => vertices.len(),
@@ -248,7 +332,10 @@ impl Drawing {
         for &(index, vertex) in &moving {
             let behind = index.saturating_add(usize::from(vertex.is_none()));
             if behind > count {
-                return Err(ChangeError::OutOfRange { index: behind, count });
+                return Err(ChangeError::OutOfRange {
+                    index: behind,
+                    count,
+                });
             }
             if vertex.is_some_and(|vertex| !vertex.is_finite()) {
                 return Err(ChangeError::NotFinite);
@@ -257,7 +344,11 @@ impl Drawing {
         moving.reverse();
         moving.sort_by_key(|(index, _)| *index);
         let first = moving.first().map_or(0, |(index, _)| *index);
-        let end = moving.iter().map(|(index, vertex)| index + usize::from(vertex.is_none())).max().unwrap_or(0);
+        let end = moving
+            .iter()
+            .map(|(index, vertex)| index + usize::from(vertex.is_none()))
+            .max()
+            .unwrap_or(0);
         let vertices = self.vertices_mut(entity).ok_or(ChangeError::NotAPolyline)?;
         let mut fresh = Vec::with_capacity(end - first + moving.len());
         let mut at = 0;
@@ -274,12 +365,21 @@ impl Drawing {
         fresh.extend(moving.drain(at..).filter_map(|(_, vertex)| vertex));
         let inserted = fresh.len();
         vertices.splice(first..end, fresh);
-        Ok(Touched::Vertices { entity, start: first, removed: end - first, inserted })
+        Ok(Touched::Vertices {
+            entity,
+            start: first,
+            removed: end - first,
+            inserted,
+        })
     }
 
     /// Adds entities, each behind another in machining order (of several behind one the last comes first), on its layer and
     /// with its role, under a handle made from its own.
-    fn add_all_next_to<'a>(&mut self, added: impl Iterator<Item = (EntityId, &'a Geometry)>, delta: &mut Delta) -> Result<(), ChangeError> {
+    fn add_all_next_to<'a>(
+        &mut self,
+        added: impl Iterator<Item = (EntityId, &'a Geometry)>,
+        delta: &mut Delta,
+    ) -> Result<(), ChangeError> {
         let mut behind: FxHashMap<EntityId, Vec<EntityId>> = FxHashMap::default();
         for (after, geometry) in added {
             if !geometry.is_sound() {
@@ -294,7 +394,11 @@ impl Drawing {
                 Geometry::Text { .. } => Kind::Text,
             };
             // At the end for now: a place in the middle costs the length of the order, for each.
-            let entity = self.push(Entity { geometry: geometry.clone(), kind, ..model });
+            let entity = self.push(Entity {
+                geometry: geometry.clone(),
+                kind,
+                ..model
+            });
             behind.entry(after).or_default().push(entity);
             delta.touched.push(Touched::Entity { entity });
         }
@@ -305,14 +409,20 @@ impl Drawing {
             self.order.reserve(old.len());
             for &id in kept {
                 self.order.push(id);
-                self.order.extend(behind.get(&id).into_iter().flatten().rev());
+                self.order
+                    .extend(behind.get(&id).into_iter().flatten().rev());
             }
             self.rank_anew();
         }
         Ok(())
     }
 
-    fn replace_checked(&mut self, id: EntityId, entity: Entity, delta: &mut Delta) -> Result<(), ChangeError> {
+    fn replace_checked(
+        &mut self,
+        id: EntityId,
+        entity: Entity,
+        delta: &mut Delta,
+    ) -> Result<(), ChangeError> {
         if !entity.geometry.is_sound() {
             return Err(ChangeError::NotFinite);
         }

@@ -12,7 +12,10 @@ pub(super) const ONE_POINT: f64 = 1e-6;
 /// Both ends of an entity, start first. Most drawings have them for most entities, so none is a point that is no number.
 pub(super) type Ends = (Point, Point);
 
-pub(super) const NO_ENDS: Ends = (Point::new(f64::NAN, f64::NAN), Point::new(f64::NAN, f64::NAN));
+pub(super) const NO_ENDS: Ends = (
+    Point::new(f64::NAN, f64::NAN),
+    Point::new(f64::NAN, f64::NAN),
+);
 
 pub(super) fn has_ends(ends: &Ends) -> bool {
     !ends.0.x.is_nan()
@@ -78,11 +81,18 @@ impl Cells {
     }
 
     fn of_side(join: f64, side: f64) -> Cells {
-        Cells { join, per_unit: 1.0 / (side * join), near_border: 1.001 / side }
+        Cells {
+            join,
+            per_unit: 1.0 / (side * join),
+            near_border: 1.001 / side,
+        }
     }
 
     pub(super) fn of(&self, point: Point) -> Cell {
-        (whole(point.x * self.per_unit), whole(point.y * self.per_unit))
+        (
+            whole(point.x * self.per_unit),
+            whole(point.y * self.per_unit),
+        )
     }
 
     /// The cell of a point, and those beside it in which something may be within the join tolerance.
@@ -100,15 +110,28 @@ impl Cells {
         };
         let ((column, left_right), (row, up_down)) = (along(point.x), along(point.y));
         let beside = [(0, 0), (left_right, 0), (0, up_down), (left_right, up_down)];
-        let is_there = [true, left_right != 0, up_down != 0, left_right != 0 && up_down != 0];
+        let is_there = [
+            true,
+            left_right != 0,
+            up_down != 0,
+            left_right != 0 && up_down != 0,
+        ];
         let cell = move |(x, y): (i64, i64)| (column.saturating_add(x), row.saturating_add(y));
-        beside.into_iter().zip(is_there).filter(|(_, is_there)| *is_there).map(move |(at, _)| cell(at))
+        beside
+            .into_iter()
+            .zip(is_there)
+            .filter(|(_, is_there)| *is_there)
+            .map(move |(at, _)| cell(at))
     }
 
     /// The distance of two ends; 0 where they lie in one point.
     pub(super) fn distance(&self, a: Point, b: Point) -> f64 {
         let distance = (a - b).norm();
-        if distance <= ONE_POINT * self.join { 0.0 } else { distance }
+        if distance <= ONE_POINT * self.join {
+            0.0
+        } else {
+            distance
+        }
     }
 }
 
@@ -137,7 +160,12 @@ impl Lists {
 
     fn of(&self, list: usize) -> impl Iterator<Item = End> + '_ {
         let first = self.first.get(list).copied().unwrap_or(NONE);
-        let follows = |&end: &u32| self.next.get(end as usize).copied().filter(|&end| end != NONE);
+        let follows = |&end: &u32| {
+            self.next
+                .get(end as usize)
+                .copied()
+                .filter(|&end| end != NONE)
+        };
         std::iter::successors(Some(first).filter(|&end| end != NONE), follows).map(End)
     }
 
@@ -148,8 +176,12 @@ impl Lists {
             self.first[list] = next;
             return true;
         }
-        let before = self.of(list).find(|other| self.next[other.0 as usize] == end.0);
-        before.map(|before| self.next[before.0 as usize] = next).is_some()
+        let before = self
+            .of(list)
+            .find(|other| self.next[other.0 as usize] == end.0);
+        before
+            .map(|before| self.next[before.0 as usize] = next)
+            .is_some()
     }
 }
 
@@ -171,7 +203,13 @@ pub(super) struct Buckets {
 impl Buckets {
     /// For the ends of entities numbered below `entities`, about `count` of them.
     pub(super) fn new(entities: usize, count: usize) -> Buckets {
-        Buckets { lists: Lists { first: vec![NONE; count.next_power_of_two()], next: vec![NONE; 2 * entities] }, count: 0 }
+        Buckets {
+            lists: Lists {
+                first: vec![NONE; count.next_power_of_two()],
+                next: vec![NONE; 2 * entities],
+            },
+            count: 0,
+        }
     }
 
     /// True where lists have become long because ends came.
@@ -225,7 +263,10 @@ impl Numbered {
         let ends = 2 * entities;
         let hashes = count.next_power_of_two();
         Numbered {
-            lists: Lists { first: Vec::with_capacity(count), next: vec![NONE; ends] },
+            lists: Lists {
+                first: Vec::with_capacity(count),
+                next: vec![NONE; ends],
+            },
             by_hash: vec![NONE; hashes],
             is_there: vec![0; hashes.div_ceil(64)],
             of_end: vec![NONE; ends],
@@ -260,7 +301,11 @@ impl Numbered {
 
     /// The lists of more than `count` ends.
     pub(super) fn long_lists(&self, count: usize) -> impl Iterator<Item = usize> + '_ {
-        self.lengths.iter().enumerate().filter(move |(_, length)| **length as usize > count).map(|(list, _)| list)
+        self.lengths
+            .iter()
+            .enumerate()
+            .filter(move |(_, length)| **length as usize > count)
+            .map(|(list, _)| list)
     }
 
     /// The ends of the cell of an end that is in a list, and of others with the same hash.
@@ -272,7 +317,11 @@ impl Numbered {
     pub(super) fn of_cell(&self, cell: Cell) -> impl Iterator<Item = End> + '_ {
         let hash = hash(cell, self.by_hash.len());
         let is_there = self.is_there[hash / 64] >> (hash % 64) & 1 == 1;
-        let list = if is_there { self.by_hash[hash] as usize } else { usize::MAX };
+        let list = if is_there {
+            self.by_hash[hash] as usize
+        } else {
+            usize::MAX
+        };
         self.lists.of(list)
     }
 }

@@ -15,7 +15,10 @@ pub struct Vertex {
 
 impl Vertex {
     pub fn new(x: f64, y: f64, bulge: f64) -> Vertex {
-        Vertex { point: Point::new(x, y), bulge }
+        Vertex {
+            point: Point::new(x, y),
+            bulge,
+        }
     }
 
     pub fn is_finite(&self) -> bool {
@@ -24,7 +27,17 @@ impl Vertex {
 }
 
 /// What an outline is of: decides on which side of it the wire runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Hash,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// A die opening: the wire runs inside.
@@ -69,7 +82,10 @@ pub enum Geometry {
 impl Geometry {
     /// What there is to see of an arc without a radius: nothing that is cut.
     pub fn point(at: Point) -> Geometry {
-        Geometry::Text { at, text: String::new() }
+        Geometry::Text {
+            at,
+            text: String::new(),
+        }
     }
 
     /// Number of segments: 0 for text and for a polyline of less than two vertices.
@@ -105,12 +121,22 @@ impl Geometry {
             }
             _ if index > 0 => None,
             Geometry::Line { start, end } => Some(Segment::line(*start, *end)),
-            Geometry::Arc { center, radius, start_angle, end_angle } => {
+            Geometry::Arc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+            } => {
                 let forward = crate::geometry::positive_angle(end_angle - start_angle);
                 let sweep = if forward == 0.0 { TAU } else { forward };
-                Some(Segment::Arc(Arc::from_center(*center, *radius, *start_angle, sweep)).straightened(flat))
+                Some(
+                    Segment::Arc(Arc::from_center(*center, *radius, *start_angle, sweep))
+                        .straightened(flat),
+                )
             }
-            Geometry::Circle { center, radius } => Some(Segment::Arc(Arc::from_center(*center, *radius, 0.0, TAU))),
+            Geometry::Circle { center, radius } => {
+                Some(Segment::Arc(Arc::from_center(*center, *radius, 0.0, TAU)))
+            }
             Geometry::Text { .. } => None,
         }
     }
@@ -130,7 +156,9 @@ impl Geometry {
         match self {
             Geometry::Polyline { closed, .. } => *closed,
             Geometry::Circle { .. } => true,
-            Geometry::Arc { .. } => self.segment(0).is_some_and(|s| s.as_arc().is_some_and(Arc::is_full_turn)),
+            Geometry::Arc { .. } => self
+                .segment(0)
+                .is_some_and(|s| s.as_arc().is_some_and(Arc::is_full_turn)),
             Geometry::Line { .. } | Geometry::Text { .. } => false,
         }
     }
@@ -139,9 +167,13 @@ impl Geometry {
     pub fn ends(&self) -> Option<(Point, Point)> {
         match self {
             Geometry::Line { start, end } => Some((*start, *end)),
-            Geometry::Circle { .. } | Geometry::Text { .. } | Geometry::Polyline { closed: true, .. } => None,
+            Geometry::Circle { .. }
+            | Geometry::Text { .. }
+            | Geometry::Polyline { closed: true, .. } => None,
             Geometry::Polyline { vertices, .. } if vertices.len() < 2 => None,
-            Geometry::Polyline { vertices, .. } => Some((vertices.first()?.point, vertices.last()?.point)),
+            Geometry::Polyline { vertices, .. } => {
+                Some((vertices.first()?.point, vertices.last()?.point))
+            }
             Geometry::Arc { .. } => {
                 let segment = self.segment(0)?;
                 let is_full_turn = segment.as_arc().is_some_and(Arc::is_full_turn);
@@ -153,7 +185,8 @@ impl Geometry {
     /// The box of all segments, see [`Geometry::segment_of`], or of a text's place.
     pub fn bounds(&self, flat: f64) -> Bounds {
         let mut bounds = Bounds::EMPTY;
-        self.segments_of(flat).for_each(|segment| bounds.merge(&segment.bounds()));
+        self.segments_of(flat)
+            .for_each(|segment| bounds.merge(&segment.bounds()));
         if let Geometry::Text { at, .. } = self {
             bounds.include(*at);
         }
@@ -166,10 +199,21 @@ impl Geometry {
         match self {
             Geometry::Polyline { vertices, .. } => vertices.iter().all(Vertex::is_finite),
             Geometry::Line { start, end } => finite(start) && finite(end),
-            Geometry::Arc { center, radius, start_angle, end_angle } => {
-                finite(center) && radius.is_finite() && *radius > 0.0 && start_angle.is_finite() && end_angle.is_finite()
+            Geometry::Arc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+            } => {
+                finite(center)
+                    && radius.is_finite()
+                    && *radius > 0.0
+                    && start_angle.is_finite()
+                    && end_angle.is_finite()
             }
-            Geometry::Circle { center, radius } => finite(center) && radius.is_finite() && *radius > 0.0,
+            Geometry::Circle { center, radius } => {
+                finite(center) && radius.is_finite() && *radius > 0.0
+            }
             Geometry::Text { at, .. } => finite(at),
         }
     }

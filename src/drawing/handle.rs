@@ -41,9 +41,10 @@ impl Deref for Handle {
 
     fn deref(&self) -> &str {
         match &self.0 {
-            Held::Short { length, bytes } => {
-                bytes.get(..usize::from(*length)).and_then(|bytes| std::str::from_utf8(bytes).ok()).unwrap_or_default()
-            }
+            Held::Short { length, bytes } => bytes
+                .get(..usize::from(*length))
+                .and_then(|bytes| std::str::from_utf8(bytes).ok())
+                .unwrap_or_default(),
             Held::Long(text) => text,
         }
     }
@@ -64,9 +65,13 @@ impl From<String> for Handle {
 impl PartialEq for Handle {
     fn eq(&self, other: &Handle) -> bool {
         match (&self.0, &other.0) {
-            (Held::Short { length, bytes }, Held::Short { length: other_length, bytes: other_bytes }) => {
-                length == other_length && bytes == other_bytes
-            }
+            (
+                Held::Short { length, bytes },
+                Held::Short {
+                    length: other_length,
+                    bytes: other_bytes,
+                },
+            ) => length == other_length && bytes == other_bytes,
             _ => **self == **other,
         }
     }
@@ -117,8 +122,15 @@ mod tests {
     #[test]
     fn a_handle_is_the_text_it_was_made_of() {
         assert!(size_of::<Handle>() == 16);
-        for text in ["", "2A", "FFFFFFFFFFFFFF", "FFFFFFFFFFFFFFF", "1234567890ABCDEF", "führung-äöü", "a longer name of a drawing's own"]
-        {
+        for text in [
+            "",
+            "2A",
+            "FFFFFFFFFFFFFF",
+            "FFFFFFFFFFFFFFF",
+            "1234567890ABCDEF",
+            "führung-äöü",
+            "a longer name of a drawing's own",
+        ] {
             let handle = Handle::new(text);
             assert_eq!(&*handle, text);
             assert_eq!(handle.to_string(), text);

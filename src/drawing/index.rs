@@ -34,8 +34,16 @@ impl ContourIndex {
     /// Looks at every segment once; arcs with a radius below `threshold` are remembered as tight.
     pub fn new(drawing: &Drawing, contour: &Contour, threshold: f64) -> ContourIndex {
         let segments = contour.len();
-        let origin = contour.segment(drawing, 0).map_or_else(Point::origin, |first| first.geometry.start());
-        let mut index = ContourIndex { runs: Vec::with_capacity(segments.div_ceil(RUN)), tight: Vec::new(), segments, origin, threshold };
+        let origin = contour
+            .segment(drawing, 0)
+            .map_or_else(Point::origin, |first| first.geometry.start());
+        let mut index = ContourIndex {
+            runs: Vec::with_capacity(segments.div_ceil(RUN)),
+            tight: Vec::new(),
+            segments,
+            origin,
+            threshold,
+        };
         index.extend(drawing, contour);
         index
     }
@@ -60,7 +68,8 @@ impl ContourIndex {
 
     /// How many tight arcs come before the segment at `index`.
     fn tight_before(&self, index: usize) -> usize {
-        self.tight.partition_point(|&tight| (tight as usize) < index)
+        self.tight
+            .partition_point(|&tight| (tight as usize) < index)
     }
 
     pub fn len(&self) -> usize {
@@ -81,12 +90,19 @@ impl ContourIndex {
     }
 
     fn look(&self, drawing: &Drawing, contour: &Contour, run: usize, tight: &mut Vec<u32>) -> Run {
-        let mut found = Run { bounds: Bounds::EMPTY, twice_area: 0.0 };
+        let mut found = Run {
+            bounds: Bounds::EMPTY,
+            twice_area: 0.0,
+        };
         let range = self.range_of(run);
         for (index, segment) in range.clone().zip(contour.segments_in(drawing, range)) {
             found.bounds.merge(&segment.geometry.bounds());
             found.twice_area += segment.geometry.twice_area(self.origin);
-            if segment.geometry.as_arc().is_some_and(|arc| arc.radius < self.threshold) {
+            if segment
+                .geometry
+                .as_arc()
+                .is_some_and(|arc| arc.radius < self.threshold)
+            {
                 tight.push(index as u32);
             }
         }
@@ -104,7 +120,11 @@ impl ContourIndex {
         let twice_area: f64 = self.runs.iter().map(|run| run.twice_area).sum();
         let bounds = self.bounds();
         let least = ROUNDING * (bounds.width() + bounds.height()).powi(2);
-        if twice_area.abs() > least { twice_area } else { 0.0 }
+        if twice_area.abs() > least {
+            twice_area
+        } else {
+            0.0
+        }
     }
 
     /// Number of runs.
@@ -125,7 +145,11 @@ impl ContourIndex {
     pub fn bounds_about(&self, range: Range<usize>) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         let runs = range.start / RUN..range.end.div_ceil(RUN).min(self.runs.len());
-        self.runs.get(runs).unwrap_or_default().iter().for_each(|run| bounds.merge(&run.bounds));
+        self.runs
+            .get(runs)
+            .unwrap_or_default()
+            .iter()
+            .for_each(|run| bounds.merge(&run.bounds));
         bounds
     }
 
@@ -136,6 +160,10 @@ impl ContourIndex {
 
     /// Ranges of segments of which some may come near `area`.
     pub fn near<'a>(&'a self, area: &'a Bounds) -> impl Iterator<Item = Range<usize>> + 'a {
-        self.runs.iter().enumerate().filter(|(_, run)| run.bounds.touches(area)).map(|(run, _)| self.range_of(run))
+        self.runs
+            .iter()
+            .enumerate()
+            .filter(|(_, run)| run.bounds.touches(area))
+            .map(|(run, _)| self.range_of(run))
     }
 }

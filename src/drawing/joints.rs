@@ -46,7 +46,12 @@ struct Dense {
 
 impl<'a> Joints<'a> {
     /// Of `entities` with the ends that `ends_of` holds by id. Doubles are set aside: they have no joints.
-    pub fn new(drawing: &'a Drawing, cells: Cells, entities: &'a [EntityId], ends_of: &[Ends]) -> Joints<'a> {
+    pub fn new(
+        drawing: &'a Drawing,
+        cells: Cells,
+        entities: &'a [EntityId],
+        ends_of: &[Ends],
+    ) -> Joints<'a> {
         let count = entities.len();
         let mut places = Vec::with_capacity(2 * count);
         let mut all = Numbered::new(count, 2 * count);
@@ -54,16 +59,29 @@ impl<'a> Joints<'a> {
             let ends = ends_of.get(id.0 as usize).copied().unwrap_or(NO_ENDS);
             places.extend([ends.0, ends.1]);
             if has_ends(&ends) {
-                End::both(at).into_iter().for_each(|end| all.insert(cells.of(end.of(ends)), end));
+                End::both(at)
+                    .into_iter()
+                    .for_each(|end| all.insert(cells.of(end.of(ends)), end));
             }
         }
-        let mut joints = Joints { drawing, entities, cells, places, all, dense: None, met: Vec::new(), doubles: Doubles::default() };
+        let mut joints = Joints {
+            drawing,
+            entities,
+            cells,
+            places,
+            all,
+            dense: None,
+            met: Vec::new(),
+            doubles: Doubles::default(),
+        };
         joints.sort_dense();
         let pairs = joints.meet();
         if !pairs.is_empty() {
             joints.doubles = doubles::set_aside(&joints, &pairs);
             for &double in &joints.doubles.aside {
-                End::both(double).into_iter().for_each(|end| joints.places[end.index()] = NO_ENDS.0);
+                End::both(double)
+                    .into_iter()
+                    .for_each(|end| joints.places[end.index()] = NO_ENDS.0);
             }
             joints.sort_dense();
             joints.meet();
@@ -92,7 +110,10 @@ impl<'a> Joints<'a> {
     /// The one end that an end can be joined to, where that one can be joined to no other either.
     pub fn partner(&self, end: End) -> Option<End> {
         let met = *self.met.get(end.index())?;
-        let is_mutual = self.met.get(met as usize).is_some_and(|&back| back as usize == end.index());
+        let is_mutual = self
+            .met
+            .get(met as usize)
+            .is_some_and(|&back| back as usize == end.index());
         is_mutual.then(|| End::at(met as usize))
     }
 
@@ -117,18 +138,26 @@ impl<'a> Joints<'a> {
     }
 
     pub fn is_crowded(&self, end: End) -> bool {
-        self.dense.as_ref().is_some_and(|dense| dense.is_crowded(self.place(end)))
+        self.dense
+            .as_ref()
+            .is_some_and(|dense| dense.is_crowded(self.place(end)))
     }
 
     pub fn by_place(&self, one: u32, other: u32) -> Ordering {
-        doubles::by_place(self.drawing, self.entities[one as usize], self.entities[other as usize])
+        doubles::by_place(
+            self.drawing,
+            self.entities[one as usize],
+            self.entities[other as usize],
+        )
     }
 
     /// Number of ends of an entity that meet the end of another one in one point, for which `leaves_out` does not hold.
     pub fn count_met(&self, entity: u32, leaves_out: impl Fn(u32) -> bool) -> usize {
         let meets = |&end: &End| {
             let mut met = false;
-            self.each_near(end, |other, distance| met |= distance == 0.0 && other.entity() != entity && !leaves_out(other.entity()));
+            self.each_near(end, |other, distance| {
+                met |= distance == 0.0 && other.entity() != entity && !leaves_out(other.entity())
+            });
             met
         };
         End::both(entity).iter().filter(|end| meets(end)).count()
@@ -150,55 +179,99 @@ impl<'a> Joints<'a> {
                 return;
             }
             let distance = self.cells.distance(at, place);
-            if distance <= self.cells.join && cells.of(at) == cell && (other.entity() != end.entity() || self.leads_round(end.entity())) {
+            if distance <= self.cells.join
+                && cells.of(at) == cell
+                && (other.entity() != end.entity() || self.leads_round(end.entity()))
+            {
                 look(other, distance);
             }
         };
         for cell in self.cells.about(place) {
             let is_beside = std::mem::take(&mut is_own);
-            if self.dense.as_ref().is_some_and(|dense| dense.large.contains(&cell)) {
+            if self
+                .dense
+                .as_ref()
+                .is_some_and(|dense| dense.large.contains(&cell))
+            {
                 is_dense = true;
             } else if is_beside {
-                self.all.beside(end).for_each(|other| see(other, &self.cells, cell));
+                self.all
+                    .beside(end)
+                    .for_each(|other| see(other, &self.cells, cell));
             } else {
-                self.all.of_cell(cell).for_each(|other| see(other, &self.cells, cell));
+                self.all
+                    .of_cell(cell)
+                    .for_each(|other| see(other, &self.cells, cell));
             }
         }
         if let Some(dense) = self.dense.as_ref().filter(|_| is_dense) {
-            for cell in dense.cells.about(place).filter(|cell| !dense.crowded.contains_key(cell)) {
-                dense.ends.of_cell(cell).for_each(|other| see(other, &dense.cells, cell));
+            for cell in dense
+                .cells
+                .about(place)
+                .filter(|cell| !dense.crowded.contains_key(cell))
+            {
+                dense
+                    .ends
+                    .of_cell(cell)
+                    .for_each(|other| see(other, &dense.cells, cell));
             }
         }
     }
 
     /// True when an entity whose own ends touch really leads round, and is not just shorter than the join tolerance.
     pub fn leads_round(&self, entity: u32) -> bool {
-        let Some(geometry) = self.drawing.get(self.entities[entity as usize]).map(|entity| &entity.geometry) else { return false };
+        let Some(geometry) = self
+            .drawing
+            .get(self.entities[entity as usize])
+            .map(|entity| &entity.geometry)
+        else {
+            return false;
+        };
         geometry.segment_count() > 2
-            || geometry.segments_of(self.drawing.flat()).any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
+            || geometry
+                .segments_of(self.drawing.flat())
+                .any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
     }
 
     /// True when all of an entity lies within the join tolerance about a place.
     pub fn is_crumb(&self, entity: u32, about: Point) -> bool {
         let near = |point: Point| (point - about).norm() <= self.cells.join;
-        self.drawing.get(self.entities[entity as usize]).is_some_and(|entity| {
-            entity
-                .geometry
-                .segments_of(self.drawing.flat())
-                .all(|segment| [0.0, 0.5, 1.0].iter().all(|&share| near(segment.point_at(share))))
-        })
+        self.drawing
+            .get(self.entities[entity as usize])
+            .is_some_and(|entity| {
+                entity
+                    .geometry
+                    .segments_of(self.drawing.flat())
+                    .all(|segment| {
+                        [0.0, 0.5, 1.0]
+                            .iter()
+                            .all(|&share| near(segment.point_at(share)))
+                    })
+            })
     }
 
     /// The direction in which an entity leaves one of its ends, radians from −π to π.
     pub fn heading(&self, end: End) -> f64 {
-        let Some(geometry) = self.drawing.get(self.entities[end.entity() as usize]).map(|entity| &entity.geometry) else { return 0.0 };
+        let Some(geometry) = self
+            .drawing
+            .get(self.entities[end.entity() as usize])
+            .map(|entity| &entity.geometry)
+        else {
+            return 0.0;
+        };
         let flat = self.drawing.flat();
         let segment = if end.is_start() {
             geometry.segment_of(0, flat)
         } else {
             geometry.segment_of(geometry.segment_count().saturating_sub(1), flat)
         };
-        let way = segment.map(|segment| if end.is_start() { segment.start_tangent() } else { -segment.end_tangent() });
+        let way = segment.map(|segment| {
+            if end.is_start() {
+                segment.start_tangent()
+            } else {
+                -segment.end_tangent()
+            }
+        });
         way.map_or(0.0, |way| way.y.atan2(way.x))
     }
 
@@ -206,8 +279,16 @@ impl<'a> Joints<'a> {
     fn sort_dense(&mut self) {
         self.dense = None;
         let mut counts: FxHashMap<Cell, Vec<End>> = FxHashMap::default();
-        for end in self.all.long_lists(DENSE).flat_map(|list| self.all.of_list(list)).filter(|&end| !self.place(end).x.is_nan()) {
-            counts.entry(self.cells.of(self.place(end))).or_default().push(end);
+        for end in self
+            .all
+            .long_lists(DENSE)
+            .flat_map(|list| self.all.of_list(list))
+            .filter(|&end| !self.place(end).x.is_nan())
+        {
+            counts
+                .entry(self.cells.of(self.place(end)))
+                .or_default()
+                .push(end);
         }
         counts.retain(|_, ends| ends.len() > DENSE);
         if counts.is_empty() {
@@ -223,7 +304,12 @@ impl<'a> Joints<'a> {
             small.entry(cell).or_default().push(end);
         }
         small.retain(|_, ends| ends.len() > CROWD);
-        self.dense = Some(Dense { large: counts.into_keys().collect(), cells, ends, crowded: small });
+        self.dense = Some(Dense {
+            large: counts.into_keys().collect(),
+            cells,
+            ends,
+            crowded: small,
+        });
     }
 
     /// Finds out what each end can be joined to; gives back pairs of entities that lie in one place.
@@ -241,7 +327,8 @@ impl<'a> Joints<'a> {
         let mut pairs: Vec<(u32, u32)> = if self.places.len() < FEW {
             met.chunks_mut(STEP).enumerate().flat_map(look).collect()
         } else {
-            let found: Vec<Vec<(u32, u32)>> = met.par_chunks_mut(STEP).enumerate().map(look).collect();
+            let found: Vec<Vec<(u32, u32)>> =
+                met.par_chunks_mut(STEP).enumerate().map(look).collect();
             found.into_iter().flatten().collect()
         };
         for crowd in joints.crowds() {
@@ -257,10 +344,18 @@ impl<'a> Joints<'a> {
         if self.place(end).x.is_nan() {
             return NOTHING;
         }
-        let mut met = if self.is_crowded(end) { SEVERAL } else { NOTHING };
+        let mut met = if self.is_crowded(end) {
+            SEVERAL
+        } else {
+            NOTHING
+        };
         let same_place = SAME_PLACE * self.cells.join;
         self.each_near(end, |other, distance| {
-            met = if met == NOTHING { other.index() as u32 } else { SEVERAL };
+            met = if met == NOTHING {
+                other.index() as u32
+            } else {
+                SEVERAL
+            };
             if distance <= same_place
                 && end.is_start()
                 && end.entity() < other.entity()
@@ -276,7 +371,11 @@ impl<'a> Joints<'a> {
 
     fn are_doubles(&self, one: u32, other: u32, tolerance: f64) -> bool {
         // What lies just within the tolerance is rounded to one side of it: always the same.
-        let (one, other) = if self.by_place(one, other).is_gt() { (other, one) } else { (one, other) };
+        let (one, other) = if self.by_place(one, other).is_gt() {
+            (other, one)
+        } else {
+            (one, other)
+        };
         let [one, other] = [one, other].map(|entity| self.entities[entity as usize]);
         doubles::are_doubles(self.drawing, one, other, tolerance)
     }
@@ -286,7 +385,9 @@ impl<'a> Joints<'a> {
         let mut entities: Vec<u32> = crowd.iter().map(|end| end.entity()).collect();
         entities.sort_unstable_by(|&one, &other| self.by_place(one, other));
         entities.dedup();
-        let Some(mut kept) = entities.first().copied() else { return };
+        let Some(mut kept) = entities.first().copied() else {
+            return;
+        };
         for &entity in &entities[1..] {
             match self.are_doubles(kept, entity, ONE_POINT * self.cells.join) {
                 true => pairs.push((kept.min(entity), kept.max(entity))),
@@ -300,14 +401,21 @@ impl<'a> Joints<'a> {
         let mut joined = Vec::new();
         for crowd in self.crowds() {
             let mut ends = crowd.clone();
-            ends.sort_unstable_by(|&one, &other| doubles::by_coordinates(&self.place(one), &self.place(other)).then(one.cmp(&other)));
+            ends.sort_unstable_by(|&one, &other| {
+                doubles::by_coordinates(&self.place(one), &self.place(other)).then(one.cmp(&other))
+            });
             let are_one = |at: usize, next: usize| {
                 let pair = ends.get(at).zip(ends.get(next));
                 pair.is_some_and(|(&one, &other)| self.distance(one, other) == 0.0)
             };
             for at in 0..ends.len().saturating_sub(1) {
-                let apart = ends[at].entity() != ends[at + 1].entity() || self.leads_round(ends[at].entity());
-                if apart && are_one(at, at + 1) && !are_one(at + 1, at + 2) && !(at > 0 && are_one(at - 1, at)) {
+                let apart = ends[at].entity() != ends[at + 1].entity()
+                    || self.leads_round(ends[at].entity());
+                if apart
+                    && are_one(at, at + 1)
+                    && !are_one(at + 1, at + 2)
+                    && !(at > 0 && are_one(at - 1, at))
+                {
                     joined.push((ends[at], ends[at + 1]));
                 }
             }

@@ -39,9 +39,18 @@ const NOWHERE: usize = usize::MAX;
 
 /// Joins strands to contours; each comes in one of them.
 pub(super) fn resolve(strands: &[Strand], joints: &Joints) -> Vec<Joined> {
-    let mut tip_of = vec![u32::MAX; if strands.is_empty() { 0 } else { joints.end_count() }];
+    let mut tip_of = vec![
+        u32::MAX;
+        if strands.is_empty() {
+            0
+        } else {
+            joints.end_count()
+        }
+    ];
     for (strand, Strand { ends, .. }) in strands.iter().enumerate() {
-        ends.iter().zip([2 * strand, 2 * strand + 1]).for_each(|(end, tip)| tip_of[end.index()] = tip as u32);
+        ends.iter()
+            .zip([2 * strand, 2 * strand + 1])
+            .for_each(|(end, tip)| tip_of[end.index()] = tip as u32);
     }
     let mut knots = Knots {
         strands,
@@ -106,35 +115,76 @@ impl Knots<'_> {
 
     /// Closes the strands that come back to where they began, where nothing else is nearer.
     fn close_alone(&mut self) {
-        for (strand, &Strand { ends: [start, end], is_crumb, count }) in self.strands.iter().enumerate() {
+        for (
+            strand,
+            &Strand {
+                ends: [start, end],
+                is_crumb,
+                count,
+            },
+        ) in self.strands.iter().enumerate()
+        {
             let home = self.joints.distance(start, end);
-            if is_crumb || home > self.joints.join() || (count == 1 && !self.joints.leads_round(start.entity())) {
+            if is_crumb
+                || home > self.joints.join()
+                || (count == 1 && !self.joints.leads_round(start.entity()))
+            {
                 continue;
             }
             let own = [2 * strand, 2 * strand + 1];
-            let others = own.into_iter().flat_map(|tip| self.near(tip)).filter(|(tip, _)| tip / 2 != strand);
-            let nearest = others.map(|(_, distance)| distance).fold(f64::INFINITY, f64::min);
-            if home <= nearest || own.into_iter().any(|tip| self.joints.is_crowded(self.end(tip))) {
+            let others = own
+                .into_iter()
+                .flat_map(|tip| self.near(tip))
+                .filter(|(tip, _)| tip / 2 != strand);
+            let nearest = others
+                .map(|(_, distance)| distance)
+                .fold(f64::INFINITY, f64::min);
+            if home <= nearest
+                || own
+                    .into_iter()
+                    .any(|tip| self.joints.is_crowded(self.end(tip)))
+            {
                 self.is_free[strand] = false;
-                self.joined.push(Joined { strands: vec![(strand, false)], closed: true });
+                self.joined.push(Joined {
+                    strands: vec![(strand, false)],
+                    closed: true,
+                });
             }
         }
     }
 
     /// Leaves strands that lead nowhere, and those that only lead to such.
     fn leave_dead_ends(&mut self) {
-        let free_near = |knots: &Knots, tip: Tip| knots.near(tip).iter().filter(|(other, _)| knots.is_free[other / 2]).count();
-        let mut ways: Vec<usize> =
-            (0..2 * self.strands.len()).map(|tip| if self.is_free[tip / 2] { free_near(self, tip) } else { 0 }).collect();
+        let free_near = |knots: &Knots, tip: Tip| {
+            knots
+                .near(tip)
+                .iter()
+                .filter(|(other, _)| knots.is_free[other / 2])
+                .count()
+        };
+        let mut ways: Vec<usize> = (0..2 * self.strands.len())
+            .map(|tip| {
+                if self.is_free[tip / 2] {
+                    free_near(self, tip)
+                } else {
+                    0
+                }
+            })
+            .collect();
         let mut dead: Vec<usize> = (0..self.strands.len())
-            .filter(|&strand| self.is_free[strand] && (ways[2 * strand] == 0 || ways[2 * strand + 1] == 0))
+            .filter(|&strand| {
+                self.is_free[strand] && (ways[2 * strand] == 0 || ways[2 * strand + 1] == 0)
+            })
             .collect();
         while let Some(strand) = dead.pop() {
             if !std::mem::replace(&mut self.is_free[strand], false) {
                 continue;
             }
             self.left.push(strand);
-            for (tip, _) in [2 * strand, 2 * strand + 1].into_iter().flat_map(|tip| self.near(tip)) {
+            for (tip, _) in [2 * strand, 2 * strand + 1]
+                .into_iter()
+                .flat_map(|tip| self.near(tip))
+            {
                 ways[tip] = ways[tip].saturating_sub(1);
                 if ways[tip] == 0 && self.is_free[tip / 2] {
                     dead.push(tip / 2);
@@ -145,7 +195,9 @@ impl Knots<'_> {
 
     /// Finds the loops among the strands that are free, each walk from the lowest place that is left.
     fn walk_loops(&mut self) {
-        let mut begins: Vec<Tip> = (0..2 * self.strands.len()).filter(|tip| self.is_free[tip / 2]).collect();
+        let mut begins: Vec<Tip> = (0..2 * self.strands.len())
+            .filter(|tip| self.is_free[tip / 2])
+            .collect();
         begins.sort_unstable_by(|&one, &other| {
             let [a, b] = [one, other].map(|tip| self.joints.place(self.end(tip)));
             by_coordinates(&a, &b).then_with(|| self.by_place(one, other))
@@ -153,11 +205,17 @@ impl Knots<'_> {
         for begin in begins {
             while self.is_free[begin / 2] {
                 // The outside lies below: the first way in the counter-clockwise sense has it on its right.
-                let near = self.near(begin).into_iter().map(|(tip, _)| tip).filter(|tip| self.is_free[tip / 2]);
+                let near = self
+                    .near(begin)
+                    .into_iter()
+                    .map(|(tip, _)| tip)
+                    .filter(|tip| self.is_free[tip / 2]);
                 let from_below = |tip: Tip| (self.heading(tip) + FRAC_PI_2).rem_euclid(TAU);
-                let first = near
-                    .chain([begin])
-                    .min_by(|&one, &other| from_below(one).total_cmp(&from_below(other)).then_with(|| self.by_place(one, other)));
+                let first = near.chain([begin]).min_by(|&one, &other| {
+                    from_below(one)
+                        .total_cmp(&from_below(other))
+                        .then_with(|| self.by_place(one, other))
+                });
                 self.walk(first.unwrap_or(begin));
             }
         }
@@ -174,7 +232,8 @@ impl Knots<'_> {
             if let Some(tip) = next.take() {
                 self.is_free[tip / 2] = false;
                 self.entered[tip] = path.len();
-                whole_before.push(whole_before[path.len()] + usize::from(!self.strands[tip / 2].is_crumb));
+                whole_before
+                    .push(whole_before[path.len()] + usize::from(!self.strands[tip / 2].is_crumb));
                 path.push(tip);
             }
             let Some(&last) = path.last() else { return };
@@ -184,32 +243,55 @@ impl Knots<'_> {
                 let is_whole = whole_before[path.len()] > whole_before[place];
                 is_whole || (distance == 0.0 && path.len() - place > 1)
             };
-            let closings = near.iter().map(|&(other, distance)| (self.entered[other], distance));
-            let closings: Vec<(usize, f64)> =
-                closings.filter(|&(place, distance)| place != NOWHERE && may_close(place, distance)).collect();
-            let home = closings.iter().map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min);
+            let closings = near
+                .iter()
+                .map(|&(other, distance)| (self.entered[other], distance));
+            let closings: Vec<(usize, f64)> = closings
+                .filter(|&(place, distance)| place != NOWHERE && may_close(place, distance))
+                .collect();
+            let home = closings
+                .iter()
+                .map(|(_, distance)| *distance)
+                .fold(f64::INFINITY, f64::min);
             // Of equally near ways to close, that of the smallest loop.
-            let closing = closings.iter().filter(|(_, distance)| *distance <= home + rounding).map(|(place, _)| *place).max();
+            let closing = closings
+                .iter()
+                .filter(|(_, distance)| *distance <= home + rounding)
+                .map(|(place, _)| *place)
+                .max();
             let arriving = self.heading(tip) + PI;
             let turned = |other: Tip| {
                 let turn = (self.heading(other) - arriving + PI).rem_euclid(TAU) - PI;
                 // Right back is as far to the left as can be, on whichever side rounding puts it.
                 if turn < -PI + 1e-6 { turn + TAU } else { turn }
             };
-            let onward = near.iter().filter(|(other, _)| self.is_free[other / 2]).min_by(|(one, near), (other, far)| {
-                let turns = || turned(*one).total_cmp(&turned(*other));
-                near.total_cmp(far).then_with(turns).then_with(|| self.by_place(*one, *other))
-            });
+            let onward = near
+                .iter()
+                .filter(|(other, _)| self.is_free[other / 2])
+                .min_by(|(one, near), (other, far)| {
+                    let turns = || turned(*one).total_cmp(&turned(*other));
+                    near.total_cmp(far)
+                        .then_with(turns)
+                        .then_with(|| self.by_place(*one, *other))
+                });
             let onward = onward.copied();
             match (closing, onward) {
-                (Some(place), onward) if onward.is_none_or(|(_, distance)| home <= distance + rounding) => {
-                    let strands: Vec<(usize, bool)> = path.drain(place..).map(|tip| (tip / 2, tip % 2 == 1)).collect();
+                (Some(place), onward)
+                    if onward.is_none_or(|(_, distance)| home <= distance + rounding) =>
+                {
+                    let strands: Vec<(usize, bool)> = path
+                        .drain(place..)
+                        .map(|tip| (tip / 2, tip % 2 == 1))
+                        .collect();
                     for &(strand, _) in &strands {
                         self.entered[2 * strand] = NOWHERE;
                         self.entered[2 * strand + 1] = NOWHERE;
                     }
                     whole_before.truncate(place + 1);
-                    self.joined.push(Joined { strands, closed: true });
+                    self.joined.push(Joined {
+                        strands,
+                        closed: true,
+                    });
                 }
                 (_, Some((other, _))) => next = Some(other),
                 (_, None) => {
@@ -233,19 +315,35 @@ impl Knots<'_> {
             is_whole: tips.map(|tip| !self.strands[tip / 2].is_crumb).collect(),
         };
         let mut pairs: Vec<(f64, f64, Tip, Tip)> = Vec::new();
-        for tip in self.left.iter().flat_map(|&strand| [2 * strand, 2 * strand + 1]) {
-            let near: Vec<(Tip, f64)> = self.near(tip).into_iter().filter(|(other, _)| is_left[other / 2]).collect();
+        for tip in self
+            .left
+            .iter()
+            .flat_map(|&strand| [2 * strand, 2 * strand + 1])
+        {
+            let near: Vec<(Tip, f64)> = self
+                .near(tip)
+                .into_iter()
+                .filter(|(other, _)| is_left[other / 2])
+                .collect();
             let bend = |other: Tip| ((self.heading(other) - self.heading(tip)).abs() - PI).abs();
             let later = near.iter().filter(|(other, _)| *other > tip);
             pairs.extend(later.map(|&(other, distance)| (distance, bend(other), tip, other)));
         }
-        let ordered = |one: Tip, other: Tip| if self.by_place(one, other).is_le() { (one, other) } else { (other, one) };
+        let ordered = |one: Tip, other: Tip| {
+            if self.by_place(one, other).is_le() {
+                (one, other)
+            } else {
+                (other, one)
+            }
+        };
         pairs.sort_unstable_by(|a, b| {
             let by_place = || {
                 let ((a, b), (c, d)) = (ordered(a.2, a.3), ordered(b.2, b.3));
                 self.by_place(a, c).then_with(|| self.by_place(b, d))
             };
-            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then_with(by_place)
+            a.0.total_cmp(&b.0)
+                .then(a.1.total_cmp(&b.1))
+                .then_with(by_place)
         });
         for (distance, _, one, other) in pairs {
             self.link(&mut open, one, other, distance);
@@ -257,10 +355,20 @@ impl Knots<'_> {
     /// In a crowd, neighbours by direction are joined.
     fn join_crowds(&self, is_left: &[bool], open: &mut Open) {
         for crowd in self.joints.crowds() {
-            let tips = crowd.iter().map(|end| self.tip_of[end.index()]).filter(|&tip| tip != u32::MAX).map(|tip| tip as Tip);
-            let mut tips: Vec<Tip> = tips.filter(|&tip| is_left[tip / 2] && open.links[tip] == NOWHERE).collect();
+            let tips = crowd
+                .iter()
+                .map(|end| self.tip_of[end.index()])
+                .filter(|&tip| tip != u32::MAX)
+                .map(|tip| tip as Tip);
+            let mut tips: Vec<Tip> = tips
+                .filter(|&tip| is_left[tip / 2] && open.links[tip] == NOWHERE)
+                .collect();
             let angle = |tip: Tip| self.heading(tip).rem_euclid(TAU);
-            tips.sort_by(|&one, &other| angle(one).total_cmp(&angle(other)).then_with(|| self.by_place(one, other)));
+            tips.sort_by(|&one, &other| {
+                angle(one)
+                    .total_cmp(&angle(other))
+                    .then_with(|| self.by_place(one, other))
+            });
             for pair in tips.windows(2) {
                 let distance = self.joints.distance(self.end(pair[0]), self.end(pair[1]));
                 if distance <= self.joints.join() {
@@ -275,7 +383,8 @@ impl Knots<'_> {
         if open.links[one] != NOWHERE || open.links[other] != NOWHERE {
             return;
         }
-        if open.far[one] == other && !open.is_whole[one] && (distance > 0.0 || one / 2 == other / 2) {
+        if open.far[one] == other && !open.is_whole[one] && (distance > 0.0 || one / 2 == other / 2)
+        {
             return;
         }
         let (a, b) = (open.far[one], open.far[other]);

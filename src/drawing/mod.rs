@@ -31,7 +31,9 @@ pub use handle::Handle;
 pub use index::{ContourIndex, RUN};
 pub use kind::Kind;
 pub use nesting::{nesting_depths, winding, winding_of};
-pub use orientation::{Orientation, orientation, orientation_by_extreme_point, orientation_by_turns};
+pub use orientation::{
+    Orientation, orientation, orientation_by_extreme_point, orientation_by_turns,
+};
 pub use outline::{Outline, wire_side};
 
 use crate::geometry::{Segment, Tolerances};
@@ -90,7 +92,10 @@ pub struct Drawing {
 
 impl Drawing {
     pub fn new(unit: Option<Unit>) -> Drawing {
-        Drawing { unit, ..Drawing::default() }
+        Drawing {
+            unit,
+            ..Drawing::default()
+        }
     }
 
     /// Says which unit to take where the drawing states none; without a word, that is millimetres.
@@ -122,7 +127,8 @@ impl Drawing {
     }
 
     pub fn find(&self, handle: &str) -> Option<EntityId> {
-        self.by_handle.find(handle, |id| Some(&self.slots.get(id)?.handle))
+        self.by_handle
+            .find(handle, |id| Some(&self.slots.get(id)?.handle))
     }
 
     /// Ids in machining order.
@@ -132,7 +138,9 @@ impl Drawing {
 
     /// Entities in machining order.
     pub fn entities(&self) -> impl Iterator<Item = (EntityId, &Entity)> + '_ {
-        self.order.iter().filter_map(|&id| Some((id, self.get(id)?)))
+        self.order
+            .iter()
+            .filter_map(|&id| Some((id, self.get(id)?)))
     }
 
     pub fn len(&self) -> usize {
@@ -177,7 +185,9 @@ impl Drawing {
 
     /// Takes a handle for an id. False, with nothing done, where another entity has it.
     fn enter(&mut self, handle: &Handle, id: EntityId) -> bool {
-        let Drawing { slots, by_handle, .. } = self;
+        let Drawing {
+            slots, by_handle, ..
+        } = self;
         by_handle.insert(handle, id, |id| Some(&slots.get(id)?.handle))
     }
 
@@ -187,9 +197,15 @@ impl Drawing {
             if position == self.order.len() {
                 return;
             }
-            self.ranks = (1..self.slots.len() as u64).map(|number| number * RANK_STEP).collect();
+            self.ranks = (1..self.slots.len() as u64)
+                .map(|number| number * RANK_STEP)
+                .collect();
         }
-        let rank_of = |position: Option<usize>| position.and_then(|at| self.ranks.get(self.order.get(at)?.0 as usize)).copied();
+        let rank_of = |position: Option<usize>| {
+            position
+                .and_then(|at| self.ranks.get(self.order.get(at)?.0 as usize))
+                .copied()
+        };
         let before = rank_of(position.checked_sub(1)).unwrap_or(0);
         let behind = rank_of(Some(position)).unwrap_or(before + 2 * RANK_STEP);
         self.ranks.push(before + (behind - before) / 2);
@@ -208,7 +224,9 @@ impl Drawing {
     /// Ranks all entities by the order as it stands.
     fn rank_anew(&mut self) {
         if self.ranks.is_empty() {
-            self.ranks = (1..=self.slots.len() as u64).map(|number| number * RANK_STEP).collect();
+            self.ranks = (1..=self.slots.len() as u64)
+                .map(|number| number * RANK_STEP)
+                .collect();
         }
         for (at, id) in self.order.iter().enumerate() {
             self.ranks[id.0 as usize] = (at as u64 + 1) * RANK_STEP;
@@ -280,7 +298,12 @@ impl Drawing {
     }
 
     /// Says whether an entity is seen, and which layer decides it. True when that is something new.
-    pub fn set_visibility(&mut self, id: EntityId, visibility: Visibility, layer: &Arc<str>) -> bool {
+    pub fn set_visibility(
+        &mut self,
+        id: EntityId,
+        visibility: Visibility,
+        layer: &Arc<str>,
+    ) -> bool {
         let before = match visibility {
             Visibility::Shown => self.unseen.remove(&id),
             other => self.unseen.insert(id, (other, layer.clone())),
@@ -289,12 +312,16 @@ impl Drawing {
     }
 
     pub fn visibility(&self, id: EntityId) -> Visibility {
-        self.unseen.get(&id).map_or(Visibility::Shown, |(visibility, _)| *visibility)
+        self.unseen
+            .get(&id)
+            .map_or(Visibility::Shown, |(visibility, _)| *visibility)
     }
 
     /// Entities that are not simply shown, with the layer that decides it; in no order.
     pub fn unseen(&self) -> impl Iterator<Item = (EntityId, Visibility, &Arc<str>)> + '_ {
-        self.unseen.iter().map(|(&id, (visibility, layer))| (id, *visibility, layer))
+        self.unseen
+            .iter()
+            .map(|(&id, (visibility, layer))| (id, *visibility, layer))
     }
 
     /// Gives an entity a colour of its own, or leaves it that of its layer. True when that is something new.
@@ -303,7 +330,9 @@ impl Drawing {
         if color.is_some() && index >= self.colors.len() {
             self.colors.resize(index + 1, None);
         }
-        self.colors.get_mut(index).is_some_and(|slot| std::mem::replace(slot, color) != color)
+        self.colors
+            .get_mut(index)
+            .is_some_and(|slot| std::mem::replace(slot, color) != color)
     }
 
     pub fn set_layer_color(&mut self, layer: &str, color: Color) {
@@ -313,7 +342,11 @@ impl Drawing {
     /// The colour in which an entity is drawn: its own, else that of its layer; `None` where the source tells none.
     pub fn color(&self, id: EntityId) -> Option<Color> {
         let own = self.colors.get(id.0 as usize).copied().flatten();
-        own.or_else(|| self.layer_colors.get(&self.get(id)?.layer.to_lowercase()).copied())
+        own.or_else(|| {
+            self.layer_colors
+                .get(&self.get(id)?.layer.to_lowercase())
+                .copied()
+        })
     }
 
     /// Puts another entity in the place of `id`, keeping id, handle and machining order.
@@ -334,7 +367,10 @@ impl Drawing {
     /// Puts an entity that was removed back under its id and at its place in the machining order. False, with nothing done,
     /// where its handle is taken or the id is that of another.
     pub(crate) fn put_back(&mut self, id: EntityId, entity: Arc<Entity>) -> bool {
-        if id.0 as usize >= self.slots.len() || self.get(id).is_some() || !self.enter(&entity.handle, id) {
+        if id.0 as usize >= self.slots.len()
+            || self.get(id).is_some()
+            || !self.enter(&entity.handle, id)
+        {
             return false;
         }
         self.slots.put_back(id, entity);

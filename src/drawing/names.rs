@@ -33,11 +33,14 @@ impl Hasher for Neighbours {
         // The table takes its place from the low bits and tells entries in one place apart by the highest. Folded, so that numbers
         // in steps of a power of two do not fall into one place.
         let place = number ^ number >> 11 ^ number >> 22;
-        self.0 = u64::from(place) | u64::from(number).wrapping_mul(0x9e37_79b9_7f4a_7c15) & 0xfe00_0000_0000_0000;
+        self.0 = u64::from(place)
+            | u64::from(number).wrapping_mul(0x9e37_79b9_7f4a_7c15) & 0xfe00_0000_0000_0000;
     }
 
     fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u32((self.0 as u32).rotate_left(8) ^ u32::from(byte)));
+        bytes
+            .iter()
+            .for_each(|&byte| self.write_u32((self.0 as u32).rotate_left(8) ^ u32::from(byte)));
     }
 
     fn finish(&self) -> u64 {
@@ -46,7 +49,11 @@ impl Hasher for Neighbours {
 }
 
 impl Names {
-    pub(super) fn find<'a>(&self, handle: &str, handle_of: impl Fn(EntityId) -> Option<&'a Handle>) -> Option<EntityId> {
+    pub(super) fn find<'a>(
+        &self,
+        handle: &str,
+        handle_of: impl Fn(EntityId) -> Option<&'a Handle>,
+    ) -> Option<EntityId> {
         let first = self.first.get(&hash(handle)).copied();
         match first.filter(|&id| handle_of(id).is_some_and(|other| *other == *handle)) {
             Some(id) => Some(id),
@@ -56,7 +63,12 @@ impl Names {
     }
 
     /// Enters a handle. Where it is there, nothing is changed, and the answer is false.
-    pub(super) fn insert<'a>(&mut self, handle: &Handle, id: EntityId, handle_of: impl Fn(EntityId) -> Option<&'a Handle>) -> bool {
+    pub(super) fn insert<'a>(
+        &mut self,
+        handle: &Handle,
+        id: EntityId,
+        handle_of: impl Fn(EntityId) -> Option<&'a Handle>,
+    ) -> bool {
         if !self.others.is_empty() && self.others.contains_key(handle) {
             return false;
         }

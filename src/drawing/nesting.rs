@@ -9,12 +9,26 @@ use std::f64::consts::TAU;
 /// A contour lies within another when its first point does; where the two touch in just that point either answer may come.
 /// Costs what the boxes about each first point hold, and the segments of those contours.
 pub fn nesting_depths(drawing: &Drawing, contours: &[(&Contour, &ContourIndex)]) -> Vec<usize> {
-    let boxes: Vec<Bounds> = contours.iter().map(|(contour, index)| if contour.closed { index.bounds() } else { Bounds::EMPTY }).collect();
+    let boxes: Vec<Bounds> = contours
+        .iter()
+        .map(|(contour, index)| {
+            if contour.closed {
+                index.bounds()
+            } else {
+                Bounds::EMPTY
+            }
+        })
+        .collect();
     let mut grid = Grid::default();
-    boxes.iter().enumerate().for_each(|(position, &bounds)| grid.insert(position, bounds));
+    boxes
+        .iter()
+        .enumerate()
+        .for_each(|(position, &bounds)| grid.insert(position, bounds));
     let depth = |inner: usize| {
         let (contour, own) = (contours[inner].0, &boxes[inner]);
-        let Some(first) = contour.segment(drawing, 0).filter(|_| contour.closed) else { return 0 };
+        let Some(first) = contour.segment(drawing, 0).filter(|_| contour.closed) else {
+            return 0;
+        };
         let point = first.geometry.point_at(0.5);
         let mut depth = 0;
         grid.near(&Bounds::of_points(&[point]), |outer| {
@@ -29,7 +43,10 @@ pub fn nesting_depths(drawing: &Drawing, contours: &[(&Contour, &ContourIndex)])
 
 /// How often a closed contour goes round `point`, positive counter-clockwise; undefined on the contour itself.
 pub fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64 {
-    winding_of(contour.segments(drawing).map(|segment| segment.geometry), point)
+    winding_of(
+        contour.segments(drawing).map(|segment| segment.geometry),
+        point,
+    )
 }
 
 /// The same of closed segments.
@@ -41,7 +58,11 @@ pub fn winding_of(segments: impl Iterator<Item = Segment>, point: Point) -> i64 
         angle += turn(start - point, end - point);
         if let Segment::Arc(arc) = segment {
             // Between chord and arc the arc goes round the point and the chord does not.
-            let beyond_chord = if start == end { true } else { cross(end - start, point - start) * arc.sweep < 0.0 };
+            let beyond_chord = if start == end {
+                true
+            } else {
+                cross(end - start, point - start) * arc.sweep < 0.0
+            };
             if beyond_chord && (point - arc.center).norm() < arc.radius {
                 caps += arc.sweep.signum() as i64;
             }

@@ -26,7 +26,12 @@ impl Orientation {
 /// The way round by the signed area, `Σ (x₀ y₁ − x₁ y₀) + Σ r² (sweep − sin sweep)`; `None` for an outline without area.
 pub fn orientation(segments: &[Segment]) -> Option<Orientation> {
     let origin = segments.first()?.start();
-    Orientation::of_sign(segments.iter().map(|segment| segment.twice_area(origin)).sum())
+    Orientation::of_sign(
+        segments
+            .iter()
+            .map(|segment| segment.twice_area(origin))
+            .sum(),
+    )
 }
 
 /// The way round by counting left and right turns at the vertices, arcs taken as their chords; `None` for a tie.
@@ -55,14 +60,21 @@ pub fn orientation_by_turns(segments: &[Segment]) -> Option<Orientation> {
 /// The lowest vertex of a polygon is convex, so its turn tells the direction. It tells nothing where the vertex is doubled or lies
 /// between collinear neighbours, and the wrong thing where an arc runs round the outside of its chord's polygon.
 pub fn orientation_by_extreme_point(segments: &[Segment]) -> Option<Orientation> {
-    let [before, at, behind] = around(segments).min_by(|[_, a, _], [_, b, _]| a.y.total_cmp(&b.y))?;
+    let [before, at, behind] =
+        around(segments).min_by(|[_, a, _], [_, b, _]| a.y.total_cmp(&b.y))?;
     Orientation::of_sign(cross(at - before, behind - at))
 }
 
 /// Each vertex with the one before and the one behind it.
 fn around(segments: &[Segment]) -> impl Iterator<Item = [Point; 3]> + '_ {
     let count = segments.len();
-    (0..count).map(move |k| [segments[(k + count - 1) % count].start(), segments[k].start(), segments[(k + 1) % count].start()])
+    (0..count).map(move |k| {
+        [
+            segments[(k + count - 1) % count].start(),
+            segments[k].start(),
+            segments[(k + 1) % count].start(),
+        ]
+    })
 }
 
 #[cfg(test)]
@@ -73,7 +85,13 @@ mod tests {
     fn outline(vertices: &[[f64; 3]]) -> Vec<Segment> {
         let point = |[x, y, _]: [f64; 3]| Point::new(x, y);
         (0..vertices.len())
-            .map(|k| Segment::from_bulge(point(vertices[k]), point(vertices[(k + 1) % vertices.len()]), vertices[k][2]))
+            .map(|k| {
+                Segment::from_bulge(
+                    point(vertices[k]),
+                    point(vertices[(k + 1) % vertices.len()]),
+                    vertices[k][2],
+                )
+            })
             .collect()
     }
 
@@ -83,30 +101,112 @@ mod tests {
     }
 
     /// What the three say of a counter-clockwise outline; of the same one turned round they say the opposite.
-    fn check(name: &str, vertices: &[[f64; 3]], turns: Option<Orientation>, extreme: Option<Orientation>) {
-        let opposite = |way: Option<Orientation>| way.map(|way| if way == Clockwise { CounterClockwise } else { Clockwise });
+    fn check(
+        name: &str,
+        vertices: &[[f64; 3]],
+        turns: Option<Orientation>,
+        extreme: Option<Orientation>,
+    ) {
+        let opposite = |way: Option<Orientation>| {
+            way.map(|way| {
+                if way == Clockwise {
+                    CounterClockwise
+                } else {
+                    Clockwise
+                }
+            })
+        };
         let forward = outline(vertices);
-        let said = |segments: &[Segment]| [orientation(segments), orientation_by_turns(segments), orientation_by_extreme_point(segments)];
+        let said = |segments: &[Segment]| {
+            [
+                orientation(segments),
+                orientation_by_turns(segments),
+                orientation_by_extreme_point(segments),
+            ]
+        };
         let expected = [Some(CounterClockwise), turns, extreme];
         assert_eq!(said(&forward), expected, "{name}");
-        assert_eq!(said(&turned(&forward)), expected.map(opposite), "{name}, turned");
+        assert_eq!(
+            said(&turned(&forward)),
+            expected.map(opposite),
+            "{name}, turned"
+        );
     }
 
     #[test]
     fn the_published_methods_fail_where_the_area_does_not() {
         let ccw = Some(CounterClockwise);
         let cw = Some(Clockwise);
-        check("a square", &[[0., 0., 0.], [4., 0., 0.], [4., 4., 0.], [0., 4., 0.]], ccw, ccw);
-        check("an angle", &[[0., 0., 0.], [4., 0., 0.], [4., 1., 0.], [1., 1., 0.], [1., 4., 0.], [0., 4., 0.]], ccw, ccw);
-        let star = [[0., 0., 0.], [3., 1., 0.], [6., 0., 0.], [4., 2., 0.], [3., 5., 0.], [2., 2., 0.]];
+        check(
+            "a square",
+            &[[0., 0., 0.], [4., 0., 0.], [4., 4., 0.], [0., 4., 0.]],
+            ccw,
+            ccw,
+        );
+        check(
+            "an angle",
+            &[
+                [0., 0., 0.],
+                [4., 0., 0.],
+                [4., 1., 0.],
+                [1., 1., 0.],
+                [1., 4., 0.],
+                [0., 4., 0.],
+            ],
+            ccw,
+            ccw,
+        );
+        let star = [
+            [0., 0., 0.],
+            [3., 1., 0.],
+            [6., 0., 0.],
+            [4., 2., 0.],
+            [3., 5., 0.],
+            [2., 2., 0.],
+        ];
         check("three corners out, three in", &star, None, ccw);
-        let dented = [[0., 0., 0.], [2., 1., 0.], [4., 1., 0.], [6., 0., 0.], [4., 2., 0.], [3., 5., 0.], [2., 2., 0.]];
+        let dented = [
+            [0., 0., 0.],
+            [2., 1., 0.],
+            [4., 1., 0.],
+            [6., 0., 0.],
+            [4., 2., 0.],
+            [3., 5., 0.],
+            [2., 2., 0.],
+        ];
         check("three corners out, four in", &dented, cw, ccw);
-        check("collinear at the lowest vertex", &[[1., 0., 0.], [2., 0., 0.], [2., 2., 0.], [0., 2., 0.], [0., 0., 0.]], ccw, None);
-        let flat = [[0., 0., 0.], [0., 0., 0.], [2., 0., 0.], [2., 2., 0.], [0., 2., 0.]];
+        check(
+            "collinear at the lowest vertex",
+            &[
+                [1., 0., 0.],
+                [2., 0., 0.],
+                [2., 2., 0.],
+                [0., 2., 0.],
+                [0., 0., 0.],
+            ],
+            ccw,
+            None,
+        );
+        let flat = [
+            [0., 0., 0.],
+            [0., 0., 0.],
+            [2., 0., 0.],
+            [2., 2., 0.],
+            [0., 2., 0.],
+        ];
         check("a doubled vertex", &flat, ccw, None);
-        check("two half circles", &[[0., 0., 1.], [2., 0., 1.]], None, None);
+        check(
+            "two half circles",
+            &[[0., 0., 1.], [2., 0., 1.]],
+            None,
+            None,
+        );
         // From right to left over the top in an arc that the chords know nothing of.
-        check("an arc round its polygon", &[[4., 0., 1.], [0., 0., 0.], [2., 0.5, 0.]], cw, cw);
+        check(
+            "an arc round its polygon",
+            &[[4., 0., 1.], [0., 0., 0.], [2., 0.5, 0.]],
+            cw,
+            cw,
+        );
     }
 }

@@ -22,7 +22,9 @@ impl Slot {
     fn of(entity: Entity) -> Slot {
         match entity.geometry {
             Geometry::Polyline { .. } | Geometry::Text { .. } => Slot::Apart(Arc::new(entity)),
-            Geometry::Line { .. } | Geometry::Arc { .. } | Geometry::Circle { .. } => Slot::Here(entity),
+            Geometry::Line { .. } | Geometry::Arc { .. } | Geometry::Circle { .. } => {
+                Slot::Here(entity)
+            }
         }
     }
 

@@ -11,7 +11,9 @@ const AS_TEXT: &[u8] = b"AutoCAD Binary DXF\n\x1a\0";
 
 /// What the file begins with, where it is binary DXF.
 pub(super) fn sentinel(bytes: &[u8]) -> Option<&'static [u8]> {
-    [SENTINEL, AS_TEXT].into_iter().find(|sentinel| bytes.starts_with(sentinel))
+    [SENTINEL, AS_TEXT]
+        .into_iter()
+        .find(|sentinel| bytes.starts_with(sentinel))
 }
 
 /// True where the file has been handled as a text on its way.
@@ -21,7 +23,11 @@ pub(super) fn is_mangled(bytes: &[u8]) -> bool {
 
 /// The file as text, one tag on two lines; and what is wrong with it, where the tags break off.
 pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
-    let mut tags = Tags { bytes, at: sentinel(bytes).map_or(0, <[u8]>::len), wide: false };
+    let mut tags = Tags {
+        bytes,
+        at: sentinel(bytes).map_or(0, <[u8]>::len),
+        wide: false,
+    };
     // Since release 13 a code has two bytes. The first one is 0 (a record) or 999 (a comment).
     tags.wide = matches!(bytes.get(tags.at..tags.at + 2), Some([0, 0] | [0xe7, 0x03]));
     let mut text = Vec::with_capacity(bytes.len() * 2);
@@ -29,7 +35,10 @@ pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
         let begins_at = tags.at;
         let Some(code) = tags.code() else {
             let cut = begins_at < bytes.len();
-            return (text, cut.then(|| format!("byte {begins_at}: the file ends inside a group code")));
+            return (
+                text,
+                cut.then(|| format!("byte {begins_at}: the file ends inside a group code")),
+            );
         };
         let (mark, code_text) = (text.len(), code.to_string());
         text.extend_from_slice(code_text.as_bytes());
@@ -74,11 +83,26 @@ impl<'a> Tags<'a> {
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Result<(), String> {
         let cut = || format!("the file ends inside the value of group code {code}");
         let written = match code {
-            -5..=9 | 100..=105 | 300..=309 | 320..=369 | 390..=399 | 410..=419 | 430..=439 | 470..=481 | 999..=1003 | 1005..=1009 => {
+            -5..=9
+            | 100..=105
+            | 300..=309
+            | 320..=369
+            | 390..=399
+            | 410..=419
+            | 430..=439
+            | 470..=481
+            | 999..=1003
+            | 1005..=1009 => {
                 let rest = self.bytes.get(self.at..).unwrap_or_default();
                 let end = memchr::memchr(0, rest).ok_or_else(cut)?;
                 // A line end within a value would begin another line.
-                text.extend(rest[..end].iter().map(|&byte| if matches!(byte, b'\r' | b'\n') { b' ' } else { byte }));
+                text.extend(rest[..end].iter().map(|&byte| {
+                    if matches!(byte, b'\r' | b'\n') {
+                        b' '
+                    } else {
+                        byte
+                    }
+                }));
                 self.at += end + 1;
                 return Ok(());
             }
@@ -87,19 +111,31 @@ impl<'a> Tags<'a> {
                 let end = self.at + usize::from(length);
                 let chunk = self.bytes.get(self.at..end).ok_or_else(cut)?;
                 self.at = end;
-                text.extend(chunk.iter().flat_map(|byte| format!("{byte:02X}").into_bytes()));
+                text.extend(
+                    chunk
+                        .iter()
+                        .flat_map(|byte| format!("{byte:02X}").into_bytes()),
+                );
                 return Ok(());
             }
-            10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
-                self.take().map(|bytes| format!("{:?}", f64::from_le_bytes(bytes)))
-            }
-            60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
-                self.take().map(|bytes| i16::from_le_bytes(bytes).to_string())
-            }
-            90..=99 | 420..=429 | 440..=459 | 1071 => self.take().map(|bytes| i32::from_le_bytes(bytes).to_string()),
-            160..=169 => self.take().map(|bytes| i64::from_le_bytes(bytes).to_string()),
+            10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => self
+                .take()
+                .map(|bytes| format!("{:?}", f64::from_le_bytes(bytes))),
+            60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => self
+                .take()
+                .map(|bytes| i16::from_le_bytes(bytes).to_string()),
+            90..=99 | 420..=429 | 440..=459 | 1071 => self
+                .take()
+                .map(|bytes| i32::from_le_bytes(bytes).to_string()),
+            160..=169 => self
+                .take()
+                .map(|bytes| i64::from_le_bytes(bytes).to_string()),
             290..=299 => self.take::<1>().map(|[byte]| byte.to_string()),
-            _ => return Err(format!("group code {code} is not known, so the length of its value is not")),
+            _ => {
+                return Err(format!(
+                    "group code {code} is not known, so the length of its value is not"
+                ));
+            }
         };
         text.extend_from_slice(written.ok_or_else(cut)?.as_bytes());
         Ok(())
@@ -117,7 +153,12 @@ mod tests {
     #[test]
     fn both_widths_of_codes_and_all_lengths_of_values() {
         let half = 0.5f64.to_le_bytes();
-        let narrow = [b"\0LINE\0\x0a".as_slice(), &half, b"\x3e\xff\xff\xff\xe8\x03APP\0\0EOF\0"].concat();
+        let narrow = [
+            b"\0LINE\0\x0a".as_slice(),
+            &half,
+            b"\x3e\xff\xff\xff\xe8\x03APP\0\0EOF\0",
+        ]
+        .concat();
         let wide = [
             b"\0\0LINE\0\x0a\0".as_slice(),
             &half,
@@ -126,10 +167,16 @@ mod tests {
         .concat();
         for (tags, expected) in [
             (narrow, "0\nLINE\n10\n0.5\n62\n-1\n1000\nAPP\n0\nEOF\n"),
-            (wide, "0\nLINE\n10\n0.5\n62\n-1\n90\n1\n290\n1\n310\nAB01\n160\n2\n0\nEOF\n"),
+            (
+                wide,
+                "0\nLINE\n10\n0.5\n62\n-1\n90\n1\n290\n1\n310\nAB01\n160\n2\n0\nEOF\n",
+            ),
         ] {
             let (text, fault) = to_text(&file(&tags));
-            assert_eq!((String::from_utf8(text).unwrap().as_str(), fault), (expected, None));
+            assert_eq!(
+                (String::from_utf8(text).unwrap().as_str(), fault),
+                (expected, None)
+            );
         }
     }
 
@@ -145,8 +192,16 @@ mod tests {
         let whole = file(&tags);
         for length in SENTINEL.len()..=whole.len() {
             let document = crate::dxf::Document::read_file(whole[..length].to_vec());
-            let syntax = document.findings().iter().filter(|finding| finding.rule == crate::finding::Rule::Syntax);
-            assert_eq!(syntax.count(), usize::from(length < whole.len()), "{length}: {:?}", document.findings());
+            let syntax = document
+                .findings()
+                .iter()
+                .filter(|finding| finding.rule == crate::finding::Rule::Syntax);
+            assert_eq!(
+                syntax.count(),
+                usize::from(length < whole.len()),
+                "{length}: {:?}",
+                document.findings()
+            );
         }
     }
 
@@ -154,10 +209,20 @@ mod tests {
     fn a_file_that_was_handled_as_a_text_is_read_and_said() {
         let tags = b"\0SECTION\0\x02ENTITIES\0\0LINE\0";
         let number = |code: u8, value: f64| [&[code][..], &value.to_le_bytes()].concat();
-        let line = [number(10, 1.0), number(20, 2.0), number(11, 3.0), number(21, 4.0)].concat();
+        let line = [
+            number(10, 1.0),
+            number(20, 2.0),
+            number(11, 3.0),
+            number(21, 4.0),
+        ]
+        .concat();
         let whole = [AS_TEXT, tags, &line, b"\0ENDSEC\0\0EOF\0"].concat();
         let document = crate::dxf::Document::read_file(whole);
-        let said: Vec<_> = document.findings().iter().filter(|finding| finding.rule == crate::finding::Rule::Syntax).collect();
+        let said: Vec<_> = document
+            .findings()
+            .iter()
+            .filter(|finding| finding.rule == crate::finding::Rule::Syntax)
+            .collect();
         assert_eq!((document.drawing().len(), said.len()), (1, 1), "{said:?}");
         assert_eq!(said[0].severity, crate::finding::Severity::Warning);
     }
@@ -165,10 +230,22 @@ mod tests {
     #[test]
     fn what_breaks_off_is_named() {
         for (tags, expected) in [
-            (&b"\0\0LINE\0\x0a\0\0\0"[..], "byte 29: the file ends inside the value of group code 10"),
-            (b"\0\0LINE\0\x0a", "byte 29: the file ends inside a group code"),
-            (b"\0\0LINE", "byte 22: the file ends inside the value of group code 0"),
-            (b"\0\0LINE\0\x10\x27", "byte 29: group code 10000 is not known, so the length of its value is not"),
+            (
+                &b"\0\0LINE\0\x0a\0\0\0"[..],
+                "byte 29: the file ends inside the value of group code 10",
+            ),
+            (
+                b"\0\0LINE\0\x0a",
+                "byte 29: the file ends inside a group code",
+            ),
+            (
+                b"\0\0LINE",
+                "byte 22: the file ends inside the value of group code 0",
+            ),
+            (
+                b"\0\0LINE\0\x10\x27",
+                "byte 29: group code 10000 is not known, so the length of its value is not",
+            ),
         ] {
             assert_eq!(to_text(&file(tags)).1.as_deref(), Some(expected));
         }

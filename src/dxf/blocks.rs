@@ -23,14 +23,22 @@ const MOST_SEGMENTS: u64 = 200_000;
 /// Blocks within blocks.
 const DEEPEST: usize = 64;
 /// Why a part of a block is not drawn where it is put.
-const BEYOND_MEASURE: &str = "as a part of a block it comes to no length, numbers beyond all measure, or too many arcs";
+const BEYOND_MEASURE: &str =
+    "as a part of a block it comes to no length, numbers beyond all measure, or too many arcs";
 const REFERS_TO_A_FILE: i64 = 4 | 8;
 /// What the modelspace holds stands in the section ENTITIES.
-const IN_THE_BLOCK_OF_THE_MODELSPACE: &str = "it stands in the block of the modelspace instead of the section ENTITIES";
+const IN_THE_BLOCK_OF_THE_MODELSPACE: &str =
+    "it stands in the block of the modelspace instead of the section ENTITIES";
 
 #[derive(Clone, Debug)]
 enum Content {
-    Shape { layer: Arc<str>, look: Look, kind: Kind, shape: Shape, lies: Lies },
+    Shape {
+        layer: Arc<str>,
+        look: Look,
+        kind: Kind,
+        shape: Shape,
+        lies: Lies,
+    },
     Reference(Box<Insert>),
 }
 
@@ -49,7 +57,10 @@ struct Block {
 /// those of further layouts end in a number.
 fn layout(name: &[u8]) -> Option<&'static str> {
     let (sign, rest) = name.split_first()?;
-    let begins_with = |space: &[u8]| rest.get(..space.len()).is_some_and(|start| start.eq_ignore_ascii_case(space));
+    let begins_with = |space: &[u8]| {
+        rest.get(..space.len())
+            .is_some_and(|start| start.eq_ignore_ascii_case(space))
+    };
     match sign {
         b'*' | b'$' if begins_with(b"Paper_Space") => Some(PAPER_SPACE),
         b'*' | b'$' if begins_with(b"Model_Space") => Some(IN_THE_BLOCK_OF_THE_MODELSPACE),
@@ -109,14 +120,30 @@ impl Blocks {
     /// The same blocks, nothing drawn and nothing known of them: what was found out before they were whole may not hold.
     pub(super) fn unasked(self) -> Blocks {
         let sizes = vec![None; self.blocks.len()];
-        let used = self.blocks.iter().map(|block| block.layout.is_some()).collect();
-        Blocks { blocks: self.blocks, by_name: self.by_name, sizes, used, ..Blocks::default() }
+        let used = self
+            .blocks
+            .iter()
+            .map(|block| block.layout.is_some())
+            .collect();
+        Blocks {
+            blocks: self.blocks,
+            by_name: self.by_name,
+            sizes,
+            used,
+            ..Blocks::default()
+        }
     }
 
     /// Begins the block whose record starts at `line` and ends before the lexer's place. A name that is taken stays with
     /// the block that had it first: then the line of the name is given back.
     pub(super) fn begin(&mut self, lexer: &Lexer, line: usize) -> Option<usize> {
-        let mut block = Block { name: String::new(), base: Vector3::zeros(), is_file: false, layout: None, contents: Vec::new() };
+        let mut block = Block {
+            name: String::new(),
+            base: Vector3::zeros(),
+            is_file: false,
+            layout: None,
+            contents: Vec::new(),
+        };
         let mut name_line = line + 1;
         let number = |line: usize| match number::number(lexer.lines.content(line)) {
             Number::Exact(value) | Number::Blemished(value, _) => value,
@@ -135,7 +162,10 @@ impl Blocks {
         }
         block.name = String::from_utf8_lossy(name).into_owned();
         block.layout = layout(name);
-        let first = *self.by_name.entry(block_key(name)).or_insert(self.blocks.len());
+        let first = *self
+            .by_name
+            .entry(block_key(name))
+            .or_insert(self.blocks.len());
         let is_doubled = first < self.blocks.len();
         self.used.push(block.layout.is_some());
         self.blocks.push(block);
@@ -150,7 +180,9 @@ impl Blocks {
 
     /// Adds what was read to the block that was begun last.
     pub(super) fn add(&mut self, outcome: Outcome) {
-        let Some(block) = self.blocks.last_mut() else { return };
+        let Some(block) = self.blocks.last_mut() else {
+            return;
+        };
         match outcome {
             Outcome::Entity(read) => {
                 block.contents.push(Content::Shape {
@@ -167,9 +199,16 @@ impl Blocks {
     }
 
     /// What a reference in the modelspace draws; curves are fitted within `tolerance`. An error says why it draws nothing.
-    pub(super) fn resolve(&mut self, insert: &Insert, tolerance: f64, states: &mut LayerStates) -> Result<Drawn, Undrawn> {
+    pub(super) fn resolve(
+        &mut self,
+        insert: &Insert,
+        tolerance: f64,
+        states: &mut LayerStates,
+    ) -> Result<Drawn, Undrawn> {
         let Some(&block) = self.by_name.get(&insert.block) else {
-            return Err(Undrawn::Damaged("the block is not in the file: nothing is drawn for this INSERT".into()));
+            return Err(Undrawn::Damaged(
+                "the block is not in the file: nothing is drawn for this INSERT".into(),
+            ));
         };
         if let Some(why) = self.refused.get(&block) {
             return Err(Undrawn::Damaged(why.clone()));
@@ -181,14 +220,30 @@ impl Blocks {
                 return Err(Undrawn::Damaged(why));
             }
         };
-        let all = insert.copies().saturating_mul(size.segments.saturating_add(1));
+        let all = insert
+            .copies()
+            .saturating_mul(size.segments.saturating_add(1));
         if self.drawn.saturating_add(all) > MOST_SEGMENTS {
-            return Err(Undrawn::TooMuch(NotJudged::Reference { copies: insert.copies(), segments: all, most: MOST_SEGMENTS }));
+            return Err(Undrawn::TooMuch(NotJudged::Reference {
+                copies: insert.copies(),
+                segments: all,
+                most: MOST_SEGMENTS,
+            }));
         }
         self.drawn += all;
         let mut drawn = Drawn::default();
         let inherited = Inherited::from(insert, &insert.layer, None, states);
-        self.draw(insert, block, &Space::IDENTITY, &inherited, &mut Pen { tolerance, states, drawn: &mut drawn });
+        self.draw(
+            insert,
+            block,
+            &Space::IDENTITY,
+            &inherited,
+            &mut Pen {
+                tolerance,
+                states,
+                drawn: &mut drawn,
+            },
+        );
         self.mark_used(block);
         Ok(drawn)
     }
@@ -196,26 +251,51 @@ impl Blocks {
     /// Counts a block. `path` holds the blocks around it.
     fn size_of(&mut self, index: usize, path: &mut Vec<usize>) -> Result<Size, String> {
         if let Some(size) = self.sizes.get(index).copied().flatten() {
-            return if path.len() + size.depth > DEEPEST { Err(too_deep()) } else { Ok(size) };
+            return if path.len() + size.depth > DEEPEST {
+                Err(too_deep())
+            } else {
+                Ok(size)
+            };
         }
         if path.contains(&index) {
-            let names: Vec<&str> = path.iter().chain([&index]).filter_map(|&at| Some(self.blocks.get(at)?.name.as_str())).collect();
-            let name = |at: usize| super::fault::quoted(names.get(at).copied().unwrap_or_default().as_bytes());
-            return Err(format!("the block {} holds itself: nothing is drawn for this INSERT", name(names.len().saturating_sub(1))));
+            let names: Vec<&str> = path
+                .iter()
+                .chain([&index])
+                .filter_map(|&at| Some(self.blocks.get(at)?.name.as_str()))
+                .collect();
+            let name = |at: usize| {
+                super::fault::quoted(names.get(at).copied().unwrap_or_default().as_bytes())
+            };
+            return Err(format!(
+                "the block {} holds itself: nothing is drawn for this INSERT",
+                name(names.len().saturating_sub(1))
+            ));
         }
         if path.len() >= DEEPEST {
             return Err(too_deep());
         }
-        let Some(block) = self.blocks.get(index) else { return Ok(Size { segments: 0, depth: 0 }) };
+        let Some(block) = self.blocks.get(index) else {
+            return Ok(Size {
+                segments: 0,
+                depth: 0,
+            });
+        };
         if block.is_file {
-            return Err("the block stands in another file: nothing is drawn for this INSERT".into());
+            return Err(
+                "the block stands in another file: nothing is drawn for this INSERT".into(),
+            );
         }
-        let mut size = Size { segments: 0, depth: 1 };
+        let mut size = Size {
+            segments: 0,
+            depth: 1,
+        };
         // The same block is asked for once, however often it is referred to.
         let mut below: FxHashMap<usize, u64> = FxHashMap::default();
         for content in &block.contents {
             match content {
-                Content::Shape { shape, .. } => size.segments = size.segments.saturating_add(shape.cost()),
+                Content::Shape { shape, .. } => {
+                    size.segments = size.segments.saturating_add(shape.cost())
+                }
                 Content::Reference(insert) => {
                     if let Some(&block) = self.by_name.get(&insert.block) {
                         let copies = below.entry(block).or_default();
@@ -229,7 +309,9 @@ impl Blocks {
         below.sort_unstable();
         for (block, copies) in below {
             let inner = self.size_of(block, path)?;
-            size.segments = size.segments.saturating_add(copies.saturating_mul(inner.segments.saturating_add(1)));
+            size.segments = size
+                .segments
+                .saturating_add(copies.saturating_mul(inner.segments.saturating_add(1)));
             size.depth = size.depth.max(inner.depth + 1);
         }
         path.pop();
@@ -239,13 +321,28 @@ impl Blocks {
         Ok(size)
     }
 
-    fn draw(&self, insert: &Insert, block: usize, around: &Space, inherited: &Inherited, pen: &mut Pen) {
-        let Some(block) = self.blocks.get(block) else { return };
-        let base = Space { origin: -block.base, ..Space::IDENTITY };
+    fn draw(
+        &self,
+        insert: &Insert,
+        block: usize,
+        around: &Space,
+        inherited: &Inherited,
+        pen: &mut Pen,
+    ) {
+        let Some(block) = self.blocks.get(block) else {
+            return;
+        };
+        let base = Space {
+            origin: -block.base,
+            ..Space::IDENTITY
+        };
         for row in 0..insert.rows.0 {
             for column in 0..insert.columns.0 {
                 let offset = insert.columns.1 * column as f64 + insert.rows.1 * row as f64;
-                let placed = Space { origin: insert.map.origin + offset, ..insert.map };
+                let placed = Space {
+                    origin: insert.map.origin + offset,
+                    ..insert.map
+                };
                 let map = around.after(&placed).after(&base);
                 for content in &block.contents {
                     let own = match content {
@@ -255,23 +352,43 @@ impl Blocks {
                     // What lies on layer 0 takes the layer of the reference.
                     let layer = if **own == *"0" { &inherited.layer } else { own };
                     match content {
-                        Content::Shape { kind, shape, look, lies, .. } => {
+                        Content::Shape {
+                            kind,
+                            shape,
+                            look,
+                            lies,
+                            ..
+                        } => {
                             let Some((shape, map)) = level(&map, shape, lies, *kind) else {
                                 *pen.drawn.left_out.entry((*kind, TILTED)).or_default() += 1;
                                 continue;
                             };
                             let (visibility, color) = inherited.hand_on(*look, layer, pen.states);
-                            shape.placed(&map, *kind, &mut |kind, shape| match shape.drawn(pen.tolerance) {
+                            shape.placed(&map, *kind, &mut |kind, shape| match shape
+                                .drawn(pen.tolerance)
+                            {
                                 Ok((geometry, _)) if geometry.is_sound() => {
                                     let (layer, visibility) = (layer.clone(), visibility.clone());
-                                    pen.drawn.parts.push(Part { layer, visibility, color, kind, geometry });
+                                    pen.drawn.parts.push(Part {
+                                        layer,
+                                        visibility,
+                                        color,
+                                        kind,
+                                        geometry,
+                                    });
                                 }
-                                _ => *pen.drawn.left_out.entry((kind, BEYOND_MEASURE)).or_default() += 1,
+                                _ => {
+                                    *pen.drawn
+                                        .left_out
+                                        .entry((kind, BEYOND_MEASURE))
+                                        .or_default() += 1
+                                }
                             });
                         }
                         Content::Reference(inner) => {
                             if let Some(&block) = self.by_name.get(&inner.block) {
-                                let handed_on = Inherited::from(inner, layer, Some(inherited), pen.states);
+                                let handed_on =
+                                    Inherited::from(inner, layer, Some(inherited), pen.states);
                                 self.draw(inner, block, &map, &handed_on, pen);
                             }
                         }
@@ -284,9 +401,13 @@ impl Blocks {
     fn mark_used(&mut self, block: usize) {
         let mut open = vec![block];
         while let Some(block) = open.pop() {
-            let Some(used) = self.used.get_mut(block).filter(|used| !**used) else { continue };
+            let Some(used) = self.used.get_mut(block).filter(|used| !**used) else {
+                continue;
+            };
             *used = true;
-            let Some(block) = self.blocks.get(block) else { continue };
+            let Some(block) = self.blocks.get(block) else {
+                continue;
+            };
             let inner = block.contents.iter().filter_map(|content| match content {
                 Content::Reference(insert) => self.by_name.get(&insert.block).copied(),
                 Content::Shape { .. } => None,
@@ -315,7 +436,12 @@ struct Inherited {
 }
 
 impl Inherited {
-    fn from(insert: &Insert, layer: &Arc<str>, around: Option<&Inherited>, states: &mut LayerStates) -> Inherited {
+    fn from(
+        insert: &Insert,
+        layer: &Arc<str>,
+        around: Option<&Inherited>,
+        states: &mut LayerStates,
+    ) -> Inherited {
         let around_hidden = around.and_then(|around| around.hidden.clone());
         let own = match states.of(layer) {
             _ if insert.look.invisible => Some((Visibility::Invisible, layer.clone())),
@@ -327,11 +453,20 @@ impl Inherited {
             Paint::ByBlock => around.and_then(|around| around.color),
             Paint::ByLayer => None,
         };
-        Inherited { layer: layer.clone(), color, hidden: around_hidden.or(own) }
+        Inherited {
+            layer: layer.clone(),
+            color,
+            hidden: around_hidden.or(own),
+        }
     }
 
     /// Whether a part with its own look is seen, with the layer that decides it; and its colour.
-    fn hand_on(&self, look: Look, layer: &Arc<str>, states: &mut LayerStates) -> ((Visibility, Arc<str>), Option<Color>) {
+    fn hand_on(
+        &self,
+        look: Look,
+        layer: &Arc<str>,
+        states: &mut LayerStates,
+    ) -> ((Visibility, Arc<str>), Option<Color>) {
         let visibility = match &self.hidden {
             Some(hidden) => hidden.clone(),
             None if look.invisible => (Visibility::Invisible, layer.clone()),
@@ -347,15 +482,27 @@ impl Inherited {
 }
 
 /// A shape in its plane, and the way from there to the drawing; `None` where it does not end level with it.
-fn level<'a>(map: &Space, shape: &'a Shape, lies: &Lies, kind: Kind) -> Option<(Cow<'a, Shape>, Affine)> {
+fn level<'a>(
+    map: &Space,
+    shape: &'a Shape,
+    lies: &Lies,
+    kind: Kind,
+) -> Option<(Cow<'a, Shape>, Affine)> {
     let placed = match lies {
-        Lies::Level(height) => map.after(&Space { origin: Vector3::new(0.0, 0.0, *height), ..Space::IDENTITY }),
+        Lies::Level(height) => map.after(&Space {
+            origin: Vector3::new(0.0, 0.0, *height),
+            ..Space::IDENTITY
+        }),
         Lies::Aslant(plane, _) => map.after(plane),
         Lies::Rising(ends) => {
             let ends = ends.map(|end| map.point(end));
-            let line = Geometry::Line { start: ends[0].xy().into(), end: ends[1].xy().into() };
+            let line = Geometry::Line {
+                start: ends[0].xy().into(),
+                end: ends[1].xy().into(),
+            };
             // As in the modelspace, a line is cut as it looks from above where the block itself is not tilted.
-            return (map.is_flat() || are_level(&ends)).then_some((Cow::Owned(Shape::Plain(line)), Affine::IDENTITY));
+            return (map.is_flat() || are_level(&ends))
+                .then_some((Cow::Owned(Shape::Plain(line)), Affine::IDENTITY));
         }
     };
     // Points on one line, and a single one, have no plane of their own.
@@ -363,8 +510,15 @@ fn level<'a>(map: &Space, shape: &'a Shape, lies: &Lies, kind: Kind) -> Option<(
     let is_level = placed.is_flat()
         || match shape {
             Shape::Plain(Geometry::Line { start, end }) => are_level(&[point(*start), point(*end)]),
-            Shape::Plain(Geometry::Polyline { vertices, .. }) if vertices.iter().all(|vertex| vertex.bulge == 0.0) => {
-                are_level(&vertices.iter().map(|vertex| point(vertex.point)).collect::<Vec<_>>())
+            Shape::Plain(Geometry::Polyline { vertices, .. })
+                if vertices.iter().all(|vertex| vertex.bulge == 0.0) =>
+            {
+                are_level(
+                    &vertices
+                        .iter()
+                        .map(|vertex| point(vertex.point))
+                        .collect::<Vec<_>>(),
+                )
             }
             _ => kind == Kind::Point,
         };
@@ -372,10 +526,17 @@ fn level<'a>(map: &Space, shape: &'a Shape, lies: &Lies, kind: Kind) -> Option<(
 }
 
 fn are_level(points: &[Vector3]) -> bool {
-    let spread = points.iter().map(|point| (point - points[0]).norm()).fold(0.0, f64::max);
-    points.iter().all(|point| (point.z - points[0].z).abs() <= FLAT * spread)
+    let spread = points
+        .iter()
+        .map(|point| (point - points[0]).norm())
+        .fold(0.0, f64::max);
+    points
+        .iter()
+        .all(|point| (point.z - points[0].z).abs() <= FLAT * spread)
 }
 
 fn too_deep() -> String {
-    format!("blocks within blocks are more than {DEEPEST} deep here: nothing is drawn for this INSERT")
+    format!(
+        "blocks within blocks are more than {DEEPEST} deep here: nothing is drawn for this INSERT"
+    )
 }

@@ -42,7 +42,9 @@ impl Document {
     /// angle is written in [0°, 360°).
     pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
         if self.is_binary {
-            return Err("the file is binary DXF, which is read but not edited: save it as ASCII DXF".into());
+            return Err(
+                "the file is binary DXF, which is read but not edited: save it as ASCII DXF".into(),
+            );
         }
         let mut wanted: BTreeMap<EntityId, Wanted> = BTreeMap::new();
         for change in &edit.changes {
@@ -58,11 +60,19 @@ impl Document {
                     of_entity.vertices.insert(index, None);
                 }
                 Change::SetLine { start, end, .. } => of_entity.line = Some((start, end)),
-                Change::SetArc { center, radius, start_angle, end_angle, .. } => {
+                Change::SetArc {
+                    center,
+                    radius,
+                    start_angle,
+                    end_angle,
+                    ..
+                } => {
                     of_entity.arc = Some((center, radius, start_angle, end_angle));
                 }
                 Change::RemoveEntity { .. } => of_entity.removed = true,
-                Change::InsertVertex { index, vertex, .. } => of_entity.inserted.push((index, vertex)),
+                Change::InsertVertex { index, vertex, .. } => {
+                    of_entity.inserted.push((index, vertex))
+                }
                 Change::SetClosed { closed, .. } => of_entity.closed = Some(closed),
                 Change::AddEntity { ref geometry, .. } => of_entity.added.push(geometry.clone()),
             }
@@ -80,7 +90,10 @@ impl Document {
         }
         edits.sort_by_key(|edit| (edit.range.start, edit.range.end));
         if let Some(line) = edits.iter().find_map(|edit| self.fault_decided_by(edit)) {
-            return Err(format!("lines would come or go near line {}, which is damaged: mend that first", line + 1));
+            return Err(format!(
+                "lines would come or go near line {}, which is damaged: mend that first",
+                line + 1
+            ));
         }
         Ok(edits)
     }
@@ -92,14 +105,32 @@ impl Document {
         if ends(self.text.bytes().get(edit.range.clone())?) == ends(edit.text.as_bytes()) {
             return None;
         }
-        let reach = self.text.line_start(self.text.line_of(edit.range.start).saturating_sub(LOOKAHEAD));
-        let behind = self.findings.partition_point(|finding| range_key(finding).0 <= edit.range.end);
-        let damage = |finding: &&Finding| finding.rule == Rule::Syntax && finding.severity == Severity::Error;
-        let near = self.findings.iter().take(behind).filter(damage).find(|finding| range_key(finding).1 >= reach)?;
+        let reach = self.text.line_start(
+            self.text
+                .line_of(edit.range.start)
+                .saturating_sub(LOOKAHEAD),
+        );
+        let behind = self
+            .findings
+            .partition_point(|finding| range_key(finding).0 <= edit.range.end);
+        let damage = |finding: &&Finding| {
+            finding.rule == Rule::Syntax && finding.severity == Severity::Error
+        };
+        let near = self
+            .findings
+            .iter()
+            .take(behind)
+            .filter(damage)
+            .find(|finding| range_key(finding).1 >= reach)?;
         Some(self.text.line_of(range_key(near).0))
     }
 
-    fn edit_entity(&self, id: EntityId, wanted: &Wanted, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+    fn edit_entity(
+        &self,
+        id: EntityId,
+        wanted: &Wanted,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
         let (Some(entity), Some(item)) = (self.drawing.get(id), self.table.item_of(id)) else {
             return Err("the entity is not in the text any more".into());
@@ -111,12 +142,21 @@ impl Document {
             || wanted.closed.is_some()
             || !wanted.vertices.is_empty()
             || !wanted.inserted.is_empty();
-        let may = if is_changed { self.drawing.is_editable(id) } else { self.drawing.is_whole(id) };
+        let may = if is_changed {
+            self.drawing.is_editable(id)
+        } else {
+            self.drawing.is_whole(id)
+        };
         if !may {
-            return Err(format!("{name} is a part of a block or fitted to a curve, and has no numbers of its own in the text"));
+            return Err(format!(
+                "{name} is a part of a block or fitted to a curve, and has no numbers of its own in the text"
+            ));
         }
         if wanted.removed {
-            edits.push(TextEdit { range: self.whole_lines(of_entity), text: String::new() });
+            edits.push(TextEdit {
+                range: self.whole_lines(of_entity),
+                text: String::new(),
+            });
             return Ok(());
         }
         let tags: Vec<Tag> = match entity.geometry {
@@ -167,7 +207,9 @@ impl Document {
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
-        let Some(item) = self.table.item_of(after).filter(|_| !added.is_empty()) else { return Ok(()) };
+        let Some(item) = self.table.item_of(after).filter(|_| !added.is_empty()) else {
+            return Ok(());
+        };
         let model = self.table.lines_of(item, lines.count());
         let tags: Vec<Tag> = own_tags(lines, model.clone()).collect();
         let mirrored = is_mirrored(lines, &tags);
@@ -176,41 +218,81 @@ impl Document {
             let handle = match last(&tags, 5) {
                 None => None,
                 Some(_) => {
-                    let free = free_handle.or_else(|| record::free_handle(lines)).ok_or("no handle is left for a new entity")?;
-                    *free_handle = Some(free.checked_add(1).ok_or("no handle is left for a new entity")?);
+                    let free = free_handle
+                        .or_else(|| record::free_handle(lines))
+                        .ok_or("no handle is left for a new entity")?;
+                    *free_handle = Some(
+                        free.checked_add(1)
+                            .ok_or("no handle is left for a new entity")?,
+                    );
                     Some(format!("{free:X}"))
                 }
             };
-            let record = record::new_entity(&self.text, lines, model.clone(), mirrored, handle.as_deref(), geometry)?;
+            let record = record::new_entity(
+                &self.text,
+                lines,
+                model.clone(),
+                mirrored,
+                handle.as_deref(),
+                geometry,
+            )?;
             let text = Style::of(&self.text, lines, model.start).inserted(&self.text, at, record);
-            edits.push(TextEdit { range: at..at, text });
+            edits.push(TextEdit {
+                range: at..at,
+                text,
+            });
         }
         Ok(())
     }
 
     /// Sets or clears the bit of group code 70 that says that a polyline is closed.
-    fn set_closed(&self, id: EntityId, of_entity: Range<usize>, closed: bool, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+    fn set_closed(
+        &self,
+        id: EntityId,
+        of_entity: Range<usize>,
+        closed: bool,
+        name: &str,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
-        let Some(table) = self.table.vertices.get(&id) else { return Err(format!("{name} is not a polyline")) };
+        let Some(table) = self.table.vertices.get(&id) else {
+            return Err(format!("{name} is not a polyline"));
+        };
         let end_of_head = of_entity.start + table.lines.first().map_or(2, |&line| line as usize);
         // Of a LWPOLYLINE the flags may also stand behind the vertices.
         let is_light = lines.trimmed(of_entity.start + 1) == b"LWPOLYLINE";
         let end = if is_light { of_entity.end } else { end_of_head };
-        if let Some(tag) = own_tags(lines, of_entity.start..end).filter(|tag| tag.code == 70).last() {
+        if let Some(tag) = own_tags(lines, of_entity.start..end)
+            .filter(|tag| tag.code == 70)
+            .last()
+        {
             let range = lines.trimmed_range(tag.value_line());
-            let flags: Option<i64> = std::str::from_utf8(&self.text.bytes()[range.clone()]).ok().and_then(|text| text.parse().ok());
-            let Some(flags) = flags else { return Err(format!("group code 70 of {name} is no whole number")) };
+            let flags: Option<i64> = std::str::from_utf8(&self.text.bytes()[range.clone()])
+                .ok()
+                .and_then(|text| text.parse().ok());
+            let Some(flags) = flags else {
+                return Err(format!("group code 70 of {name} is no whole number"));
+            };
             let wanted = if closed { flags | 1 } else { flags & !1 };
             if wanted != flags {
-                edits.push(TextEdit { range, text: wanted.to_string() });
+                edits.push(TextEdit {
+                    range,
+                    text: wanted.to_string(),
+                });
             }
         } else if closed {
             let style = Style::of(&self.text, lines, of_entity.start);
-            let line = own_tags(lines, of_entity.start..end_of_head).last().map_or(of_entity.start, |tag| tag.line) + 2;
+            let line = own_tags(lines, of_entity.start..end_of_head)
+                .last()
+                .map_or(of_entity.start, |tag| tag.line)
+                + 2;
             let at = self.text.line_start(line);
             let mut tag = Vec::new();
             style.tag(70, b"1", &mut tag);
-            edits.push(TextEdit { range: at..at, text: style.inserted(&self.text, at, tag) });
+            edits.push(TextEdit {
+                range: at..at,
+                text: style.inserted(&self.text, at, tag),
+            });
         }
         Ok(())
     }
@@ -224,19 +306,39 @@ impl Document {
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
-        let Some(table) = self.table.vertices.get(&id) else { return Err(format!("{name} is not a polyline")) };
+        let Some(table) = self.table.vertices.get(&id) else {
+            return Err(format!("{name} is not a polyline"));
+        };
         let count = table.lines.len();
-        let removed = wanted.vertices.values().filter(|vertex| vertex.is_none()).count();
-        let beyond = wanted.inserted.iter().map(|(index, _)| *index).find(|&index| index > count);
-        if let Some(index) = wanted.vertices.range(count..).next().map(|(&index, _)| index).or(beyond) {
-            return Err(format!("vertex {index} of {name} is out of range, the polyline has {count}"));
+        let removed = wanted
+            .vertices
+            .values()
+            .filter(|vertex| vertex.is_none())
+            .count();
+        let beyond = wanted
+            .inserted
+            .iter()
+            .map(|(index, _)| *index)
+            .find(|&index| index > count);
+        if let Some(index) = wanted
+            .vertices
+            .range(count..)
+            .next()
+            .map(|(&index, _)| index)
+            .or(beyond)
+        {
+            return Err(format!(
+                "vertex {index} of {name} is out of range, the polyline has {count}"
+            ));
         }
         let left = count - removed + wanted.inserted.len();
         if removed > 0 && left < 2 {
             return Err(format!("{name} would be left with less than two vertices"));
         }
         for (&index, vertex) in &wanted.vertices {
-            let Some(range) = self.vertex_lines(id, index) else { continue };
+            let Some(range) = self.vertex_lines(id, index) else {
+                continue;
+            };
             let Some(mut vertex) = *vertex else {
                 self.remove_vertex(lines, range, edits);
                 continue;
@@ -261,7 +363,8 @@ impl Document {
         // A POLYLINE states no count.
         let is_light = lines.trimmed(of_entity.start + 1) == b"LWPOLYLINE";
         if left != count && is_light {
-            let head = of_entity.start..of_entity.start + table.lines.first().map_or(0, |&line| line as usize);
+            let head = of_entity.start
+                ..of_entity.start + table.lines.first().map_or(0, |&line| line as usize);
             if let Some(tag) = own_tags(lines, head).filter(|tag| tag.code == 90).last() {
                 let text = left.to_string();
                 let range = lines.trimmed_range(tag.value_line());
@@ -273,7 +376,14 @@ impl Document {
         Ok(())
     }
 
-    fn set_vertex(&self, lines: Lines, range: Range<usize>, vertex: Vertex, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+    fn set_vertex(
+        &self,
+        lines: Lines,
+        range: Range<usize>,
+        vertex: Vertex,
+        name: &str,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
         let tags: Vec<Tag> = vertex_tags(lines, range).collect();
         self.set_length(lines, &tags, 10, vertex.point.x, name, edits)?;
         self.set_length(lines, &tags, 20, vertex.point.y, name, edits)?;
@@ -284,7 +394,9 @@ impl Document {
             return Ok(());
         }
         let place = tags.iter().rfind(|tag| of_point(tag));
-        let Some(&before) = place.filter(|_| vertex.bulge.is_finite()) else { return Err(format!("{name} cannot take the bulge")) };
+        let Some(&before) = place.filter(|_| vertex.bulge.is_finite()) else {
+            return Err(format!("{name} cannot take the bulge"));
+        };
         let code_line = lines.range(before.line);
         let line_end = &self.text.bytes()[code_line.end..self.text.line_start(before.line + 1)];
         let code = lines.trimmed_range(before.line);
@@ -298,7 +410,10 @@ impl Document {
         ]
         .concat();
         let at = self.text.line_start(before.line + 2);
-        edits.push(TextEdit { range: at..at, text: String::from_utf8_lossy(&text).into_owned() });
+        edits.push(TextEdit {
+            range: at..at,
+            text: String::from_utf8_lossy(&text).into_owned(),
+        });
         Ok(())
     }
 
@@ -314,11 +429,15 @@ impl Document {
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
         if !vertex.is_finite() {
-            return Err(format!("a new vertex of {name} has a number that is not finite"));
+            return Err(format!(
+                "a new vertex of {name} has a number that is not finite"
+            ));
         }
         let behind = index >= count;
         let Some(model) = self.vertex_lines(id, index.min(count.saturating_sub(1))) else {
-            return Err(format!("{name} has no vertex that a new one could be modelled on"));
+            return Err(format!(
+                "{name} has no vertex that a new one could be modelled on"
+            ));
         };
         let is_record = number::code(lines.content(model.start)) == Code::Known(0);
         let tags: Vec<Tag> = vertex_tags(lines, model.clone()).collect();
@@ -345,16 +464,24 @@ impl Document {
             }
             bulge(&mut text);
             let is_next = |line: &usize| number::code(lines.content(*line)) == Code::Known(0);
-            (model.start + 2..model.end).step_by(2).find(is_next).unwrap_or(model.end)
+            (model.start + 2..model.end)
+                .step_by(2)
+                .find(is_next)
+                .unwrap_or(model.end)
         } else {
             coordinates(&mut text);
             bulge(&mut text);
             // Behind the place of a bulge, where there is none yet: see `set_vertex`.
-            let of_vertex = tags.iter().rfind(|tag| of_point(tag) || matches!(tag.code, 42 | 91));
+            let of_vertex = tags
+                .iter()
+                .rfind(|tag| of_point(tag) || matches!(tag.code, 42 | 91));
             of_vertex.map_or(model.end, |tag| tag.line + 2)
         };
         let at = self.text.line_start(if behind { end } else { model.start });
-        edits.push(TextEdit { range: at..at, text: style.inserted(&self.text, at, text) });
+        edits.push(TextEdit {
+            range: at..at,
+            text: style.inserted(&self.text, at, text),
+        });
         Ok(())
     }
 
@@ -365,31 +492,59 @@ impl Document {
                 .step_by(2)
                 .find(|&line| number::code(lines.content(line)) == Code::Known(0))
                 .unwrap_or(range.end);
-            edits.push(TextEdit { range: self.whole_lines(range.start..end), text: String::new() });
+            edits.push(TextEdit {
+                range: self.whole_lines(range.start..end),
+                text: String::new(),
+            });
             return;
         }
         // Behind the last vertex there may be tags of the whole entity.
         let mut spans: Vec<Range<usize>> = Vec::new();
-        for tag in vertex_tags(lines, range).filter(|tag| matches!(tag.code, 10 | 20 | 40 | 41 | 42 | 91)) {
+        for tag in
+            vertex_tags(lines, range).filter(|tag| matches!(tag.code, 10 | 20 | 40 | 41 | 42 | 91))
+        {
             match spans.last_mut() {
                 Some(span) if span.end == tag.line => span.end = tag.line + 2,
                 _ => spans.push(tag.line..tag.line + 2),
             }
         }
-        edits.extend(spans.into_iter().map(|span| TextEdit { range: self.whole_lines(span), text: String::new() }));
+        edits.extend(spans.into_iter().map(|span| TextEdit {
+            range: self.whole_lines(span),
+            text: String::new(),
+        }));
     }
 
     fn whole_lines(&self, lines: Range<usize>) -> Range<usize> {
-        let start = if lines.start == 0 { Lines::new(&self.text).range(0).start } else { self.text.line_start(lines.start) };
+        let start = if lines.start == 0 {
+            Lines::new(&self.text).range(0).start
+        } else {
+            self.text.line_start(lines.start)
+        };
         start..self.text.line_start(lines.end)
     }
 
-    fn set_length(&self, lines: Lines, tags: &[Tag], code: i16, value: f64, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+    fn set_length(
+        &self,
+        lines: Lines,
+        tags: &[Tag],
+        code: i16,
+        value: f64,
+        name: &str,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
         self.set(lines, tags, code, value, DECIMALS, name, edits)
     }
 
     /// `angle` in radians.
-    fn set_angle(&self, lines: Lines, tags: &[Tag], code: i16, angle: f64, name: &str, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+    fn set_angle(
+        &self,
+        lines: Lines,
+        tags: &[Tag],
+        code: i16,
+        angle: f64,
+        name: &str,
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
         let degrees = positive_angle(angle).to_degrees();
         let written_degrees = record::degrees(angle);
         if let Some(tag) = last(tags, code)
@@ -404,7 +559,10 @@ impl Document {
     }
 
     /// Replaces the number behind `code`, unless it is the same as written.
-    #[expect(clippy::too_many_arguments, reason = "one number, its place and its precision")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one number, its place and its precision"
+    )]
     fn set(
         &self,
         lines: Lines,
@@ -418,14 +576,19 @@ impl Document {
         if !value.is_finite() {
             return Err(format!("group code {code} of {name} cannot be {value}"));
         }
-        let Some(tag) = last(tags, code) else { return Err(format!("{name} has no group code {code}")) };
+        let Some(tag) = last(tags, code) else {
+            return Err(format!("{name} has no group code {code}"));
+        };
         let line = tag.value_line();
         if let Number::Exact(present) = number::number(lines.content(line))
             && (present - value).abs() <= 0.5 * 0.1f64.powi(decimals as i32)
         {
             return Ok(());
         }
-        edits.push(TextEdit { range: lines.trimmed_range(line), text: written(value, decimals) });
+        edits.push(TextEdit {
+            range: lines.trimmed_range(line),
+            text: written(value, decimals),
+        });
         Ok(())
     }
 }
@@ -456,6 +619,10 @@ fn end_of_tags(lines: Lines, record: &Range<usize>) -> usize {
         return record.end;
     }
     let is_said = |line: &usize| !lines.trimmed(*line).is_empty();
-    let said = record.clone().rev().find(is_said).map_or(record.start, |line| line + 1);
+    let said = record
+        .clone()
+        .rev()
+        .find(is_said)
+        .map_or(record.start, |line| line + 1);
     (said + (said - record.start) % 2).min(record.end)
 }

@@ -11,8 +11,7 @@ const HEADER: usize = 1 << 16;
 
 /// Pages of DOS that the library of the web's encodings has not: the characters from 128 on.
 /// Source: Unicode, Mappings/VENDORS/MICSFT/PC.
-const DOS_437: &str =
-    "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐└┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
+const DOS_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐└┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
 const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐└┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{ad}±‗¾¶§÷¸°¨·¹³²■\u{a0}";
 const DOS_852: &str = "ÇüéâäůćçłëŐőîŹÄĆÉĹĺôöĽľŚśÖÜŤťŁ×čáíóúĄąŽžĘę¬źČş«»░▒▓│┤ÁÂĚŞ╣║╗╝Żż┐└┴┬├─┼Ăă╚╔╩╦╠═╬¤đĐĎËďŇÍÎě┘┌█▄ŢŮ▀ÓßÔŃńňŠšŔÚŕŰýÝţ´\u{ad}˝˛ˇ˘§÷¸°¨˙űŘř■\u{a0}";
 
@@ -40,17 +39,30 @@ impl CodePage {
         let head = &bytes[..bytes.len().min(HEADER)];
         let version = variable(head, b"$ACADVER").unwrap_or_default();
         let is_utf_8 = version.starts_with(b"AC10") && version >= b"AC1021".as_slice();
-        let name = String::from_utf8_lossy(variable(head, b"$DWGCODEPAGE").unwrap_or_default()).to_ascii_uppercase();
-        let number = ["ANSI", "DOS", "ISO", "_"].iter().fold(&*name, |name, prefix| name.trim_start_matches(prefix));
-        let first = matches!(number, "932" | "936" | "GB2312" | "949" | "KSC5601" | "950" | "BIG5" | "1361" | "JOHAB");
+        let name = String::from_utf8_lossy(variable(head, b"$DWGCODEPAGE").unwrap_or_default())
+            .to_ascii_uppercase();
+        let number = ["ANSI", "DOS", "ISO", "_"]
+            .iter()
+            .fold(&*name, |name, prefix| name.trim_start_matches(prefix));
+        let first = matches!(
+            number,
+            "932" | "936" | "GB2312" | "949" | "KSC5601" | "950" | "BIG5" | "1361" | "JOHAB"
+        );
         let encoding = match number {
             "437" => Page::OfDos(DOS_437),
             "850" => Page::OfDos(DOS_850),
             "852" => Page::OfDos(DOS_852),
             "1361" | "JOHAB" => Page::Johab,
-            _ => Page::OfTheWeb(of_the_web(number).or_else(|| Encoding::for_label(name.as_bytes())).unwrap_or(encoding_rs::WINDOWS_1252)),
+            _ => Page::OfTheWeb(
+                of_the_web(number)
+                    .or_else(|| Encoding::for_label(name.as_bytes()))
+                    .unwrap_or(encoding_rs::WINDOWS_1252),
+            ),
         };
-        CodePage { encoding, first: first && !is_utf_8 }
+        CodePage {
+            encoding,
+            first: first && !is_utf_8,
+        }
     }
 
     /// The bytes as UTF-8.
@@ -59,12 +71,19 @@ impl CodePage {
             return bytes.to_vec();
         }
         match self.encoding {
-            Page::OfTheWeb(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned().into_bytes(),
+            Page::OfTheWeb(encoding) => encoding
+                .decode_without_bom_handling(bytes)
+                .0
+                .into_owned()
+                .into_bytes(),
             Page::Johab => johab::decoded(bytes).into_bytes(),
             Page::OfDos(upper) => {
                 let character = |&byte: &u8| match byte.checked_sub(128) {
                     None => char::from(byte),
-                    Some(place) => upper.chars().nth(usize::from(place)).unwrap_or(char::REPLACEMENT_CHARACTER),
+                    Some(place) => upper
+                        .chars()
+                        .nth(usize::from(place))
+                        .unwrap_or(char::REPLACEMENT_CHARACTER),
                 };
                 bytes.iter().map(character).collect::<String>().into_bytes()
             }
@@ -100,7 +119,10 @@ fn of_the_web(number: &str) -> Option<&'static Encoding> {
 /// The value of a header variable: what stands two lines below its name, comments left out.
 fn variable<'a>(head: &'a [u8], name: &[u8]) -> Option<&'a [u8]> {
     let at = memmem::find(head, name)?;
-    let mut lines = head[at..].split(|&byte| byte == b'\n' || byte == b'\r').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
+    let mut lines = head[at..]
+        .split(|&byte| byte == b'\n' || byte == b'\r')
+        .map(<[u8]>::trim_ascii)
+        .filter(|line| !line.is_empty());
     lines.next();
     loop {
         let (code, value) = (lines.next()?, lines.next()?);
@@ -116,7 +138,11 @@ mod tests {
 
     #[test]
     fn names_in_the_file_s_own_code_page() {
-        let file = |version: &str, page: &str| format!("  9\r\n$ACADVER\r\n  1\r\n{version}\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\n{page}\r\n");
+        let file = |version: &str, page: &str| {
+            format!(
+                "  9\r\n$ACADVER\r\n  1\r\n{version}\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\n{page}\r\n"
+            )
+        };
         for (version, page, bytes, expected) in [
             ("AC1015", "ANSI_1252", &b"m\xe4rks"[..], "märks"),
             ("AC1015", "ANSI_1252", "märks".as_bytes(), "märks"),
@@ -136,7 +162,11 @@ mod tests {
             ("AC1015", "ANSI_9999", b"m\xe4rks", "märks"),
         ] {
             let page = CodePage::of_file(file(version, page).as_bytes());
-            assert_eq!(String::from_utf8(page.unicode(bytes)).unwrap(), expected, "{version}");
+            assert_eq!(
+                String::from_utf8(page.unicode(bytes)).unwrap(),
+                expected,
+                "{version}"
+            );
         }
     }
 
@@ -147,7 +177,11 @@ mod tests {
             ("9\n$DWGCODEPAGE\n999\n3\n3\nANSI_1251\n", b"\xcc", "М"),
             ("9\n$DWGCODEPAGE\n999\n", b"\xcc", "Ì"),
         ] {
-            assert_eq!(String::from_utf8(CodePage::of_file(header.as_bytes()).unicode(bytes)).unwrap(), expected, "{header}");
+            assert_eq!(
+                String::from_utf8(CodePage::of_file(header.as_bytes()).unicode(bytes)).unwrap(),
+                expected,
+                "{header}"
+            );
         }
     }
 }

@@ -1,6 +1,8 @@
 //! ELLIPSE and SPLINE: their records to curves. Their points are world coordinates.
 
-use super::entity::{Common, NOT_PLANE, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, tag_of_record};
+use super::entity::{
+    Common, NOT_PLANE, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, tag_of_record,
+};
 use super::fault::{damage, oddity};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
@@ -11,10 +13,18 @@ use crate::finding::Finding;
 use crate::geometry::{Point, Spline, Vector};
 use std::f64::consts::TAU;
 
-pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+pub(super) fn read_ellipse(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 11, 21, 40, 31, 41, 42, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, major_x, major_y, ratio]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let Some([x, y, major_x, major_y, ratio]) = numbers.required(start, lexer, &common, findings)
+    else {
+        return Outcome::Damaged;
+    };
     if common.paper_space {
         return Outcome::Unsupported("ELLIPSE".into(), PAPER_SPACE);
     }
@@ -24,22 +34,50 @@ pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers, f
     let (center, major) = (Point::new(x, y), Vector::new(major_x, major_y));
     let is_level = common.plane() != Plane::Tilted && rise.abs() <= FLAT * major.norm();
     let (arc, lies) = match is_level {
-        true => (ellipse(center, major, ratio, common.plane() == Plane::Mirrored, from, to), Lies::Level(height)),
+        true => (
+            ellipse(
+                center,
+                major,
+                ratio,
+                common.plane() == Plane::Mirrored,
+                from,
+                to,
+            ),
+            Lies::Level(height),
+        ),
         false => {
             // Its own plane: the half axes are its coordinates.
             let along = in_space(major, rise);
-            let Some(normal) = common.normal().try_normalize(0.0) else { return Outcome::Unsupported("ELLIPSE".into(), TILTED) };
-            let plane = Space { x: along, y: normal.cross(&along), z: normal, origin: in_space(center.coords, height) };
+            let Some(normal) = common.normal().try_normalize(0.0) else {
+                return Outcome::Unsupported("ELLIPSE".into(), TILTED);
+            };
+            let plane = Space {
+                x: along,
+                y: normal.cross(&along),
+                z: normal,
+                origin: in_space(center.coords, height),
+            };
             let arc = ellipse(Point::origin(), Vector::x(), ratio, false, from, to);
             (arc, Lies::Aslant(Box::new(plane), TILTED))
         }
     };
     if !arc.is_sound() {
         let sentence = "ELLIPSE has no width or no length: it is not drawn".to_owned();
-        damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+        damage(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            sentence,
+        );
         return Outcome::Damaged;
     }
-    common.finish(lexer, layers, Kind::Ellipse, (Shape::Ellipse(arc), lies), None, findings)
+    common.finish(
+        lexer,
+        layers,
+        Kind::Ellipse,
+        (Shape::Ellipse(arc), lies),
+        None,
+        findings,
+    )
 }
 
 /// Points in space as they come: x opens one.
@@ -78,15 +116,26 @@ impl Points {
     }
 
     fn differ_in_height(&self) -> bool {
-        self.heights.windows(2).any(|pair| (pair[0] - pair[1]).abs() > 1e-9 * pair[0].abs().max(1.0))
+        self.heights
+            .windows(2)
+            .any(|pair| (pair[0] - pair[1]).abs() > 1e-9 * pair[0].abs().max(1.0))
     }
 
     fn in_space(&self) -> Vec<Vector3> {
-        self.points.iter().zip(&self.heights).map(|(point, &height)| in_space(point.coords, height)).collect()
+        self.points
+            .iter()
+            .zip(&self.heights)
+            .map(|(point, &height)| in_space(point.coords, height))
+            .collect()
     }
 }
 
-pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+pub(super) fn read_spline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     const CLOSED: i64 = 1;
     let mut common = Common::default();
     let (mut controls, mut through) = (Points::default(), Points::default());
@@ -100,7 +149,9 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
         match tag.code {
             10..=13 | 20..=23 | 30..=33 | 40 | 41 => {
                 // A number that is none has its finding.
-                let Some(value) = common.coordinate(lexer, tag, findings) else { continue };
+                let Some(value) = common.coordinate(lexer, tag, findings) else {
+                    continue;
+                };
                 match tag.code {
                     10 => controls.x(value),
                     20 => controls.y(value),
@@ -108,8 +159,12 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
                     11 => through.x(value),
                     21 => through.y(value),
                     31 => through.z(value),
-                    12 | 22 | 32 => tangents[0][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value),
-                    13 | 23 | 33 => tangents[1][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value),
+                    12 | 22 | 32 => {
+                        tangents[0][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value)
+                    }
+                    13 | 23 | 33 => {
+                        tangents[1][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value)
+                    }
                     40 => knots.push(value),
                     _ => weights.push(value),
                 }
@@ -129,17 +184,30 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
         missing(start, lexer, &[(10, false), (20, false)], findings);
         return Outcome::Damaged;
     }
-    let used = if controls.points.is_empty() { &mut through } else { &mut controls };
+    let used = if controls.points.is_empty() {
+        &mut through
+    } else {
+        &mut controls
+    };
     if used.is_bad() {
         let sentence = "SPLINE has a point that lacks x or y".to_owned();
-        damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+        damage(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            sentence,
+        );
         return Outcome::Damaged;
     }
     let mut lies = Lies::Level(used.heights.first().copied().unwrap_or(0.0));
     if used.differ_in_height() {
         let points = used.in_space();
-        let Some(plane) = Space::through(&points) else { return Outcome::Unsupported("SPLINE".into(), NOT_PLANE) };
-        used.points = points.into_iter().map(|point| plane.seen_from(point)).collect();
+        let Some(plane) = Space::through(&points) else {
+            return Outcome::Unsupported("SPLINE".into(), NOT_PLANE);
+        };
+        used.points = points
+            .into_iter()
+            .map(|point| plane.seen_from(point))
+            .collect();
         for tangent in &mut tangents {
             if let [Some(x), Some(y), z] = *tangent {
                 let seen = plane.seen_from(plane.origin + Vector3::new(x, y, z.unwrap_or(0.0)));
@@ -153,23 +221,44 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, fi
     let spline = if is_through {
         let points = through.points;
         let [first, last] = tangents.map(|[x, y, _]| Some(Vector::new(x?, y?)));
-        let closed = if flags & CLOSED != 0 { Spline::round(&points) } else { None };
-        closed.or_else(|| Spline::through(&points, first, last)).ok_or_else(|| "has less than two different points".to_owned())
+        let closed = if flags & CLOSED != 0 {
+            Spline::round(&points)
+        } else {
+            None
+        };
+        closed
+            .or_else(|| Spline::through(&points, first, last))
+            .ok_or_else(|| "has less than two different points".to_owned())
     } else {
         let degree = degree.unwrap_or(3);
-        usize::try_from(degree).map_err(|_| format!("has the degree {degree}")).and_then(|degree| match lacks_knots {
-            true => Spline::clamped(degree, controls.points, weights),
-            false => Spline::new(degree, knots, controls.points, weights),
-        })
+        usize::try_from(degree)
+            .map_err(|_| format!("has the degree {degree}"))
+            .and_then(|degree| match lacks_knots {
+                true => Spline::clamped(degree, controls.points, weights),
+                false => Spline::new(degree, knots, controls.points, weights),
+            })
     };
     let name = lexer.lines.trimmed_range(start.value_line());
     if lacks_knots && spline.is_ok() {
-        oddity(findings, name.clone(), "SPLINE has no knots (group code 40): even ones are taken".to_owned());
+        oddity(
+            findings,
+            name.clone(),
+            "SPLINE has no knots (group code 40): even ones are taken".to_owned(),
+        );
     }
     match spline {
-        Ok(spline) => common.finish(lexer, layers, Kind::Spline, (Shape::Spline(Box::new(spline)), lies), None, findings),
+        Ok(spline) => common.finish(
+            lexer,
+            layers,
+            Kind::Spline,
+            (Shape::Spline(Box::new(spline)), lies),
+            None,
+            findings,
+        ),
         // What is not cut anyway is told once.
-        Err(_) if matches!(lies, Lies::Aslant(..)) => Outcome::Unsupported("SPLINE".into(), NOT_PLANE),
+        Err(_) if matches!(lies, Lies::Aslant(..)) => {
+            Outcome::Unsupported("SPLINE".into(), NOT_PLANE)
+        }
         Err(why) => {
             // One through less than two points has no length; of any other a part of the outline is missing.
             let say = if is_through { oddity } else { damage };

@@ -18,7 +18,16 @@ const BULGE_STEPS: f64 = 65536.0;
 /// The file as text; and what is wrong with it, where it breaks off. What comes before that is kept.
 pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
     let at = SENTINEL.len().min(bytes.len());
-    let mut reader = Reader { bytes, at, floats: false, scale: 1.0, layer: b"0".to_vec(), color: 256, last: [0.0; 3], open: false };
+    let mut reader = Reader {
+        bytes,
+        at,
+        floats: false,
+        scale: 1.0,
+        layer: b"0".to_vec(),
+        color: 256,
+        last: [0.0; 3],
+        open: false,
+    };
     let mut text = b"0\nSECTION\n2\nENTITIES\n".to_vec();
     let fault = loop {
         let begins_at = reader.at;
@@ -56,7 +65,11 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
-        let taken = self.bytes.get(self.at..).and_then(|rest| rest.first_chunk::<N>()).ok_or("the file ends inside an item")?;
+        let taken = self
+            .bytes
+            .get(self.at..)
+            .and_then(|rest| rest.first_chunk::<N>())
+            .ok_or("the file ends inside an item")?;
         self.at += N;
         Ok(*taken)
     }
@@ -67,17 +80,29 @@ impl Reader<'_> {
 
     fn float(&mut self) -> Result<f64, String> {
         let value = self.take().map(f64::from_le_bytes)?;
-        if value.is_finite() { Ok(value) } else { Err(format!("a number is {value}, expected a finite one")) }
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(format!("a number is {value}, expected a finite one"))
+        }
     }
 
     /// A coordinate or a length.
     fn length(&mut self) -> Result<f64, String> {
-        if self.floats { self.float() } else { Ok(f64::from(self.word()?) * self.scale) }
+        if self.floats {
+            self.float()
+        } else {
+            Ok(f64::from(self.word()?) * self.scale)
+        }
     }
 
     /// A number that has `steps` to one where it is an integer, which is not scaled.
     fn fraction(&mut self, steps: f64) -> Result<f64, String> {
-        if self.floats { self.float() } else { Ok(f64::from(self.take().map(i32::from_le_bytes)?) / steps) }
+        if self.floats {
+            self.float()
+        } else {
+            Ok(f64::from(self.take().map(i32::from_le_bytes)?) / steps)
+        }
     }
 
     fn lengths<const N: usize>(&mut self) -> Result<[f64; N], String> {
@@ -90,7 +115,9 @@ impl Reader<'_> {
 
     /// Writes the record of one item; false at the end of the file. An error says why the file cannot be read on.
     fn item(&mut self, text: &mut Vec<u8>) -> Result<bool, String> {
-        let Ok([kind]) = self.take::<1>() else { return Err("the file ends without its end mark".into()) };
+        let Ok([kind]) = self.take::<1>() else {
+            return Err("the file ends without its end mark".into());
+        };
         if self.open && !matches!(kind, 17 | 20 | 128..=136) {
             self.open = false;
             text.extend_from_slice(b"0\nSEQEND\n");
@@ -112,11 +139,19 @@ impl Reader<'_> {
             8 => {
                 let [x, y, radius] = self.lengths()?;
                 let (from, to) = (self.fraction(ANGLE_STEPS)?, self.fraction(ANGLE_STEPS)?);
-                self.record("ARC", &[(10, x), (20, y), (40, radius), (50, from), (51, to)], text);
+                self.record(
+                    "ARC",
+                    &[(10, x), (20, y), (40, radius), (50, from), (51, to)],
+                    text,
+                );
             }
             9 | 11 => {
                 let [x, y, ..] = self.lengths::<8>()?;
-                self.record(if kind == 9 { "TRACE" } else { "SOLID" }, &[(10, x), (20, y)], text);
+                self.record(
+                    if kind == 9 { "TRACE" } else { "SOLID" },
+                    &[(10, x), (20, y)],
+                    text,
+                );
             }
             17 => {
                 if std::mem::take(&mut self.open) {
@@ -141,8 +176,12 @@ impl Reader<'_> {
             128 => self.scale = self.float()?,
             129 => {
                 let rest = self.bytes.get(self.at..).unwrap_or_default();
-                let end = memchr::memchr(0, rest).ok_or("the file ends inside the name of a layer")?;
-                self.layer = rest[..end].iter().map(|&byte| if byte < b' ' { b'?' } else { byte }).collect();
+                let end =
+                    memchr::memchr(0, rest).ok_or("the file ends inside the name of a layer")?;
+                self.layer = rest[..end]
+                    .iter()
+                    .map(|&byte| if byte < b' ' { b'?' } else { byte })
+                    .collect();
                 self.at += end + 1;
             }
             130 => {
@@ -168,7 +207,11 @@ impl Reader<'_> {
                 let to = self.lengths()?;
                 self.line(self.last, to, text);
             }
-            other => return Err(format!("item type {other} is not known, so its length is not")),
+            other => {
+                return Err(format!(
+                    "item type {other} is not known, so its length is not"
+                ));
+            }
         }
         Ok(true)
     }
@@ -176,7 +219,18 @@ impl Reader<'_> {
     fn line(&mut self, from: [f64; 3], to: [f64; 3], text: &mut Vec<u8>) {
         self.last = to;
         let ([x, y, z], [end_x, end_y, end_z]) = (from, to);
-        self.record("LINE", &[(10, x), (20, y), (30, z), (11, end_x), (21, end_y), (31, end_z)], text);
+        self.record(
+            "LINE",
+            &[
+                (10, x),
+                (20, y),
+                (30, z),
+                (11, end_x),
+                (21, end_y),
+                (31, end_z),
+            ],
+            text,
+        );
     }
 
     fn record(&self, name: &str, numbers: &[(i16, f64)], text: &mut Vec<u8>) {
@@ -234,7 +288,11 @@ mod tests {
     fn integers_are_scaled_and_floats_are_not() {
         check(
             "b128 d0.001 b1 w0 w0 w0 w5000 w0 w0 b130 w5000 w2500 b135 w1 b3 d1.5 d2.5 d0.25 b0",
-            &["LINE #1 on 0: 0 0 to 5 0", "LINE #2 on 0: 5 0 to 5 2.5", "CIRCLE #3 on 0: 1.5 2.5 R0.25"],
+            &[
+                "LINE #1 on 0: 0 0 to 5 0",
+                "LINE #2 on 0: 5 0 to 5 2.5",
+                "CIRCLE #3 on 0: 1.5 2.5 R0.25",
+            ],
             None,
         );
     }
@@ -243,7 +301,11 @@ mod tests {
     fn angles_bulges_and_words_have_no_scale() {
         check(
             "b128 d0.5 b8 w2 w4 w6 l30000000 l90000000 b19 w1 b20 w0 w0 b133 l-32768 b20 w20 w0 b134 w0 w0 b20 w20 w10 b17 b2 w2 w2 b0",
-            &["ARC #1 on 0: 1 2 R3 30 90", "POLYLINE #2 on 0: 0 0 -0.5, 10 0 0, 10 5 0 closed", "POINT #3 on 0: 1 1 O"],
+            &[
+                "ARC #1 on 0: 1 2 R3 30 90",
+                "POLYLINE #2 on 0: 0 0 -0.5, 10 0 0, 10 5 0 closed",
+                "POINT #3 on 0: 1 1 O",
+            ],
             None,
         );
     }
@@ -255,18 +317,48 @@ mod tests {
             &["CIRCLE #1 on DIE: 0 0 R5"],
             None,
         );
-        let document = Document::read_file(file("b129 'DIE b136 w1 b3 w0 w0 w5 b22 w0 w0 w0 w0 w0 w0 w0 w0 w0 w0 w0 w0 b0"));
-        assert_eq!(document.drawing().color(document.drawing().order()[0]), Some(crate::drawing::Color::Index(1)));
-        assert_eq!(document.findings().len(), 2, "no unit, and a 3DFACE: {:?}", document.findings());
+        let document = Document::read_file(file(
+            "b129 'DIE b136 w1 b3 w0 w0 w5 b22 w0 w0 w0 w0 w0 w0 w0 w0 w0 w0 w0 w0 b0",
+        ));
+        assert_eq!(
+            document.drawing().color(document.drawing().order()[0]),
+            Some(crate::drawing::Color::Index(1))
+        );
+        assert_eq!(
+            document.findings().len(),
+            2,
+            "no unit, and a 3DFACE: {:?}",
+            document.findings()
+        );
     }
 
     #[test]
     fn what_breaks_off_keeps_what_came_before() {
         let circle = "CIRCLE #1 on 0: 1 1 R5";
-        check("b3 w1 w1 w5 b3 w1", &[circle], Some("byte 26: the file ends inside an item"));
-        check("b3 w1 w1 w5", &[circle], Some("byte 26: the file ends without its end mark"));
-        check("b3 w1 w1 w5 b77 w1 w1", &[circle], Some("byte 26: item type 77 is not known, so its length is not"));
-        check("b3 w1 w1 w5 b135 w1 b3 dinf d0 d1 b0", &[circle], Some("byte 29: a number is inf, expected a finite one"));
-        check("b3 w1 w1 w5 b129", &[circle], Some("byte 26: the file ends inside the name of a layer"));
+        check(
+            "b3 w1 w1 w5 b3 w1",
+            &[circle],
+            Some("byte 26: the file ends inside an item"),
+        );
+        check(
+            "b3 w1 w1 w5",
+            &[circle],
+            Some("byte 26: the file ends without its end mark"),
+        );
+        check(
+            "b3 w1 w1 w5 b77 w1 w1",
+            &[circle],
+            Some("byte 26: item type 77 is not known, so its length is not"),
+        );
+        check(
+            "b3 w1 w1 w5 b135 w1 b3 dinf d0 d1 b0",
+            &[circle],
+            Some("byte 29: a number is inf, expected a finite one"),
+        );
+        check(
+            "b3 w1 w1 w5 b129",
+            &[circle],
+            Some("byte 26: the file ends inside the name of a layer"),
+        );
     }
 }

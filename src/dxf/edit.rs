@@ -55,18 +55,23 @@ impl Document {
         let range = range.start.min(end)..end;
         let vertex = self.vertex_zone(&range);
         let sleeper = self.sleeper_about(&range);
-        let zone = self.item_zone(&range).filter(|zone| !self.holds_frame(zone));
+        let zone = self
+            .item_zone(&range)
+            .filter(|zone| !self.holds_frame(zone));
         let (old_lines, old_length) = (self.text.line_count(), self.text.len());
         self.text.replace(range.clone(), replacement);
         let lines = self.text.line_count() as i64 - old_lines as i64;
         let bytes = self.text.len() as i64 - old_length as i64;
         if range.start >= HEAD || foreign::recognise(self.text.bytes()).is_none() {
-            if let Some(delta) = sleeper.and_then(|sleeper| self.wake(sleeper, &range, lines, bytes)) {
+            if let Some(delta) =
+                sleeper.and_then(|sleeper| self.wake(sleeper, &range, lines, bytes))
+            {
                 return delta;
             }
             if let Some(zone) = vertex
-                && let Some(delta) =
-                    self.reread_vertex(&zone, &range, lines, bytes).or_else(|| self.put_to_sleep(&zone, &range, lines, bytes))
+                && let Some(delta) = self
+                    .reread_vertex(&zone, &range, lines, bytes)
+                    .or_else(|| self.put_to_sleep(&zone, &range, lines, bytes))
             {
                 return delta;
             }
@@ -83,30 +88,59 @@ impl Document {
     fn vertex_zone(&self, range: &Range<usize>) -> Option<VertexZone> {
         let line = self.text.line_of(range.start);
         let item = self.table.item_at(line)?;
-        let Became::Entity(entity) = self.table.items.get(item)?.became else { return None };
+        let Became::Entity(entity) = self.table.items.get(item)?.became else {
+            return None;
+        };
         let vertices = self.table.vertices.get(&entity)?;
         let lines = Lines::new(&self.text);
         let start = self.table.lines_of(item, lines.count()).start;
         let relative = line.checked_sub(start)?;
-        let index = vertices.lines.partition_point(|&vertex| vertex as usize <= relative).checked_sub(1)?;
+        let index = vertices
+            .lines
+            .partition_point(|&vertex| vertex as usize <= relative)
+            .checked_sub(1)?;
         let zone = self.vertex_lines(entity, index)?;
-        let inside =
-            range.start > self.text.line_start(zone.start) && range.end < self.text.line_start(zone.end) && zone.end < lines.count();
+        let inside = range.start > self.text.line_start(zone.start)
+            && range.end < self.text.line_start(zone.end)
+            && zone.end < lines.count();
         // A fault near by was judged by what follows it.
         let near = self.text.line_start(zone.start.saturating_sub(LOOKBACK));
-        let behind = self.findings.partition_point(|finding| range_key(finding).0 < self.text.line_start(zone.end));
+        let behind = self
+            .findings
+            .partition_point(|finding| range_key(finding).0 < self.text.line_start(zone.end));
         let faults = self.findings[behind.saturating_sub(3)..behind]
             .iter()
-            .any(|finding| matches!(&finding.place, Place::Text { range } if range.end >= near) && finding.rule == Rule::Syntax);
+            .any(|finding| {
+                matches!(&finding.place, Place::Text { range } if range.end >= near)
+                    && finding.rule == Rule::Syntax
+            });
         if !inside || faults {
             return None;
         }
         let (_, others) = plain_vertex(lines, zone.clone())?;
-        Some(VertexZone { entity, item, index, lines: zone, others })
+        Some(VertexZone {
+            entity,
+            item,
+            index,
+            lines: zone,
+            others,
+        })
     }
 
-    fn reread_vertex(&mut self, zone: &VertexZone, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
-        let VertexZone { entity, item, index, lines: ref old, others } = *zone;
+    fn reread_vertex(
+        &mut self,
+        zone: &VertexZone,
+        range: &Range<usize>,
+        lines: i64,
+        bytes: i64,
+    ) -> Option<Delta> {
+        let VertexZone {
+            entity,
+            item,
+            index,
+            lines: ref old,
+            others,
+        } = *zone;
         let end = old.end.checked_add_signed(lines as isize)?;
         let (mut vertex, others_now) = plain_vertex(Lines::new(&self.text), old.start..end)?;
         if others_now != others {
@@ -122,12 +156,18 @@ impl Document {
         shift(&mut table.lines[index + 1..], lines);
         shift(&mut self.table.lines[item + 1..], lines);
         self.shift_findings(range.end, bytes);
-        let touched = Arc::make_mut(&mut self.drawing).splice(entity, index, 1, &[vertex]).ok()?;
-        Some(Delta { touched: vec![touched] })
+        let touched = Arc::make_mut(&mut self.drawing)
+            .splice(entity, index, 1, &[vertex])
+            .ok()?;
+        Some(Delta {
+            touched: vec![touched],
+        })
     }
 
     pub(super) fn shift_findings(&mut self, from: usize, bytes: i64) {
-        let first = self.findings.partition_point(|finding| range_key(finding).0 < from);
+        let first = self
+            .findings
+            .partition_point(|finding| range_key(finding).0 < from);
         for finding in &mut self.findings[first..] {
             shift_place(finding, bytes);
         }
@@ -139,14 +179,20 @@ impl Document {
             return None;
         }
         let line = self.text.line_of(range.start).saturating_sub(LOOKBACK);
-        Some(ItemZone { first: self.table.item_at(line)?, end_line: self.text.line_of(range.end) })
+        Some(ItemZone {
+            first: self.table.item_at(line)?,
+            end_line: self.text.line_of(range.end),
+        })
     }
 
     /// True where a text with a frame stands in a zone, or at its end: what it says holds for another entity.
     fn holds_frame(&self, zone: &ItemZone) -> bool {
         let lines = Lines::new(&self.text);
         let last = || self.table.item_at(zone.end_line).map_or(0, |item| item + 1);
-        let range = || self.table.lines_of(zone.first, lines.count()).start..self.table.lines_of(last(), lines.count()).end;
+        let range = || {
+            self.table.lines_of(zone.first, lines.count()).start
+                ..self.table.lines_of(last(), lines.count()).end
+        };
         !self.table.frames.is_empty() && frame::is_named_in(lines, range())
     }
 
@@ -167,7 +213,12 @@ impl Document {
         Some(delta)
     }
 
-    fn read_until_known(&mut self, zone: &ItemZone, lines: i64, findings: &mut Vec<Finding>) -> Option<(Vec<ReadItem>, usize)> {
+    fn read_until_known(
+        &mut self,
+        zone: &ItemZone,
+        lines: i64,
+        findings: &mut Vec<Finding>,
+    ) -> Option<(Vec<ReadItem>, usize)> {
         let start = *self.table.lines.get(zone.first)? as usize;
         let mut context = self.table.items.get(zone.first)?.context;
         let mut lexer = Lexer::new(Lines::new(&self.text), start);
@@ -175,14 +226,35 @@ impl Document {
         let mut next = zone.first + 1;
         loop {
             let at = lexer.at() as i64;
-            while self.table.lines.get(next).is_some_and(|&line| i64::from(line) + lines < at || line as usize <= zone.end_line) {
+            while self
+                .table
+                .lines
+                .get(next)
+                .is_some_and(|&line| i64::from(line) + lines < at || line as usize <= zone.end_line)
+            {
                 next += 1;
             }
-            let known = self.table.lines.get(next).is_some_and(|&line| i64::from(line) + lines == at);
-            if known && self.table.items.get(next).is_some_and(|item| item.context == context) {
+            let known = self
+                .table
+                .lines
+                .get(next)
+                .is_some_and(|&line| i64::from(line) + lines == at);
+            if known
+                && self
+                    .table
+                    .items
+                    .get(next)
+                    .is_some_and(|item| item.context == context)
+            {
                 return Some((read, next));
             }
-            let Some(mut item) = read_item(&mut lexer, context, self.table.fit_tolerance, &mut self.layers, findings) else {
+            let Some(mut item) = read_item(
+                &mut lexer,
+                context,
+                self.table.fit_tolerance,
+                &mut self.layers,
+                findings,
+            ) else {
                 return Some((read, self.table.items.len()));
             };
             context = item.after;
@@ -196,10 +268,20 @@ impl Document {
     /// Which entity of before each entity read is. `None` where the edit reaches beyond the zone.
     fn plan(&self, first: usize, next: usize, read: &[ReadItem]) -> Option<Plan> {
         let old = &self.table.items[first..next];
-        let structure = |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
-        let before: Vec<Became> = old.iter().filter_map(|item| structure(&item.became)).collect();
-        let after: Vec<Became> = read.iter().filter_map(|item| item.said.structure()).collect();
-        let second_section = before.contains(&Became::Structure { entities: true, unit: None }) && self.table.sections > 1;
+        let structure =
+            |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
+        let before: Vec<Became> = old
+            .iter()
+            .filter_map(|item| structure(&item.became))
+            .collect();
+        let after: Vec<Became> = read
+            .iter()
+            .filter_map(|item| item.said.structure())
+            .collect();
+        let second_section = before.contains(&Became::Structure {
+            entities: true,
+            unit: None,
+        }) && self.table.sections > 1;
         // What a layer says holds for all that lies on it.
         let layers_before = old.iter().filter_map(|item| match item.became {
             Became::Layer(index) => self.table.layers.get(index as usize),
@@ -212,13 +294,22 @@ impl Document {
         if !layers_before.eq(layers_after) {
             return None;
         }
-        if before != after || second_section || self.table.items.len() - old.len() + read.len() < 3 {
+        if before != after || second_section || self.table.items.len() - old.len() + read.len() < 3
+        {
             return None;
         }
         let counted = |context: Context| context == Context::Entities;
-        let entities_before = old.iter().filter(|item| item.is_entity() && counted(item.context)).count();
-        let entities_after = read.iter().filter(|item| matches!(item.said, Said::Entity(_)) && counted(item.context)).count();
-        let unnamed = read.iter().any(|item| item.said.entity().is_some_and(|read| read.handle.is_none()));
+        let entities_before = old
+            .iter()
+            .filter(|item| item.is_entity() && counted(item.context))
+            .count();
+        let entities_after = read
+            .iter()
+            .filter(|item| matches!(item.said, Said::Entity(_)) && counted(item.context))
+            .count();
+        let unnamed = read
+            .iter()
+            .any(|item| item.said.entity().is_some_and(|read| read.handle.is_none()));
         if entities_before != entities_after && (unnamed || self.table.by_ordinal > 0) {
             return None;
         }
@@ -226,25 +317,45 @@ impl Document {
             return None;
         }
         // What a block holds, and what a reference draws, reaches beyond the zone.
-        let of_block = |item: &ReadItem| item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)));
-        let was_of_block = |item: &Item| item.context == Context::Blocks || matches!(item.became, Became::Parts { .. });
-        let names_frame = |item: &ReadItem| item.said.entity().is_some_and(|read| !read.frames.is_empty());
-        if read.iter().any(of_block) || old.iter().any(was_of_block) || read.iter().any(names_frame) {
+        let of_block = |item: &ReadItem| {
+            item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)))
+        };
+        let was_of_block = |item: &Item| {
+            item.context == Context::Blocks || matches!(item.became, Became::Parts { .. })
+        };
+        let names_frame = |item: &ReadItem| {
+            item.said
+                .entity()
+                .is_some_and(|read| !read.frames.is_empty())
+        };
+        if read.iter().any(of_block) || old.iter().any(was_of_block) || read.iter().any(names_frame)
+        {
             return None;
         }
         let mut ordinal = match unnamed {
-            true => self.table.items[..first].iter().filter(|item| item.is_entity() && counted(item.context)).count(),
+            true => self.table.items[..first]
+                .iter()
+                .filter(|item| item.is_entity() && counted(item.context))
+                .count(),
             false => 0,
         };
         let ids: Vec<EntityId> = old.iter().filter_map(Item::entity).collect();
-        let position: FxHashMap<&str, usize> =
-            ids.iter().enumerate().filter_map(|(at, &id)| Some((&*self.drawing.get(id)?.handle, at))).collect();
+        let position: FxHashMap<&str, usize> = ids
+            .iter()
+            .enumerate()
+            .filter_map(|(at, &id)| Some((&*self.drawing.get(id)?.handle, at)))
+            .collect();
         let (mut entities, mut handles, mut matched) = (Vec::new(), FxHashSet::default(), 0);
         let mut last = None;
         for item in read {
             ordinal += usize::from(matches!(item.said, Said::Entity(_)) && counted(item.context));
-            let Some(entity) = item.said.entity() else { continue };
-            let handle: Handle = entity.handle.as_ref().map_or_else(|| format!("#{ordinal}").into(), |(handle, _)| handle.clone());
+            let Some(entity) = item.said.entity() else {
+                continue;
+            };
+            let handle: Handle = entity.handle.as_ref().map_or_else(
+                || format!("#{ordinal}").into(),
+                |(handle, _)| handle.clone(),
+            );
             let at = position.get(&*handle).copied();
             // Taken by an entity elsewhere, doubled here, or moved past another one.
             let taken = at.is_none() && self.drawing.find(&handle).is_some();
@@ -260,15 +371,39 @@ impl Document {
         if gone + come > FEW || (self.table.named_anew > 0 && gone + come > 0) {
             return None;
         }
-        Some(Plan { entities, gone: gone > 0, come: come > 0 })
+        Some(Plan {
+            entities,
+            gone: gone > 0,
+            come: come > 0,
+        })
     }
 
     /// Puts the findings of the items read in the place of those of the items before.
-    fn replace_findings(&mut self, first: usize, old_end: Option<usize>, bytes: i64, mut fresh: Vec<Finding>) {
-        let start = self.text.line_start(self.table.lines.get(first).map_or(0, |&line| line as usize));
-        let of_document = self.findings.iter().take_while(|finding| finding.place == Place::Document).count();
-        let from = self.findings.partition_point(|finding| range_key(finding).0 < start).max(of_document);
-        let to = old_end.map_or(self.findings.len(), |end| self.findings.partition_point(|finding| range_key(finding).0 < end)).max(from);
+    fn replace_findings(
+        &mut self,
+        first: usize,
+        old_end: Option<usize>,
+        bytes: i64,
+        mut fresh: Vec<Finding>,
+    ) {
+        let start = self
+            .text
+            .line_start(self.table.lines.get(first).map_or(0, |&line| line as usize));
+        let of_document = self
+            .findings
+            .iter()
+            .take_while(|finding| finding.place == Place::Document)
+            .count();
+        let from = self
+            .findings
+            .partition_point(|finding| range_key(finding).0 < start)
+            .max(of_document);
+        let to = old_end
+            .map_or(self.findings.len(), |end| {
+                self.findings
+                    .partition_point(|finding| range_key(finding).0 < end)
+            })
+            .max(from);
         for finding in &mut self.findings[to..] {
             shift_place(finding, bytes);
         }
@@ -276,13 +411,24 @@ impl Document {
         self.findings.splice(from..to, fresh);
     }
 
-    fn replace_items(&mut self, old: Range<usize>, read: Vec<ReadItem>, plan: Plan, lines: i64) -> Delta {
+    fn replace_items(
+        &mut self,
+        old: Range<usize>,
+        read: Vec<ReadItem>,
+        plan: Plan,
+        lines: i64,
+    ) -> Delta {
         let drawing = Arc::make_mut(&mut self.drawing);
         let table = &mut self.table;
         let mut delta = Delta::default();
         if plan.gone {
-            let kept: FxHashSet<EntityId> = plan.entities.iter().filter_map(|&(_, id)| id).collect();
-            let gone: Vec<EntityId> = table.items[old.clone()].iter().filter_map(Item::entity).filter(|id| !kept.contains(id)).collect();
+            let kept: FxHashSet<EntityId> =
+                plan.entities.iter().filter_map(|&(_, id)| id).collect();
+            let gone: Vec<EntityId> = table.items[old.clone()]
+                .iter()
+                .filter_map(Item::entity)
+                .filter(|id| !kept.contains(id))
+                .collect();
             for entity in gone {
                 drawing.remove(entity);
                 table.vertices.remove(&entity);
@@ -290,31 +436,81 @@ impl Document {
                 delta.touched.push(Touched::Removed { entity });
             }
         }
-        table.by_ordinal -=
-            table.items[old.clone()].iter().filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal).count();
-        let mut position = if plan.come { table.items[..old.start].iter().map(|item| item.entities().count()).sum() } else { 0 };
+        table.by_ordinal -= table.items[old.clone()]
+            .iter()
+            .filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal)
+            .count();
+        let mut position = if plan.come {
+            table.items[..old.start]
+                .iter()
+                .map(|item| item.entities().count())
+                .sum()
+        } else {
+            0
+        };
         let mut planned = plan.entities.into_iter();
-        let layers: Vec<Became> =
-            table.items[old.clone()].iter().map(|item| item.became).filter(|became| matches!(became, Became::Layer(_))).collect();
+        let layers: Vec<Became> = table.items[old.clone()]
+            .iter()
+            .map(|item| item.became)
+            .filter(|became| matches!(became, Became::Layer(_)))
+            .collect();
         let mut layers = layers.into_iter();
-        let (mut starts, mut items) = (Vec::with_capacity(read.len()), Vec::with_capacity(read.len()));
-        for ReadItem { line, context, said, .. } in read {
-            let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
+        let (mut starts, mut items) = (
+            Vec::with_capacity(read.len()),
+            Vec::with_capacity(read.len()),
+        );
+        for ReadItem {
+            line,
+            context,
+            said,
+            ..
+        } in read
+        {
+            let mut item = Item {
+                context,
+                became: Became::Nothing,
+                named: Named::ByText,
+            };
             match said {
                 Said::Entity(Outcome::Entity(read)) => {
-                    let Some((handle, id)) = planned.next() else { continue };
-                    item.named = if read.handle.is_some() { Named::ByText } else { Named::ByOrdinal };
+                    let Some((handle, id)) = planned.next() else {
+                        continue;
+                    };
+                    item.named = if read.handle.is_some() {
+                        Named::ByText
+                    } else {
+                        Named::ByOrdinal
+                    };
                     table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
-                    let Read { layer, look, kind, shape: Shape::Plain(geometry), vertices, .. } = read else { continue };
+                    let Read {
+                        layer,
+                        look,
+                        kind,
+                        shape: Shape::Plain(geometry),
+                        vertices,
+                        ..
+                    } = read
+                    else {
+                        continue;
+                    };
                     let on_layer = layer.clone();
-                    let entity = Entity { handle, layer, role: None, kind, geometry };
+                    let entity = Entity {
+                        handle,
+                        layer,
+                        role: None,
+                        kind,
+                        geometry,
+                    };
                     let id = put(drawing, id, position, entity, &mut delta);
                     drawing.set_fitted(id, is_fitted(kind));
                     let looks_new = set_look(drawing, id, look, &on_layer, &mut table.states);
                     if looks_new && delta.touched.last() != Some(&Touched::Entity { entity: id }) {
                         delta.touched.push(Touched::Entity { entity: id });
                     }
-                    drawing.set_straight(id, vertices.as_ref().is_some_and(|vertices| vertices.in_space));
+                    drawing.set_straight(
+                        id,
+                        vertices.as_ref().is_some_and(|vertices| vertices.in_space),
+                    );
                     position += 1;
                     item.became = Became::Entity(id);
                     table.set_item_of(id, (old.start + items.len()) as u32);
@@ -324,7 +520,9 @@ impl Document {
                     };
                 }
                 Said::Entity(Outcome::Damaged) => item.became = Became::Damaged,
-                Said::Entity(Outcome::Unsupported(kind, why)) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
+                Said::Entity(Outcome::Unsupported(kind, why)) => {
+                    item.became = Became::Unsupported(table.kinds.index(kind, why))
+                }
                 Said::Layer(_) => item.became = layers.next().unwrap_or(Became::Nothing),
                 other => item.became = other.structure().unwrap_or(Became::Nothing),
             }
@@ -355,7 +553,13 @@ struct Plan {
 }
 
 /// Puts an entity into the drawing: in the place of what it was before, or at `position` of the machining order.
-fn put(drawing: &mut Drawing, id: Option<EntityId>, position: usize, entity: Entity, delta: &mut Delta) -> EntityId {
+fn put(
+    drawing: &mut Drawing,
+    id: Option<EntityId>,
+    position: usize,
+    entity: Entity,
+    delta: &mut Delta,
+) -> EntityId {
     let Some(id) = id else {
         let entity = drawing.insert_at(position, entity);
         delta.touched.push(Touched::Entity { entity });
@@ -382,7 +586,9 @@ pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex,
     };
     let [mut x, mut y, mut bulge, mut z, mut flags] = [None; 5];
     for line in range.clone().step_by(2) {
-        let Code::Known(code) = number::code(lines.content(line)) else { return None };
+        let Code::Known(code) = number::code(lines.content(line)) else {
+            return None;
+        };
         let value = match code {
             10 => &mut x,
             20 => &mut y,
@@ -399,10 +605,15 @@ pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex,
         if another || (code == 70 && !lines.trimmed(line + 1).iter().all(u8::is_ascii_digit)) {
             return None;
         }
-        let Number::Exact(number) = number::number(lines.content(line + 1)) else { return None };
+        let Number::Exact(number) = number::number(lines.content(line + 1)) else {
+            return None;
+        };
         *value = Some(number);
     }
-    Some((Vertex::new(x?, y?, bulge.unwrap_or(0.0)), (first == 0, [z, flags])))
+    Some((
+        Vertex::new(x?, y?, bulge.unwrap_or(0.0)),
+        (first == 0, [z, flags]),
+    ))
 }
 
 pub(super) fn shift(lines: &mut [u32], by: i64) {

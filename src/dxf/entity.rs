@@ -107,7 +107,12 @@ pub(super) struct Common {
 impl Common {
     /// Takes the tags that all entities share, and those that belong to none of its fields. True when taken.
     #[inline]
-    pub(super) fn take(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> bool {
+    pub(super) fn take(
+        &mut self,
+        lexer: &mut Lexer,
+        tag: Tag,
+        findings: &mut Vec<Finding>,
+    ) -> bool {
         if self.foreign {
             return true;
         }
@@ -142,7 +147,12 @@ impl Common {
 
     /// The number behind a tag; `None` with a finding where it is none.
     #[inline]
-    pub(super) fn coordinate(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> Option<f64> {
+    pub(super) fn coordinate(
+        &mut self,
+        lexer: &mut Lexer,
+        tag: Tag,
+        findings: &mut Vec<Finding>,
+    ) -> Option<f64> {
         match number::number(lexer.lines.content(tag.value_line())) {
             Number::Exact(value) => Some(value),
             other => self.blemished(lexer, tag, other, findings),
@@ -150,18 +160,34 @@ impl Common {
     }
 
     #[cold]
-    fn blemished(&mut self, lexer: &mut Lexer, tag: Tag, number: Number, findings: &mut Vec<Finding>) -> Option<f64> {
+    fn blemished(
+        &mut self,
+        lexer: &mut Lexer,
+        tag: Tag,
+        number: Number,
+        findings: &mut Vec<Finding>,
+    ) -> Option<f64> {
         let (code, line) = (tag.code, tag.value_line());
         let found = quoted(lexer.lines.trimmed(line));
         if let Number::Blemished(value, blemish) = number {
-            let sentence = format!("group code {code}{} is {found}, which {blemish}; {value} is read", meaning(code));
+            let sentence = format!(
+                "group code {code}{} is {found}, which {blemish}; {value} is read",
+                meaning(code)
+            );
             oddity(findings, lexer.lines.trimmed_range(line), sentence);
             return Some(value);
         }
         self.bad = true;
         if !lexer.back_in_step(tag, findings) {
-            let hint = if found.contains(',') { " with a decimal point" } else { "" };
-            let sentence = format!("group code {code}{} is {found}, expected a number{hint}", meaning(code));
+            let hint = if found.contains(',') {
+                " with a decimal point"
+            } else {
+                ""
+            };
+            let sentence = format!(
+                "group code {code}{} is {found}, expected a number{hint}",
+                meaning(code)
+            );
             damage(findings, lexer.lines.trimmed_range(line), sentence);
         }
         None
@@ -169,17 +195,32 @@ impl Common {
 
     /// A whole number; `None` where it is none.
     pub(super) fn whole(lexer: &Lexer, tag: Tag) -> Option<i64> {
-        std::str::from_utf8(lexer.lines.trimmed(tag.value_line())).ok()?.parse().ok()
+        std::str::from_utf8(lexer.lines.trimmed(tag.value_line()))
+            .ok()?
+            .parse()
+            .ok()
     }
 
     /// Flags; a value that is no whole number is a fault.
-    pub(super) fn flags(&mut self, lexer: &mut Lexer, tag: Tag, findings: &mut Vec<Finding>) -> i64 {
+    pub(super) fn flags(
+        &mut self,
+        lexer: &mut Lexer,
+        tag: Tag,
+        findings: &mut Vec<Finding>,
+    ) -> i64 {
         let Some(flags) = Self::whole(lexer, tag) else {
             self.bad = true;
             if !lexer.back_in_step(tag, findings) {
                 let found = quoted(lexer.lines.trimmed(tag.value_line()));
-                let sentence = format!("group code {} is {found}, expected a whole number", tag.code);
-                damage(findings, lexer.lines.trimmed_range(tag.value_line()), sentence);
+                let sentence = format!(
+                    "group code {} is {found}, expected a whole number",
+                    tag.code
+                );
+                damage(
+                    findings,
+                    lexer.lines.trimmed_range(tag.value_line()),
+                    sentence,
+                );
             }
             return 0;
         };
@@ -187,7 +228,11 @@ impl Common {
     }
 
     pub(super) fn normal(&self) -> Vector3 {
-        Vector3::new(self.extrusion[0].unwrap_or(0.0), self.extrusion[1].unwrap_or(0.0), self.extrusion[2].unwrap_or(1.0))
+        Vector3::new(
+            self.extrusion[0].unwrap_or(0.0),
+            self.extrusion[1].unwrap_or(0.0),
+            self.extrusion[2].unwrap_or(1.0),
+        )
     }
 
     /// Where an entity lies whose coordinates are those of its extrusion, at `height` over its plane. `None` where the extrusion is
@@ -198,7 +243,13 @@ impl Common {
             Plane::Mirrored => Lies::Level(0.0 - height),
             Plane::Tilted => {
                 let system = Space::of_extrusion(self.normal())?;
-                Lies::Aslant(Box::new(Space { origin: system.z * height, ..system }), TILTED)
+                Lies::Aslant(
+                    Box::new(Space {
+                        origin: system.z * height,
+                        ..system
+                    }),
+                    TILTED,
+                )
             }
         })
     }
@@ -213,13 +264,20 @@ impl Common {
         }
     }
 
-    pub(super) fn handle(&self, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<(Handle, usize)> {
+    pub(super) fn handle(
+        &self,
+        lexer: &Lexer,
+        findings: &mut Vec<Finding>,
+    ) -> Option<(Handle, usize)> {
         let line = self.handle?.value_line();
         let value = lexer.lines.trimmed(line);
-        let hexadecimal = !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
+        let hexadecimal =
+            !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
         if !hexadecimal || value.iter().all(|&digit| digit == b'0') {
-            let sentence =
-                format!("group code 5 (handle) is {}, expected a hexadecimal number above 0 of at most 16 digits", quoted(value));
+            let sentence = format!(
+                "group code 5 (handle) is {}, expected a hexadecimal number above 0 of at most 16 digits",
+                quoted(value)
+            );
             oddity(findings, lexer.lines.range(line), sentence);
         }
         if value.is_empty() || value.iter().all(|&digit| digit == b'0') {
@@ -229,18 +287,29 @@ impl Common {
     }
 
     pub(super) fn layer(&self, lexer: &Lexer, layers: &mut Layers) -> Arc<str> {
-        layers.name(self.layer.map_or(b"0", |tag| lexer.lines.trimmed(tag.value_line())))
+        layers.name(
+            self.layer
+                .map_or(b"0", |tag| lexer.lines.trimmed(tag.value_line())),
+        )
     }
 
     pub(super) fn look(&self, lexer: &Lexer) -> Look {
-        let rgb = self.rgb.and_then(|tag| Self::whole(lexer, tag)).and_then(|rgb| u32::try_from(rgb).ok());
+        let rgb = self
+            .rgb
+            .and_then(|tag| Self::whole(lexer, tag))
+            .and_then(|rgb| u32::try_from(rgb).ok());
         let paint = match (rgb, self.color.and_then(|tag| Self::whole(lexer, tag))) {
             (Some(rgb), _) => Paint::Own(Color::of_rgb(rgb)),
             (None, Some(0)) => Paint::ByBlock,
-            (None, Some(index)) => u8::try_from(index).map_or(Paint::ByLayer, |index| Paint::Own(Color::Index(index))),
+            (None, Some(index)) => {
+                u8::try_from(index).map_or(Paint::ByLayer, |index| Paint::Own(Color::Index(index)))
+            }
             (None, None) => Paint::ByLayer,
         };
-        Look { paint, invisible: self.invisible }
+        Look {
+            paint,
+            invisible: self.invisible,
+        }
     }
 
     /// Reads the handle and the layer, and puts the parts together.
@@ -255,7 +324,16 @@ impl Common {
     ) -> Outcome {
         let look = self.look(lexer);
         let (handle, layer) = (self.handle(lexer, findings), self.layer(lexer, layers));
-        Outcome::Entity(Read { handle, layer, look, kind, shape, lies, vertices, frames: Vec::new() })
+        Outcome::Entity(Read {
+            handle,
+            layer,
+            look,
+            kind,
+            shape,
+            lies,
+            vertices,
+            frames: Vec::new(),
+        })
     }
 }
 
@@ -280,7 +358,12 @@ pub(super) fn pass_over(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> bool 
 }
 
 /// Reads the entity whose record begins at `start`; the lexer stands behind its name.
-pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+pub(super) fn read(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     match plain::read(lexer.lines, start.line, layers) {
         Some((read, next)) => {
             lexer.begin_item(next);
@@ -291,7 +374,12 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings:
 }
 
 /// Reads any entity, sound or not.
-pub(super) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+pub(super) fn read_closely(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     match lexer.lines.trimmed(start.value_line()) {
         b"LWPOLYLINE" => light_polyline(start, lexer, layers, findings),
         b"LINE" => line(start, lexer, layers, findings),
@@ -306,7 +394,11 @@ pub(super) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut Layers, f
         b"POINT" => point(start, lexer, layers, findings),
         name => {
             let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
-            let why = if pass_over(lexer, findings) { PAPER_SPACE } else { NOT_CUT };
+            let why = if pass_over(lexer, findings) {
+                PAPER_SPACE
+            } else {
+                NOT_CUT
+            };
             Outcome::Unsupported(kind, why)
         }
     }
@@ -327,15 +419,31 @@ pub(super) fn pass_over_followers(lexer: &mut Lexer, findings: &mut Vec<Finding>
     }
 }
 
-pub(super) fn missing(start: Tag, lexer: &Lexer, codes: &[(i16, bool)], findings: &mut Vec<Finding>) {
-    let mut lacking: Vec<String> = codes.iter().filter(|(_, there)| !there).map(|(code, _)| format!("{code}{}", meaning(*code))).collect();
+pub(super) fn missing(
+    start: Tag,
+    lexer: &Lexer,
+    codes: &[(i16, bool)],
+    findings: &mut Vec<Finding>,
+) {
+    let mut lacking: Vec<String> = codes
+        .iter()
+        .filter(|(_, there)| !there)
+        .map(|(code, _)| format!("{code}{}", meaning(*code)))
+        .collect();
     let kind = String::from_utf8_lossy(lexer.lines.trimmed(start.value_line())).into_owned();
     let last = lacking.pop().unwrap_or_default();
     let sentence = match lacking.is_empty() {
         true => format!("{kind} lacks group code {last}"),
-        false => format!("{kind} lacks the group codes {} and {last}", lacking.join(", ")),
+        false => format!(
+            "{kind} lacks the group codes {} and {last}",
+            lacking.join(", ")
+        ),
     };
-    damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+    damage(
+        findings,
+        lexer.lines.trimmed_range(start.value_line()),
+        sentence,
+    );
 }
 
 /// The numbers of an entity that has each of them once.
@@ -346,11 +454,19 @@ pub(super) struct Numbers<const N: usize> {
 
 impl<const N: usize> Numbers<N> {
     pub(super) fn new(codes: [i16; N]) -> Self {
-        Numbers { codes, values: [None; N] }
+        Numbers {
+            codes,
+            values: [None; N],
+        }
     }
 
     /// Takes all tags of the record that it holds a place for.
-    pub(super) fn gather(&mut self, lexer: &mut Lexer, findings: &mut Vec<Finding>, mut other: impl FnMut(&Lexer, Tag)) -> Common {
+    pub(super) fn gather(
+        &mut self,
+        lexer: &mut Lexer,
+        findings: &mut Vec<Finding>,
+        mut other: impl FnMut(&Lexer, Tag),
+    ) -> Common {
         let mut common = Common::default();
         while let Some(tag) = tag_of_record(lexer, findings) {
             if common.take(lexer, tag, findings) {
@@ -380,41 +496,81 @@ impl<const N: usize> Numbers<N> {
         if first.iter().all(Option::is_some) {
             return Some(first.map(Option::unwrap_or_default));
         }
-        let there: Vec<(i16, bool)> = self.codes.iter().zip(first).map(|(&code, value)| (code, value.is_some())).collect();
+        let there: Vec<(i16, bool)> = self
+            .codes
+            .iter()
+            .zip(first)
+            .map(|(&code, value)| (code, value.is_some()))
+            .collect();
         missing(start, lexer, &there, findings);
         None
     }
 }
 
-fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+fn line(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 11, 21, 30, 31]);
     let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, end_x, end_y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let Some([x, y, end_x, end_y]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
     // The ends of a LINE are world coordinates: its extrusion only gives the direction of its thickness.
     if common.paper_space {
         return Outcome::Unsupported("LINE".into(), PAPER_SPACE);
     }
-    let (low, high) = (numbers.values[4].unwrap_or(0.0), numbers.values[5].unwrap_or(0.0));
+    let (low, high) = (
+        numbers.values[4].unwrap_or(0.0),
+        numbers.values[5].unwrap_or(0.0),
+    );
     if low != high {
-        let sentence = "the ends of this LINE differ in z: it is read as it looks from above".to_owned();
-        oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+        let sentence =
+            "the ends of this LINE differ in z: it is read as it looks from above".to_owned();
+        oddity(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            sentence,
+        );
     }
-    let geometry = Geometry::Line { start: Point::new(x, y), end: Point::new(end_x, end_y) };
+    let geometry = Geometry::Line {
+        start: Point::new(x, y),
+        end: Point::new(end_x, end_y),
+    };
     let lies = match low == high {
         true => Lies::Level(low),
-        false => Lies::Rising(Box::new([Vector3::new(x, y, low), Vector3::new(end_x, end_y, high)])),
+        false => Lies::Rising(Box::new([
+            Vector3::new(x, y, low),
+            Vector3::new(end_x, end_y, high),
+        ])),
     };
-    common.finish(lexer, layers, Kind::Line, (Shape::Plain(geometry), lies), None, findings)
+    common.finish(
+        lexer,
+        layers,
+        Kind::Line,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    )
 }
 
 /// The radius, when it is positive; else a finding.
-fn radius_of(value: f64, kind: &str, start: Tag, lexer: &Lexer, findings: &mut Vec<Finding>) -> Option<f64> {
+fn radius_of(
+    value: f64,
+    kind: &str,
+    start: Tag,
+    lexer: &Lexer,
+    findings: &mut Vec<Finding>,
+) -> Option<f64> {
     if value > 0.0 {
         return Some(value);
     }
     let radius_line = value_line_of(start, lexer, 40);
     let found = quoted(lexer.lines.trimmed(radius_line));
-    let sentence = format!("group code 40 (radius) of {kind} is {found}, expected a number above 0");
+    let sentence =
+        format!("group code 40 (radius) of {kind} is {found}, expected a number above 0");
     damage(findings, lexer.lines.trimmed_range(radius_line), sentence);
     None
 }
@@ -422,24 +578,48 @@ fn radius_of(value: f64, kind: &str, start: Tag, lexer: &Lexer, findings: &mut V
 fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 40, 50, 51, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
     // A point begins and ends in the same direction: what a fillet of no radius leaves behind. Else the radius is damaged.
     let is_point = radius == 0.0 && (to - from) % 360.0 == 0.0;
     if is_point {
         let place = lexer.lines.trimmed_range(value_line_of(start, lexer, 40));
-        oddity(findings, place, "ARC has the radius 0: it is a point, and is not cut".into());
+        oddity(
+            findings,
+            place,
+            "ARC has the radius 0: it is a point, and is not cut".into(),
+        );
     } else if radius_of(radius, "ARC", start, lexer, findings).is_none() {
         return Outcome::Damaged;
     }
     let (from, to) = (radians(from), radians(to));
-    let Some(lies) = common.lies(numbers.values[5].unwrap_or(0.0)) else { return Outcome::Unsupported("ARC".into(), TILTED) };
+    let Some(lies) = common.lies(numbers.values[5].unwrap_or(0.0)) else {
+        return Outcome::Unsupported("ARC".into(), TILTED);
+    };
     let (center, (start_angle, end_angle)) = match common.plane() {
         _ if common.paper_space => return Outcome::Unsupported("ARC".into(), PAPER_SPACE),
         Plane::Normal | Plane::Tilted => (Point::new(x, y), (from, to)),
         Plane::Mirrored => (Point::new(0.0 - x, y), mirrored_angles(from, to)),
     };
-    let geometry = if is_point { Geometry::point(center) } else { Geometry::Arc { center, radius, start_angle, end_angle } };
-    common.finish(lexer, layers, Kind::Arc, (Shape::Plain(geometry), lies), None, findings)
+    let geometry = if is_point {
+        Geometry::point(center)
+    } else {
+        Geometry::Arc {
+            center,
+            radius,
+            start_angle,
+            end_angle,
+        }
+    };
+    common.finish(
+        lexer,
+        layers,
+        Kind::Arc,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    )
 }
 
 /// Start and end of an arc, counter-clockwise again, once x runs the other way. Its own inverse.
@@ -447,33 +627,59 @@ pub(super) fn mirrored_angles(start: f64, end: f64) -> (f64, f64) {
     (std::f64::consts::PI - end, std::f64::consts::PI - start)
 }
 
-fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+fn circle(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 40, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, radius]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
-    let Some(radius) = radius_of(radius, "CIRCLE", start, lexer, findings) else { return Outcome::Damaged };
-    let Some(lies) = common.lies(numbers.values[3].unwrap_or(0.0)) else { return Outcome::Unsupported("CIRCLE".into(), TILTED) };
+    let Some([x, y, radius]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
+    let Some(radius) = radius_of(radius, "CIRCLE", start, lexer, findings) else {
+        return Outcome::Damaged;
+    };
+    let Some(lies) = common.lies(numbers.values[3].unwrap_or(0.0)) else {
+        return Outcome::Unsupported("CIRCLE".into(), TILTED);
+    };
     let x = match common.plane() {
         _ if common.paper_space => return Outcome::Unsupported("CIRCLE".into(), PAPER_SPACE),
         Plane::Normal | Plane::Tilted => x,
         Plane::Mirrored => 0.0 - x,
     };
-    let shape = Shape::Plain(Geometry::Circle { center: Point::new(x, y), radius });
+    let shape = Shape::Plain(Geometry::Circle {
+        center: Point::new(x, y),
+        radius,
+    });
     common.finish(lexer, layers, Kind::Circle, (shape, lies), None, findings)
 }
 
-fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+fn text(
+    kind: Kind,
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     let mut content = Vec::new();
     let mut numbers = Numbers::new([10, 20, 11, 21, 30]);
     let mut is_aligned = false;
     let common = numbers.gather(lexer, findings, |lexer, tag| match tag.code {
         1 | 3 => content.extend_from_slice(lexer.lines.content(tag.value_line())),
         // To the right, to the middle, above a line: then the point that somebody has set is the second one.
-        72 if kind == Kind::Text => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4"),
-        73 if kind == Kind::Text => is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"3"),
+        72 if kind == Kind::Text => {
+            is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4")
+        }
+        73 if kind == Kind::Text => {
+            is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"3")
+        }
         _ => {}
     });
-    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
     let [_, _, set_x, set_y, height] = numbers.values;
     let (x, y) = match (set_x, set_y) {
         (Some(x), Some(y)) if is_aligned => (x, y),
@@ -483,36 +689,89 @@ fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings
         return Outcome::Unsupported(kind.name().into(), PAPER_SPACE);
     }
     let height = height.unwrap_or(0.0);
-    let Some(lies) = common.lies(height) else { return Outcome::Unsupported(kind.name().into(), TILTED) };
+    let Some(lies) = common.lies(height) else {
+        return Outcome::Unsupported(kind.name().into(), TILTED);
+    };
     let (x, y, lies) = match (kind, lies) {
         // The place of an MTEXT is in world coordinates.
-        (Kind::LongText, Lies::Aslant(system, why)) => {
-            (0.0, 0.0, Lies::Aslant(Box::new(Space { origin: Vector3::new(x, y, height), ..*system }), why))
-        }
+        (Kind::LongText, Lies::Aslant(system, why)) => (
+            0.0,
+            0.0,
+            Lies::Aslant(
+                Box::new(Space {
+                    origin: Vector3::new(x, y, height),
+                    ..*system
+                }),
+                why,
+            ),
+        ),
         (Kind::LongText, _) => (x, y, Lies::Level(height)),
-        (_, lies) => (if common.plane() == Plane::Mirrored { 0.0 - x } else { x }, y, lies),
+        (_, lies) => (
+            if common.plane() == Plane::Mirrored {
+                0.0 - x
+            } else {
+                x
+            },
+            y,
+            lies,
+        ),
     };
     let content = layers.text(&content);
-    let words = if kind == Kind::LongText { words_of_mtext(&content) } else { words_of_text(&content) };
-    let geometry = Geometry::Text { at: Point::new(x, y), text: words.trim().to_owned() };
-    let frames = if kind == Kind::LongText { frame::handles(lexer.lines, start.line..lexer.at()) } else { Vec::new() };
-    match common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None, findings) {
+    let words = if kind == Kind::LongText {
+        words_of_mtext(&content)
+    } else {
+        words_of_text(&content)
+    };
+    let geometry = Geometry::Text {
+        at: Point::new(x, y),
+        text: words.trim().to_owned(),
+    };
+    let frames = if kind == Kind::LongText {
+        frame::handles(lexer.lines, start.line..lexer.at())
+    } else {
+        Vec::new()
+    };
+    match common.finish(
+        lexer,
+        layers,
+        kind,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    ) {
         Outcome::Entity(read) => Outcome::Entity(Read { frames, ..read }),
         other => other,
     }
 }
 
 /// A POINT marks a start as a text "O" does. Its place is in world coordinates.
-fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+fn point(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 30]);
     let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
     if common.paper_space {
         return Outcome::Unsupported("POINT".into(), PAPER_SPACE);
     }
-    let geometry = Geometry::Text { at: Point::new(x, y), text: "O".into() };
+    let geometry = Geometry::Text {
+        at: Point::new(x, y),
+        text: "O".into(),
+    };
     let lies = Lies::Level(numbers.values[2].unwrap_or(0.0));
-    common.finish(lexer, layers, Kind::Point, (Shape::Plain(geometry), lies), None, findings)
+    common.finish(
+        lexer,
+        layers,
+        Kind::Point,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    )
 }
 
 /// The line of the last value of `code` among the entity's own tags; the name's line where there is none.
@@ -550,7 +809,12 @@ impl Vertices {
     }
 }
 
-fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+fn light_polyline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     let mut common = Common::default();
     let mut read = Vertices::default();
     let (mut closed, mut count, mut height) = (false, None, 0.0);
@@ -573,7 +837,10 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
                     (_, Some(vertex)) => vertex.bulge = value,
                     (code, None) => {
                         if !common.bad && !lexer.out_of_step {
-                            let sentence = format!("group code {code}{} stands before the first group code 10 (x)", meaning(code));
+                            let sentence = format!(
+                                "group code {code}{} stands before the first group code 10 (x)",
+                                meaning(code)
+                            );
                             damage(findings, lexer.lines.trimmed_range(tag.line), sentence);
                         }
                         common.bad = true;
@@ -600,7 +867,9 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
     if common.paper_space {
         return Outcome::Unsupported("LWPOLYLINE".into(), PAPER_SPACE);
     }
-    let Some(lies) = common.lies(height) else { return Outcome::Unsupported("LWPOLYLINE".into(), TILTED) };
+    let Some(lies) = common.lies(height) else {
+        return Outcome::Unsupported("LWPOLYLINE".into(), TILTED);
+    };
     let mirrored = common.plane() == Plane::Mirrored;
     let found = read.vertices.len();
     if let Some(tag) = count
@@ -608,13 +877,28 @@ fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: 
         && Common::whole(lexer, tag) != i64::try_from(found).ok()
     {
         let stated = quoted(lexer.lines.trimmed(tag.value_line()));
-        let sentence = format!("group code 90 (number of vertices) is {stated}, but {found} vertices are there");
+        let sentence = format!(
+            "group code 90 (number of vertices) is {stated}, but {found} vertices are there"
+        );
         oddity(findings, lexer.lines.range(tag.value_line()), sentence);
     }
-    polyline_of(Kind::LightPolyline, start, common, closed, read, (mirrored, false, lies), lexer, layers, findings)
+    polyline_of(
+        Kind::LightPolyline,
+        start,
+        common,
+        closed,
+        read,
+        (mirrored, false, lies),
+        lexer,
+        layers,
+        findings,
+    )
 }
 
-#[expect(clippy::too_many_arguments, reason = "what a polyline is made of, in one call from each of its two kinds")]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what a polyline is made of, in one call from each of its two kinds"
+)]
 fn polyline_of(
     kind: Kind,
     start: Tag,
@@ -627,8 +911,15 @@ fn polyline_of(
     findings: &mut Vec<Finding>,
 ) -> Outcome {
     if read.vertices.len() < 2 {
-        let sentence = format!("{kind} has {} vertices, expected at least 2", read.vertices.len());
-        oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+        let sentence = format!(
+            "{kind} has {} vertices, expected at least 2",
+            read.vertices.len()
+        );
+        oddity(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            sentence,
+        );
         return Outcome::Damaged;
     }
     if mirrored {
@@ -636,9 +927,23 @@ fn polyline_of(
     }
     read.vertices.shrink_to_fit();
     read.lines.shrink_to_fit();
-    let geometry = Geometry::Polyline { closed, vertices: read.vertices };
-    let vertices = VertexLines { lines: read.lines, mirrored, in_space };
-    common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), Some(vertices), findings)
+    let geometry = Geometry::Polyline {
+        closed,
+        vertices: read.vertices,
+    };
+    let vertices = VertexLines {
+        lines: read.lines,
+        mirrored,
+        in_space,
+    };
+    common.finish(
+        lexer,
+        layers,
+        kind,
+        (Shape::Plain(geometry), lies),
+        Some(vertices),
+        findings,
+    )
 }
 
 /// A vertex once x runs the other way. Its own inverse.
@@ -648,7 +953,12 @@ pub(super) fn mirror(vertex: &mut Vertex) {
 }
 
 /// POLYLINE with its VERTEX records, up to and with SEQEND.
-fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+fn polyline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     const CLOSED: i64 = 1;
     const IN_SPACE: i64 = 8;
     const MESHES: i64 = 16 | 64;
@@ -667,7 +977,14 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
     }
     if flags & MESHES != 0 {
         pass_over_followers(lexer, findings, &[b"VERTEX", b"SEQEND"]);
-        return Outcome::Unsupported("POLYLINE".into(), if common.paper_space { PAPER_SPACE } else { MESH });
+        return Outcome::Unsupported(
+            "POLYLINE".into(),
+            if common.paper_space {
+                PAPER_SPACE
+            } else {
+                MESH
+            },
+        );
     }
     let mut read = Vertices::default();
     let (mut heights, mut ended) = (Vec::new(), false);
@@ -703,22 +1020,39 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
             continue;
         }
         let [Some(x), Some(y), z, bulge] = numbers else {
-            missing(next, lexer, &[(10, numbers[0].is_some()), (20, numbers[1].is_some())], findings);
+            missing(
+                next,
+                lexer,
+                &[(10, numbers[0].is_some()), (20, numbers[1].is_some())],
+                findings,
+            );
             common.bad = true;
             continue;
         };
         heights.push(z.unwrap_or(0.0));
-        let bulge = if flags & IN_SPACE != 0 { 0.0 } else { bulge.unwrap_or(0.0) };
+        let bulge = if flags & IN_SPACE != 0 {
+            0.0
+        } else {
+            bulge.unwrap_or(0.0)
+        };
         read.vertices.push(Vertex::new(x, y, bulge));
         read.lines.push((next.line - start.line) as u32);
     }
     // The text ends within the name of the next record, which tells of it: that may have been a VERTEX.
-    let is_cut = !ended && lexer.lines.last_is_open() && lexer.peek_record().is_some_and(|next| next.line + 2 >= lexer.lines.count());
+    let is_cut = !ended
+        && lexer.lines.last_is_open()
+        && lexer
+            .peek_record()
+            .is_some_and(|next| next.line + 2 >= lexer.lines.count());
     if common.bad || lexer.out_of_step || is_cut {
         return Outcome::Damaged;
     }
     if !ended && !lexer.at_end() && read.vertices.len() > 1 {
-        oddity(findings, lexer.lines.trimmed_range(start.value_line()), "POLYLINE does not end with SEQEND".into());
+        oddity(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            "POLYLINE does not end with SEQEND".into(),
+        );
     }
     let in_space = flags & IN_SPACE != 0;
     if common.paper_space {
@@ -726,18 +1060,40 @@ fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut V
     }
     // The points of a 3D polyline are world coordinates.
     let lies = match in_space {
-        true if heights.windows(2).all(|pair| pair[0] == pair[1]) => Some(Lies::Level(heights.first().copied().unwrap_or(0.0))),
+        true if heights.windows(2).all(|pair| pair[0] == pair[1]) => {
+            Some(Lies::Level(heights.first().copied().unwrap_or(0.0)))
+        }
         true => {
-            let points: Vec<Vector3> = read.vertices.iter().zip(&heights).map(|(vertex, z)| at_height(vertex.point.coords, *z)).collect();
+            let points: Vec<Vector3> = read
+                .vertices
+                .iter()
+                .zip(&heights)
+                .map(|(vertex, z)| at_height(vertex.point.coords, *z))
+                .collect();
             let plane = Space::through(&points);
             if let Some(plane) = &plane {
-                read.vertices.iter_mut().zip(points).for_each(|(vertex, point)| vertex.point = plane.seen_from(point));
+                read.vertices
+                    .iter_mut()
+                    .zip(points)
+                    .for_each(|(vertex, point)| vertex.point = plane.seen_from(point));
             }
             plane.map(|plane| Lies::Aslant(Box::new(plane), NOT_PLANE))
         }
         false => common.lies(height),
     };
-    let Some(lies) = lies else { return Outcome::Unsupported("POLYLINE".into(), if in_space { NOT_PLANE } else { TILTED }) };
+    let Some(lies) = lies else {
+        return Outcome::Unsupported("POLYLINE".into(), if in_space { NOT_PLANE } else { TILTED });
+    };
     let mirrored = !in_space && common.plane() == Plane::Mirrored;
-    polyline_of(Kind::Polyline, start, common, flags & CLOSED != 0, read, (mirrored, in_space, lies), lexer, layers, findings)
+    polyline_of(
+        Kind::Polyline,
+        start,
+        common,
+        flags & CLOSED != 0,
+        read,
+        (mirrored, in_space, lies),
+        lexer,
+        layers,
+        findings,
+    )
 }

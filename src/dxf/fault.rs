@@ -24,7 +24,12 @@ pub(super) fn left_out(findings: &mut Vec<Finding>, range: Range<usize>, what: N
     });
 }
 
-pub(super) fn push(findings: &mut Vec<Finding>, range: Range<usize>, severity: Severity, sentence: String) {
+pub(super) fn push(
+    findings: &mut Vec<Finding>,
+    range: Range<usize>,
+    severity: Severity,
+    sentence: String,
+) {
     findings.push(Finding {
         rule: Rule::Syntax,
         severity,

@@ -1,6 +1,9 @@
 //! INSERT: which block it draws, where, how often and how it is stretched.
 
-use super::entity::{Common, Look, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers, value_line_of};
+use super::entity::{
+    Common, Look, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers,
+    value_line_of,
+};
 use super::fault::{damage, oddity, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
@@ -38,11 +41,19 @@ impl Insert {
 pub(super) fn block_key(name: &[u8]) -> String {
     match std::str::from_utf8(name) {
         Ok(name) => name.to_lowercase(),
-        Err(_) => name.iter().map(|&byte| char::from(byte.to_ascii_lowercase())).collect(),
+        Err(_) => name
+            .iter()
+            .map(|&byte| char::from(byte.to_ascii_lowercase()))
+            .collect(),
     }
 }
 
-pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Finding>) -> Outcome {
+pub(super) fn read(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 41, 42, 50, 44, 45, 30, 43]);
     let (mut name, mut columns, mut rows) = (None, None, None);
     let mut common = numbers.gather(lexer, findings, |_, tag| match tag.code {
@@ -51,21 +62,44 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings:
         71 => rows = Some(tag),
         _ => {}
     });
-    let count = |tag: Option<Tag>, common: &mut Common, lexer: &mut Lexer, findings: &mut Vec<Finding>| match tag {
+    let count = |tag: Option<Tag>,
+                 common: &mut Common,
+                 lexer: &mut Lexer,
+                 findings: &mut Vec<Finding>| match tag {
         Some(tag) if Common::whole(lexer, tag).is_none() => {
             common.bad = true;
             let found = quoted(lexer.lines.trimmed(tag.value_line()));
-            let sentence = format!("group code {} of INSERT is {found}, expected a whole number", tag.code);
-            damage(findings, lexer.lines.trimmed_range(tag.value_line()), sentence);
+            let sentence = format!(
+                "group code {} of INSERT is {found}, expected a whole number",
+                tag.code
+            );
+            damage(
+                findings,
+                lexer.lines.trimmed_range(tag.value_line()),
+                sentence,
+            );
             1
         }
-        Some(tag) => Common::whole(lexer, tag).and_then(|count| u64::try_from(count).ok()).unwrap_or(1).max(1),
+        Some(tag) => Common::whole(lexer, tag)
+            .and_then(|count| u64::try_from(count).ok())
+            .unwrap_or(1)
+            .max(1),
         None => 1,
     };
-    let columns = if lexer.out_of_step { 1 } else { count(columns, &mut common, lexer, findings) };
-    let rows = if lexer.out_of_step { 1 } else { count(rows, &mut common, lexer, findings) };
+    let columns = if lexer.out_of_step {
+        1
+    } else {
+        count(columns, &mut common, lexer, findings)
+    };
+    let rows = if lexer.out_of_step {
+        1
+    } else {
+        count(rows, &mut common, lexer, findings)
+    };
     pass_over_followers(lexer, findings, &[b"ATTRIB", b"SEQEND"]);
-    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else { return Outcome::Damaged };
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
     let Some(name) = name else {
         missing(start, lexer, &[(2, false)], findings);
         return Outcome::Damaged;
@@ -75,16 +109,34 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings:
     }
     let system = match common.plane() {
         Plane::Normal => Some(Space::IDENTITY),
-        Plane::Mirrored => Some(Space { x: -Vector3::x(), z: -Vector3::z(), ..Space::IDENTITY }),
+        Plane::Mirrored => Some(Space {
+            x: -Vector3::x(),
+            z: -Vector3::z(),
+            ..Space::IDENTITY
+        }),
         Plane::Tilted => Space::of_extrusion(common.normal()),
     };
-    let Some(system) = system else { return Outcome::Unsupported("INSERT".into(), TILTED) };
-    let [_, _, x_scale, y_scale, rotation, column_step, row_step, height, z_scale] = numbers.values;
+    let Some(system) = system else {
+        return Outcome::Unsupported("INSERT".into(), TILTED);
+    };
+    let [
+        _,
+        _,
+        x_scale,
+        y_scale,
+        rotation,
+        column_step,
+        row_step,
+        height,
+        z_scale,
+    ] = numbers.values;
     // A scale of 0 would flatten the block; programs write it where they mean that none is set.
     for (code, axis, value) in [(41, 'x', x_scale), (42, 'y', y_scale), (43, 'z', z_scale)] {
         if value == Some(0.0) {
             let place = lexer.lines.trimmed_range(value_line_of(start, lexer, code));
-            let sentence = format!("group code {code} ({axis} scale) of INSERT is 0, expected any other number: 1 is read");
+            let sentence = format!(
+                "group code {code} ({axis} scale) of INSERT is 0, expected any other number: 1 is read"
+            );
             oddity(findings, place, sentence);
         }
     }

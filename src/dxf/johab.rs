@@ -24,7 +24,9 @@ pub(super) fn decoded(bytes: &[u8]) -> String {
             text.push(char::from(first));
             continue;
         }
-        let found = behind.split_first().and_then(|(&second, behind)| Some((character(first, second)?, behind)));
+        let found = behind
+            .split_first()
+            .and_then(|(&second, behind)| Some((character(first, second)?, behind)));
         let (character, behind) = found.unwrap_or((char::REPLACEMENT_CHARACTER, behind));
         text.push(character);
         rest = behind;
@@ -62,7 +64,9 @@ fn syllable(code: u32) -> Option<char> {
     };
     let alone = |letters: &str, at: u32| letters.chars().nth(at as usize);
     match (initial, vowel, end) {
-        (Some(initial), Some(vowel), end) => char::from_u32(FIRST_SYLLABLE + (initial * VOWELS + vowel) * ENDS + end),
+        (Some(initial), Some(vowel), end) => {
+            char::from_u32(FIRST_SYLLABLE + (initial * VOWELS + vowel) * ENDS + end)
+        }
         (Some(initial), None, 0) => alone(INITIALS, initial),
         (None, Some(vowel), 0) => char::from_u32(FIRST_VOWEL + vowel),
         (None, None, 1..) => alone(FINALS, end - 1),
@@ -81,7 +85,9 @@ fn of_wansung(row: u8, second: u8) -> Option<char> {
     let code = [row + at / IN_A_ROW, 0xa1 + at % IN_A_ROW];
     let (text, bad) = encoding_rs::EUC_KR.decode_without_bom_handling(&code);
     let mut characters = text.chars();
-    characters.next().filter(|_| !bad && characters.next().is_none())
+    characters
+        .next()
+        .filter(|_| !bad && characters.next().is_none())
 }
 
 #[cfg(test)]

@@ -20,13 +20,21 @@ pub(super) struct LayerEntry {
 const NEVER_PLOTTED: &str = "defpoints";
 
 /// The entry whose record stands in some lines; `name` makes its name of the bytes in the text. `None` for one without a name.
-pub(super) fn read(lines: Lines, range: Range<usize>, mut name: impl FnMut(&[u8]) -> Arc<str>) -> Option<LayerEntry> {
+pub(super) fn read(
+    lines: Lines,
+    range: Range<usize>,
+    mut name: impl FnMut(&[u8]) -> Arc<str>,
+) -> Option<LayerEntry> {
     const FROZEN: i64 = 1;
     let whole = |line: usize| match number::number(lines.content(line)) {
         Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e9 => Some(value as i64),
         _ => None,
     };
-    let mut entry = LayerEntry { name: "".into(), visibility: Visibility::Shown, color: None };
+    let mut entry = LayerEntry {
+        name: "".into(),
+        visibility: Visibility::Shown,
+        color: None,
+    };
     let (mut named, mut frozen, mut off, mut plotted, mut rgb) = (false, false, false, true, None);
     for tag in own_tags(lines, range) {
         let line = tag.value_line();
@@ -40,7 +48,10 @@ pub(super) fn read(lines: Lines, range: Range<usize>, mut name: impl FnMut(&[u8]
                 // A colour below 0 is that of a layer that is switched off.
                 let index = whole(line).unwrap_or(7);
                 off = index < 0;
-                entry.color = u8::try_from(index.unsigned_abs()).ok().filter(|index| *index > 0).map(Color::Index);
+                entry.color = u8::try_from(index.unsigned_abs())
+                    .ok()
+                    .filter(|index| *index > 0)
+                    .map(Color::Index);
             }
             420 => rgb = whole(line).and_then(|rgb| u32::try_from(rgb).ok()),
             290 => plotted = lines.trimmed(line) != b"0",
@@ -68,7 +79,8 @@ pub(super) struct LayerStates {
 impl LayerStates {
     pub(super) fn enter(&mut self, entry: &LayerEntry) {
         if entry.visibility != Visibility::Shown {
-            self.unlike.insert(entry.name.to_lowercase(), entry.visibility);
+            self.unlike
+                .insert(entry.name.to_lowercase(), entry.visibility);
         }
         self.last = None;
     }
@@ -82,7 +94,11 @@ impl LayerStates {
         {
             return *visibility;
         }
-        let visibility = self.unlike.get(&layer.to_lowercase()).copied().unwrap_or_default();
+        let visibility = self
+            .unlike
+            .get(&layer.to_lowercase())
+            .copied()
+            .unwrap_or_default();
         self.last = Some((layer.clone(), visibility));
         visibility
     }

@@ -14,7 +14,10 @@ pub(super) struct Layers {
 
 impl Layers {
     pub(super) fn in_code_page(code_page: Option<CodePage>) -> Layers {
-        Layers { code_page, ..Layers::default() }
+        Layers {
+            code_page,
+            ..Layers::default()
+        }
     }
 
     /// A value of the text in Unicode, its escapes resolved.

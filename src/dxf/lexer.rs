@@ -42,7 +42,13 @@ pub(super) struct Lexer<'a> {
 
 impl<'a> Lexer<'a> {
     pub(super) fn new(lines: Lines<'a>, at: usize) -> Lexer<'a> {
-        Lexer { lines, at, consumed: at + 1, out_of_step: false, dangling: None }
+        Lexer {
+            lines,
+            at,
+            consumed: at + 1,
+            out_of_step: false,
+            dangling: None,
+        }
     }
 
     /// The line of the next tag.
@@ -94,14 +100,20 @@ impl<'a> Lexer<'a> {
                 return None;
             }
             match number::code(self.lines.content(line)) {
-                Code::Known(0) if !is_name(self.lines.content(line + 1)) => self.recover(line, findings),
+                Code::Known(0) if !is_name(self.lines.content(line + 1)) => {
+                    self.recover(line, findings)
+                }
                 Code::Known(code) => {
                     self.at = line + 2;
                     return Some(Tag { code, line });
                 }
                 Code::OutOfRange if self.score(line + 2) == FULL => {
                     let code = quoted(self.lines.trimmed(line));
-                    damage(findings, self.lines.trimmed_range(line), format!("group code {code} is out of range, expected -5 to 1071"));
+                    damage(
+                        findings,
+                        self.lines.trimmed_range(line),
+                        format!("group code {code} is out of range, expected -5 to 1071"),
+                    );
                     self.at = line + 2;
                 }
                 Code::OutOfRange | Code::NotANumber => match self.behind_empty_lines(line) {
@@ -114,7 +126,8 @@ impl<'a> Lexer<'a> {
 
     /// The line of the record that begins behind empty lines, which `line` is the first of.
     fn behind_empty_lines(&self, line: usize) -> Option<usize> {
-        let is_empty = |line: &usize| *line < self.lines.count() && self.lines.trimmed(*line).is_empty();
+        let is_empty =
+            |line: &usize| *line < self.lines.count() && self.lines.trimmed(*line).is_empty();
         let record = line + (line..line + EMPTY_LINES).take_while(is_empty).count();
         let begins = record > line
             && record + 1 < self.lines.count()
@@ -126,8 +139,12 @@ impl<'a> Lexer<'a> {
     /// Empty lines between two records take nothing from either.
     fn pass_over_empty_lines(&mut self, line: usize, record: usize, findings: &mut Vec<Finding>) {
         let sentence = match record - line {
-            1 => "an empty line stands where a group code is expected: it is passed over".to_owned(),
-            count => format!("{count} empty lines stand where a group code is expected: they are passed over"),
+            1 => {
+                "an empty line stands where a group code is expected: it is passed over".to_owned()
+            }
+            count => format!(
+                "{count} empty lines stand where a group code is expected: they are passed over"
+            ),
         };
         oddity(findings, self.lines.range(line), sentence);
         self.at = record;
@@ -149,8 +166,10 @@ impl<'a> Lexer<'a> {
             self.lost_value(tag.line, findings);
         } else {
             let found = quoted(self.lines.trimmed(line));
-            let sentence =
-                format!("{found} stands where the value of group code {} is expected: a line is missing or one too many", tag.code);
+            let sentence = format!(
+                "{found} stands where the value of group code {} is expected: a line is missing or one too many",
+                tag.code
+            );
             damage(findings, self.lines.range(line), sentence);
         }
         true
@@ -162,7 +181,10 @@ impl<'a> Lexer<'a> {
         let in_step = self.score(line + 2);
         let extra = self.score(line + 1);
         // The value before may be the code that this line is the value of: `0` and then a name.
-        let back = line.checked_sub(1).filter(|&before| before > self.consumed).map_or(0, |before| self.score(before));
+        let back = line
+            .checked_sub(1)
+            .filter(|&before| before > self.consumed)
+            .map_or(0, |before| self.score(before));
         let names_record = back > 0 && number::code(self.lines.content(line - 1)) == Code::Known(0);
         let best = in_step.max(extra).max(back);
         let next = if best <= FULL / 2 {
@@ -185,18 +207,32 @@ impl<'a> Lexer<'a> {
         if next == line + 1 {
             self.at = self.settled(next);
         }
-        let sentence = if next == line + 2 && number::code(self.lines.content(line)) == Code::Known(0) {
-            format!("group code 0 is followed by {}, expected the name of a record", quoted(self.lines.trimmed(line + 1)))
+        let sentence = if next == line + 2
+            && number::code(self.lines.content(line)) == Code::Known(0)
+        {
+            format!(
+                "group code 0 is followed by {}, expected the name of a record",
+                quoted(self.lines.trimmed(line + 1))
+            )
         } else if next == line + 2 {
             format!("{found} stands where a group code is expected, which is a whole number")
         } else if next > line + 2 {
-            format!("{found} stands where a group code is expected: {} lines are no tags", next - line)
+            format!(
+                "{found} stands where a group code is expected: {} lines are no tags",
+                next - line
+            )
         } else {
-            format!("{found} stands where a group code is expected: a line is missing or one too many")
+            format!(
+                "{found} stands where a group code is expected: a line is missing or one too many"
+            )
         };
         let end = self.lines.range(next.max(line + 1) - 1).end;
         let start = self.lines.range(line).start;
-        let whole = if next > line + 2 { start..end.max(start) } else { self.lines.range(line) };
+        let whole = if next > line + 2 {
+            start..end.max(start)
+        } else {
+            self.lines.range(line)
+        };
         damage(findings, whole, sentence);
     }
 
@@ -204,7 +240,9 @@ impl<'a> Lexer<'a> {
     /// be another record.
     fn lost_value(&self, code_line: usize, findings: &mut Vec<Finding>) {
         let code = quoted(self.lines.trimmed(code_line));
-        let sentence = format!("group code {code} is not followed by its value: a line is missing or one too many");
+        let sentence = format!(
+            "group code {code} is not followed by its value: a line is missing or one too many"
+        );
         damage(findings, self.lines.range(code_line), sentence);
     }
 
@@ -215,12 +253,20 @@ impl<'a> Lexer<'a> {
             _ => false,
         };
         let end = self.lines.count();
-        (line..).step_by(2).take(SETTLING + 1).find(|&at| at + 1 >= end || sound(at)).unwrap_or(line).min(end)
+        (line..)
+            .step_by(2)
+            .take(SETTLING + 1)
+            .find(|&at| at + 1 >= end || sound(at))
+            .unwrap_or(line)
+            .min(end)
     }
 
     fn end_of_garbage(&self, from: usize) -> usize {
         (from..self.lines.count())
-            .find(|&line| matches!(number::code(self.lines.content(line)), Code::Known(_)) && self.score(line) == FULL)
+            .find(|&line| {
+                matches!(number::code(self.lines.content(line)), Code::Known(_))
+                    && self.score(line) == FULL
+            })
             .unwrap_or(self.lines.count())
     }
 
@@ -257,8 +303,18 @@ fn is_name(value: &[u8]) -> bool {
 fn fits(code: i16, value: &[u8]) -> bool {
     match code {
         0 => is_name(value),
-        10..=59 | 140..=149 | 210..=239 | 460..=469 | 1010..=1059 => number::number(value) != Number::Bad,
-        60..=79 | 90..=99 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 420..=429 | 440..=459 | 1060..=1071 => {
+        10..=59 | 140..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
+            number::number(value) != Number::Bad
+        }
+        60..=79
+        | 90..=99
+        | 170..=179
+        | 270..=289
+        | 370..=389
+        | 400..=409
+        | 420..=429
+        | 440..=459
+        | 1060..=1071 => {
             let text = &value[number::trimmed(value)];
             let digits = text.strip_prefix(b"-").unwrap_or(text);
             !digits.is_empty() && digits.iter().all(u8::is_ascii_digit)

@@ -17,8 +17,16 @@ pub(super) struct Lines<'a> {
 impl<'a> Lines<'a> {
     pub(super) fn new(text: &'a SourceText) -> Lines<'a> {
         let (bytes, starts) = (text.bytes(), text.line_starts());
-        let empty_last = starts.len().checked_sub(1).and_then(|last| starts.get(last)).is_some_and(|last| last >= bytes.len());
-        Lines { bytes, starts, count: starts.len() - usize::from(empty_last) }
+        let empty_last = starts
+            .len()
+            .checked_sub(1)
+            .and_then(|last| starts.get(last))
+            .is_some_and(|last| last >= bytes.len());
+        Lines {
+            bytes,
+            starts,
+            count: starts.len() - usize::from(empty_last),
+        }
     }
 
     pub(super) fn bytes(&self) -> &'a [u8] {
@@ -39,12 +47,16 @@ impl<'a> Lines<'a> {
     }
 
     pub(super) fn range(&self, line: usize) -> Range<usize> {
-        let Some(mut start) = self.starts.get(line) else { return self.bytes.len()..self.bytes.len() };
+        let Some(mut start) = self.starts.get(line) else {
+            return self.bytes.len()..self.bytes.len();
+        };
         let mut end = match self.starts.get(line + 1) {
             Some(next) => {
                 // A line that has a follower ends with LF, CR or CR LF.
                 let shortened = next.saturating_sub(1);
-                let crlf = self.bytes.get(shortened) == Some(&b'\n') && shortened > start && self.bytes[shortened - 1] == b'\r';
+                let crlf = self.bytes.get(shortened) == Some(&b'\n')
+                    && shortened > start
+                    && self.bytes[shortened - 1] == b'\r';
                 shortened - usize::from(crlf)
             }
             None => self.bytes.len(),

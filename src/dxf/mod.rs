@@ -79,7 +79,10 @@ impl Document {
     /// Reads a file: DXF text in the code page that it names, or binary DXF or DXB, which become text that says the same
     /// (see [`Document::is_binary`]). Never fails: what is damaged is in [`Document::findings`].
     pub fn read_file(bytes: Vec<u8>) -> Document {
-        let (is_dxf, is_dxb) = (binary::sentinel(&bytes).is_some(), bytes.starts_with(dxb::SENTINEL));
+        let (is_dxf, is_dxb) = (
+            binary::sentinel(&bytes).is_some(),
+            bytes.starts_with(dxb::SENTINEL),
+        );
         let is_mangled = binary::is_mangled(&bytes);
         let is_binary = is_dxf || is_dxb;
         let (bytes, fault) = match () {
@@ -88,7 +91,11 @@ impl Document {
             () => (bytes, None),
         };
         let layers = Layers::in_code_page(Some(CodePage::of_file(&bytes)));
-        let mut document = Document { layers: Box::new(layers), is_binary, ..Document::default() };
+        let mut document = Document {
+            layers: Box::new(layers),
+            is_binary,
+            ..Document::default()
+        };
         document.take(bytes);
         if is_mangled && fault.is_none() {
             let sentence =
@@ -98,8 +105,14 @@ impl Document {
         if let Some(sentence) = fault {
             let end = document.text.len();
             // What the last record lacks is beyond the end: one fault, one finding.
-            let last = document.table.lines.last().map_or(0, |&line| document.text.line_start(line as usize));
-            document.findings.retain(|finding| finding.rule != Rule::Syntax || reader::range_key(finding).0 < last);
+            let last = document
+                .table
+                .lines
+                .last()
+                .map_or(0, |&line| document.text.line_start(line as usize));
+            document.findings.retain(|finding| {
+                finding.rule != Rule::Syntax || reader::range_key(finding).0 < last
+            });
             fault::damage(&mut document.findings, end..end, sentence);
         }
         document
@@ -132,7 +145,11 @@ impl Document {
             return;
         }
         self.arc_fit = Some(mm);
-        if self.drawing.entities().any(|(_, entity)| is_fitted(entity.kind)) {
+        if self
+            .drawing
+            .entities()
+            .any(|(_, entity)| is_fitted(entity.kind))
+        {
             self.read_all();
         }
         self.table.fit_tolerance = fit_tolerance(self.arc_fit, self.drawing.unit);
@@ -168,7 +185,12 @@ impl Document {
         if let Some(sentence) = foreign::recognise(self.text.bytes()) {
             return self.is_no_dxf(sentence);
         }
-        if self.text.bytes().iter().all(|byte| byte.is_ascii_whitespace()) {
+        if self
+            .text
+            .bytes()
+            .iter()
+            .all(|byte| byte.is_ascii_whitespace())
+        {
             return self.is_no_dxf("the text is empty, expected DXF");
         }
         let mut reading = Reading::default();
@@ -176,7 +198,10 @@ impl Document {
         if !reading.frames.is_empty() {
             // A frame may stand before its text.
             self.findings.clear();
-            *self.table = Table { frames: reading.frames, ..Table::default() };
+            *self.table = Table {
+                frames: reading.frames,
+                ..Table::default()
+            };
             reading = Reading::default();
             self.read_items(&mut reading);
         }
@@ -184,12 +209,25 @@ impl Document {
             reading.states = std::mem::take(&mut self.table.states);
             // Blocks, or parts of them, that stand behind what refers to them.
             self.findings.clear();
-            *self.table = Table { frames: std::mem::take(&mut self.table.frames), ..Table::default() };
+            *self.table = Table {
+                frames: std::mem::take(&mut self.table.frames),
+                ..Table::default()
+            };
             self.table.states = std::mem::take(&mut reading.states);
-            reading = Reading { known: Some(reading.blocks.unasked()), ..Reading::default() };
+            reading = Reading {
+                known: Some(reading.blocks.unasked()),
+                ..Reading::default()
+            };
             self.read_items(&mut reading);
         }
-        let Reading { mut drawing, unit, any_record, blocks, known, .. } = reading;
+        let Reading {
+            mut drawing,
+            unit,
+            any_record,
+            blocks,
+            known,
+            ..
+        } = reading;
         if !any_record {
             return self.is_no_dxf("the text has no DXF records: expected lines of group codes and values, as 0 and SECTION");
         }
@@ -215,21 +253,41 @@ impl Document {
     }
 
     fn read_items(&mut self, reading: &mut Reading) {
-        let Document { text, findings, table, layers, arc_fit, .. } = self;
+        let Document {
+            text,
+            findings,
+            table,
+            layers,
+            arc_fit,
+            ..
+        } = self;
         let lines = Lines::new(text);
         let mut lexer = Lexer::new(lines, 0);
         let mut context = Context::Outside;
         table.fit_tolerance = fit_tolerance(*arc_fit, None);
-        while let Some(read) = read_item(&mut lexer, context, table.fit_tolerance, layers, findings) {
+        while let Some(read) = read_item(&mut lexer, context, table.fit_tolerance, layers, findings)
+        {
             context = read.after;
-            let ReadItem { line, context, said, .. } = read;
-            reading.any_record |= line > 0 || !matches!(said, Said::Nothing) || lines.trimmed(0) == b"0";
-            let mut item = Item { context, became: Became::Nothing, named: Named::ByText };
+            let ReadItem {
+                line,
+                context,
+                said,
+                ..
+            } = read;
+            reading.any_record |=
+                line > 0 || !matches!(said, Said::Nothing) || lines.trimmed(0) == b"0";
+            let mut item = Item {
+                context,
+                became: Became::Nothing,
+                named: Named::ByText,
+            };
             match said {
                 Said::Nothing => {}
                 Said::Layer(entry) => {
                     // What stands before its layer is read again.
-                    reading.early |= reading.known.is_none() && !reading.drawing.is_empty() && entry.visibility != Visibility::Shown;
+                    reading.early |= reading.known.is_none()
+                        && !reading.drawing.is_empty()
+                        && entry.visibility != Visibility::Shown;
                     table.states.enter(&entry);
                     if let Some(color) = entry.color {
                         reading.drawing.set_layer_color(&entry.name, color);
@@ -241,20 +299,30 @@ impl Document {
                     item.became = Became::Block;
                     reading.early |= reading.known.is_none() && reading.refers;
                     if let Some(name_line) = reading.blocks.begin(&lexer, line) {
-                        let sentence = "a block of this name stands before this one: that one is drawn".to_owned();
+                        let sentence =
+                            "a block of this name stands before this one: that one is drawn"
+                                .to_owned();
                         fault::oddity(findings, lines.trimmed_range(name_line), sentence);
                     }
                 }
-                Said::Structure { entities, unit: stated } => {
-                    item.became = Became::Structure { entities, unit: stated };
+                Said::Structure {
+                    entities,
+                    unit: stated,
+                } => {
+                    item.became = Became::Structure {
+                        entities,
+                        unit: stated,
+                    };
                     reading.unit = stated.or(reading.unit);
                     // One tolerance for all entities, also for those that are read again.
                     if table.sections == 0 {
-                        table.fit_tolerance = fit_tolerance(*arc_fit, reading.unit.and_then(unit_of));
+                        table.fit_tolerance =
+                            fit_tolerance(*arc_fit, reading.unit.and_then(unit_of));
                     }
                     table.sections += usize::from(entities);
                     if entities && table.sections > 1 {
-                        let sentence = "a second section ENTITIES begins here; both are read".to_owned();
+                        let sentence =
+                            "a second section ENTITIES begins here; both are read".to_owned();
                         fault::oddity(findings, lines.trimmed_range(line + 1), sentence);
                     }
                 }
@@ -268,8 +336,13 @@ impl Document {
                     reading.ordinal += usize::from(context == Context::Entities);
                     match outcome {
                         Outcome::Damaged => item.became = Became::Damaged,
-                        Outcome::Unsupported(kind, why) => item.became = Became::Unsupported(table.kinds.index(kind, why)),
-                        outcome if context == Context::Blocks && reading.blocks.in_layout().is_some() => {
+                        Outcome::Unsupported(kind, why) => {
+                            item.became = Became::Unsupported(table.kinds.index(kind, why))
+                        }
+                        outcome
+                            if context == Context::Blocks
+                                && reading.blocks.in_layout().is_some() =>
+                        {
                             let kind = match &outcome {
                                 Outcome::Entity(read) => read.kind.name(),
                                 _ => "INSERT",
@@ -281,16 +354,38 @@ impl Document {
                             reading.early |= reading.known.is_none() && reading.refers;
                             reading.blocks.add(outcome);
                         }
-                        Outcome::Insert(insert) => reading.push_reference(&insert, line, &mut item, table, findings, lines),
+                        Outcome::Insert(insert) => {
+                            reading.push_reference(&insert, line, &mut item, table, findings, lines)
+                        }
                         Outcome::Entity(read) => {
                             if let Shape::Plain(geometry) = read.shape {
                                 let layer = read.layer.clone();
-                                let entity = Entity { handle: "".into(), layer: read.layer, role: None, kind: read.kind, geometry };
-                                let id = reading.push_entity(entity, read.handle, line, &mut item, table, findings, lines);
+                                let entity = Entity {
+                                    handle: "".into(),
+                                    layer: read.layer,
+                                    role: None,
+                                    kind: read.kind,
+                                    geometry,
+                                };
+                                let id = reading.push_entity(
+                                    entity,
+                                    read.handle,
+                                    line,
+                                    &mut item,
+                                    table,
+                                    findings,
+                                    lines,
+                                );
                                 if is_fitted(read.kind) {
                                     reading.drawing.set_fitted(id, true);
                                 }
-                                set_look(&mut reading.drawing, id, read.look, &layer, &mut table.states);
+                                set_look(
+                                    &mut reading.drawing,
+                                    id,
+                                    read.look,
+                                    &layer,
+                                    &mut table.states,
+                                );
                                 item.became = Became::Entity(id);
                                 if let Some(vertices) = read.vertices {
                                     reading.drawing.set_straight(id, vertices.in_space);
@@ -308,14 +403,19 @@ impl Document {
 
     /// One finding for each kind of entity that is not cut, at the first of it; all findings in the order of the text.
     fn name_unsupported(&mut self) {
-        self.findings.retain(|finding| finding.rule != Rule::UnsupportedEntity);
+        self.findings
+            .retain(|finding| finding.rule != Rule::UnsupportedEntity);
         let mut count = vec![0usize; self.table.kinds.len()];
         let mut first = vec![NO_ITEM; self.table.kinds.len()];
         // What a block holds counts where the block is drawn.
         let mut used = self.table.used.iter();
         let mut is_drawn = false;
         // Of most drawings everything is cut: then no item is looked at, however many there are.
-        let items = if count.is_empty() { &[][..] } else { &self.table.items[..] };
+        let items = if count.is_empty() {
+            &[][..]
+        } else {
+            &self.table.items[..]
+        };
         for (index, item) in items.iter().enumerate() {
             if item.became == Became::Block {
                 is_drawn = used.next().copied().unwrap_or(false);
@@ -328,7 +428,9 @@ impl Document {
                 count[kind] += how_many;
             };
             match item.became {
-                Became::Unsupported(kind) if item.context != Context::Blocks || is_drawn => name(kind, 1),
+                Became::Unsupported(kind) if item.context != Context::Blocks || is_drawn => {
+                    name(kind, 1)
+                }
                 Became::Parts { first, .. } if !self.table.left_out.is_empty() => {
                     let left_out = self.table.left_out.get(&first).into_iter().flatten();
                     left_out.for_each(|&(kind, how_many)| name(kind, how_many));
@@ -338,13 +440,25 @@ impl Document {
         }
         let lines = Lines::new(&self.text);
         for (index, (&count, &first)) in count.iter().zip(&first).enumerate() {
-            let Some((kind, why)) = self.table.kinds.get(index as u32).filter(|_| count > 0) else { continue };
-            let line = self.table.lines.get(first as usize).map_or(0, |&line| line as usize + 1);
+            let Some((kind, why)) = self.table.kinds.get(index as u32).filter(|_| count > 0) else {
+                continue;
+            };
+            let line = self
+                .table
+                .lines
+                .get(first as usize)
+                .map_or(0, |&line| line as usize + 1);
             self.findings.push(Finding {
                 rule: Rule::UnsupportedEntity,
                 severity: Severity::Information,
-                place: Place::Text { range: lines.trimmed_range(line) },
-                detail: Detail::UnsupportedEntity { kind: kind.clone(), count, why },
+                place: Place::Text {
+                    range: lines.trimmed_range(line),
+                },
+                detail: Detail::UnsupportedEntity {
+                    kind: kind.clone(),
+                    count,
+                    why,
+                },
                 related: Vec::new(),
             });
         }
@@ -355,12 +469,23 @@ impl Document {
     /// One finding for each layer that is not simply shown and has something drawn on it, at its entry; one for all that is
     /// invisible by itself, at the first of it.
     fn name_unseen(&mut self) {
-        let mut by_reason: BTreeMap<(Visibility, Arc<str>), (usize, u64, EntityId)> = BTreeMap::new();
+        let mut by_reason: BTreeMap<(Visibility, Arc<str>), (usize, u64, EntityId)> =
+            BTreeMap::new();
         for (id, visibility, layer) in self.drawing.unseen() {
-            if self.drawing.get(id).is_some_and(|entity| entity.geometry.segment_count() > 0) {
-                let layer = if visibility == Visibility::Invisible { "".into() } else { layer.clone() };
+            if self
+                .drawing
+                .get(id)
+                .is_some_and(|entity| entity.geometry.segment_count() > 0)
+            {
+                let layer = if visibility == Visibility::Invisible {
+                    "".into()
+                } else {
+                    layer.clone()
+                };
                 let rank = self.drawing.rank(id);
-                let (count, first, at) = by_reason.entry((visibility, layer)).or_insert((0, rank, id));
+                let (count, first, at) = by_reason
+                    .entry((visibility, layer))
+                    .or_insert((0, rank, id));
                 *count += 1;
                 if rank < *first {
                     (*first, *at) = (rank, id);
@@ -368,12 +493,18 @@ impl Document {
             }
         }
         for ((visibility, layer), (count, _, first)) in by_reason {
-            let range = self.entry_of(&layer).unwrap_or_else(|| self.range_of(&Place::Entity { entity: first }));
+            let range = self
+                .entry_of(&layer)
+                .unwrap_or_else(|| self.range_of(&Place::Entity { entity: first }));
             self.findings.push(Finding {
                 rule: Rule::UnsupportedEntity,
                 severity: Severity::Information,
                 place: Place::Text { range },
-                detail: Detail::Unseen { layer, visibility, count },
+                detail: Detail::Unseen {
+                    layer,
+                    visibility,
+                    count,
+                },
                 related: Vec::new(),
             });
         }
@@ -382,14 +513,22 @@ impl Document {
     /// Where the name of a layer stands in the table LAYER.
     fn entry_of(&self, layer: &str) -> Option<std::ops::Range<usize>> {
         let is_it = |became: Became| match became {
-            Became::Layer(index) => {
-                self.table.layers.get(index as usize).is_some_and(|entry| entry.name.to_lowercase() == layer.to_lowercase())
-            }
+            Became::Layer(index) => self
+                .table
+                .layers
+                .get(index as usize)
+                .is_some_and(|entry| entry.name.to_lowercase() == layer.to_lowercase()),
             _ => false,
         };
-        let item = self.table.items.iter().position(|item| is_it(item.became))?;
+        let item = self
+            .table
+            .items
+            .iter()
+            .position(|item| is_it(item.became))?;
         let lines = Lines::new(&self.text);
-        let name = place::own_tags(lines, self.table.lines_of(item, lines.count())).filter(|tag| tag.code == 2).last()?;
+        let name = place::own_tags(lines, self.table.lines_of(item, lines.count()))
+            .filter(|tag| tag.code == 2)
+            .last()?;
         Some(lines.trimmed_range(name.value_line()))
     }
 
@@ -425,7 +564,10 @@ struct Reading {
 
 impl Reading {
     /// Adds an entity under the handle that it has, or under its ordinal; a handle that is taken is reported.
-    #[expect(clippy::too_many_arguments, reason = "the entity, and all that takes note of it")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the entity, and all that takes note of it"
+    )]
     fn push_entity(
         &mut self,
         entity: Entity,
@@ -436,12 +578,29 @@ impl Reading {
         findings: &mut Vec<Finding>,
         lines: Lines,
     ) -> EntityId {
-        item.named = if handle.is_some() { Named::ByText } else { Named::ByOrdinal };
-        let asked: Handle = handle.as_ref().map_or_else(|| format!("#{}", self.ordinal).into(), |(handle, _)| handle.clone());
+        item.named = if handle.is_some() {
+            Named::ByText
+        } else {
+            Named::ByOrdinal
+        };
+        let asked: Handle = handle.as_ref().map_or_else(
+            || format!("#{}", self.ordinal).into(),
+            |(handle, _)| handle.clone(),
+        );
         let handle_line = handle.as_ref().map_or(line + 1, |(_, line)| *line);
-        let id = self.drawing.push(Entity { handle: asked.clone(), ..entity });
-        if let Some(given) = self.drawing.get(id).map(|entity| &entity.handle).filter(|given| ***given != *asked) {
-            let sentence = format!("the handle {asked} is taken by an entity before this one, which is called {given} here");
+        let id = self.drawing.push(Entity {
+            handle: asked.clone(),
+            ..entity
+        });
+        if let Some(given) = self
+            .drawing
+            .get(id)
+            .map(|entity| &entity.handle)
+            .filter(|given| ***given != *asked)
+        {
+            let sentence = format!(
+                "the handle {asked} is taken by an entity before this one, which is called {given} here"
+            );
             fault::oddity(findings, lines.trimmed_range(handle_line), sentence);
             item.named = Named::Anew;
         }
@@ -467,31 +626,59 @@ impl Reading {
             return;
         }
         let blocks = self.known.as_mut().unwrap_or(&mut self.blocks);
-        let Drawn { parts, left_out } = match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
-            Ok(drawn) => drawn,
-            Err(why) => {
-                item.became = Became::Damaged;
-                let range = lines.trimmed_range(insert.name_line);
-                return match why {
-                    Undrawn::Damaged(sentence) => fault::damage(findings, range, sentence),
-                    Undrawn::TooMuch(what) => fault::left_out(findings, range, what),
-                };
-            }
-        };
+        let Drawn { parts, left_out } =
+            match blocks.resolve(insert, table.fit_tolerance, &mut table.states) {
+                Ok(drawn) => drawn,
+                Err(why) => {
+                    item.became = Became::Damaged;
+                    let range = lines.trimmed_range(insert.name_line);
+                    return match why {
+                        Undrawn::Damaged(sentence) => fault::damage(findings, range, sentence),
+                        Undrawn::TooMuch(what) => fault::left_out(findings, range, what),
+                    };
+                }
+            };
         if let (true, Some(((_, why), _))) = (parts.is_empty(), left_out.first_key_value()) {
             item.became = Became::Unsupported(table.kinds.index("INSERT".into(), why));
             return;
         }
         let mut ids = EntityId(0)..EntityId(0);
         let mut name: Option<Handle> = None;
-        for Part { layer, visibility, color, kind, geometry } in parts {
-            let entity = Entity { handle: "".into(), layer, role: None, kind, geometry };
+        for Part {
+            layer,
+            visibility,
+            color,
+            kind,
+            geometry,
+        } in parts
+        {
+            let entity = Entity {
+                handle: "".into(),
+                layer,
+                role: None,
+                kind,
+                geometry,
+            };
             let id = match &name {
-                Some(handle) => self.drawing.push_part(Entity { handle: handle.clone(), ..entity }),
+                Some(handle) => self.drawing.push_part(Entity {
+                    handle: handle.clone(),
+                    ..entity
+                }),
                 None => {
-                    ids.start = self.push_entity(entity, insert.handle.clone(), line, item, table, findings, lines);
+                    ids.start = self.push_entity(
+                        entity,
+                        insert.handle.clone(),
+                        line,
+                        item,
+                        table,
+                        findings,
+                        lines,
+                    );
                     self.drawing.set_editable(ids.start, false);
-                    name = self.drawing.get(ids.start).map(|entity| entity.handle.clone());
+                    name = self
+                        .drawing
+                        .get(ids.start)
+                        .map(|entity| entity.handle.clone());
                     ids.start
                 }
             };
@@ -500,17 +687,33 @@ impl Reading {
             self.drawing.set_color(id, color);
             ids.end = EntityId(id.0 + 1);
         }
-        item.became = Became::Parts { first: ids.start, count: ids.end.0 - ids.start.0 };
+        item.became = Became::Parts {
+            first: ids.start,
+            count: ids.end.0 - ids.start.0,
+        };
         if !left_out.is_empty() {
-            let left_out = left_out.into_iter().map(|((kind, why), count)| (table.kinds.index(kind.name().into(), why), count)).collect();
+            let left_out = left_out
+                .into_iter()
+                .map(|((kind, why), count)| (table.kinds.index(kind.name().into(), why), count))
+                .collect();
             table.left_out.insert(ids.start, left_out);
         }
     }
 }
 
 /// Takes note of how an entity looks. True when that is something new.
-fn set_look(drawing: &mut Drawing, id: EntityId, look: Look, layer: &Arc<str>, states: &mut LayerStates) -> bool {
-    let visibility = if look.invisible { Visibility::Invisible } else { states.of(layer) };
+fn set_look(
+    drawing: &mut Drawing,
+    id: EntityId,
+    look: Look,
+    layer: &Arc<str>,
+    states: &mut LayerStates,
+) -> bool {
+    let visibility = if look.invisible {
+        Visibility::Invisible
+    } else {
+        states.of(layer)
+    };
     let color = match look.paint {
         Paint::Own(color) => Some(color),
         Paint::ByLayer | Paint::ByBlock => None,

@@ -5,8 +5,14 @@ use std::ops::Range;
 /// What is left of `bytes` without padding (spaces and tabs) on either side, as a range within them.
 pub(super) fn trimmed(bytes: &[u8]) -> Range<usize> {
     let padding = |byte: &u8| matches!(byte, b' ' | b'\t');
-    let start = bytes.iter().position(|byte| !padding(byte)).unwrap_or(bytes.len());
-    let end = bytes.iter().rposition(|byte| !padding(byte)).map_or(start, |last| last + 1);
+    let start = bytes
+        .iter()
+        .position(|byte| !padding(byte))
+        .unwrap_or(bytes.len());
+    let end = bytes
+        .iter()
+        .rposition(|byte| !padding(byte))
+        .map_or(start, |last| last + 1);
     start..end
 }
 
@@ -44,12 +50,18 @@ pub(super) fn code(line: &[u8]) -> Code {
     if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
         return Code::NotANumber;
     }
-    let value = digits.iter().fold(0i32, |sum, digit| (sum * 10 + i32::from(digit - b'0')).min(1_000_000));
+    let value = digits.iter().fold(0i32, |sum, digit| {
+        (sum * 10 + i32::from(digit - b'0')).min(1_000_000)
+    });
     in_range(if negative { -value } else { value })
 }
 
 fn in_range(value: i32) -> Code {
-    if (-10..=1071).contains(&value) { Code::Known(value as i16) } else { Code::OutOfRange }
+    if (-10..=1071).contains(&value) {
+        Code::Known(value as i16)
+    } else {
+        Code::OutOfRange
+    }
 }
 
 /// What a value that should be a number is.
@@ -61,8 +73,10 @@ pub(super) enum Number {
     Bad,
 }
 
-const POWERS: [f64; 23] =
-    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22];
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
 
 /// Reads a decimal number; padding is allowed. Only finite numbers in decimal notation are numbers.
 pub(super) fn number(line: &[u8]) -> Number {
@@ -70,7 +84,10 @@ pub(super) fn number(line: &[u8]) -> Number {
     if let Some(value) = decimal(text) {
         return Number::Exact(value);
     }
-    let without_nul = text.iter().rposition(|&byte| byte != 0).map_or(&text[..0], |last| &text[..=last]);
+    let without_nul = text
+        .iter()
+        .rposition(|&byte| byte != 0)
+        .map_or(&text[..0], |last| &text[..=last]);
     if without_nul.len() < text.len() {
         return match decimal(&without_nul[trimmed(without_nul)]) {
             Some(value) => Number::Blemished(value, "is followed by NUL bytes"),
@@ -91,7 +108,12 @@ pub(super) fn number(line: &[u8]) -> Number {
 /// one step.
 #[inline]
 pub(super) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
-    let digit = |at: usize| bytes.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10);
+    let digit = |at: usize| {
+        bytes
+            .get(at)
+            .map(|byte| byte.wrapping_sub(b'0'))
+            .filter(|&digit| digit < 10)
+    };
     let negative = bytes.first() == Some(&b'-');
     let first = usize::from(negative);
     let (mut at, mut mantissa, mut decimals) = (first, 0u64, 0);
@@ -103,7 +125,11 @@ pub(super) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
     if bytes.get(at) == Some(&b'.') {
         let point = at + 1;
         at = point;
-        if let Some(eight) = bytes.get(at..).and_then(<[u8]>::first_chunk).and_then(|chunk| eight_digits(*chunk)) {
+        if let Some(eight) = bytes
+            .get(at..)
+            .and_then(<[u8]>::first_chunk)
+            .and_then(|chunk| eight_digits(*chunk))
+        {
             mantissa = mantissa.wrapping_mul(100_000_000).wrapping_add(eight);
             at += 8;
         }
@@ -127,7 +153,8 @@ pub(super) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
 fn eight_digits(digits: [u8; 8]) -> Option<u64> {
     let word = u64::from_le_bytes(digits);
     let high = 0xf0f0_f0f0_f0f0_f0f0;
-    let are_digits = word & high == 0x3030_3030_3030_3030 && word.wrapping_add(0x0606_0606_0606_0606) & high == 0x3030_3030_3030_3030;
+    let are_digits = word & high == 0x3030_3030_3030_3030
+        && word.wrapping_add(0x0606_0606_0606_0606) & high == 0x3030_3030_3030_3030;
     let pairs = (word & 0x0f0f_0f0f_0f0f_0f0f).wrapping_mul((10 << 8) + 1) >> 8;
     let fours = (pairs & 0x00ff_00ff_00ff_00ff).wrapping_mul((100 << 16) + 1) >> 16;
     let eight = (fours & 0x0000_ffff_0000_ffff).wrapping_mul((10_000 << 32) + 1) >> 32;
@@ -146,14 +173,22 @@ fn decimal(text: &[u8]) -> Option<f64> {
     };
     let mut at = start;
     let (mut mantissa, mut digits, mut scale) = (0u64, 0u32, 0i32);
-    while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+    while let Some(digit) = text
+        .get(at)
+        .map(|byte| byte.wrapping_sub(b'0'))
+        .filter(|&digit| digit < 10)
+    {
         mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
         digits += 1;
         at += 1;
     }
     if text.get(at) == Some(&b'.') {
         at += 1;
-        while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+        while let Some(digit) = text
+            .get(at)
+            .map(|byte| byte.wrapping_sub(b'0'))
+            .filter(|&digit| digit < 10)
+        {
             mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
             digits += 1;
             scale -= 1;
@@ -178,14 +213,22 @@ fn decimal(text: &[u8]) -> Option<f64> {
         };
         let first = at;
         let mut exponent = 0i32;
-        while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+        while let Some(digit) = text
+            .get(at)
+            .map(|byte| byte.wrapping_sub(b'0'))
+            .filter(|&digit| digit < 10)
+        {
             exponent = (exponent * 10 + i32::from(digit)).min(100_000);
             at += 1;
         }
         if at == first {
             return None;
         }
-        scale = scale.saturating_add(if negative_exponent { -exponent } else { exponent });
+        scale = scale.saturating_add(if negative_exponent {
+            -exponent
+        } else {
+            exponent
+        });
     }
     if at != text.len() {
         return None;
@@ -193,11 +236,20 @@ fn decimal(text: &[u8]) -> Option<f64> {
     // Both factors are exact, so the one rounding is the right one (Clinger, "How to read floating point numbers accurately").
     if digits <= 19 && mantissa <= 1 << 53 && scale.unsigned_abs() <= 22 {
         let power = POWERS[scale.unsigned_abs() as usize];
-        let value = if scale < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
+        let value = if scale < 0 {
+            mantissa as f64 / power
+        } else {
+            mantissa as f64 * power
+        };
         // A zero has no sign here.
         return Some(if negative { 0.0 - value } else { value });
     }
-    std::str::from_utf8(text).ok()?.parse::<f64>().ok().filter(|value| value.is_finite()).map(|value| value + 0.0)
+    std::str::from_utf8(text)
+        .ok()?
+        .parse::<f64>()
+        .ok()
+        .filter(|value| value.is_finite())
+        .map(|value| value + 0.0)
 }
 
 /// A number as DXF text: no exponent, at most `decimals` decimals and at least one.
@@ -260,7 +312,10 @@ mod tests {
             (" 00012.5000\t", Some(12.5)),
             ("0.1", Some(0.1)),
             ("12.345678901234567", Some(12.345678901234567)),
-            ("123456789012345678901234567890", Some(123456789012345678901234567890.0)),
+            (
+                "123456789012345678901234567890",
+                Some(123456789012345678901234567890.0),
+            ),
             ("1e-300", Some(1e-300)),
             ("1e999", None),
             ("1,5", None),

@@ -18,8 +18,14 @@ const CODES: [i16; 9] = [10, 20, 30, 11, 21, 31, 40, 50, 51];
 pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Read, usize)> {
     let bytes = lines.bytes();
     let mut at = lines.range(line + 1).start;
-    let begins = |kind: &Kind| bytes.get(at..).is_some_and(|rest| rest.starts_with(kind.name().as_bytes()));
-    let kind = [Kind::Line, Kind::Arc, Kind::Circle].into_iter().find(begins)?;
+    let begins = |kind: &Kind| {
+        bytes
+            .get(at..)
+            .is_some_and(|rest| rest.starts_with(kind.name().as_bytes()))
+    };
+    let kind = [Kind::Line, Kind::Arc, Kind::Circle]
+        .into_iter()
+        .find(begins)?;
     at = behind_line_end(bytes, at + kind.name().len())?;
     let mut next = line + 2;
     let mut values = [None; CODES.len()];
@@ -27,7 +33,9 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
     loop {
         let (code, value_at) = code(bytes, at)?;
         if code == 0 {
-            bytes.get(value_at).filter(|byte| byte.is_ascii_uppercase())?;
+            bytes
+                .get(value_at)
+                .filter(|byte| byte.is_ascii_uppercase())?;
             break;
         }
         if let Some(index) = CODES.iter().position(|&known| known == code) {
@@ -54,15 +62,29 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
     let geometry = match kind {
         // What differs in z is told of.
         Kind::Line if height != end_z.unwrap_or(0.0) => return None,
-        Kind::Line => Geometry::Line { start: center, end: Point::new(end_x?, end_y?) },
+        Kind::Line => Geometry::Line {
+            start: center,
+            end: Point::new(end_x?, end_y?),
+        },
         _ if radius? <= 0.0 => return None,
-        Kind::Circle => Geometry::Circle { center, radius: radius? },
-        _ => Geometry::Arc { center, radius: radius?, start_angle: radians(from?), end_angle: radians(to?) },
+        Kind::Circle => Geometry::Circle {
+            center,
+            radius: radius?,
+        },
+        _ => Geometry::Arc {
+            center,
+            radius: radius?,
+            start_angle: radians(from?),
+            end_angle: radians(to?),
+        },
     };
     let read = Read {
         handle,
         layer: layers.name(layer),
-        look: Look { paint, invisible: false },
+        look: Look {
+            paint,
+            invisible: false,
+        },
         kind,
         shape: Shape::Plain(geometry),
         lies: Lies::Level(height),
@@ -78,14 +100,22 @@ fn code(bytes: &[u8], mut at: usize) -> Option<(i16, usize)> {
         at += 1;
     }
     let (mut code, first) = (0, at);
-    while let Some(digit) = bytes.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+    while let Some(digit) = bytes
+        .get(at)
+        .map(|byte| byte.wrapping_sub(b'0'))
+        .filter(|&digit| digit < 10)
+    {
         code = code * 10 + i16::from(digit);
         at += 1;
         if at - first > 3 {
             return None;
         }
     }
-    if at == first { None } else { Some((code, behind_line_end(bytes, at)?)) }
+    if at == first {
+        None
+    } else {
+        Some((code, behind_line_end(bytes, at)?))
+    }
 }
 
 /// Where the next line begins, when a line ends at `at`.
@@ -104,8 +134,12 @@ fn unpadded(value: &[u8]) -> Option<&[u8]> {
 }
 
 fn plain_handle(value: &[u8]) -> Option<Handle> {
-    let is_plain = value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit) && value.iter().any(|&digit| digit != b'0');
-    Some(Handle::new(std::str::from_utf8(value).ok().filter(|_| is_plain)?))
+    let is_plain = value.len() <= 16
+        && value.iter().all(u8::is_ascii_hexdigit)
+        && value.iter().any(|&digit| digit != b'0');
+    Some(Handle::new(
+        std::str::from_utf8(value).ok().filter(|_| is_plain)?,
+    ))
 }
 
 /// A colour by its number in the index.
@@ -131,8 +165,8 @@ mod tests {
     /// Lines of a record that are mostly sound.
     fn record() -> impl Strategy<Value = String> {
         let code = prop::sample::select(vec![
-            "  0", "5", "8", "62", "10", " 20", "30", "11", "21", "31", "40", "50", "51", "100", "330", "6", "370", "102", "210", "230",
-            "67", "60", "420", "1001", "-5", "x",
+            "  0", "5", "8", "62", "10", " 20", "30", "11", "21", "31", "40", "50", "51", "100",
+            "330", "6", "370", "102", "210", "230", "67", "60", "420", "1001", "-5", "x",
         ]);
         let value = prop::sample::select(vec![
             "0",
@@ -159,7 +193,8 @@ mod tests {
             "",
         ]);
         let end = prop::sample::select(vec!["\n", "\n", "\n", "\r\n", "\r"]);
-        let tag = (code, value, end.clone()).prop_map(|(code, value, end)| format!("{code}{end}{value}{end}"));
+        let tag = (code, value, end.clone())
+            .prop_map(|(code, value, end)| format!("{code}{end}{value}{end}"));
         let sound = |kind: &str| {
             let tags = match kind {
                 "LINE" => "5\n2A\n8\nDIE\n10\n1\n20\n2\n11\n3\n21\n4\n",
@@ -169,7 +204,8 @@ mod tests {
             format!("0\n{kind}\n{tags}")
         };
         let kind = prop::sample::select(vec!["LINE", "ARC", "CIRCLE", "LINES"]);
-        (kind, prop::collection::vec(tag, 0..3)).prop_map(move |(kind, tags)| sound(kind) + &tags.concat() + "0\nENDSEC\n0\nEOF\n")
+        (kind, prop::collection::vec(tag, 0..3))
+            .prop_map(move |(kind, tags)| sound(kind) + &tags.concat() + "0\nENDSEC\n0\nEOF\n")
     }
 
     proptest! {

@@ -70,9 +70,19 @@ pub(super) fn read_item(
     lexer.begin_item(line);
     let already = findings.len();
     if line == 0 && lexer.lines.has_byte_order_mark() {
-        fault::push(findings, 0..BYTE_ORDER_MARK.len(), Severity::Hint, "the text begins with a byte-order mark".into());
+        fault::push(
+            findings,
+            0..BYTE_ORDER_MARK.len(),
+            Severity::Hint,
+            "the text begins with a byte-order mark".into(),
+        );
     }
-    let item = |said, after| ReadItem { line, context, said, after };
+    let item = |said, after| ReadItem {
+        line,
+        context,
+        said,
+        after,
+    };
     let Some(start) = lexer.peek_record() else {
         // Only at the beginning of the text, before its first record.
         entity::pass_over(lexer, findings);
@@ -84,21 +94,41 @@ pub(super) fn read_item(
     let mut read = match (context, name) {
         (_, b"SECTION") => {
             if context != Context::Outside {
-                oddity(findings, lexer.lines.trimmed_range(start.value_line()), "SECTION begins before ENDSEC of the one before".into());
+                oddity(
+                    findings,
+                    lexer.lines.trimmed_range(start.value_line()),
+                    "SECTION begins before ENDSEC of the one before".into(),
+                );
             }
             let (said, after) = section(start, lexer, findings);
             item(said, after)
         }
         (_, b"ENDSEC") => {
             entity::pass_over(lexer, findings);
-            item(Said::Structure { entities: false, unit: None }, Context::Outside)
+            item(
+                Said::Structure {
+                    entities: false,
+                    unit: None,
+                },
+                Context::Outside,
+            )
         }
         (_, b"EOF") => {
             if context != Context::Outside {
-                oddity(findings, lexer.lines.trimmed_range(start.value_line()), "EOF stands before ENDSEC of the last section".into());
+                oddity(
+                    findings,
+                    lexer.lines.trimmed_range(start.value_line()),
+                    "EOF stands before ENDSEC of the last section".into(),
+                );
             }
             pass_over_what_follows(lexer, findings);
-            item(Said::Structure { entities: false, unit: None }, Context::Outside)
+            item(
+                Said::Structure {
+                    entities: false,
+                    unit: None,
+                },
+                Context::Outside,
+            )
         }
         (Context::Blocks, b"BLOCK") => {
             entity::pass_over(lexer, findings);
@@ -109,15 +139,28 @@ pub(super) fn read_item(
             item(Said::Nothing, context)
         }
         (Context::Entities | Context::Blocks, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
-            let sentence = format!("{} does not follow an entity that it is a part of", String::from_utf8_lossy(name));
-            oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+            let sentence = format!(
+                "{} does not follow an entity that it is a part of",
+                String::from_utf8_lossy(name)
+            );
+            oddity(
+                findings,
+                lexer.lines.trimmed_range(start.value_line()),
+                sentence,
+            );
             entity::pass_over(lexer, findings);
             item(Said::Nothing, context)
         }
-        (Context::Blocks, _) => item(Said::Entity(entity::read(start, lexer, layers, findings)), context),
+        (Context::Blocks, _) => item(
+            Said::Entity(entity::read(start, lexer, layers, findings)),
+            context,
+        ),
         (Context::Entities, _) => {
             let outcome = entity::read(start, lexer, layers, findings);
-            item(Said::Entity(drawn(outcome, start, lexer, tolerance, findings)), context)
+            item(
+                Said::Entity(drawn(outcome, start, lexer, tolerance, findings)),
+                context,
+            )
         }
         (Context::Other, b"LAYER") => {
             entity::pass_over(lexer, findings);
@@ -142,8 +185,16 @@ pub(super) fn read_item(
 }
 
 /// The entity with its geometry as it lies in the modelspace; a fault where its curve has none.
-fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: &mut Vec<Finding>) -> Outcome {
-    let Outcome::Entity(read) = outcome else { return outcome };
+fn drawn(
+    outcome: Outcome,
+    start: Tag,
+    lexer: &Lexer,
+    tolerance: f64,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    let Outcome::Entity(read) = outcome else {
+        return outcome;
+    };
     if let Lies::Aslant(_, why) = read.lies {
         return Outcome::Unsupported(read.kind.name().into(), why);
     }
@@ -154,15 +205,26 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: 
         Ok((geometry, times)) => {
             if times > 1.0 {
                 let kind = read.kind;
-                let sentence =
-                    format!("{kind} takes too many arcs for its size: it is drawn within {times} times arc-fit, not within arc-fit");
-                oddity(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+                let sentence = format!(
+                    "{kind} takes too many arcs for its size: it is drawn within {times} times arc-fit, not within arc-fit"
+                );
+                oddity(
+                    findings,
+                    lexer.lines.trimmed_range(start.value_line()),
+                    sentence,
+                );
             }
-            Outcome::Entity(entity::Read { shape: Shape::Plain(geometry), ..read })
+            Outcome::Entity(entity::Read {
+                shape: Shape::Plain(geometry),
+                ..read
+            })
         }
         Err(why) => {
             let sentence = match why {
-                Unfit::NoCurve => format!("{} has no length, or numbers beyond all measure: it is not drawn", read.kind),
+                Unfit::NoCurve => format!(
+                    "{} has no length, or numbers beyond all measure: it is not drawn",
+                    read.kind
+                ),
                 Unfit::TooManyArcs(most) => {
                     format!(
                         "{} takes more than {most} arcs, which is beyond all measure for what it is made of: it is not drawn",
@@ -170,7 +232,11 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: 
                     )
                 }
             };
-            damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+            damage(
+                findings,
+                lexer.lines.trimmed_range(start.value_line()),
+                sentence,
+            );
             Outcome::Damaged
         }
     }
@@ -178,9 +244,19 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &Lexer, tolerance: f64, findings: 
 
 /// Behind EOF nothing is read; what is there is named, but for the end mark of old systems (^Z).
 fn pass_over_what_follows(lexer: &mut Lexer, findings: &mut Vec<Finding>) {
-    let blank = |line: &usize| lexer.lines.content(*line).iter().all(|byte| byte.is_ascii_whitespace() || *byte == 0x1a);
+    let blank = |line: &usize| {
+        lexer
+            .lines
+            .content(*line)
+            .iter()
+            .all(|byte| byte.is_ascii_whitespace() || *byte == 0x1a)
+    };
     if let Some(line) = (lexer.at()..lexer.lines.count()).find(|line| !blank(line)) {
-        oddity(findings, lexer.lines.trimmed_range(line), "what stands behind EOF is not read".into());
+        oddity(
+            findings,
+            lexer.lines.trimmed_range(line),
+            "what stands behind EOF is not read".into(),
+        );
     }
     lexer.begin_item(lexer.lines.count());
 }
@@ -194,30 +270,57 @@ pub(super) fn range_key(finding: &Finding) -> (usize, usize) {
 }
 
 /// What is said when the text ends with this item. True when the entity in it is cut and must not be trusted.
-fn close(read: Option<(Tag, &ReadItem)>, already: usize, lexer: &Lexer, after: Context, findings: &mut Vec<Finding>) -> bool {
+fn close(
+    read: Option<(Tag, &ReadItem)>,
+    already: usize,
+    lexer: &Lexer,
+    after: Context,
+    findings: &mut Vec<Finding>,
+) -> bool {
     if !lexer.at_end() {
         return false;
     }
-    let open = lexer.lines.last_is_open() && !lexer.lines.trimmed(lexer.lines.count().saturating_sub(1)).is_empty();
+    let open = lexer.lines.last_is_open()
+        && !lexer
+            .lines
+            .trimmed(lexer.lines.count().saturating_sub(1))
+            .is_empty();
     let cut = lexer.dangling.is_some() || open;
-    if let Some((start, ReadItem { said: Said::Entity(outcome), context: Context::Entities, .. })) = read {
+    if let Some((
+        start,
+        ReadItem {
+            said: Said::Entity(outcome),
+            context: Context::Entities,
+            ..
+        },
+    )) = read
+    {
         let name = lexer.lines.trimmed_range(start.value_line());
         let is_of_name = |finding: &Finding| range_key(finding) == (name.start, name.end);
         // Without a half of a tag, an entity that lacks something and has no other fault was cut between two of them.
-        let lacks = matches!(outcome, Outcome::Damaged) && findings.iter().skip(already).all(is_of_name);
+        let lacks =
+            matches!(outcome, Outcome::Damaged) && findings.iter().skip(already).all(is_of_name);
         if !cut && !lacks {
             return end_of_section(already, lexer, after, findings);
         }
         // What the entity lacks is beyond the end: one fault, one finding.
         findings.truncate(already);
         let kind = quoted(lexer.lines.trimmed(start.value_line()));
-        damage(findings, name, format!("the text ends inside this {}", kind.trim_matches('"')));
+        damage(
+            findings,
+            name,
+            format!("the text ends inside this {}", kind.trim_matches('"')),
+        );
         return true;
     }
     if let Some(last) = lexer.dangling {
         findings.truncate(already);
         let code = quoted(lexer.lines.trimmed(last));
-        damage(findings, lexer.lines.range(last), format!("the text ends after group code {code}, expected its value"));
+        damage(
+            findings,
+            lexer.lines.range(last),
+            format!("the text ends after group code {code}, expected its value"),
+        );
         return false;
     }
     match read {
@@ -227,13 +330,24 @@ fn close(read: Option<(Tag, &ReadItem)>, already: usize, lexer: &Lexer, after: C
 }
 
 /// Says that the text ends too early, unless that has been said of its last item. False: nothing in that is cut.
-fn end_of_section(already: usize, lexer: &Lexer, after: Context, findings: &mut Vec<Finding>) -> bool {
+fn end_of_section(
+    already: usize,
+    lexer: &Lexer,
+    after: Context,
+    findings: &mut Vec<Finding>,
+) -> bool {
     if findings.len() == already {
         let sentence = match after {
-            Context::Entities | Context::Blocks | Context::Other => "the text ends inside a section, expected ENDSEC",
+            Context::Entities | Context::Blocks | Context::Other => {
+                "the text ends inside a section, expected ENDSEC"
+            }
             Context::Outside => "the text ends without EOF: something may be missing",
         };
-        oddity(findings, lexer.lines.range(lexer.lines.count().saturating_sub(1)), sentence.into());
+        oddity(
+            findings,
+            lexer.lines.range(lexer.lines.count().saturating_sub(1)),
+            sentence.into(),
+        );
     }
     false
 }
@@ -251,26 +365,61 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
             }
             2 if name.is_none() => name = Some(value),
             9 => variable = value,
-            70 if variable == b"$INSUNITS" && name == Some(b"HEADER") => match number::number(value) {
-                Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e6 => unit = Some(value as i32),
-                _ => {
-                    let sentence = format!("group code 70 of $INSUNITS is {}, expected a whole number", quoted(value));
-                    damage(findings, lexer.lines.range(tag.value_line()), sentence);
+            70 if variable == b"$INSUNITS" && name == Some(b"HEADER") => {
+                match number::number(value) {
+                    Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e6 => {
+                        unit = Some(value as i32)
+                    }
+                    _ => {
+                        let sentence = format!(
+                            "group code 70 of $INSUNITS is {}, expected a whole number",
+                            quoted(value)
+                        );
+                        damage(findings, lexer.lines.range(tag.value_line()), sentence);
+                    }
                 }
-            },
+            }
             _ => {}
         }
     }
     match name {
-        Some(b"ENTITIES") => (Said::Structure { entities: true, unit: None }, Context::Entities),
-        Some(b"BLOCKS") => (Said::Structure { entities: false, unit: None }, Context::Blocks),
-        Some(_) => (Said::Structure { entities: false, unit }, Context::Other),
+        Some(b"ENTITIES") => (
+            Said::Structure {
+                entities: true,
+                unit: None,
+            },
+            Context::Entities,
+        ),
+        Some(b"BLOCKS") => (
+            Said::Structure {
+                entities: false,
+                unit: None,
+            },
+            Context::Blocks,
+        ),
+        Some(_) => (
+            Said::Structure {
+                entities: false,
+                unit,
+            },
+            Context::Other,
+        ),
         None => {
             let sentence = "SECTION lacks group code 2 (its name)".to_owned();
             if !lexer.out_of_step {
-                damage(findings, lexer.lines.trimmed_range(start.value_line()), sentence);
+                damage(
+                    findings,
+                    lexer.lines.trimmed_range(start.value_line()),
+                    sentence,
+                );
             }
-            (Said::Structure { entities: false, unit: None }, Context::Other)
+            (
+                Said::Structure {
+                    entities: false,
+                    unit: None,
+                },
+                Context::Other,
+            )
         }
     }
 }

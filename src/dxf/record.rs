@@ -29,7 +29,14 @@ impl Style {
         let (whole, code) = (lines.range(line), lines.trimmed_range(line));
         let next = text.line_start(line + 1);
         let width = (code.end - whole.start).min(WIDEST_COLUMN);
-        Style { width, line_end: text.bytes().get(whole.end..next).unwrap_or_default().to_vec() }
+        Style {
+            width,
+            line_end: text
+                .bytes()
+                .get(whole.end..next)
+                .unwrap_or_default()
+                .to_vec(),
+        }
     }
 
     pub(super) fn tag(&self, code: i16, value: &[u8], into: &mut Vec<u8>) {
@@ -45,7 +52,8 @@ impl Style {
 
     /// `record` as it has to be inserted at `at`: behind a last line without a line end, that end comes first.
     pub(super) fn inserted(&self, text: &SourceText, at: usize, record: Vec<u8>) -> String {
-        let is_cut = at >= text.len() && !text.bytes().ends_with(b"\n") && !text.bytes().ends_with(b"\r");
+        let is_cut =
+            at >= text.len() && !text.bytes().ends_with(b"\n") && !text.bytes().ends_with(b"\r");
         let before = if is_cut { &self.line_end[..] } else { &[] };
         String::from_utf8_lossy(&[before, &record].concat()).into_owned()
     }
@@ -66,15 +74,21 @@ pub(super) fn new_entity(
     let name = lines.trimmed(model.start + 1);
     let marked = tags.iter().any(|tag| tag.code == 100);
     let height_code = if name == b"LWPOLYLINE" { 38 } else { 30 };
-    let height = tags.iter().rfind(|tag| tag.code == height_code && !mirrored).and_then(|tag| {
-        match number::number(lines.content(tag.value_line())) {
-            Number::Exact(z) => Some(z),
-            _ => None,
-        }
-    });
+    let height = tags
+        .iter()
+        .rfind(|tag| tag.code == height_code && !mirrored)
+        .and_then(
+            |tag| match number::number(lines.content(tag.value_line())) {
+                Number::Exact(z) => Some(z),
+                _ => None,
+            },
+        );
     let height = height.or(marked.then_some(0.0));
     if !geometry.is_sound() {
-        return Err("a coordinate of the new entity is no finite number, or its radius is not above 0".into());
+        return Err(
+            "a coordinate of the new entity is no finite number, or its radius is not above 0"
+                .into(),
+        );
     }
     let mut record = Vec::new();
     let begin = |kind: &[u8], class: &[u8], record: &mut Vec<u8>| {
@@ -82,10 +96,13 @@ pub(super) fn new_entity(
         if let Some(handle) = handle {
             style.tag(5, handle.as_bytes(), record);
         }
-        let (owner, rest): (Vec<&Tag>, Vec<&Tag>) =
-            tags.iter().filter(|tag| HANDED_ON.contains(&tag.code)).partition(|tag| tag.code == 330);
+        let (owner, rest): (Vec<&Tag>, Vec<&Tag>) = tags
+            .iter()
+            .filter(|tag| HANDED_ON.contains(&tag.code))
+            .partition(|tag| tag.code == 330);
         let copy = |tags: Vec<&Tag>, record: &mut Vec<u8>| {
-            tags.iter().for_each(|tag| style.tag(tag.code, lines.content(tag.value_line()), record));
+            tags.iter()
+                .for_each(|tag| style.tag(tag.code, lines.content(tag.value_line()), record));
         };
         copy(owner, record);
         if marked {
@@ -109,7 +126,12 @@ pub(super) fn new_entity(
             point(*start, 10, &mut record);
             point(*end, 11, &mut record);
         }
-        Geometry::Arc { center, radius, start_angle, end_angle } => {
+        Geometry::Arc {
+            center,
+            radius,
+            start_angle,
+            end_angle,
+        } => {
             begin(b"ARC", b"AcDbCircle", &mut record);
             point(*center, 10, &mut record);
             style.number(40, *radius, DECIMALS, &mut record);
@@ -127,7 +149,11 @@ pub(super) fn new_entity(
 /// An angle in [0°, 360°) as it is written: 359.9999999999999 would be written as 360.
 pub(super) fn degrees(angle: f64) -> f64 {
     let degrees = positive_angle(angle).to_degrees();
-    if written(degrees, DECIMALS) == "360.0" { 0.0 } else { degrees }
+    if written(degrees, DECIMALS) == "360.0" {
+        0.0
+    } else {
+        degrees
+    }
 }
 
 /// One above the largest number that can be a handle in the text (group codes 5 and 105, `$HANDSEED` included); `None` where
@@ -135,8 +161,14 @@ pub(super) fn degrees(angle: f64) -> f64 {
 pub(super) fn free_handle(lines: Lines) -> Option<u64> {
     let handle = |line: usize| {
         let is_code = matches!(lines.trimmed(line), b"5" | b"105");
-        let value = is_code.then(|| lines.trimmed(line + 1)).filter(|value| value.len() <= 16)?;
+        let value = is_code
+            .then(|| lines.trimmed(line + 1))
+            .filter(|value| value.len() <= 16)?;
         u64::from_str_radix(std::str::from_utf8(value).ok()?, 16).ok()
     };
-    (0..lines.count().saturating_sub(1)).filter_map(handle).max().unwrap_or(0).checked_add(1)
+    (0..lines.count().saturating_sub(1))
+        .filter_map(handle)
+        .max()
+        .unwrap_or(0)
+        .checked_add(1)
 }

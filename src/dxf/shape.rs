@@ -1,7 +1,9 @@
 //! What an entity draws before it is placed: block references move, turn and stretch it, and curves are fitted last.
 
 use crate::drawing::{Geometry, Kind, Vertex};
-use crate::geometry::{Chain, Curve, EllipticArc, Point, Segment, Spline, SplineCurve, Unfit, Vector, cross, fit};
+use crate::geometry::{
+    Chain, Curve, EllipticArc, Point, Segment, Spline, SplineCurve, Unfit, Vector, cross, fit,
+};
 use std::f64::consts::TAU;
 
 /// What an entity draws, in the coordinates of its block or of the modelspace.
@@ -24,8 +26,11 @@ pub(super) struct Affine {
 }
 
 impl Affine {
-    pub(super) const IDENTITY: Affine =
-        Affine { x_axis: Vector::new(1.0, 0.0), y_axis: Vector::new(0.0, 1.0), origin: Point::new(0.0, 0.0) };
+    pub(super) const IDENTITY: Affine = Affine {
+        x_axis: Vector::new(1.0, 0.0),
+        y_axis: Vector::new(0.0, 1.0),
+        origin: Point::new(0.0, 0.0),
+    };
 
     pub(super) fn vector(&self, vector: Vector) -> Vector {
         self.x_axis * vector.x + self.y_axis * vector.y
@@ -38,7 +43,8 @@ impl Affine {
     /// The scale, and whether it mirrors, of a transformation that keeps angles; `None` of any other.
     fn similarity(&self) -> Option<(f64, bool)> {
         let (x, y) = (self.x_axis.norm(), self.y_axis.norm());
-        let alike = (x - y).abs() <= ALIKE * x && self.x_axis.dot(&self.y_axis).abs() <= ALIKE * x * y;
+        let alike =
+            (x - y).abs() <= ALIKE * x && self.x_axis.dot(&self.y_axis).abs() <= ALIKE * x * y;
         (alike && x > 0.0).then(|| (x, cross(self.x_axis, self.y_axis) < 0.0))
     }
 }
@@ -50,7 +56,11 @@ fn fitted(curve: &impl Curve, tolerance: f64) -> Result<(Geometry, f64), Unfit> 
     let mut last = Unfit::NoCurve;
     for times in COARSER {
         match fit(curve, tolerance * times) {
-            Ok(chain) => return polyline(chain).map(|geometry| (geometry, times)).ok_or(Unfit::NoCurve),
+            Ok(chain) => {
+                return polyline(chain)
+                    .map(|geometry| (geometry, times))
+                    .ok_or(Unfit::NoCurve);
+            }
             Err(Unfit::NoCurve) => return Err(Unfit::NoCurve),
             Err(too_many) => last = too_many,
         }
@@ -85,26 +95,71 @@ impl Shape {
         match self {
             Shape::Ellipse(arc) => {
                 let (center, u, v) = (map.point(arc.center), map.vector(arc.u), map.vector(arc.v));
-                put(kind, Shape::Ellipse(EllipticArc { center, u, v, ..*arc }));
+                put(
+                    kind,
+                    Shape::Ellipse(EllipticArc {
+                        center,
+                        u,
+                        v,
+                        ..*arc
+                    }),
+                );
             }
-            Shape::Spline(spline) => put(kind, Shape::Spline(Box::new(spline.mapped(|point| map.point(point))))),
+            Shape::Spline(spline) => put(
+                kind,
+                Shape::Spline(Box::new(spline.mapped(|point| map.point(point)))),
+            ),
             Shape::Plain(geometry) => match (geometry, map.similarity()) {
                 (Geometry::Line { start, end }, _) => {
-                    put(kind, Shape::Plain(Geometry::Line { start: map.point(*start), end: map.point(*end) }));
+                    put(
+                        kind,
+                        Shape::Plain(Geometry::Line {
+                            start: map.point(*start),
+                            end: map.point(*end),
+                        }),
+                    );
                 }
                 (Geometry::Text { at, text }, _) => {
-                    put(kind, Shape::Plain(Geometry::Text { at: map.point(*at), text: text.clone() }));
+                    put(
+                        kind,
+                        Shape::Plain(Geometry::Text {
+                            at: map.point(*at),
+                            text: text.clone(),
+                        }),
+                    );
                 }
-                (geometry, Some((scale, mirrors))) => put(kind, Shape::Plain(similar(geometry, map, scale, mirrors))),
-                (Geometry::Polyline { closed, vertices }, None) if vertices.iter().all(|vertex| vertex.bulge == 0.0) => {
-                    let vertices = vertices.iter().map(|vertex| Vertex { point: map.point(vertex.point), bulge: 0.0 }).collect();
-                    put(kind, Shape::Plain(Geometry::Polyline { closed: *closed, vertices }));
+                (geometry, Some((scale, mirrors))) => {
+                    put(kind, Shape::Plain(similar(geometry, map, scale, mirrors)))
+                }
+                (Geometry::Polyline { closed, vertices }, None)
+                    if vertices.iter().all(|vertex| vertex.bulge == 0.0) =>
+                {
+                    let vertices = vertices
+                        .iter()
+                        .map(|vertex| Vertex {
+                            point: map.point(vertex.point),
+                            bulge: 0.0,
+                        })
+                        .collect();
+                    put(
+                        kind,
+                        Shape::Plain(Geometry::Polyline {
+                            closed: *closed,
+                            vertices,
+                        }),
+                    );
                 }
                 (geometry, None) => {
                     for segment in geometry.segments() {
                         match segment {
                             Segment::Line(line) => {
-                                put(Kind::Line, Shape::Plain(Geometry::Line { start: map.point(line.start), end: map.point(line.end) }));
+                                put(
+                                    Kind::Line,
+                                    Shape::Plain(Geometry::Line {
+                                        start: map.point(line.start),
+                                        end: map.point(line.end),
+                                    }),
+                                );
                             }
                             Segment::Arc(arc) => put(
                                 Kind::Ellipse,
@@ -129,37 +184,91 @@ fn similar(geometry: &Geometry, map: &Affine, scale: f64, mirrors: bool) -> Geom
     match geometry {
         Geometry::Polyline { closed, vertices } => {
             let bulge = |bulge: f64| if mirrors { 0.0 - bulge } else { bulge };
-            let vertices = vertices.iter().map(|vertex| Vertex { point: map.point(vertex.point), bulge: bulge(vertex.bulge) });
-            Geometry::Polyline { closed: *closed, vertices: vertices.collect() }
+            let vertices = vertices.iter().map(|vertex| Vertex {
+                point: map.point(vertex.point),
+                bulge: bulge(vertex.bulge),
+            });
+            Geometry::Polyline {
+                closed: *closed,
+                vertices: vertices.collect(),
+            }
         }
-        Geometry::Arc { center, radius, start_angle, end_angle } => {
+        Geometry::Arc {
+            center,
+            radius,
+            start_angle,
+            end_angle,
+        } => {
             let turned = map.x_axis.y.atan2(map.x_axis.x);
-            let (start_angle, end_angle) =
-                if mirrors { (turned - end_angle, turned - start_angle) } else { (turned + start_angle, turned + end_angle) };
-            Geometry::Arc { center: map.point(*center), radius: radius * scale, start_angle, end_angle }
+            let (start_angle, end_angle) = if mirrors {
+                (turned - end_angle, turned - start_angle)
+            } else {
+                (turned + start_angle, turned + end_angle)
+            };
+            Geometry::Arc {
+                center: map.point(*center),
+                radius: radius * scale,
+                start_angle,
+                end_angle,
+            }
         }
-        Geometry::Circle { center, radius } => Geometry::Circle { center: map.point(*center), radius: radius * scale },
-        Geometry::Line { start, end } => Geometry::Line { start: map.point(*start), end: map.point(*end) },
-        Geometry::Text { at, text } => Geometry::Text { at: map.point(*at), text: text.clone() },
+        Geometry::Circle { center, radius } => Geometry::Circle {
+            center: map.point(*center),
+            radius: radius * scale,
+        },
+        Geometry::Line { start, end } => Geometry::Line {
+            start: map.point(*start),
+            end: map.point(*end),
+        },
+        Geometry::Text { at, text } => Geometry::Text {
+            at: map.point(*at),
+            text: text.clone(),
+        },
     }
 }
 
 /// A chain that ends where it begins is closed.
 fn polyline(chain: Chain) -> Option<Geometry> {
-    let mut vertices: Vec<Vertex> = chain.into_iter().map(|(point, bulge)| Vertex { point, bulge }).collect();
+    let mut vertices: Vec<Vertex> = chain
+        .into_iter()
+        .map(|(point, bulge)| Vertex { point, bulge })
+        .collect();
     let (first, last) = (vertices.first()?.point, vertices.last()?.point);
-    let size = vertices.iter().map(|vertex| (vertex.point - first).norm()).fold(0.0, f64::max);
+    let size = vertices
+        .iter()
+        .map(|vertex| (vertex.point - first).norm())
+        .fold(0.0, f64::max);
     let closed = vertices.len() > 2 && (last - first).norm() <= ALIKE * size;
     if closed {
         vertices.pop();
     }
-    vertices.iter().all(Vertex::is_finite).then_some(Geometry::Polyline { closed, vertices })
+    vertices
+        .iter()
+        .all(Vertex::is_finite)
+        .then_some(Geometry::Polyline { closed, vertices })
 }
 
 /// An ellipse by its half axes: `major`, and `ratio` of it to the left of it (to the right where `mirrored`).
-pub(super) fn ellipse(center: Point, major: Vector, ratio: f64, mirrored: bool, from: f64, to: f64) -> EllipticArc {
+pub(super) fn ellipse(
+    center: Point,
+    major: Vector,
+    ratio: f64,
+    mirrored: bool,
+    from: f64,
+    to: f64,
+) -> EllipticArc {
     let side = if mirrored { -ratio } else { ratio };
     let forward = crate::geometry::positive_angle(to - from);
-    let sweep = if forward < ALIKE || TAU - forward < ALIKE { TAU } else { forward };
-    EllipticArc { center, u: major, v: crate::geometry::left_normal(major) * side, start: from, sweep }
+    let sweep = if forward < ALIKE || TAU - forward < ALIKE {
+        TAU
+    } else {
+        forward
+    };
+    EllipticArc {
+        center,
+        u: major,
+        v: crate::geometry::left_normal(major) * side,
+        start: from,
+        sweep,
+    }
 }

@@ -32,23 +32,46 @@ impl Document {
     /// The sleeper, when the edit leaves the first and the last byte of its vertex alone.
     pub(super) fn sleeper_about(&mut self, range: &Range<usize>) -> Option<Sleeper> {
         let sleeper = self.sleeper.take()?;
-        let inside = range.start > self.text.line_start(sleeper.lines.start) && range.end < self.text.line_start(sleeper.lines.end);
+        let inside = range.start > self.text.line_start(sleeper.lines.start)
+            && range.end < self.text.line_start(sleeper.lines.end);
         inside.then_some(*sleeper)
     }
 
     /// Puts the polyline aside in one of whose numbers the edit has left no number. `None` where more than that came of it.
-    pub(super) fn put_to_sleep(&mut self, zone: &VertexZone, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
-        let VertexZone { entity: id, item, index, lines: ref old, others } = *zone;
+    pub(super) fn put_to_sleep(
+        &mut self,
+        zone: &VertexZone,
+        range: &Range<usize>,
+        lines: i64,
+        bytes: i64,
+    ) -> Option<Delta> {
+        let VertexZone {
+            entity: id,
+            item,
+            index,
+            lines: ref old,
+            others,
+        } = *zone;
         let of_item = self.table.lines_of(item, Lines::new(&self.text).count());
         let is_light = Lines::new(&self.text).trimmed(of_item.start + 1) == b"LWPOLYLINE";
-        let by_text = self.table.items.get(item)?.named == Named::ByText && self.table.named_anew == 0;
+        let by_text =
+            self.table.items.get(item)?.named == Named::ByText && self.table.named_anew == 0;
         if lines != 0 || !is_light || !by_text || !self.drawing.is_editable(id) {
             return None;
         }
         let fault = fault_in(Lines::new(&self.text), old.clone())?;
-        let (start, end) = (self.text.line_start(of_item.start), self.text.line_start(of_item.end));
-        let first = self.findings.partition_point(|finding| range_key(finding).0 < start);
-        if self.findings.get(first).is_some_and(|finding| (range_key(finding).0 as i64) < end as i64 - bytes) {
+        let (start, end) = (
+            self.text.line_start(of_item.start),
+            self.text.line_start(of_item.end),
+        );
+        let first = self
+            .findings
+            .partition_point(|finding| range_key(finding).0 < start);
+        if self
+            .findings
+            .get(first)
+            .is_some_and(|finding| (range_key(finding).0 as i64) < end as i64 - bytes)
+        {
             return None;
         }
         let vertices = self.table.vertices.remove(&id)?;
@@ -57,21 +80,43 @@ impl Document {
         self.table.items[item].became = Became::Damaged;
         self.shift_findings(range.end, bytes);
         self.findings.insert(first, fault);
-        self.sleeper = Some(Box::new(Sleeper { item, id, entity, vertices, index, lines: old.clone(), others }));
-        Some(Delta { touched: vec![Touched::Removed { entity: id }] })
+        self.sleeper = Some(Box::new(Sleeper {
+            item,
+            id,
+            entity,
+            vertices,
+            index,
+            lines: old.clone(),
+            others,
+        }));
+        Some(Delta {
+            touched: vec![Touched::Removed { entity: id }],
+        })
     }
 
     /// Brings the polyline back when its number is one again, and lets it sleep while it is none. `None` where the edit did
     /// more than that.
-    pub(super) fn wake(&mut self, mut sleeper: Sleeper, range: &Range<usize>, lines: i64, bytes: i64) -> Option<Delta> {
+    pub(super) fn wake(
+        &mut self,
+        mut sleeper: Sleeper,
+        range: &Range<usize>,
+        lines: i64,
+        bytes: i64,
+    ) -> Option<Delta> {
         if lines != 0 {
             return None;
         }
         let start = self.text.line_start(sleeper.lines.start);
-        let first = self.findings.partition_point(|finding| range_key(finding).0 < start);
-        let own = |finding: &Finding| finding.rule == Rule::Syntax && matches!(finding.place, Place::Text { .. });
+        let first = self
+            .findings
+            .partition_point(|finding| range_key(finding).0 < start);
+        let own = |finding: &Finding| {
+            finding.rule == Rule::Syntax && matches!(finding.place, Place::Text { .. })
+        };
         self.findings.get(first).filter(|finding| own(finding))?;
-        let Some((mut vertex, others)) = plain_vertex(Lines::new(&self.text), sleeper.lines.clone()) else {
+        let Some((mut vertex, others)) =
+            plain_vertex(Lines::new(&self.text), sleeper.lines.clone())
+        else {
             let fault = fault_in(Lines::new(&self.text), sleeper.lines.clone())?;
             self.shift_findings(range.end, bytes);
             self.findings[first] = fault;
@@ -88,14 +133,18 @@ impl Document {
         if !drawing.put_back(sleeper.id, sleeper.entity) {
             return None;
         }
-        let touched = drawing.splice(sleeper.id, sleeper.index, 1, &[vertex]).ok()?;
+        let touched = drawing
+            .splice(sleeper.id, sleeper.index, 1, &[vertex])
+            .ok()?;
         self.findings.remove(first);
         self.shift_findings(range.end, bytes);
         self.table.items[sleeper.item].became = Became::Entity(sleeper.id);
         self.table.set_item_of(sleeper.id, sleeper.item as u32);
         shift(&mut sleeper.vertices.lines[sleeper.index + 1..], lines);
         self.table.vertices.insert(sleeper.id, sleeper.vertices);
-        Some(Delta { touched: vec![touched] })
+        Some(Delta {
+            touched: vec![touched],
+        })
     }
 }
 
@@ -104,7 +153,9 @@ impl Document {
 fn fault_in(lines: Lines, range: Range<usize>) -> Option<Finding> {
     let mut fault = None;
     for line in range.clone().step_by(2) {
-        let Code::Known(code) = number::code(lines.content(line)) else { return None };
+        let Code::Known(code) = number::code(lines.content(line)) else {
+            return None;
+        };
         if !matches!(code, 10 | 20 | 42) || (line == range.start) != (code == 10) {
             return None;
         }

@@ -33,9 +33,18 @@ impl Space {
     /// The coordinate system of an extrusion; `None` for one without length, or with numbers that overflow.
     pub(super) fn of_extrusion(extrusion: Vector3) -> Option<Space> {
         let z = extrusion.try_normalize(0.0).filter(|z| z.norm() > 0.5)?;
-        let across = if z.x.abs() < NEAR_Z && z.y.abs() < NEAR_Z { Vector3::y() } else { Vector3::z() };
+        let across = if z.x.abs() < NEAR_Z && z.y.abs() < NEAR_Z {
+            Vector3::y()
+        } else {
+            Vector3::z()
+        };
         let x = across.cross(&z).try_normalize(0.0)?;
-        Some(Space { x, y: z.cross(&x), z, origin: Vector3::zeros() })
+        Some(Space {
+            x,
+            y: z.cross(&x),
+            z,
+            origin: Vector3::zeros(),
+        })
     }
 
     /// The plane in which points lie, its origin in the first of them; `None` where they lie in none. Their greatest distance from
@@ -44,15 +53,33 @@ impl Space {
         let first = *points.first()?;
         let far = |from: &dyn Fn(&Vector3) -> f64| points.iter().map(from).fold(0.0, f64::max);
         let spread = far(&|point| (point - first).norm());
-        let along = points.iter().map(|point| point - first).max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let along = points
+            .iter()
+            .map(|point| point - first)
+            .max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
         let x = along.try_normalize(0.0).unwrap_or(Vector3::x());
         let off_axis = |point: &Vector3| (point - first) - x * x.dot(&(point - first));
-        let aside = points.iter().map(off_axis).max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let aside = points
+            .iter()
+            .map(off_axis)
+            .max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
         // Points on one line lie in many planes: any that is level across will do.
-        let level = Vector3::z().cross(&x).try_normalize(1e-9).unwrap_or(Vector3::y());
-        let y = if aside.norm() > FLAT * spread { aside.try_normalize(0.0)? } else { level };
+        let level = Vector3::z()
+            .cross(&x)
+            .try_normalize(1e-9)
+            .unwrap_or(Vector3::y());
+        let y = if aside.norm() > FLAT * spread {
+            aside.try_normalize(0.0)?
+        } else {
+            level
+        };
         let z = x.cross(&y);
-        (far(&|point| z.dot(&(point - first)).abs()) <= FLAT * spread).then_some(Space { x, y, z, origin: first })
+        (far(&|point| z.dot(&(point - first)).abs()) <= FLAT * spread).then_some(Space {
+            x,
+            y,
+            z,
+            origin: first,
+        })
     }
 
     pub(super) fn vector(&self, vector: Vector3) -> Vector3 {
@@ -65,7 +92,12 @@ impl Space {
 
     /// First `inner`, then this one.
     pub(super) fn after(&self, inner: &Space) -> Space {
-        Space { x: self.vector(inner.x), y: self.vector(inner.y), z: self.vector(inner.z), origin: self.point(inner.origin) }
+        Space {
+            x: self.vector(inner.x),
+            y: self.vector(inner.y),
+            z: self.vector(inner.z),
+            origin: self.point(inner.origin),
+        }
     }
 
     /// Where a point lies in the coordinates of a plane from [`Space::through`].
@@ -76,12 +108,18 @@ impl Space {
 
     /// True where the plane of x and y ends parallel to that of the drawing.
     pub(super) fn is_flat(&self) -> bool {
-        [self.x, self.y].iter().all(|axis| axis.z.abs() <= FLAT * axis.norm())
+        [self.x, self.y]
+            .iter()
+            .all(|axis| axis.z.abs() <= FLAT * axis.norm())
     }
 
     /// What becomes of the plane of x and y, seen from above.
     pub(super) fn seen_from_above(&self) -> Affine {
-        Affine { x_axis: self.x.xy(), y_axis: self.y.xy(), origin: Point::from(self.origin.xy()) }
+        Affine {
+            x_axis: self.x.xy(),
+            y_axis: self.y.xy(),
+            origin: Point::from(self.origin.xy()),
+        }
     }
 }
 

@@ -4,8 +4,13 @@ use super::johab;
 use encoding_rs::Encoding;
 
 /// The code pages of `\M+1` to `\M+5` (DXF reference, "MIF"); the fourth, without an encoding here, is Johab.
-const MULTIBYTE: [Option<&Encoding>; 5] =
-    [Some(encoding_rs::SHIFT_JIS), Some(encoding_rs::BIG5), Some(encoding_rs::EUC_KR), None, Some(encoding_rs::GBK)];
+const MULTIBYTE: [Option<&Encoding>; 5] = [
+    Some(encoding_rs::SHIFT_JIS),
+    Some(encoding_rs::BIG5),
+    Some(encoding_rs::EUC_KR),
+    None,
+    Some(encoding_rs::GBK),
+];
 
 /// A value as text: `\U+XXXX` is the character of that number, `\M+nXXXX` the one of that code in an East Asian code page; what is no
 /// UTF-8 becomes U+FFFD.
@@ -16,7 +21,9 @@ pub(super) fn decoded(bytes: &[u8]) -> String {
     while let Some(at) = rest.find('\\') {
         let (before, escape) = rest.split_at(at);
         decoded.push_str(before);
-        let (character, length) = unicode(escape).or_else(|| multibyte(escape)).unwrap_or(('\\', 1));
+        let (character, length) = unicode(escape)
+            .or_else(|| multibyte(escape))
+            .unwrap_or(('\\', 1));
         decoded.push(character);
         rest = escape.get(length..).unwrap_or_default();
     }
@@ -39,7 +46,9 @@ fn unicode(text: &str) -> Option<(char, usize)> {
 fn multibyte(text: &str) -> Option<(char, usize)> {
     let digits = text.strip_prefix("\\M+")?.get(..5)?;
     let page = digits.get(..1)?.parse::<usize>().ok()?.checked_sub(1)?;
-    let code = u16::from_str_radix(digits.get(1..)?, 16).ok()?.to_be_bytes();
+    let code = u16::from_str_radix(digits.get(1..)?, 16)
+        .ok()?
+        .to_be_bytes();
     let Some(encoding) = *MULTIBYTE.get(page)? else {
         return Some((johab::character(code[0], code[1])?, 8));
     };
@@ -47,7 +56,9 @@ fn multibyte(text: &str) -> Option<(char, usize)> {
     let code = if code[0] == 0 { &code[1..] } else { &code };
     let (character, bad) = encoding.decode_without_bom_handling(code);
     let mut characters = character.chars();
-    let only = characters.next().filter(|_| !bad && characters.next().is_none())?;
+    let only = characters
+        .next()
+        .filter(|_| !bad && characters.next().is_none())?;
     Some((only, 8))
 }
 
@@ -58,9 +69,14 @@ pub(super) fn words_of_text(text: &str) -> String {
     while let Some(at) = rest.find("%%") {
         let (before, code) = rest.split_at(at);
         words.push_str(before);
-        let is_switch = matches!(code.as_bytes().get(2), Some(b'u' | b'U' | b'o' | b'O' | b'k' | b'K'));
+        let is_switch = matches!(
+            code.as_bytes().get(2),
+            Some(b'u' | b'U' | b'o' | b'O' | b'k' | b'K')
+        );
         words.push_str(if is_switch { "" } else { "%%" });
-        rest = code.get(if is_switch { 3 } else { 2 }..).unwrap_or_default();
+        rest = code
+            .get(if is_switch { 3 } else { 2 }..)
+            .unwrap_or_default();
     }
     words.push_str(rest);
     words
@@ -113,12 +129,24 @@ mod tests {
 
     #[test]
     fn formatting() {
-        for (text, expected) in
-            [("O", "O"), ("{\\fArial|b0|i0;O}", "O"), ("\\A1;a\\Pb\\~c\\\\\\{", "a\nb c\\{"), ("\\LO\\l", "O"), ("\\H2.5", ""), ("\\", "")]
-        {
+        for (text, expected) in [
+            ("O", "O"),
+            ("{\\fArial|b0|i0;O}", "O"),
+            ("\\A1;a\\Pb\\~c\\\\\\{", "a\nb c\\{"),
+            ("\\LO\\l", "O"),
+            ("\\H2.5", ""),
+            ("\\", ""),
+        ] {
             assert_eq!(words_of_mtext(text), expected);
         }
-        for (text, expected) in [("%%uO", "O"), ("%%UO%%u", "O"), ("%%c5", "%%c5"), ("50%%", "50%%"), ("%%%%oO", "%%O"), ("O", "O")] {
+        for (text, expected) in [
+            ("%%uO", "O"),
+            ("%%UO%%u", "O"),
+            ("%%c5", "%%c5"),
+            ("50%%", "50%%"),
+            ("%%%%oO", "%%O"),
+            ("O", "O"),
+        ] {
             assert_eq!(words_of_text(text), expected);
         }
     }

@@ -80,7 +80,10 @@ impl Item {
 
     /// True for what counts as an entity of the file.
     pub(super) fn is_entity(&self) -> bool {
-        matches!(self.became, Became::Entity(_) | Became::Parts { .. } | Became::Unsupported(_) | Became::Damaged)
+        matches!(
+            self.became,
+            Became::Entity(_) | Became::Parts { .. } | Became::Unsupported(_) | Became::Damaged
+        )
     }
 }
 
@@ -143,18 +146,30 @@ pub(super) struct Table {
 impl Table {
     /// The item that holds a line.
     pub(super) fn item_at(&self, line: usize) -> Option<usize> {
-        self.lines.partition_point(|&start| start as usize <= line).checked_sub(1)
+        self.lines
+            .partition_point(|&start| start as usize <= line)
+            .checked_sub(1)
     }
 
     /// The item of an entity.
     pub(super) fn item_of(&self, entity: EntityId) -> Option<usize> {
-        self.item_of.get(entity.0 as usize).filter(|&&item| item != NO_ITEM).map(|&item| item as usize)
+        self.item_of
+            .get(entity.0 as usize)
+            .filter(|&&item| item != NO_ITEM)
+            .map(|&item| item as usize)
     }
 
     /// First and one past the last line of an item; `line_count` ends the last one.
     pub(super) fn lines_of(&self, item: usize, line_count: usize) -> std::ops::Range<usize> {
-        let start = self.lines.get(item).map_or(line_count, |&line| line as usize);
-        start..self.lines.get(item + 1).map_or(line_count, |&line| line as usize)
+        let start = self
+            .lines
+            .get(item)
+            .map_or(line_count, |&line| line as usize);
+        start
+            ..self
+                .lines
+                .get(item + 1)
+                .map_or(line_count, |&line| line as usize)
     }
 
     /// Gives back the room that was made ahead.

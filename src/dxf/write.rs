@@ -42,28 +42,50 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
                         ..LwPolylineVertex::default()
                     })
                     .collect();
-                let mut polyline = entities::LwPolyline { vertices, ..entities::LwPolyline::default() };
+                let mut polyline = entities::LwPolyline {
+                    vertices,
+                    ..entities::LwPolyline::default()
+                };
                 polyline.set_is_closed(*closed);
                 EntityType::LwPolyline(polyline)
             }
-            Geometry::Line { start, end } => EntityType::Line(entities::Line::new(in_space(*start), in_space(*end))),
-            Geometry::Arc { center, radius, start_angle, end_angle } => {
-                let (start, end) = (positive_angle(*start_angle).to_degrees(), positive_angle(*end_angle).to_degrees());
+            Geometry::Line { start, end } => {
+                EntityType::Line(entities::Line::new(in_space(*start), in_space(*end)))
+            }
+            Geometry::Arc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+            } => {
+                let (start, end) = (
+                    positive_angle(*start_angle).to_degrees(),
+                    positive_angle(*end_angle).to_degrees(),
+                );
                 EntityType::Arc(entities::Arc::new(in_space(*center), *radius, start, end))
             }
-            Geometry::Circle { center, radius } => EntityType::Circle(entities::Circle::new(in_space(*center), *radius)),
+            Geometry::Circle { center, radius } => {
+                EntityType::Circle(entities::Circle::new(in_space(*center), *radius))
+            }
             Geometry::Text { at, .. } if entity.point_of_arc().is_some() => {
                 EntityType::Arc(entities::Arc::new(in_space(*at), 0.0, 0.0, 0.0))
             }
-            Geometry::Text { at, text } => {
-                EntityType::Text(entities::Text { location: in_space(*at), value: text.clone(), text_height, ..entities::Text::default() })
-            }
+            Geometry::Text { at, text } => EntityType::Text(entities::Text {
+                location: in_space(*at),
+                value: text.clone(),
+                text_height,
+                ..entities::Text::default()
+            }),
         };
-        let common = EntityCommon { layer: entity.layer.to_string(), ..EntityCommon::default() };
+        let common = EntityCommon {
+            layer: entity.layer.to_string(),
+            ..EntityCommon::default()
+        };
         file.add_entity(Entity { common, specific });
     }
     let mut bytes = Vec::new();
-    file.save(&mut bytes).map_err(|error| format!("the DXF file cannot be written: {error}"))?;
+    file.save(&mut bytes)
+        .map_err(|error| format!("the DXF file cannot be written: {error}"))?;
     Ok(with_table_handles(bytes))
 }
 
@@ -71,7 +93,10 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
 fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
     let mut bounds = Bounds::EMPTY;
     for (_, entity) in drawing.entities() {
-        entity.geometry.segments_of(drawing.flat()).for_each(|segment| bounds.merge(&segment.bounds()));
+        entity
+            .geometry
+            .segments_of(drawing.flat())
+            .for_each(|segment| bounds.merge(&segment.bounds()));
     }
     if !bounds.is_empty() {
         let (min, max) = (in_space(bounds.min), in_space(bounds.max));
@@ -80,7 +105,8 @@ fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
         file.header.minimum_drawing_limits = min;
         file.header.maximum_drawing_limits = max;
     }
-    let [width, height] = SHEET_MM.map(|length| length / drawing.unit.unwrap_or(Unit::MILLIMETRE).mm);
+    let [width, height] =
+        SHEET_MM.map(|length| length / drawing.unit.unwrap_or(Unit::MILLIMETRE).mm);
     file.header.paperspace_maximum_drawing_limits = Point3::new(width, height, 0.0);
 }
 
@@ -89,11 +115,25 @@ fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
 /// Lines come in pairs of group code and value. The handles go on where `$HANDSEED` says that free ones begin.
 fn with_table_handles(bytes: Vec<u8>) -> Vec<u8> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
-    let pairs: Vec<(&[u8], &[u8])> = lines.chunks_exact(2).map(|pair| (pair[0].trim_ascii(), pair[1].trim_ascii())).collect();
-    let seed_at = pairs.iter().position(|pair| *pair == (b"9", b"$HANDSEED")).map(|at| at + 1);
-    let seed = seed_at.and_then(|at| u64::from_str_radix(std::str::from_utf8(pairs.get(at)?.1).ok()?, 16).ok());
-    let (Some(seed_at), Some(seed)) = (seed_at, seed) else { return bytes };
-    let is_table = |at: usize| pairs[at].0 == b"2" && at.checked_sub(1).is_some_and(|before| pairs[before] == (b"0", b"TABLE"));
+    let pairs: Vec<(&[u8], &[u8])> = lines
+        .chunks_exact(2)
+        .map(|pair| (pair[0].trim_ascii(), pair[1].trim_ascii()))
+        .collect();
+    let seed_at = pairs
+        .iter()
+        .position(|pair| *pair == (b"9", b"$HANDSEED"))
+        .map(|at| at + 1);
+    let seed = seed_at
+        .and_then(|at| u64::from_str_radix(std::str::from_utf8(pairs.get(at)?.1).ok()?, 16).ok());
+    let (Some(seed_at), Some(seed)) = (seed_at, seed) else {
+        return bytes;
+    };
+    let is_table = |at: usize| {
+        pairs[at].0 == b"2"
+            && at
+                .checked_sub(1)
+                .is_some_and(|before| pairs[before] == (b"0", b"TABLE"))
+    };
     let tables = (0..pairs.len()).filter(|at| is_table(*at)).count() as u64;
     let mut next = seed;
     let mut whole = Vec::with_capacity(bytes.len() + 64 * tables as usize);

@@ -8,7 +8,11 @@ pub enum NotJudged {
     /// So much of a contour of so many blocks lies on one place that crossings were not looked for in all of it.
     Crossings { blocks: usize },
     /// A reference to a block would draw so many copies and segments: `most` is what all references of a file may come to.
-    Reference { copies: u64, segments: u64, most: u64 },
+    Reference {
+        copies: u64,
+        segments: u64,
+        most: u64,
+    },
     /// The calls of subprograms come to more than `lines` lines, or more than `calls` calls.
     Calls { lines: usize, calls: usize },
 }

@@ -151,7 +151,15 @@ impl ProgramFault {
     /// The same where what it says is only unusual.
     pub fn as_unusual(&self) -> ProgramFault {
         match *self {
-            ProgramFault::AxisQuadrant { found, expected, axis } => ProgramFault::UnusualQuadrant { found, expected, axis },
+            ProgramFault::AxisQuadrant {
+                found,
+                expected,
+                axis,
+            } => ProgramFault::UnusualQuadrant {
+                found,
+                expected,
+                axis,
+            },
             ref other => other.clone(),
         }
     }
@@ -163,12 +171,12 @@ impl ProgramFault {
             ProgramFault::LengthInJ { .. } => Rule::LengthInJ,
             ProgramFault::WrongJ { .. } | ProgramFault::JKeepsOpen { .. } => Rule::WrongJ,
             ProgramFault::JOverTurn { .. } => Rule::JOverTurn,
-            ProgramFault::SmallerProjection { .. } | ProgramFault::ArcEndAxis { .. } | ProgramFault::AxisKeepsOpen { .. } => {
-                Rule::WrongCountingAxis
-            }
-            ProgramFault::AxisQuadrant { .. } | ProgramFault::UnusualQuadrant { .. } | ProgramFault::QuadrantKeepsOpen { .. } => {
-                Rule::WrongQuadrant
-            }
+            ProgramFault::SmallerProjection { .. }
+            | ProgramFault::ArcEndAxis { .. }
+            | ProgramFault::AxisKeepsOpen { .. } => Rule::WrongCountingAxis,
+            ProgramFault::AxisQuadrant { .. }
+            | ProgramFault::UnusualQuadrant { .. }
+            | ProgramFault::QuadrantKeepsOpen { .. } => Rule::WrongQuadrant,
             ProgramFault::ZeroBlock => Rule::ZeroBlock,
             ProgramFault::ArcWithoutRadius => Rule::ArcWithoutRadius,
             ProgramFault::TooManyDigits { .. } => Rule::TooManyDigits,
@@ -178,9 +186,9 @@ impl ProgramFault {
             | ProgramFault::TwinKeepsOpen => Rule::NotClosed,
             ProgramFault::MissingEnd { .. } => Rule::MissingEnd,
             ProgramFault::TextAfterEnd { .. } => Rule::TextAfterEnd,
-            ProgramFault::DoubledNumber { .. } | ProgramFault::NumberOutOfOrder { .. } | ProgramFault::Unnumbered { .. } => {
-                Rule::BlockNumber
-            }
+            ProgramFault::DoubledNumber { .. }
+            | ProgramFault::NumberOutOfOrder { .. }
+            | ProgramFault::Unnumbered { .. } => Rule::BlockNumber,
             ProgramFault::PositionMismatch { .. } => Rule::PositionMismatch,
             ProgramFault::PathCrossesItself { .. } => Rule::PathCrossesItself,
         }

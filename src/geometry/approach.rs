@@ -8,7 +8,11 @@ const PARALLEL: f64 = 1e-6;
 /// The points that two segments have in common, without those of a stretch that they share.
 pub fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
     let mut points = match (a, b) {
-        (Segment::Line(a), Segment::Line(b)) => line_line(a.start, a.end - a.start, b.start, b.end - b.start).into_iter().collect(),
+        (Segment::Line(a), Segment::Line(b)) => {
+            line_line(a.start, a.end - a.start, b.start, b.end - b.start)
+                .into_iter()
+                .collect()
+        }
         (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => {
             line_circle(line.start, line.end - line.start, arc.center, arc.radius)
         }
@@ -22,9 +26,14 @@ pub fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
 /// the two is at a minimum, a maximum or a saddle. Where it is the same all along, the middle of that stretch.
 pub fn facing(a: &Segment, b: &Segment) -> Vec<(Point, Point)> {
     match (a, b) {
-        (Segment::Line(one), Segment::Line(other)) => facing_lines(one, other).into_iter().collect(),
+        (Segment::Line(one), Segment::Line(other)) => {
+            facing_lines(one, other).into_iter().collect()
+        }
         (Segment::Line(line), Segment::Arc(arc)) => facing_line_and_arc(line, arc),
-        (Segment::Arc(arc), Segment::Line(line)) => facing_line_and_arc(line, arc).into_iter().map(|(p, q)| (q, p)).collect(),
+        (Segment::Arc(arc), Segment::Line(line)) => facing_line_and_arc(line, arc)
+            .into_iter()
+            .map(|(p, q)| (q, p))
+            .collect(),
         (Segment::Arc(one), Segment::Arc(other)) => facing_arcs(one, other),
     }
 }
@@ -42,7 +51,11 @@ pub fn shared_length(a: &Segment, b: &Segment, tolerance: f64) -> f64 {
     let length = a.length();
     let lies_on = |share: f64| b.distance_to(a.point_at(share)) <= tolerance;
     let stretches = cuts.windows(2).filter(|cut| cut[1] > cut[0]);
-    let shared = stretches.filter(|cut| [0.0, 0.25, 0.5, 0.75, 1.0].iter().all(|t| lies_on(cut[0] + (cut[1] - cut[0]) * t)));
+    let shared = stretches.filter(|cut| {
+        [0.0, 0.25, 0.5, 0.75, 1.0]
+            .iter()
+            .all(|t| lies_on(cut[0] + (cut[1] - cut[0]) * t))
+    });
     shared.map(|cut| (cut[1] - cut[0]) * length).sum()
 }
 
@@ -62,7 +75,9 @@ pub fn foot_inside(segment: &Segment, point: Point) -> Option<Point> {
     }
     match segment {
         Segment::Line(line) => Some(line.start + (line.end - line.start) * share),
-        Segment::Arc(arc) => Some(arc.center + (point - arc.center).try_normalize(1e-12 * arc.radius)? * arc.radius),
+        Segment::Arc(arc) => {
+            Some(arc.center + (point - arc.center).try_normalize(1e-12 * arc.radius)? * arc.radius)
+        }
     }
 }
 
@@ -96,8 +111,14 @@ fn facing_line_and_arc(line: &Line, arc: &Arc) -> Vec<(Point, Point)> {
         return Vec::new();
     }
     let foot = line.start + (line.end - line.start) * share;
-    let away = (foot - arc.center).try_normalize(0.0).unwrap_or_else(|| super::left_normal(line.direction()));
-    [away, -away].into_iter().filter_map(|way| reached(arc, way)).map(|point| (foot, point)).collect()
+    let away = (foot - arc.center)
+        .try_normalize(0.0)
+        .unwrap_or_else(|| super::left_normal(line.direction()));
+    [away, -away]
+        .into_iter()
+        .filter_map(|way| reached(arc, way))
+        .map(|point| (foot, point))
+        .collect()
 }
 
 fn facing_arcs(a: &Arc, b: &Arc) -> Vec<(Point, Point)> {
@@ -111,14 +132,26 @@ fn facing_arcs(a: &Arc, b: &Arc) -> Vec<(Point, Point)> {
         for cut in cuts.windows(2).filter(|cut| cut[1] > cut[0]) {
             let p = a.point_at((cut[0] + cut[1]) / 2.0);
             let way = (p - a.center) / a.radius;
-            found.extend([way, -way].into_iter().filter_map(|way| reached(b, way)).map(|q| (p, q)));
+            found.extend(
+                [way, -way]
+                    .into_iter()
+                    .filter_map(|way| reached(b, way))
+                    .map(|q| (p, q)),
+            );
         }
         return found;
     }
-    let Some(axis) = between.try_normalize(0.0) else { return found };
+    let Some(axis) = between.try_normalize(0.0) else {
+        return found;
+    };
     for way in [axis, -axis] {
         if let Some(p) = reached(a, way) {
-            found.extend([axis, -axis].into_iter().filter_map(|way| reached(b, way)).map(|q| (p, q)));
+            found.extend(
+                [axis, -axis]
+                    .into_iter()
+                    .filter_map(|way| reached(b, way))
+                    .map(|q| (p, q)),
+            );
         }
     }
     found
@@ -145,28 +178,61 @@ mod tests {
             (line([0., 0.], [10., 0.]), line([10., 0.], [12., 0.]), 0.0),
             (line([0., 0.], [10., 0.]), line([5., 0.], [5., 3.]), 0.0),
             (line([0., 0.], [10., 0.]), line([0., 0.], [10., 1.]), 0.0),
-            (arc([0., 0.], 2.0, 0.0, PI), arc([0., 0.], 2.001, PI / 2.0, PI), PI),
-            (arc([0., 0.], 2.0, 0.0, PI), arc([0.1, 0.], 2.0, 0.0, PI), 0.0),
+            (
+                arc([0., 0.], 2.0, 0.0, PI),
+                arc([0., 0.], 2.001, PI / 2.0, PI),
+                PI,
+            ),
+            (
+                arc([0., 0.], 2.0, 0.0, PI),
+                arc([0.1, 0.], 2.0, 0.0, PI),
+                0.0,
+            ),
         ];
         for (a, b, expected) in cases {
-            assert!((shared_length(&a, &b, 0.005) - expected).abs() < 1e-6, "{a:?} {b:?}");
+            assert!(
+                (shared_length(&a, &b, 0.005) - expected).abs() < 1e-6,
+                "{a:?} {b:?}"
+            );
         }
     }
 
     #[test]
     fn segments_face_each_other_where_both_are_perpendicular() {
         let cases = [
-            (line([0., 0.], [10., 0.]), line([8., 1.], [2., 1.]), vec![1.0]),
+            (
+                line([0., 0.], [10., 0.]),
+                line([8., 1.], [2., 1.]),
+                vec![1.0],
+            ),
             (line([0., 0.], [1., 0.]), line([8., 1.], [2., 1.]), vec![]),
-            (line([-5., 0.], [5., 0.]), arc([0., 3.], 1.0, 0.0, 2.0 * PI), vec![2.0, 4.0]),
-            (arc([0., 0.], 1.0, 0.0, 2.0 * PI), arc([5., 0.], 1.0, 0.0, 2.0 * PI), vec![3.0, 5.0, 5.0, 7.0]),
-            (arc([0., 0.], 1.0, 0.0, 1.0), arc([0., 0.], 1.5, 0.2, 0.5), vec![0.5]),
+            (
+                line([-5., 0.], [5., 0.]),
+                arc([0., 3.], 1.0, 0.0, 2.0 * PI),
+                vec![2.0, 4.0],
+            ),
+            (
+                arc([0., 0.], 1.0, 0.0, 2.0 * PI),
+                arc([5., 0.], 1.0, 0.0, 2.0 * PI),
+                vec![3.0, 5.0, 5.0, 7.0],
+            ),
+            (
+                arc([0., 0.], 1.0, 0.0, 1.0),
+                arc([0., 0.], 1.5, 0.2, 0.5),
+                vec![0.5],
+            ),
         ];
         for (a, b, expected) in cases {
             let mut widths: Vec<f64> = facing(&a, &b).iter().map(|(p, q)| (p - q).norm()).collect();
             widths.sort_by(f64::total_cmp);
             assert_eq!(widths.len(), expected.len(), "{a:?} {b:?} {widths:?}");
-            assert!(widths.iter().zip(&expected).all(|(w, e)| (w - e).abs() < 1e-9), "{widths:?}");
+            assert!(
+                widths
+                    .iter()
+                    .zip(&expected)
+                    .all(|(w, e)| (w - e).abs() < 1e-9),
+                "{widths:?}"
+            );
         }
     }
 }

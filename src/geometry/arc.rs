@@ -36,19 +36,38 @@ impl Arc {
             return None;
         }
         let radius = length * (1.0 + bulge * bulge) / (4.0 * bulge.abs());
-        let center = start + chord * 0.5 + left_normal(chord) * ((1.0 - bulge * bulge) / (4.0 * bulge));
+        let center =
+            start + chord * 0.5 + left_normal(chord) * ((1.0 - bulge * bulge) / (4.0 * bulge));
         let start_angle = (start.y - center.y).atan2(start.x - center.x);
         let sweep = 4.0 * bulge.atan();
         let sound = radius.is_finite() && center.x.is_finite() && center.y.is_finite();
-        sound.then_some(Arc { center, radius, start_angle, sweep, start, end })
+        sound.then_some(Arc {
+            center,
+            radius,
+            start_angle,
+            sweep,
+            start,
+            end,
+        })
     }
 
     /// The arc about `center` from `start_angle` through `sweep` (radians, positive counter-clockwise).
     pub fn from_center(center: Point, radius: f64, start_angle: f64, sweep: f64) -> Arc {
         let start = center + direction(start_angle) * radius;
         let full = sweep.abs() >= TAU;
-        let end = if full { start } else { center + direction(start_angle + sweep) * radius };
-        Arc { center, radius, start_angle, sweep: sweep.clamp(-TAU, TAU), start, end }
+        let end = if full {
+            start
+        } else {
+            center + direction(start_angle + sweep) * radius
+        };
+        Arc {
+            center,
+            radius,
+            start_angle,
+            sweep: sweep.clamp(-TAU, TAU),
+            start,
+            end,
+        }
     }
 
     /// The arc about `center` from `start` to `end`, counter-clockwise or clockwise. Coinciding ends are a full turn.
@@ -62,7 +81,14 @@ impl Arc {
             (true, false) => forward,
             (false, false) => forward - TAU,
         };
-        Arc { center, radius: (start - center).norm(), start_angle, sweep, start, end }
+        Arc {
+            center,
+            radius: (start - center).norm(),
+            start_angle,
+            sweep,
+            start,
+            end,
+        }
     }
 
     pub fn is_full_turn(&self) -> bool {
@@ -90,7 +116,13 @@ impl Arc {
 
     /// The same arc travelled the other way.
     pub fn reversed(&self) -> Arc {
-        Arc { start_angle: self.start_angle + self.sweep, sweep: -self.sweep, start: self.end, end: self.start, ..*self }
+        Arc {
+            start_angle: self.start_angle + self.sweep,
+            sweep: -self.sweep,
+            start: self.end,
+            end: self.start,
+            ..*self
+        }
     }
 
     /// The point at `share` (0 … 1) of the sweep.
@@ -100,7 +132,9 @@ impl Arc {
             s if s >= 1.0 => self.end,
             s if self.is_shallow() => {
                 let half = self.sweep * s / 2.0;
-                self.start + left_normal(direction(self.start_angle + half)) * (2.0 * self.radius * half.sin())
+                self.start
+                    + left_normal(direction(self.start_angle + half))
+                        * (2.0 * self.radius * half.sin())
             }
             s => self.center + direction(self.start_angle + self.sweep * s) * self.radius,
         }
@@ -127,7 +161,11 @@ impl Arc {
         let travelled = positive_angle((angle - self.start_angle) * self.sweep.signum());
         // What lies past the end is counted from the nearer end.
         let past_middle = extent + (TAU - extent) / 2.0;
-        if travelled > past_middle { (travelled - TAU) / extent } else { travelled / extent }
+        if travelled > past_middle {
+            (travelled - TAU) / extent
+        } else {
+            travelled / extent
+        }
     }
 
     /// Smallest distance from `point` to the arc.
@@ -164,7 +202,10 @@ impl Arc {
         };
         let first = (low / FRAC_PI_2).ceil();
         let last = (high / FRAC_PI_2).floor();
-        for quarter in (0..4).map(|more| first + f64::from(more)).take_while(|&quarter| quarter <= last) {
+        for quarter in (0..4)
+            .map(|more| first + f64::from(more))
+            .take_while(|&quarter| quarter <= last)
+        {
             let (x, y) = match quarter.rem_euclid(4.0) as u8 {
                 0 => (1.0, 0.0),
                 1 => (0.0, 1.0),
@@ -180,7 +221,11 @@ impl Arc {
     pub fn twice_cap_area(&self) -> f64 {
         let sweep = self.sweep;
         // sin is better conditioned from its series where the sweep is small.
-        let difference = if sweep.abs() < 1e-3 { sweep.powi(3) / 6.0 * (1.0 - sweep * sweep / 20.0) } else { sweep - sweep.sin() };
+        let difference = if sweep.abs() < 1e-3 {
+            sweep.powi(3) / 6.0 * (1.0 - sweep * sweep / 20.0)
+        } else {
+            sweep - sweep.sin()
+        };
         self.radius * self.radius * difference
     }
 
@@ -196,7 +241,8 @@ mod tests {
 
     #[test]
     fn past_a_half_turn_the_centre_lies_on_the_other_side_of_the_chord() {
-        let arc = Arc::from_bulge(Point::new(0.0, 0.0), Point::new(2.0, 0.0), 3.0_f64.sqrt()).unwrap();
+        let arc =
+            Arc::from_bulge(Point::new(0.0, 0.0), Point::new(2.0, 0.0), 3.0_f64.sqrt()).unwrap();
         assert!((arc.sweep - 4.0 * PI / 3.0).abs() < 1e-12);
         assert!((arc.center - arc.start).norm() - arc.radius < 1e-12);
         assert!(arc.center.y < 0.0, "{:?}", arc.center);
@@ -211,7 +257,10 @@ mod tests {
                 let arc = Arc::from_bulge(start, end, bulge).unwrap();
                 assert!(((start - arc.center).norm() - arc.radius).abs() < 1e-12);
                 assert!(((end - arc.center).norm() - arc.radius).abs() < 1e-12);
-                assert!((arc.center + direction(arc.start_angle + arc.sweep) * arc.radius - end).norm() < 1e-12);
+                assert!(
+                    (arc.center + direction(arc.start_angle + arc.sweep) * arc.radius - end).norm()
+                        < 1e-12
+                );
                 assert!((arc.bulge() - bulge).abs() < 1e-12);
             }
         }
@@ -223,6 +272,8 @@ mod tests {
         assert!((arc.distance_to(Point::new(3.0, 3.0)) - (18.0_f64.sqrt() - 2.0)).abs() < 1e-12);
         assert!((arc.distance_to(Point::new(2.0, -1.0)) - 1.0).abs() < 1e-12);
         let bounds = arc.bounds();
-        assert!((bounds.max - Point::new(2.0, 2.0)).norm() < 1e-12 && bounds.min.coords.norm() < 1e-12);
+        assert!(
+            (bounds.max - Point::new(2.0, 2.0)).norm() < 1e-12 && bounds.min.coords.norm() < 1e-12
+        );
     }
 }

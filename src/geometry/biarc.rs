@@ -70,14 +70,18 @@ pub fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
                 return Err(Unfit::TooManyArcs(most));
             }
             let (start, end) = (curve.at(piece, from).0, curve.at(piece, to).0);
-            let sound = [start.x, start.y, end.x, end.y].iter().all(|number| number.is_finite());
+            let sound = [start.x, start.y, end.x, end.y]
+                .iter()
+                .all(|number| number.is_finite());
             if !sound {
                 return Err(Unfit::NoCurve);
             }
             match biarc(curve, piece, from, to, tolerance) {
                 Some(arcs) => chain.extend(arcs),
                 // Where the curve stands still, halves of it do so, too.
-                None if depth < HALVINGS && !is_tiny(curve, piece, (from, to), tolerance * SAME_CIRCLE) => {
+                None if depth < HALVINGS
+                    && !is_tiny(curve, piece, (from, to), tolerance * SAME_CIRCLE) =>
+                {
                     let middle = from + (to - from) * 0.5;
                     open.push((middle, to, depth + 1));
                     open.push((from, middle, depth + 1));
@@ -89,7 +93,9 @@ pub fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
             last = Some(end);
         }
     }
-    let Some(last) = last.filter(|_| !chain.is_empty()) else { return Err(Unfit::NoCurve) };
+    let Some(last) = last.filter(|_| !chain.is_empty()) else {
+        return Err(Unfit::NoCurve);
+    };
     chain.push((last, 0.0));
     Ok(merged(chain, tolerance * SAME_CIRCLE))
 }
@@ -97,31 +103,67 @@ pub fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
 /// True where a part of a piece stays within `least` of where it begins.
 fn is_tiny(curve: &impl Curve, piece: usize, (from, to): (f64, f64), least: f64) -> bool {
     let start = curve.at(piece, from).0;
-    (1..=SAMPLES).all(|sample| (curve.at(piece, from + (to - from) * (sample as f64 / SAMPLES as f64)).0 - start).norm() <= least)
+    (1..=SAMPLES).all(|sample| {
+        (curve
+            .at(piece, from + (to - from) * (sample as f64 / SAMPLES as f64))
+            .0
+            - start)
+            .norm()
+            <= least
+    })
 }
 
 /// Two arcs for a part of a piece, `None` where they are not near enough.
-fn biarc(curve: &impl Curve, piece: usize, from: f64, to: f64, tolerance: f64) -> Option<Vec<(Point, f64)>> {
+fn biarc(
+    curve: &impl Curve,
+    piece: usize,
+    from: f64,
+    to: f64,
+    tolerance: f64,
+) -> Option<Vec<(Point, f64)>> {
     let (start, end) = (curve.at(piece, from).0, curve.at(piece, to).0);
     let chord = end - start;
     let leaving = tangent(curve, piece, from, to)?;
     let arriving = tangent(curve, piece, to, from).map(|backwards| -backwards)?;
-    if chord.norm() == 0.0 || leaving.dot(&arriving) < 0.5 || leaving.dot(&chord) <= 0.0 || arriving.dot(&chord) <= 0.0 {
+    if chord.norm() == 0.0
+        || leaving.dot(&arriving) < 0.5
+        || leaving.dot(&chord) <= 0.0
+        || arriving.dot(&chord) <= 0.0
+    {
         return None;
     }
     let along = chord.dot(&(leaving + arriving));
-    let length = chord.norm_squared() / (along + (along * along + 2.0 * (1.0 - leaving.dot(&arriving)) * chord.norm_squared()).sqrt());
+    let length = chord.norm_squared()
+        / (along
+            + (along * along + 2.0 * (1.0 - leaving.dot(&arriving)) * chord.norm_squared()).sqrt());
     let joint = Point::from((start.coords + end.coords + (leaving - arriving) * length) * 0.5);
     let first = (turn(leaving, joint - start) / 2.0).tan();
     let second = (turn(end - joint, arriving) / 2.0).tan();
     // A bend that cannot be told from a line is one.
-    let straight = |bulge: f64, from: Point, to: Point| (bulge * (to - from).norm()).abs() < tolerance * 1e-6;
-    let first = if straight(first, start, joint) { 0.0 } else { first };
-    let second = if straight(second, joint, end) { 0.0 } else { second };
-    let segments = [Segment::from_bulge(start, joint, first), Segment::from_bulge(joint, end, second)];
+    let straight =
+        |bulge: f64, from: Point, to: Point| (bulge * (to - from).norm()).abs() < tolerance * 1e-6;
+    let first = if straight(first, start, joint) {
+        0.0
+    } else {
+        first
+    };
+    let second = if straight(second, joint, end) {
+        0.0
+    } else {
+        second
+    };
+    let segments = [
+        Segment::from_bulge(start, joint, first),
+        Segment::from_bulge(joint, end, second),
+    ];
     let near = (1..SAMPLES).all(|sample| {
-        let point = curve.at(piece, from + (to - from) * (sample as f64 / SAMPLES as f64)).0;
-        let distance = segments.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min);
+        let point = curve
+            .at(piece, from + (to - from) * (sample as f64 / SAMPLES as f64))
+            .0;
+        let distance = segments
+            .iter()
+            .map(|segment| segment.distance_to(point))
+            .fold(f64::INFINITY, f64::min);
         distance <= tolerance * MEASURED
     });
     near.then(|| vec![(start, first), (joint, second)])
@@ -166,16 +208,28 @@ fn merged(chain: Chain, same: f64) -> Chain {
 }
 
 /// The bulge of one segment from `start` to `end` in the place of two, when they are one.
-fn joined((start, before): (Point, f64), (middle, after): (Point, f64), end: Point, same: f64) -> Option<f64> {
-    match (Segment::from_bulge(start, middle, before), Segment::from_bulge(middle, end, after)) {
+fn joined(
+    (start, before): (Point, f64),
+    (middle, after): (Point, f64),
+    end: Point,
+    same: f64,
+) -> Option<f64> {
+    match (
+        Segment::from_bulge(start, middle, before),
+        Segment::from_bulge(middle, end, after),
+    ) {
         (Segment::Line(one), Segment::Line(other)) => {
             let whole = Segment::line(start, end);
-            (one.direction().dot(&other.direction()) > 0.0 && whole.distance_to(middle) <= same).then_some(0.0)
+            (one.direction().dot(&other.direction()) > 0.0 && whole.distance_to(middle) <= same)
+                .then_some(0.0)
         }
         (Segment::Arc(one), Segment::Arc(other)) => {
             let sweep = one.sweep + other.sweep;
             let alike = before * after > 0.0 && sweep.abs() <= std::f64::consts::PI * (1.0 + 1e-9);
-            if !alike || (one.radius - other.radius).abs() > same || (one.center - other.center).norm() > same {
+            if !alike
+                || (one.radius - other.radius).abs() > same
+                || (one.center - other.center).norm() > same
+            {
                 return None;
             }
             let bulge = (sweep / 4.0).tan();
@@ -193,7 +247,10 @@ mod tests {
     use proptest::prelude::*;
 
     fn segments(chain: &Chain) -> Vec<Segment> {
-        chain.windows(2).map(|pair| Segment::from_bulge(pair[0].0, pair[1].0, pair[0].1)).collect()
+        chain
+            .windows(2)
+            .map(|pair| Segment::from_bulge(pair[0].0, pair[1].0, pair[0].1))
+            .collect()
     }
 
     /// Dense samples of the curve lie within the tolerance of the chain, and of the chain within it of the samples' lines.
@@ -205,20 +262,35 @@ mod tests {
         for (piece, (from, to)) in curve.pieces().into_iter().enumerate() {
             for sample in 0..=100 {
                 let (point, _) = curve.at(piece, from + (to - from) * f64::from(sample) / 100.0);
-                let distance = fitted.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min);
+                let distance = fitted
+                    .iter()
+                    .map(|segment| segment.distance_to(point))
+                    .fold(f64::INFINITY, f64::min);
                 prop_assert!(distance <= tolerance, "{distance} at {point}");
                 outline.push(point);
             }
         }
-        let longest = outline.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+        let longest = outline
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).norm())
+            .fold(0.0, f64::max);
         for segment in &fitted {
             let middle = segment.point_at(0.5);
-            let distance = outline.windows(2).map(|pair| Segment::line(pair[0], pair[1]).distance_to(middle)).fold(f64::INFINITY, f64::min);
+            let distance = outline
+                .windows(2)
+                .map(|pair| Segment::line(pair[0], pair[1]).distance_to(middle))
+                .fold(f64::INFINITY, f64::min);
             // The lines between samples cut the curve's corners.
-            prop_assert!(distance <= tolerance + longest * 0.2, "{distance} at {middle}");
+            prop_assert!(
+                distance <= tolerance + longest * 0.2,
+                "{distance} at {middle}"
+            );
         }
         let ends = curve.pieces();
-        prop_assert_eq!(fitted.first().map(|first| first.start()), Some(curve.at(0, ends[0].0).0));
+        prop_assert_eq!(
+            fitted.first().map(|first| first.start()),
+            Some(curve.at(0, ends[0].0).0)
+        );
         Ok(fitted)
     }
 
@@ -227,7 +299,8 @@ mod tests {
     }
 
     fn vector() -> impl Strategy<Value = Vector> {
-        (0.5..10.0f64, 0.0..std::f64::consts::TAU).prop_map(|(length, angle)| super::super::direction(angle) * length)
+        (0.5..10.0f64, 0.0..std::f64::consts::TAU)
+            .prop_map(|(length, angle)| super::super::direction(angle) * length)
     }
 
     proptest! {
@@ -268,50 +341,133 @@ mod tests {
     #[test]
     fn what_is_a_circle_or_a_line_becomes_one() {
         let half = std::f64::consts::FRAC_1_SQRT_2;
-        let circle: Vec<Point> = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)]
-            .map(|(x, y)| Point::new(f64::from(x) * 5.0, f64::from(y) * 5.0))
-            .to_vec();
+        let circle: Vec<Point> = [
+            (1, 0),
+            (1, 1),
+            (0, 1),
+            (-1, 1),
+            (-1, 0),
+            (-1, -1),
+            (0, -1),
+            (1, -1),
+            (1, 0),
+        ]
+        .map(|(x, y)| Point::new(f64::from(x) * 5.0, f64::from(y) * 5.0))
+        .to_vec();
         let weights = vec![1.0, half, 1.0, half, 1.0, half, 1.0, half, 1.0];
         let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
         let spline = Spline::new(2, knots, circle, weights).unwrap();
         let arcs = segments(&fit(&SplineCurve::from(&spline), 1e-3).unwrap());
         assert_eq!(arcs.len(), 2);
-        assert!(arcs.iter().all(|arc| arc.as_arc().is_some_and(|arc| (arc.radius - 5.0).abs() < 1e-9)));
-        let round = EllipticArc { center: Point::origin(), u: Vector::new(0.0, 2.0), v: Vector::new(-2.0, 0.0), start: 1.0, sweep: 1.0 };
+        assert!(arcs.iter().all(|arc| {
+            arc.as_arc()
+                .is_some_and(|arc| (arc.radius - 5.0).abs() < 1e-9)
+        }));
+        let round = EllipticArc {
+            center: Point::origin(),
+            u: Vector::new(0.0, 2.0),
+            v: Vector::new(-2.0, 0.0),
+            start: 1.0,
+            sweep: 1.0,
+        };
         assert_eq!(segments(&fit(&round, 1e-3).unwrap()).len(), 1);
-        let line = vec![Point::new(0.0, 0.0), Point::new(1.0, 1.0), Point::new(2.0, 2.0), Point::new(4.0, 4.0)];
-        let spline = Spline::new(3, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], line, Vec::new()).unwrap();
-        assert_eq!(fit(&SplineCurve::from(&spline), 1e-3), Ok(vec![(Point::new(0.0, 0.0), 0.0), (Point::new(4.0, 4.0), 0.0)]));
+        let line = vec![
+            Point::new(0.0, 0.0),
+            Point::new(1.0, 1.0),
+            Point::new(2.0, 2.0),
+            Point::new(4.0, 4.0),
+        ];
+        let spline = Spline::new(
+            3,
+            vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0],
+            line,
+            Vec::new(),
+        )
+        .unwrap();
+        assert_eq!(
+            fit(&SplineCurve::from(&spline), 1e-3),
+            Ok(vec![
+                (Point::new(0.0, 0.0), 0.0),
+                (Point::new(4.0, 4.0), 0.0)
+            ])
+        );
     }
 
     #[test]
     fn a_curve_that_stands_still_on_its_way_has_no_tiny_pieces() {
         // Four control points in one place: a whole span of the cubic is one point.
-        let points = [(0.0, 0.0), (1.0, 3.0), (5.0, 1.0), (5.0, 1.0), (5.0, 1.0), (5.0, 1.0), (9.0, 3.0), (10.0, 0.0)];
+        let points = [
+            (0.0, 0.0),
+            (1.0, 3.0),
+            (5.0, 1.0),
+            (5.0, 1.0),
+            (5.0, 1.0),
+            (5.0, 1.0),
+            (9.0, 3.0),
+            (10.0, 0.0),
+        ];
         let points = points.map(|(x, y)| Point::new(x, y)).to_vec();
         let knots = [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 5.0, 5.0, 5.0].to_vec();
         let spline = Spline::new(3, knots, points, Vec::new()).unwrap();
         let fitted = segments(&fit(&SplineCurve::from(&spline), 1e-3).unwrap());
-        assert!(fitted.len() < 200 && fitted.iter().all(|segment| segment.length() > 0.0), "{}", fitted.len());
+        assert!(
+            fitted.len() < 200 && fitted.iter().all(|segment| segment.length() > 0.0),
+            "{}",
+            fitted.len()
+        );
     }
 
     #[test]
     fn periodic_knots_close_and_bad_numbers_are_refused() {
-        let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0), (4.0, 0.0), (4.0, 4.0)].map(|(x, y)| Point::new(x, y));
-        let spline = Spline::new(3, (0..11).map(f64::from).collect(), square.to_vec(), Vec::new()).unwrap();
+        let square = [
+            (0.0, 0.0),
+            (4.0, 0.0),
+            (4.0, 4.0),
+            (0.0, 4.0),
+            (0.0, 0.0),
+            (4.0, 0.0),
+            (4.0, 4.0),
+        ]
+        .map(|(x, y)| Point::new(x, y));
+        let spline = Spline::new(
+            3,
+            (0..11).map(f64::from).collect(),
+            square.to_vec(),
+            Vec::new(),
+        )
+        .unwrap();
         let chain = fit(&SplineCurve::from(&spline), 1e-3).unwrap();
         assert!((chain[0].0 - chain[chain.len() - 1].0).norm() < 1e-12);
         for (degree, knots, weights, expected) in [
             (0, 8, vec![], "has the degree 0, expected 1 to 24"),
             (7, 15, vec![], "has 7 control points, expected at least 8"),
-            (3, 10, vec![], "has 10 knots, expected 11 for 7 control points of degree 3"),
+            (
+                3,
+                10,
+                vec![],
+                "has 10 knots, expected 11 for 7 control points of degree 3",
+            ),
             (3, 11, vec![1.0; 3], "has 3 weights for 7 control points"),
             (3, 11, vec![0.0; 7], "has a weight that is not above 0"),
         ] {
             let knots = (0..knots).map(f64::from).collect();
-            assert_eq!(Spline::new(degree, knots, square.to_vec(), weights).unwrap_err(), expected);
+            assert_eq!(
+                Spline::new(degree, knots, square.to_vec(), weights).unwrap_err(),
+                expected
+            );
         }
-        let huge = EllipticArc { center: Point::origin(), u: Vector::new(1e308, 0.0), v: Vector::new(0.0, 1e308), start: 0.0, sweep: 6.0 };
-        assert!(fit(&huge, 1e-3).iter().flatten().all(|(point, _)| point.x.is_finite()));
+        let huge = EllipticArc {
+            center: Point::origin(),
+            u: Vector::new(1e308, 0.0),
+            v: Vector::new(0.0, 1e308),
+            start: 0.0,
+            sweep: 6.0,
+        };
+        assert!(
+            fit(&huge, 1e-3)
+                .iter()
+                .flatten()
+                .all(|(point, _)| point.x.is_finite())
+        );
     }
 }

@@ -10,8 +10,10 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    pub const EMPTY: Bounds =
-        Bounds { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
+    pub const EMPTY: Bounds = Bounds {
+        min: Point::new(f64::INFINITY, f64::INFINITY),
+        max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
 
     /// The smallest box that holds all `points`; empty for none.
     pub fn of_points(points: &[Point]) -> Bounds {
@@ -22,7 +24,10 @@ impl Bounds {
 
     /// The box of a disc.
     pub fn of_disc(center: Point, radius: f64) -> Bounds {
-        Bounds { min: center.map(|c| c - radius), max: center.map(|c| c + radius) }
+        Bounds {
+            min: center.map(|c| c - radius),
+            max: center.map(|c| c + radius),
+        }
     }
 
     pub fn is_empty(&self) -> bool {
@@ -41,17 +46,26 @@ impl Bounds {
 
     /// The smallest box that holds both.
     pub fn merged(&self, other: &Bounds) -> Bounds {
-        Bounds { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
+        Bounds {
+            min: self.min.inf(&other.min),
+            max: self.max.sup(&other.max),
+        }
     }
 
     /// True when the two boxes share a point.
     pub fn touches(&self, other: &Bounds) -> bool {
-        self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
+        self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
     }
 
     /// The box grown by `margin` on every side.
     pub fn grown(&self, margin: f64) -> Bounds {
-        Bounds { min: self.min.map(|c| c - margin), max: self.max.map(|c| c + margin) }
+        Bounds {
+            min: self.min.map(|c| c - margin),
+            max: self.max.map(|c| c + margin),
+        }
     }
 
     pub fn width(&self) -> f64 {

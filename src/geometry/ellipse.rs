@@ -25,7 +25,15 @@ impl EllipticArc {
     /// True when numbers are finite and the two half diameters span a plane.
     pub fn is_sound(&self) -> bool {
         let area = super::cross(self.u, self.v);
-        let numbers = [self.center.x, self.center.y, self.start, self.sweep, area, self.u.norm(), self.v.norm()];
+        let numbers = [
+            self.center.x,
+            self.center.y,
+            self.start,
+            self.sweep,
+            area,
+            self.u.norm(),
+            self.v.norm(),
+        ];
         numbers.iter().all(|number| number.is_finite()) && area != 0.0 && self.sweep != 0.0
     }
 }
@@ -34,14 +42,23 @@ impl Curve for EllipticArc {
     fn pieces(&self) -> Vec<(f64, f64)> {
         let count = (self.sweep.abs() / FRAC_PI_2 - 1e-9).ceil().clamp(1.0, 4.0);
         let place = |index: f64| self.start + self.sweep * (index / count);
-        (0..count as usize).map(|index| (place(index as f64), place(index as f64 + 1.0))).collect()
+        (0..count as usize)
+            .map(|index| (place(index as f64), place(index as f64 + 1.0)))
+            .collect()
     }
 
     fn at(&self, piece: usize, t: f64) -> (Point, Vector) {
         // The last point of a full turn is the first one, to the last bit.
-        let t = if self.is_full_turn() && piece == 3 && t == self.start + self.sweep { self.start } else { t };
+        let t = if self.is_full_turn() && piece == 3 && t == self.start + self.sweep {
+            self.start
+        } else {
+            t
+        };
         let (sin, cos) = t.sin_cos();
-        (self.center + self.u * cos + self.v * sin, self.v * cos - self.u * sin)
+        (
+            self.center + self.u * cos + self.v * sin,
+            self.v * cos - self.u * sin,
+        )
     }
 
     fn extent(&self) -> f64 {

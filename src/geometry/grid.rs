@@ -30,7 +30,11 @@ const NONE: u32 = u32::MAX;
 
 impl<K> Default for Grid<K> {
     fn default() -> Self {
-        Grid { levels: FxHashMap::default(), boxes: Vec::new(), free: NONE }
+        Grid {
+            levels: FxHashMap::default(),
+            boxes: Vec::new(),
+            free: NONE,
+        }
     }
 }
 
@@ -46,8 +50,17 @@ impl<K: Copy + PartialEq> Grid<K> {
             return;
         }
         let (level, cell) = cell_of(&bounds);
-        let first = self.levels.entry(level).or_default().entry(cell).or_insert(NONE);
-        let boxed = Boxed { key, bounds, next: *first };
+        let first = self
+            .levels
+            .entry(level)
+            .or_default()
+            .entry(cell)
+            .or_insert(NONE);
+        let boxed = Boxed {
+            key,
+            bounds,
+            next: *first,
+        };
         match self.boxes.get_mut(self.free as usize) {
             Some(place) => {
                 *first = self.free;
@@ -67,13 +80,19 @@ impl<K: Copy + PartialEq> Grid<K> {
             return;
         }
         let (level, cell) = cell_of(bounds);
-        let Some(cells) = self.levels.get_mut(&level) else { return };
-        let Some(&first) = cells.get(&cell) else { return };
+        let Some(cells) = self.levels.get_mut(&level) else {
+            return;
+        };
+        let Some(&first) = cells.get(&cell) else {
+            return;
+        };
         let (mut before, mut at) = (NONE, first);
         while let Some(boxed) = self.boxes.get(at as usize).filter(|boxed| boxed.key != key) {
             (before, at) = (at, boxed.next);
         }
-        let Some(boxed) = self.boxes.get_mut(at as usize) else { return };
+        let Some(boxed) = self.boxes.get_mut(at as usize) else {
+            return;
+        };
         let next = std::mem::replace(&mut boxed.next, self.free);
         self.free = at;
         match self.boxes.get_mut(before as usize) {
@@ -106,15 +125,23 @@ impl<K: Copy + PartialEq> Grid<K> {
         for (&level, cells) in &self.levels {
             let size = cell_size(level);
             // A box may begin one cell to the left of where it is met, or below.
-            let (left, bottom) = (cell(area.min.x, size).saturating_sub(1), cell(area.min.y, size).saturating_sub(1));
+            let (left, bottom) = (
+                cell(area.min.x, size).saturating_sub(1),
+                cell(area.min.y, size).saturating_sub(1),
+            );
             let (right, top) = (cell(area.max.x, size), cell(area.max.y, size));
             let columns = (i64::from(right) - i64::from(left) + 1) as u64;
             let rows = (i64::from(top) - i64::from(bottom) + 1) as u64;
             // A few small boxes do not make large areas dear.
             if columns.saturating_mul(rows) > cells.len() as u64 {
                 work += cells.len() as u64;
-                let is_near = |&(&(x, y), _): &(&Cell, &u32)| (left..=right).contains(&x) && (bottom..=top).contains(&y);
-                cells.iter().filter(is_near).for_each(|(_, &first)| work += look(first));
+                let is_near = |&(&(x, y), _): &(&Cell, &u32)| {
+                    (left..=right).contains(&x) && (bottom..=top).contains(&y)
+                };
+                cells
+                    .iter()
+                    .filter(is_near)
+                    .for_each(|(_, &first)| work += look(first));
                 continue;
             }
             work += columns * rows;
@@ -160,17 +187,26 @@ mod tests {
     fn one_small_box_makes_no_large_area_dear() {
         let square = |x: f64, y: f64, size: f64| {
             let min = Point::new(x, y);
-            Bounds { min, max: min + crate::geometry::Vector::new(size, size) }
+            Bounds {
+                min,
+                max: min + crate::geometry::Vector::new(size, size),
+            }
         };
         let mut grid = Grid::default();
         for key in 0..2500usize {
-            grid.insert(key, square((key % 50) as f64 * 10.0, (key / 50) as f64 * 10.0, 8.0));
+            grid.insert(
+                key,
+                square((key % 50) as f64 * 10.0, (key / 50) as f64 * 10.0, 8.0),
+            );
         }
         let area = square(200.0, 200.0, 8.0);
         let alone = grid.near(&area, |_| {});
         grid.insert(2500, square(-20.0, -20.0, 0.001));
         let beside = grid.near(&area, |_| {});
-        assert!(beside <= alone + 2, "{alone} looks without it, {beside} with it");
+        assert!(
+            beside <= alone + 2,
+            "{alone} looks without it, {beside} with it"
+        );
     }
 
     #[test]
@@ -178,7 +214,9 @@ mod tests {
         // Boxes of many sizes at scattered places, from a fixed sequence.
         let mut state = 12345u64;
         let mut number = || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
             (state >> 33) as f64 / (1u64 << 31) as f64
         };
         let mut boxes = Vec::new();
@@ -186,7 +224,10 @@ mod tests {
         for key in 0..500usize {
             let min = Point::new(number() * 100.0 - 50.0, number() * 100.0 - 50.0);
             let scale = 10f64.powf(number() * 4.0 - 3.0);
-            let bounds = Bounds { min, max: min + crate::geometry::Vector::new(number(), number()) * scale };
+            let bounds = Bounds {
+                min,
+                max: min + crate::geometry::Vector::new(number(), number()) * scale,
+            };
             grid.insert(key, bounds);
             boxes.push(bounds);
         }
@@ -197,7 +238,9 @@ mod tests {
             let mut found = Vec::new();
             grid.near(area, |key| found.push(key));
             found.sort_unstable();
-            let expected: Vec<usize> = (0..500).filter(|key| key % 3 != 0 && boxes[*key].touches(area)).collect();
+            let expected: Vec<usize> = (0..500)
+                .filter(|key| key % 3 != 0 && boxes[*key].touches(area))
+                .collect();
             assert_eq!(found, expected);
         }
     }

@@ -16,7 +16,9 @@ pub fn line_line(p: Point, u: Vector, q: Point, v: Vector) -> Option<Point> {
 ///
 /// A line that misses the circle by less than 1e-9 of its radius counts as touching and gives one point.
 pub fn line_circle(p: Point, u: Vector, center: Point, radius: f64) -> Vec<Point> {
-    let Some(along) = u.try_normalize(0.0) else { return Vec::new() };
+    let Some(along) = u.try_normalize(0.0) else {
+        return Vec::new();
+    };
     let to_center = center - p;
     let foot = p + along * to_center.dot(&along);
     let distance = cross(along, to_center).abs();
@@ -31,18 +33,29 @@ pub fn line_circle(p: Point, u: Vector, center: Point, radius: f64) -> Vec<Point
 pub fn circle_circle(a: Point, radius_a: f64, b: Point, radius_b: f64) -> Vec<Point> {
     let between = b - a;
     let distance = between.norm();
-    let Some(along) = between.try_normalize(1e-300) else { return Vec::new() };
-    let offset = (distance * distance + (radius_a - radius_b) * (radius_a + radius_b)) / (2.0 * distance);
+    let Some(along) = between.try_normalize(1e-300) else {
+        return Vec::new();
+    };
+    let offset =
+        (distance * distance + (radius_a - radius_b) * (radius_a + radius_b)) / (2.0 * distance);
     let scale = radius_a.max(radius_b);
     let squared = (radius_a - offset) * (radius_a + offset);
     let foot = a + along * offset;
     if squared < 0.0 {
         // Touching within rounding: the gap between the circles decides, not its square.
         let gap = (distance - radius_a - radius_b).max((radius_a - radius_b).abs() - distance);
-        return if gap <= 1e-9 * scale { vec![foot] } else { Vec::new() };
+        return if gap <= 1e-9 * scale {
+            vec![foot]
+        } else {
+            Vec::new()
+        };
     }
     let half = super::left_normal(along) * squared.sqrt();
-    if squared == 0.0 { vec![foot] } else { vec![foot + half, foot - half] }
+    if squared == 0.0 {
+        vec![foot]
+    } else {
+        vec![foot + half, foot - half]
+    }
 }
 
 /// Half the chord that a circle cuts out of a line at `distance` from its centre.
@@ -61,14 +74,29 @@ mod tests {
     #[test]
     fn lines_meet_once_or_are_parallel() {
         let (p, q) = (Point::new(0.0, 0.0), Point::new(2.0, -5.0));
-        assert_eq!(line_line(p, Vector::x(), q, Vector::y()), Some(Point::new(2.0, 0.0)));
+        assert_eq!(
+            line_line(p, Vector::x(), q, Vector::y()),
+            Some(Point::new(2.0, 0.0))
+        );
         assert_eq!(line_line(p, Vector::x(), q, Vector::x() * 3.0), None);
     }
 
     #[test]
     fn a_touching_line_gives_one_point() {
-        assert_eq!(line_circle(Point::new(-5.0, 1.0), Vector::x(), Point::origin(), 1.0).len(), 1);
-        assert_eq!(line_circle(Point::new(-5.0, 1.0 + 1e-6), Vector::x(), Point::origin(), 1.0).len(), 0);
+        assert_eq!(
+            line_circle(Point::new(-5.0, 1.0), Vector::x(), Point::origin(), 1.0).len(),
+            1
+        );
+        assert_eq!(
+            line_circle(
+                Point::new(-5.0, 1.0 + 1e-6),
+                Vector::x(),
+                Point::origin(),
+                1.0
+            )
+            .len(),
+            0
+        );
         let two = line_circle(Point::new(-5.0, 0.0), Vector::x(), Point::origin(), 1.0);
         assert!(two[0].x < two[1].x);
     }
@@ -76,8 +104,14 @@ mod tests {
     #[test]
     fn circles_meet_on_both_sides() {
         let two = circle_circle(Point::origin(), 5.0, Point::new(6.0, 0.0), 5.0);
-        assert!((two[0] - Point::new(3.0, 4.0)).norm() < 1e-12 && (two[1] - Point::new(3.0, -4.0)).norm() < 1e-12);
-        assert_eq!(circle_circle(Point::origin(), 1.0, Point::new(2.0, 0.0), 1.0).len(), 1);
+        assert!(
+            (two[0] - Point::new(3.0, 4.0)).norm() < 1e-12
+                && (two[1] - Point::new(3.0, -4.0)).norm() < 1e-12
+        );
+        assert_eq!(
+            circle_circle(Point::origin(), 1.0, Point::new(2.0, 0.0), 1.0).len(),
+            1
+        );
         assert!(circle_circle(Point::origin(), 1.0, Point::origin(), 1.0).is_empty());
     }
 }

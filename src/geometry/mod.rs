@@ -48,7 +48,11 @@ pub fn direction(angle: f64) -> Vector {
 
 /// `degrees` in radians. What is beyond a turn is taken off first, which is exact: radians of a great number are not.
 pub fn radians(degrees: f64) -> f64 {
-    if degrees.abs() > 360.0 { (degrees % 360.0).to_radians() } else { degrees.to_radians() }
+    if degrees.abs() > 360.0 {
+        (degrees % 360.0).to_radians()
+    } else {
+        degrees.to_radians()
+    }
 }
 
 /// Signed angle from `a` to `b` in (−π, π], positive counter-clockwise; 0 when either is zero.
@@ -60,5 +64,9 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
 pub fn positive_angle(angle: f64) -> f64 {
     let wrapped = angle.rem_euclid(std::f64::consts::TAU);
     // rem_euclid of a tiny negative number rounds up to 2π itself.
-    if wrapped >= std::f64::consts::TAU { 0.0 } else { wrapped }
+    if wrapped >= std::f64::consts::TAU {
+        0.0
+    } else {
+        wrapped
+    }
 }

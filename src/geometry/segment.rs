@@ -16,14 +16,20 @@ impl Line {
 
     /// Unit direction of travel; zero for a line without length.
     pub fn direction(&self) -> Vector {
-        (self.end - self.start).try_normalize(0.0).unwrap_or_else(Vector::zeros)
+        (self.end - self.start)
+            .try_normalize(0.0)
+            .unwrap_or_else(Vector::zeros)
     }
 
     /// Share (0 … 1, unclamped) of the foot of the perpendicular from `point`; 0 for a line without length.
     pub fn share_of(&self, point: Point) -> f64 {
         let along = self.end - self.start;
         let squared = along.norm_squared();
-        if squared == 0.0 { 0.0 } else { (point - self.start).dot(&along) / squared }
+        if squared == 0.0 {
+            0.0
+        } else {
+            (point - self.start).dot(&along) / squared
+        }
     }
 
     pub fn distance_to(&self, point: Point) -> f64 {
@@ -59,7 +65,9 @@ impl Segment {
     /// [`Tolerances::flat`]: super::Tolerances::flat
     pub fn straightened(self, flat: f64) -> Segment {
         match self {
-            Segment::Arc(arc) if !arc.is_full_turn() && arc.sagitta() < flat => Segment::line(arc.start, arc.end),
+            Segment::Arc(arc) if !arc.is_full_turn() && arc.sagitta() < flat => {
+                Segment::line(arc.start, arc.end)
+            }
             segment => segment,
         }
     }
@@ -108,7 +116,12 @@ impl Segment {
     pub fn moved(&self, by: Vector) -> Segment {
         match self {
             Segment::Line(line) => Segment::line(line.start + by, line.end + by),
-            Segment::Arc(arc) => Segment::Arc(Arc { center: arc.center + by, start: arc.start + by, end: arc.end + by, ..*arc }),
+            Segment::Arc(arc) => Segment::Arc(Arc {
+                center: arc.center + by,
+                start: arc.start + by,
+                end: arc.end + by,
+                ..*arc
+            }),
         }
     }
 

@@ -21,12 +21,23 @@ impl Spline {
     ///
     /// The curve runs over the knots from number `degree` to number `points.len()`, as DXF has it, so unclamped and
     /// periodic knots hold too.
-    pub fn new(degree: usize, knots: Vec<f64>, points: Vec<Point>, weights: Vec<f64>) -> Result<Spline, String> {
+    pub fn new(
+        degree: usize,
+        knots: Vec<f64>,
+        points: Vec<Point>,
+        weights: Vec<f64>,
+    ) -> Result<Spline, String> {
         if !(1..=MAX_DEGREE).contains(&degree) {
-            return Err(format!("has the degree {degree}, expected 1 to {MAX_DEGREE}"));
+            return Err(format!(
+                "has the degree {degree}, expected 1 to {MAX_DEGREE}"
+            ));
         }
         if points.len() <= degree {
-            return Err(format!("has {} control points, expected at least {}", points.len(), degree + 1));
+            return Err(format!(
+                "has {} control points, expected at least {}",
+                points.len(),
+                degree + 1
+            ));
         }
         if knots.len() != points.len() + degree + 1 {
             return Err(format!(
@@ -40,19 +51,34 @@ impl Spline {
             return Err("has knots that do not rise".into());
         }
         if !weights.is_empty() && weights.len() != points.len() {
-            return Err(format!("has {} weights for {} control points", weights.len(), points.len()));
+            return Err(format!(
+                "has {} weights for {} control points",
+                weights.len(),
+                points.len()
+            ));
         }
         if weights.iter().any(|&weight| weight <= 0.0) {
             return Err("has a weight that is not above 0".into());
         }
-        let weights = if weights.windows(2).all(|pair| pair[0] == pair[1]) { Vec::new() } else { weights };
-        Ok(Spline { degree, knots, points, weights })
+        let weights = if weights.windows(2).all(|pair| pair[0] == pair[1]) {
+            Vec::new()
+        } else {
+            weights
+        };
+        Ok(Spline {
+            degree,
+            knots,
+            points,
+            weights,
+        })
     }
 
     /// The spline with even knots that begins at the first point and ends at the last one. Errors as in [`Spline::new`].
     pub fn clamped(degree: usize, points: Vec<Point>, weights: Vec<f64>) -> Result<Spline, String> {
         let last = points.len().saturating_sub(degree);
-        let knots = (0..points.len() + degree.min(MAX_DEGREE) + 1).map(|knot| knot.saturating_sub(degree).min(last) as f64).collect();
+        let knots = (0..points.len() + degree.min(MAX_DEGREE) + 1)
+            .map(|knot| knot.saturating_sub(degree).min(last) as f64)
+            .collect();
         Spline::new(degree, knots, points, weights)
     }
 
@@ -61,7 +87,10 @@ impl Spline {
     pub fn through(points: &[Point], start: Option<Vector>, end: Option<Vector>) -> Option<Spline> {
         let mut through: Vec<Point> = points.to_vec();
         through.dedup();
-        let lengths: Vec<f64> = through.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
+        let lengths: Vec<f64> = through
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).norm())
+            .collect();
         let last = lengths.len().checked_sub(1)?;
         // The derivative at each point: a tridiagonal system, solved from the front and back.
         let count = through.len();
@@ -74,7 +103,8 @@ impl Spline {
                     Some(tangent) => (0.0, 1.0, 0.0, tangent),
                     None => (0.0, 2.0, 1.0, chord(0) * 3.0),
                 },
-                _ if index == count - 1 => match end.and_then(|tangent| tangent.try_normalize(0.0)) {
+                _ if index == count - 1 => match end.and_then(|tangent| tangent.try_normalize(0.0))
+                {
                     Some(tangent) => (0.0, 1.0, 0.0, tangent),
                     None => (1.0, 2.0, 0.0, chord(last) * 3.0),
                 },
@@ -84,7 +114,11 @@ impl Spline {
                     (behind, 2.0 * (before + behind), before, right)
                 }
             };
-            let (upper_before, slope_before) = if index == 0 { (0.0, Vector::zeros()) } else { (upper[index - 1], slopes[index - 1]) };
+            let (upper_before, slope_before) = if index == 0 {
+                (0.0, Vector::zeros())
+            } else {
+                (upper[index - 1], slopes[index - 1])
+            };
             let pivot = middle - below * upper_before;
             upper[index] = above / pivot;
             slopes[index] = (right - slope_before * below) / pivot;
@@ -121,7 +155,9 @@ impl Spline {
         // What a point is bent by falls to a quarter with each point between: behind so many on both sides nothing is left of how
         // the ends of the longer curve are bent.
         const BEHIND: usize = 30;
-        let longer: Vec<Point> = (0..count + 1 + 2 * BEHIND).map(|at| round[(at + count * BEHIND - BEHIND) % count]).collect();
+        let longer: Vec<Point> = (0..count + 1 + 2 * BEHIND)
+            .map(|at| round[(at + count * BEHIND - BEHIND) % count])
+            .collect();
         let longer = Spline::through(&longer, None, None)?;
         let (from, to) = (BEHIND, BEHIND + count);
         let knot = |point: usize| longer.knots.get(4 + 3 * point - 3).copied();
@@ -131,7 +167,13 @@ impl Spline {
             knots.extend([knot(point)? - start; 3]);
         }
         knots.push(knot(to)? - start);
-        Spline::new(3, knots, longer.points.get(3 * from..=3 * to)?.to_vec(), Vec::new()).ok()
+        Spline::new(
+            3,
+            knots,
+            longer.points.get(3 * from..=3 * to)?.to_vec(),
+            Vec::new(),
+        )
+        .ok()
     }
 
     /// Number of its control points.
@@ -141,7 +183,10 @@ impl Spline {
 
     /// The same curve with its control points moved by an affine transformation.
     pub fn mapped(&self, map: impl Fn(Point) -> Point) -> Spline {
-        Spline { points: self.points.iter().map(|&point| map(point)).collect(), ..self.clone() }
+        Spline {
+            points: self.points.iter().map(|&point| map(point)).collect(),
+            ..self.clone()
+        }
     }
 
     /// Spans that are not empty.
@@ -156,24 +201,39 @@ impl Spline {
         for (index, point) in points.iter_mut().enumerate().take(degree + 1) {
             let from = span - degree + index;
             let weight = self.weights.get(from).copied().unwrap_or(1.0);
-            *point = [self.points[from].x * weight, self.points[from].y * weight, weight];
+            *point = [
+                self.points[from].x * weight,
+                self.points[from].y * weight,
+                weight,
+            ];
         }
         let mut derivative = [0.0; 3];
         for level in 1..=degree {
             if level == degree {
                 let width = self.knots[span + 1] - self.knots[span];
-                derivative = std::array::from_fn(|axis| degree as f64 * (points[degree][axis] - points[degree - 1][axis]) / width);
+                derivative = std::array::from_fn(|axis| {
+                    degree as f64 * (points[degree][axis] - points[degree - 1][axis]) / width
+                });
             }
             for index in (level..=degree).rev() {
                 let low = self.knots[span - degree + index];
                 let high = self.knots[span + index + 1 - level];
-                let share = if high > low { (t - low) / (high - low) } else { 0.0 };
-                points[index] = std::array::from_fn(|axis| points[index - 1][axis] * (1.0 - share) + points[index][axis] * share);
+                let share = if high > low {
+                    (t - low) / (high - low)
+                } else {
+                    0.0
+                };
+                points[index] = std::array::from_fn(|axis| {
+                    points[index - 1][axis] * (1.0 - share) + points[index][axis] * share
+                });
             }
         }
         let [x, y, weight] = points[degree];
         let point = Point::new(x / weight, y / weight);
-        let slope = Vector::new(derivative[0] - point.x * derivative[2], derivative[1] - point.y * derivative[2]) / weight;
+        let slope = Vector::new(
+            derivative[0] - point.x * derivative[2],
+            derivative[1] - point.y * derivative[2],
+        ) / weight;
         (point, slope)
     }
 }
@@ -188,13 +248,20 @@ pub struct SplineCurve<'a> {
 impl<'a> From<&'a Spline> for SplineCurve<'a> {
     fn from(spline: &'a Spline) -> Self {
         let bounds = Bounds::of_points(&spline.points);
-        SplineCurve { spline, spans: spline.spans().collect(), extent: (bounds.max - bounds.min).norm() }
+        SplineCurve {
+            spline,
+            spans: spline.spans().collect(),
+            extent: (bounds.max - bounds.min).norm(),
+        }
     }
 }
 
 impl Curve for SplineCurve<'_> {
     fn pieces(&self) -> Vec<(f64, f64)> {
-        self.spans.iter().map(|&span| (self.spline.knots[span], self.spline.knots[span + 1])).collect()
+        self.spans
+            .iter()
+            .map(|&span| (self.spline.knots[span], self.spline.knots[span + 1]))
+            .collect()
     }
 
     fn at(&self, piece: usize, t: f64) -> (Point, Vector) {

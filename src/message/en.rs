@@ -2,7 +2,10 @@
 
 use super::readable;
 use crate::drawing::Visibility;
-use crate::finding::{CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, NotJudged, ProgramFault, Side, SmallRadius};
+use crate::finding::{
+    CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, NotJudged, ProgramFault, Side,
+    SmallRadius,
+};
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
 ///
@@ -88,14 +91,24 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
 }
 
 fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
-    let (entities, are) = if count == 1 { ("1 entity".to_string(), "is") } else { (format!("{count} entities"), "are") };
-    let of_layer = |what: &str| format!("layer {layer} is {what}: {entities} on it {are} not cut, unless the layer has a role ([layers])");
+    let (entities, are) = if count == 1 {
+        ("1 entity".to_string(), "is")
+    } else {
+        (format!("{count} entities"), "are")
+    };
+    let of_layer = |what: &str| {
+        format!(
+            "layer {layer} is {what}: {entities} on it {are} not cut, unless the layer has a role ([layers])"
+        )
+    };
     match visibility {
         Visibility::Frozen => of_layer("frozen"),
         Visibility::Off => of_layer("switched off"),
         Visibility::Invisible => format!("{entities} {are} invisible (group code 60): not cut"),
         Visibility::Unplotted | Visibility::Shown => {
-            format!("layer {layer} is not plotted: {entities} on it {are} cut all the same, unless its role is ignore ([layers])")
+            format!(
+                "layer {layer} is not plotted: {entities} on it {are} cut all the same, unless its role is ignore ([layers])"
+            )
         }
     }
 }
@@ -103,7 +116,10 @@ fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
 /// What the other place of a finding is, for a person.
 pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> String {
     let handle = readable(handle);
-    let place = segment.map_or_else(|| handle.to_string(), |segment| format!("{handle}, segment {segment}"));
+    let place = segment.map_or_else(
+        || handle.to_string(),
+        |segment| format!("{handle}, segment {segment}"),
+    );
     match finding.detail {
         Detail::NarrowSlot { .. } => format!("the facing wall: {place}"),
         Detail::DeadEnd { .. } => format!("the wire comes no further than here: {place}"),
@@ -112,7 +128,9 @@ pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> Strin
         Detail::LeadIn(_) => format!("what is in the way: {place}"),
         Detail::SelfIntersection { touches: true, .. } => format!("touches this one: {place}"),
         Detail::SelfIntersection { .. } => format!("crosses this one: {place}"),
-        Detail::SharpCorner { .. } | Detail::NearTangent { .. } => format!("meets this one: {place}"),
+        Detail::SharpCorner { .. } | Detail::NearTangent { .. } => {
+            format!("meets this one: {place}")
+        }
         _ => format!("the other one: {place}"),
     }
 }
@@ -120,38 +138,70 @@ pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> Strin
 /// What a fix does, as the title of its code action.
 pub fn title(kind: &FixKind, unit_mm: f64) -> String {
     match kind {
-        FixKind::Refillet { radius, arcs, moved } => {
-            let what = if *arcs == 1 { "arc".to_string() } else { format!("{arcs} arcs") };
-            format!("Replace the {what} by one of R {} mm (moves the contour by {} mm)", mm(radius * unit_mm), mm(moved * unit_mm))
+        FixKind::Refillet {
+            radius,
+            arcs,
+            moved,
+        } => {
+            let what = if *arcs == 1 {
+                "arc".to_string()
+            } else {
+                format!("{arcs} arcs")
+            };
+            format!(
+                "Replace the {what} by one of R {} mm (moves the contour by {} mm)",
+                mm(radius * unit_mm),
+                mm(moved * unit_mm)
+            )
         }
         FixKind::KeepEndPoints { radius, kink } => format!(
             "Keep the end points, change only the bulge to R {} mm (kinks the contour by {:.1}° at each end, does not reduce the overcut)",
             mm(radius * unit_mm),
             kink.to_degrees()
         ),
-        FixKind::Fillet { radius } => format!("Round the corner with R {} mm", mm(radius * unit_mm)),
+        FixKind::Fillet { radius } => {
+            format!("Round the corner with R {} mm", mm(radius * unit_mm))
+        }
         FixKind::Close { length: 0.0 } => "Close the contour".into(),
-        FixKind::Close { length } => format!("Close the contour with a line of {} mm", mm(length * unit_mm)),
-        FixKind::Snap { distance } => format!("Snap the ends together (moves them by {} mm)", mm(distance * unit_mm)),
+        FixKind::Close { length } => format!(
+            "Close the contour with a line of {} mm",
+            mm(length * unit_mm)
+        ),
+        FixKind::Snap { distance } => format!(
+            "Snap the ends together (moves them by {} mm)",
+            mm(distance * unit_mm)
+        ),
         FixKind::DeleteDouble => "Delete the double".into(),
         FixKind::DeletePoint => "Delete what has no length".into(),
         FixKind::Merge => "Remove the short segment, its neighbours meet".into(),
-        FixKind::MakeTangent { moved } => format!("Make the segments tangent (moves the contour by {} mm)", mm(moved * unit_mm)),
+        FixKind::MakeTangent { moved } => format!(
+            "Make the segments tangent (moves the contour by {} mm)",
+            mm(moved * unit_mm)
+        ),
         FixKind::SetJ { j } => format!("Set J to {j}"),
         FixKind::SetEnd { axis, value } => format!("Set {} to {value}", axis.letter()),
         FixKind::SetAxis { axis, j: None } => format!("Count G{}", axis.letter()),
         FixKind::SetAxis { axis, j: Some(j) } => format!("Count G{}, J {j}", axis.letter()),
         FixKind::SetMotion { name } => format!("Set Z to {name}"),
-        FixKind::SetCoordinates { at: [x, y] } => format!("Set the coordinates to where the block ends ({x:.3}, {y:.3})"),
+        FixKind::SetCoordinates { at: [x, y] } => {
+            format!("Set the coordinates to where the block ends ({x:.3}, {y:.3})")
+        }
         FixKind::FollowCoordinates => "Change the block to end at its coordinates".into(),
         FixKind::ExchangeXAndY => "Exchange X and Y".into(),
         FixKind::RestoreBlock { block } => {
-            format!("Write the block as {}", block.split_whitespace().collect::<String>())
+            format!(
+                "Write the block as {}",
+                block.split_whitespace().collect::<String>()
+            )
         }
         FixKind::DeleteTwin => "Delete the block, which stands twice".into(),
         FixKind::ExchangeBlocks => "Exchange the two blocks".into(),
         FixKind::InsertBlock { length, is_arc } => {
-            format!("Put the lost {} of {} mm in", if *is_arc { "arc" } else { "line" }, mm(*length))
+            format!(
+                "Put the lost {} of {} mm in",
+                if *is_arc { "arc" } else { "line" },
+                mm(*length)
+            )
         }
         FixKind::InsertB => "Put the lost B back".into(),
         FixKind::NumberWithN => "Write the block number with N".into(),
@@ -162,24 +212,36 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::SplitBlock { pieces } => format!("Split the block into {pieces} that fit"),
         FixKind::SetNumber { number } => format!("Number the block N{number}"),
         FixKind::Renumber { first, step: 1 } => format!("Number all blocks from N{first} on"),
-        FixKind::Renumber { first, step } => format!("Number all blocks from N{first} on, in steps of {step}"),
+        FixKind::Renumber { first, step } => {
+            format!("Number all blocks from N{first} on, in steps of {step}")
+        }
         FixKind::AddEnd { word } => format!("End the program with {word}"),
         FixKind::DeleteBehindEnd => "Delete what stands behind the end".into(),
         FixKind::CutRapid => "Cut there (G01) instead of the rapid".into(),
         FixKind::SetCenter { radius, how } => match how {
             CenterFix::OtherConvention => {
-                format!("Take I and J as other controls do, and write them as this program does (R {} mm)", mm(*radius))
+                format!(
+                    "Take I and J as other controls do, and write them as this program does (R {} mm)",
+                    mm(*radius)
+                )
             }
             CenterFix::Sign => format!("Put the sign of I and J right (R {} mm)", mm(*radius)),
             CenterFix::Swap => format!("Swap I and J (R {} mm)", mm(*radius)),
-            CenterFix::Nearest { moved } => format!("Move the centre by {} mm to where both ends fit (R {} mm)", mm(*moved), mm(*radius)),
+            CenterFix::Nearest { moved } => format!(
+                "Move the centre by {} mm to where both ends fit (R {} mm)",
+                mm(*moved),
+                mm(*radius)
+            ),
         },
         FixKind::Rewrite { found, meant } if meant.is_empty() => format!("Delete {found}"),
         FixKind::Rewrite { found, meant } if found.is_empty() => format!("Write {meant}"),
         FixKind::Rewrite { found, meant } => format!("Write {meant} for {found}"),
         FixKind::InsertLine { block } => format!("Insert the block {block}"),
         FixKind::SwapSide => "Let the wire run on the other side (swap G41 and G42)".into(),
-        FixKind::OneArc { chords, radius } => format!("Replace the {chords} chords by one arc of R {} mm", mm(radius * unit_mm)),
+        FixKind::OneArc { chords, radius } => format!(
+            "Replace the {chords} chords by one arc of R {} mm",
+            mm(radius * unit_mm)
+        ),
     }
 }
 
@@ -193,35 +255,73 @@ fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
     if is_sure {
         return format!("{found} keeps the contour open: with {meant} it closes");
     }
-    format!("{found} may be wrong: the contour does not close, and with {meant} here, and nothing else changed, it would")
+    format!(
+        "{found} may be wrong: the contour does not close, and with {meant} here, and nothing else changed, it would"
+    )
 }
 
 /// What is wrong in a 3B program, in µm as its blocks count, and what comes of it at the machine.
 fn program(fault: &ProgramFault) -> String {
     match fault {
-        ProgramFault::MissingB => "a B of the block is missing: the controller takes its numbers for others, or stops".into(),
-        ProgramFault::BlockNumberAsB { number } => {
-            format!("B{number} stands where the block number N{number} was meant: the controller takes {number} for X")
+        ProgramFault::MissingB => {
+            "a B of the block is missing: the controller takes its numbers for others, or stops"
+                .into()
         }
-        ProgramFault::LengthInJ { j, projection, axis } => format!(
+        ProgramFault::BlockNumberAsB { number } => {
+            format!(
+                "B{number} stands where the block number N{number} was meant: the controller takes {number} for X"
+            )
+        }
+        ProgramFault::LengthInJ {
+            j,
+            projection,
+            axis,
+        } => format!(
             "J {j} is the length of the line, the controller counts its projection on {}, {projection} µm: the wire runs too far",
             axis.letter()
         ),
-        ProgramFault::WrongJ { j: 0, projection, axis } => {
-            format!("J is 0, the line's projection on {} is {projection} µm: the wire does not move", axis.letter())
+        ProgramFault::WrongJ {
+            j: 0,
+            projection,
+            axis,
+        } => {
+            format!(
+                "J is 0, the line's projection on {} is {projection} µm: the wire does not move",
+                axis.letter()
+            )
         }
-        ProgramFault::WrongJ { j, projection, axis } => format!(
+        ProgramFault::WrongJ {
+            j,
+            projection,
+            axis,
+        } => format!(
             "J {j} is not the line's projection on {}, {projection} µm: the wire ends {} µm {}",
             axis.letter(),
             (j - projection).abs(),
-            if j > projection { "too far" } else { "too early" }
+            if j > projection {
+                "too far"
+            } else {
+                "too early"
+            }
         ),
-        ProgramFault::JKeepsOpen { j, meant, is_sure } => keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure),
-        ProgramFault::JOverTurn { j, turn } => {
-            format!("J {j} is more than one turn counts, {turn} µm: the wire goes on past its start")
+        ProgramFault::JKeepsOpen { j, meant, is_sure } => {
+            keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure)
         }
-        ProgramFault::SmallerProjection { axis, counted, larger } => {
-            format!("G{} counts the smaller projection, {counted} of {larger} units: expected G{}", axis.letter(), axis.other().letter())
+        ProgramFault::JOverTurn { j, turn } => {
+            format!(
+                "J {j} is more than one turn counts, {turn} µm: the wire goes on past its start"
+            )
+        }
+        ProgramFault::SmallerProjection {
+            axis,
+            counted,
+            larger,
+        } => {
+            format!(
+                "G{} counts the smaller projection, {counted} of {larger} units: expected G{}",
+                axis.letter(),
+                axis.other().letter()
+            )
         }
         ProgramFault::ArcEndAxis { axis, x, y } => format!(
             "G{} does not fit the arc's end at ({:.0}, {:.0}) µm from its centre, where it hardly moves on {}: expected G{}",
@@ -231,28 +331,61 @@ fn program(fault: &ProgramFault) -> String {
             axis.letter(),
             axis.other().letter()
         ),
-        ProgramFault::AxisKeepsOpen { axis, is_sure } => {
-            keeps_open(&format!("G{}", axis.letter()), &format!("G{}", axis.other().letter()), *is_sure)
-        }
-        ProgramFault::UnusualQuadrant { found, expected: [one, other], axis } => format!(
+        ProgramFault::AxisKeepsOpen { axis, is_sure } => keeps_open(
+            &format!("G{}", axis.letter()),
+            &format!("G{}", axis.other().letter()),
+            *is_sure,
+        ),
+        ProgramFault::UnusualQuadrant {
+            found,
+            expected: [one, other],
+            axis,
+        } => format!(
             "{found} is unusual for a line along {}, where {one} or {other} is written: a controller takes it as it closes the contour, \
              or is 1 µm beside",
             axis.letter()
         ),
-        ProgramFault::AxisQuadrant { found, expected: [one, other], axis } => {
-            format!("{found} contradicts a line along {}: expected {one} or {other}", axis.letter())
+        ProgramFault::AxisQuadrant {
+            found,
+            expected: [one, other],
+            axis,
+        } => {
+            format!(
+                "{found} contradicts a line along {}: expected {one} or {other}",
+                axis.letter()
+            )
         }
-        ProgramFault::QuadrantKeepsOpen { found, meant, is_sure } => keeps_open(found, meant, *is_sure),
+        ProgramFault::QuadrantKeepsOpen {
+            found,
+            meant,
+            is_sure,
+        } => keeps_open(found, meant, *is_sure),
         ProgramFault::NumberKeepsOpen { axis, value, meant } => {
             let letter = axis.letter();
-            keeps_open(&format!("{letter} {value}"), &format!("{letter} {meant}"), true)
+            keeps_open(
+                &format!("{letter} {value}"),
+                &format!("{letter} {meant}"),
+                true,
+            )
         }
-        ProgramFault::ExchangedKeepsOpen => "X and Y stand for each other: exchanged, the contour closes".into(),
-        ProgramFault::TwinKeepsOpen => "the block stands twice: without it the contour closes".into(),
+        ProgramFault::ExchangedKeepsOpen => {
+            "X and Y stand for each other: exchanged, the contour closes".into()
+        }
+        ProgramFault::TwinKeepsOpen => {
+            "the block stands twice: without it the contour closes".into()
+        }
         ProgramFault::ZeroBlock => "the block moves nothing: its J is 0".into(),
-        ProgramFault::ArcWithoutRadius => "the arc has no radius: X and Y are 0, its start is its centre".into(),
-        ProgramFault::TooManyDigits { field, value, digits } => {
-            format!("{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops")
+        ProgramFault::ArcWithoutRadius => {
+            "the arc has no radius: X and Y are 0, its start is its centre".into()
+        }
+        ProgramFault::TooManyDigits {
+            field,
+            value,
+            digits,
+        } => {
+            format!(
+                "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops"
+            )
         }
         ProgramFault::NotClosed { x, y, .. } => format!(
             "the contour does not close: it ends {} mm beside its beginning (X {:+.3}, Y {:+.3})",
@@ -261,12 +394,20 @@ fn program(fault: &ProgramFault) -> String {
             y / 1000.0
         ),
         ProgramFault::MissingEnd { word } => {
-            format!("the program has no end, expected {word}: the machine waits, or runs what it held before")
+            format!(
+                "the program has no end, expected {word}: the machine waits, or runs what it held before"
+            )
         }
-        ProgramFault::TextAfterEnd { word } => format!("text behind {word}, which ends the program: the machine does not run it"),
+        ProgramFault::TextAfterEnd { word } => {
+            format!("text behind {word}, which ends the program: the machine does not run it")
+        }
         ProgramFault::DoubledNumber { number } => format!("block number N{number} stands twice"),
-        ProgramFault::NumberOutOfOrder { expected, number } => format!("block number N{number} is out of turn, expected N{expected}"),
-        ProgramFault::Unnumbered { expected } => format!("the block has no number, expected N{expected}"),
+        ProgramFault::NumberOutOfOrder { expected, number } => {
+            format!("block number N{number} is out of turn, expected N{expected}")
+        }
+        ProgramFault::Unnumbered { expected } => {
+            format!("the block has no number, expected N{expected}")
+        }
         ProgramFault::PositionMismatch { x, y } => format!(
             "the coordinates behind the block are {} mm from where it ends (X {:+.3}, Y {:+.3})",
             mm(x.hypot(*y) / 1000.0),
@@ -287,13 +428,21 @@ fn not_judged(what: &NotJudged) -> String {
             "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them"
         ),
         NotJudged::Crossings { blocks } => {
-            format!("so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it")
+            format!(
+                "so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it"
+            )
         }
-        NotJudged::Reference { copies, segments, most } => format!(
+        NotJudged::Reference {
+            copies,
+            segments,
+            most,
+        } => format!(
             "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it"
         ),
         NotJudged::Calls { lines, calls } => {
-            format!("the calls of subprograms come to more than {lines} lines or {calls} calls: what would run from here on is not judged")
+            format!(
+                "the calls of subprograms come to more than {lines} lines or {calls} calls: what would run from here on is not judged"
+            )
         }
     }
 }
@@ -394,12 +543,20 @@ fn iso(fault: &IsoFault) -> String {
 
 fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
     let (radius, required) = told_apart(numbers.radius * unit_mm, numbers.required * unit_mm);
-    let pass = numbers.pass.map_or(String::new(), |pass| format!(" of pass {pass}"));
+    let pass = numbers
+        .pass
+        .map_or(String::new(), |pass| format!(" of pass {pass}"));
     let mut text = format!("arc R {radius} mm is below the correction {required} mm{pass}");
     if numbers.overcut * unit_mm >= 0.5e-6 {
-        text += &format!(": the wire overcuts the contour by {} mm", mm(numbers.overcut * unit_mm));
+        text += &format!(
+            ": the wire overcuts the contour by {} mm",
+            mm(numbers.overcut * unit_mm)
+        );
         if numbers.stock_left.is_finite() {
-            text += &format!(", or leaves {} mm where the control trims", mm(numbers.stock_left * unit_mm));
+            text += &format!(
+                ", or leaves {} mm where the control trims",
+                mm(numbers.stock_left * unit_mm)
+            );
         }
     } else {
         text += ": the control loses the arc";
@@ -412,10 +569,16 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
                 mm(2.0 * numbers.required * unit_mm)
             );
         }
-        Some(NoFix::SealsContour) => text += "; the arc that fits would seal the slot (narrow-slot)",
-        Some(NoFix::ShortSegment) => text += "; the arc that fits would leave a segment too short to cut (short-segment)",
+        Some(NoFix::SealsContour) => {
+            text += "; the arc that fits would seal the slot (narrow-slot)"
+        }
+        Some(NoFix::ShortSegment) => {
+            text += "; the arc that fits would leave a segment too short to cut (short-segment)"
+        }
         Some(NoFix::Spoils) => text += "; the arc that fits here would bring another fault",
-        Some(NoFix::NoNeighbour) => text += "; there is no neighbour on both sides that a larger arc could be tangent to",
+        Some(NoFix::NoNeighbour) => {
+            text += "; there is no neighbour on both sides that a larger arc could be tangent to"
+        }
         Some(NoFix::Program) => text += "; repair it in the drawing, and make the program again",
         Some(NoFix::NotEditable) => text += "; it is part of an entity that cannot be edited here",
     }
@@ -424,12 +587,19 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
 
 /// A length in mm with three decimals, or with as many as its first digit needs.
 fn mm(length: f64) -> String {
-    let places = if length != 0.0 && length.abs() < 0.0005 { 6 } else { 3 };
+    let places = if length != 0.0 && length.abs() < 0.0005 {
+        6
+    } else {
+        3
+    };
     format!("{length:.places$}")
 }
 
 /// Two lengths in mm with as many decimals as it takes to tell them apart, at least three.
 fn told_apart(one: f64, other: f64) -> (String, String) {
     let digits = |places: usize| (format!("{one:.places$}"), format!("{other:.places$}"));
-    (3..=9).map(digits).find(|(a, b)| a != b).unwrap_or_else(|| digits(3))
+    (3..=9)
+        .map(digits)
+        .find(|(a, b)| a != b)
+        .unwrap_or_else(|| digits(3))
 }

@@ -18,7 +18,17 @@ pub fn readable(text: &str) -> Cow<'_, str> {
     if text.bytes().all(is_plain) || !text.contains(is_hidden) {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(text.chars().map(|character| if is_hidden(character) { char::REPLACEMENT_CHARACTER } else { character }).collect())
+    Cow::Owned(
+        text.chars()
+            .map(|character| {
+                if is_hidden(character) {
+                    char::REPLACEMENT_CHARACTER
+                } else {
+                    character
+                }
+            })
+            .collect(),
+    )
 }
 
 #[cfg(test)]
@@ -30,10 +40,22 @@ mod tests {
         let check = |text: &str, expected: &str| assert_eq!(readable(text), expected, "{text:?}");
         check("DIE 1.dxf", "DIE 1.dxf");
         check("", "");
-        check("模具 Größe 凸模\u{1f600} נקבה", "模具 Größe 凸模\u{1f600} נקבה");
+        check(
+            "模具 Größe 凸模\u{1f600} נקבה",
+            "模具 Größe 凸模\u{1f600} נקבה",
+        );
         check("a\u{1b}[8mb\u{7}", "a\u{fffd}[8mb\u{fffd}");
-        check("\u{9b}31m\u{7f}\u{85}\n\r\t\0", "\u{fffd}31m\u{fffd}\u{fffd}\u{fffd}\u{fffd}\t\u{fffd}");
-        check("fxd.\u{202e}exe\u{2066}\u{200f}\u{61c}", "fxd.\u{fffd}exe\u{fffd}\u{fffd}\u{fffd}");
-        check("\u{2028}\u{2029}\u{feff}\u{e0041}", "\u{fffd}\u{fffd}\u{fffd}\u{fffd}");
+        check(
+            "\u{9b}31m\u{7f}\u{85}\n\r\t\0",
+            "\u{fffd}31m\u{fffd}\u{fffd}\u{fffd}\u{fffd}\t\u{fffd}",
+        );
+        check(
+            "fxd.\u{202e}exe\u{2066}\u{200f}\u{61c}",
+            "fxd.\u{fffd}exe\u{fffd}\u{fffd}\u{fffd}",
+        );
+        check(
+            "\u{2028}\u{2029}\u{feff}\u{e0041}",
+            "\u{fffd}\u{fffd}\u{fffd}\u{fffd}",
+        );
     }
 }

@@ -18,7 +18,11 @@ pub(super) struct Frame {
 impl Frame {
     /// Opens the group in which y points up and [`Frame::local`] coordinates hold.
     pub fn opening(&self) -> String {
-        format!(r#"<g transform="matrix(1 0 0 -1 {} {})">"#, number(self.left), number(self.bottom))
+        format!(
+            r#"<g transform="matrix(1 0 0 -1 {} {})">"#,
+            number(self.left),
+            number(self.bottom)
+        )
     }
 
     /// The same for the drawing itself, with what turns coordinates within the group into the drawing's:
@@ -51,7 +55,11 @@ impl Frame {
 ///
 /// An arc is split into pieces of less than a half turn, so that a full circle is drawn, and so that no viewer has
 /// to guess which of two arcs is meant.
-pub(super) fn path_data(frame: &Frame, segments: impl IntoIterator<Item = Segment>, close: bool) -> String {
+pub(super) fn path_data(
+    frame: &Frame,
+    segments: impl IntoIterator<Item = Segment>,
+    close: bool,
+) -> String {
     let mut data = String::new();
     let mut pen = String::new();
     for segment in segments {
@@ -92,14 +100,21 @@ fn pair(frame: &Frame, point: Point) -> String {
 
 /// The attributes by which an element is found that stands for a segment.
 pub(super) fn named(handle: &str, segment: usize) -> String {
-    format!(r#"data-handle="{}" data-segment="{segment}""#, escaped(handle))
+    format!(
+        r#"data-handle="{}" data-segment="{segment}""#,
+        escaped(handle)
+    )
 }
 
 /// At most three decimals, without trailing zeros and without a minus before zero.
 pub(super) fn number(value: f64) -> String {
     let text = format!("{value:.3}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".into() } else { short.into() }
+    if short == "-0" {
+        "0".into()
+    } else {
+        short.into()
+    }
 }
 
 /// Text for XML: markup characters replaced, characters that XML forbids left out.

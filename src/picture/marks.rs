@@ -19,12 +19,20 @@ pub(super) fn faults(sheet: &mut String, frame: &Frame, faults: &[Fault], unit_m
     for (index, fault) in faults.iter().take(MOST).enumerate() {
         let arc = fault.arc();
         let at = frame.on_sheet(arc.point_at(0.5));
-        let outward = (arc.point_at(0.5) - arc.center).try_normalize(0.0).unwrap_or_else(Vector::x);
+        let outward = (arc.point_at(0.5) - arc.center)
+            .try_normalize(0.0)
+            .unwrap_or_else(Vector::x);
         // On the sheet y points down.
         let angle = (-outward.y).atan2(outward.x);
         let label = free_place(at, angle, with_radius, &taken, top);
         let (x, y) = label.badge;
-        let _ = writeln!(sheet, r#"<g class="mark" {} data-at="{} {}">"#, named(&fault.handle, fault.segment), number(at.0), number(at.1));
+        let _ = writeln!(
+            sheet,
+            r#"<g class="mark" {} data-at="{} {}">"#,
+            named(&fault.handle, fault.segment),
+            number(at.0),
+            number(at.1)
+        );
         let _ = writeln!(
             sheet,
             r#"<path class="leader" d="M{} {}L{} {}"/><circle class="badge" cx="{2}" cy="{3}" r="9"/><text class="count" x="{2}" y="{}">{}</text>"#,
@@ -36,7 +44,11 @@ pub(super) fn faults(sheet: &mut String, frame: &Frame, faults: &[Fault], unit_m
             index + 1
         );
         if with_radius {
-            let (anchor, x) = if label.text_to_the_left { ("end", x - 13.0) } else { ("start", x + 13.0) };
+            let (anchor, x) = if label.text_to_the_left {
+                ("end", x - 13.0)
+            } else {
+                ("start", x + 13.0)
+            };
             let radius = fault.detail.radius * unit_mm;
             let _ = writeln!(
                 sheet,
@@ -61,14 +73,26 @@ struct Label {
 impl Label {
     fn new(badge: (f64, f64), with_text: bool, text_to_the_left: bool) -> Label {
         let text = if with_text { 58.0 } else { 0.0 };
-        let (left, right) = if text_to_the_left { (text, 0.0) } else { (0.0, text) };
+        let (left, right) = if text_to_the_left {
+            (text, 0.0)
+        } else {
+            (0.0, text)
+        };
         let from = (badge.0 - 11.0 - left, badge.1 - 11.0);
         let to = (badge.0 + 11.0 + right, badge.1 + 11.0);
-        Label { badge, from, to, text_to_the_left }
+        Label {
+            badge,
+            from,
+            to,
+            text_to_the_left,
+        }
     }
 
     fn overlaps(&self, other: &Label) -> bool {
-        self.from.0 < other.to.0 && other.from.0 < self.to.0 && self.from.1 < other.to.1 && other.from.1 < self.to.1
+        self.from.0 < other.to.0
+            && other.from.0 < self.to.0
+            && self.from.1 < other.to.1
+            && other.from.1 < self.to.1
     }
 }
 
@@ -83,7 +107,9 @@ fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], to
             [away, !away].map(|to_the_left| Label::new(badge, with_text, to_the_left))
         })
     });
-    let fits = |label: &Label| label.from.0 > MARGIN / 4.0 && label.to.0 < SHEET_WIDTH - MARGIN / 4.0 && label.from.1 > top;
+    let fits = |label: &Label| {
+        label.from.0 > MARGIN / 4.0 && label.to.0 < SHEET_WIDTH - MARGIN / 4.0 && label.from.1 > top
+    };
     let mut first = None;
     for label in candidates {
         if fits(&label) && !taken.iter().any(|other| label.overlaps(other)) {
@@ -98,7 +124,10 @@ fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], to
 pub(super) fn thread_holes(sheet: &mut String, frame: &Frame, picture: &Picture) {
     for path in picture.paths {
         let (x, y) = frame.local(path.thread_hole);
-        let (x_mm, y_mm) = (picture.mm(path.thread_hole.x), picture.mm(path.thread_hole.y));
+        let (x_mm, y_mm) = (
+            picture.mm(path.thread_hole.x),
+            picture.mm(path.thread_hole.y),
+        );
         let _ = writeln!(
             sheet,
             r#"<g class="thread"><title>thread hole at {x_mm:.3}, {y_mm:.3} mm</title><circle cx="{}" cy="{}" r="5"/><path d="M{} {}h16M{} {}v16"/></g>"#,
@@ -109,9 +138,17 @@ pub(super) fn thread_holes(sheet: &mut String, frame: &Frame, picture: &Picture)
             number(x),
             number(y - 8.0)
         );
-        let first = path.segments.iter().find(|segment| !matches!(segment.source, Source::LeadIn | Source::LeadOut));
+        let first = path
+            .segments
+            .iter()
+            .find(|segment| !matches!(segment.source, Source::LeadIn | Source::LeadOut));
         if let Some(first) = first {
-            arrow(sheet, frame, first.geometry.start(), first.geometry.start_tangent());
+            arrow(
+                sheet,
+                frame,
+                first.geometry.start(),
+                first.geometry.start_tangent(),
+            );
         }
     }
 }
@@ -138,7 +175,11 @@ pub(super) fn text(sheet: &mut String, frame: &Frame, at: Point, text: &str) {
     let (x, y) = frame.local(at);
     let shown: String = text.chars().take(48).collect();
     let is_mark = shown.trim().eq_ignore_ascii_case("o");
-    let (class, anchor) = if is_mark { ("start", "middle") } else { ("annotation", "start") };
+    let (class, anchor) = if is_mark {
+        ("start", "middle")
+    } else {
+        ("annotation", "start")
+    };
     // Text is turned back, or it would be read in a mirror.
     let _ = writeln!(
         sheet,

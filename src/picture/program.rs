@@ -16,15 +16,24 @@ const MOST_BLOCKS: usize = 20_000;
 
 /// The picture of a program. `faults` are the lines (from 0) with what is wrong there, worst first.
 pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> String {
-    let Some(bounds) = trace.bounds().map(|bounds| Bounds { min: mm(bounds.min), max: mm(bounds.max) }) else {
+    let Some(bounds) = trace.bounds().map(|bounds| Bounds {
+        min: mm(bounds.min),
+        max: mm(bounds.max),
+    }) else {
         return style::empty_program();
     };
     let scale = scale_to_fit(&bounds);
     let height = (bounds.height() * scale).max(24.0);
     let left = (SHEET_WIDTH - bounds.width() * scale) / 2.0;
-    let frame = Frame { origin: bounds.min, scale, left, bottom: FIGURE_TOP + height };
+    let frame = Frame {
+        origin: bounds.min,
+        scale,
+        left,
+        bottom: FIGURE_TOP + height,
+    };
     let legend_top = frame.bottom + 48.0;
-    let by_line: FxHashMap<usize, &(usize, Severity, String)> = faults.iter().rev().map(|fault| (fault.0, fault)).collect();
+    let by_line: FxHashMap<usize, &(usize, Severity, String)> =
+        faults.iter().rev().map(|fault| (fault.0, fault)).collect();
     let moving: Vec<&Step> = trace.steps.iter().filter(|step| step.moves()).collect();
     let mut sheet = style::opening(SHEET_WIDTH, legend_top + 48.0, &title(faults));
     header(&mut sheet, trace, &moving, faults);
@@ -38,7 +47,12 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
     thread_holes(&mut sheet, &frame, &moving);
     sheet.push_str("</g>\n");
     let has_ways = moving.iter().any(|step| step.kind == Kind::Rapid);
-    style::program_legend(&mut sheet, legend_top + 12.0, has_ways, moving.iter().any(|step| by_line.contains_key(&step.line)));
+    style::program_legend(
+        &mut sheet,
+        legend_top + 12.0,
+        has_ways,
+        moving.iter().any(|step| by_line.contains_key(&step.line)),
+    );
     style::scale_bar(&mut sheet, SHEET_WIDTH - MARGIN, legend_top + 12.0, scale);
     sheet.push_str("</svg>\n");
     sheet
@@ -51,9 +65,13 @@ fn mm(point: Point) -> Point {
 
 fn in_mm(step: &Step) -> Segment {
     match step.ideal {
-        Some(Segment::Arc(arc)) => {
-            Segment::Arc(Arc { center: mm(arc.center), radius: arc.radius / 1000.0, start: mm(arc.start), end: mm(arc.end), ..arc })
-        }
+        Some(Segment::Arc(arc)) => Segment::Arc(Arc {
+            center: mm(arc.center),
+            radius: arc.radius / 1000.0,
+            start: mm(arc.start),
+            end: mm(arc.end),
+            ..arc
+        }),
         Some(Segment::Line(line)) => Segment::line(mm(line.start), mm(line.end)),
         None => Segment::line(mm(step.start), mm(step.end)),
     }
@@ -65,7 +83,10 @@ fn joins(a: &Step, b: &Step) -> bool {
 }
 
 fn title(faults: &[(usize, Severity, String)]) -> String {
-    let errors = faults.iter().filter(|fault| fault.1 == Severity::Error).count();
+    let errors = faults
+        .iter()
+        .filter(|fault| fault.1 == Severity::Error)
+        .count();
     match errors {
         0 => "Path of the wire".into(),
         1 => "Path of the wire, with 1 error".into(),
@@ -73,15 +94,38 @@ fn title(faults: &[(usize, Severity, String)]) -> String {
     }
 }
 
-fn header(sheet: &mut String, trace: &Trace, moving: &[&Step], faults: &[(usize, Severity, String)]) {
+fn header(
+    sheet: &mut String,
+    trace: &Trace,
+    moving: &[&Step],
+    faults: &[(usize, Severity, String)],
+) {
     let closure = trace.closure();
-    let facts =
-        format!("{} blocks · {:.3} mm · ends {:.0}, {:.0} µm from its start", moving.len(), trace.length() / 1000.0, closure.x, closure.y);
-    let _ = writeln!(sheet, r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#, escaped(&title(faults)));
-    let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#, escaped(&facts));
+    let facts = format!(
+        "{} blocks · {:.3} mm · ends {:.0}, {:.0} µm from its start",
+        moving.len(),
+        trace.length() / 1000.0,
+        closure.x,
+        closure.y
+    );
+    let _ = writeln!(
+        sheet,
+        r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
+        escaped(&title(faults))
+    );
+    let _ = writeln!(
+        sheet,
+        r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#,
+        escaped(&facts)
+    );
 }
 
-fn path(sheet: &mut String, frame: &Frame, steps: &[&Step], faults: &FxHashMap<usize, &(usize, Severity, String)>) {
+fn path(
+    sheet: &mut String,
+    frame: &Frame,
+    steps: &[&Step],
+    faults: &FxHashMap<usize, &(usize, Severity, String)>,
+) {
     let Some(first) = steps.first() else { return };
     let data = path_data(frame, steps.iter().map(|step| in_mm(step)), false);
     if data.is_empty() {
@@ -98,19 +142,35 @@ fn path(sheet: &mut String, frame: &Frame, steps: &[&Step], faults: &FxHashMap<u
     if let Some((_, _, sentence)) = fault {
         let _ = write!(label, " · {sentence}");
     }
-    let _ = writeln!(sheet, r#"<path class="{class}" data-line="{}" d="{data}"><title>{}</title></path>"#, first.line, escaped(&label));
+    let _ = writeln!(
+        sheet,
+        r#"<path class="{class}" data-line="{}" d="{data}"><title>{}</title></path>"#,
+        first.line,
+        escaped(&label)
+    );
 }
 
 fn label(step: &Step) -> String {
-    let number = step.number.map_or_else(String::new, |number| format!("N{number} · "));
+    let number = step
+        .number
+        .map_or_else(String::new, |number| format!("N{number} · "));
     let what = match (&step.ideal, step.kind) {
-        (Some(Segment::Arc(arc)), _) => format!("arc R {:.3} mm, {:+.1}°", arc.radius / 1000.0, arc.sweep.to_degrees()),
+        (Some(Segment::Arc(arc)), _) => format!(
+            "arc R {:.3} mm, {:+.1}°",
+            arc.radius / 1000.0,
+            arc.sweep.to_degrees()
+        ),
         (Some(line), Kind::Rapid) => format!("way without a cut, {:.3} mm", line.length() / 1000.0),
         (Some(line), _) => format!("line, {:.3} mm", line.length() / 1000.0),
         (None, _) => "leads nowhere".into(),
     };
     let end = mm(step.end);
-    format!("{number}line {} · {what} · to {:.3}, {:.3}", step.line + 1, end.x, end.y)
+    format!(
+        "{number}line {} · {what} · to {:.3}, {:.3}",
+        step.line + 1,
+        end.x,
+        end.y
+    )
 }
 
 /// Where each contour begins, once each place.
@@ -121,6 +181,9 @@ fn thread_holes(sheet: &mut String, frame: &Frame, moving: &[&Step]) {
     });
     for (x, y) in begins.map(|(_, step)| frame.local(mm(step.start))) {
         let (x, y) = (number(x), number(y));
-        let _ = writeln!(sheet, r#"<g class="thread" transform="translate({x} {y})"><circle r="5"/><path d="M-8 0h16M0 -8v16"/></g>"#);
+        let _ = writeln!(
+            sheet,
+            r#"<g class="thread" transform="translate({x} {y})"><circle r="5"/><path d="M-8 0h16M0 -8v16"/></g>"#
+        );
     }
 }

@@ -70,7 +70,10 @@ pub(super) fn opening(width: f64, height: f64, title: &str) -> String {
 /// What is shown of a drawing without geometry.
 pub(super) fn empty_sheet() -> String {
     let mut sheet = opening(SHEET_WIDTH, 120.0, "Nothing to draw");
-    let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="64">the drawing has no lines, arcs or circles</text>"#);
+    let _ = writeln!(
+        sheet,
+        r#"<text class="note" x="{MARGIN}" y="64">the drawing has no lines, arcs or circles</text>"#
+    );
     sheet.push_str("</svg>\n");
     sheet
 }
@@ -78,7 +81,10 @@ pub(super) fn empty_sheet() -> String {
 /// What is shown of a program that moves nothing.
 pub(super) fn empty_program() -> String {
     let mut sheet = opening(SHEET_WIDTH, 120.0, "Nothing to draw");
-    let _ = writeln!(sheet, r#"<text class="note" x="{MARGIN}" y="64">the program moves nothing</text>"#);
+    let _ = writeln!(
+        sheet,
+        r#"<text class="note" x="{MARGIN}" y="64">the program moves nothing</text>"#
+    );
     sheet.push_str("</svg>\n");
     sheet
 }
@@ -87,7 +93,10 @@ pub(super) fn empty_program() -> String {
 pub(super) fn program_legend(sheet: &mut String, top: f64, has_ways: bool, has_faults: bool) {
     let mut entries = vec![
         (r#"<path class="wire" d="M0 0h24"/>"#, "wire"),
-        (r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#, "start of a contour"),
+        (
+            r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#,
+            "start of a contour",
+        ),
     ];
     if has_ways {
         entries.push((r#"<path class="lead" d="M0 0h24"/>"#, "way without a cut"));
@@ -100,7 +109,10 @@ pub(super) fn program_legend(sheet: &mut String, top: f64, has_ways: bool, has_f
     let _ = writeln!(sheet, r#"<g class="chrome">"#);
     for (sample, text) in entries {
         let (left, y) = (number(x), number(top + 8.0));
-        let _ = writeln!(sheet, r#"<g transform="translate({left} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#);
+        let _ = writeln!(
+            sheet,
+            r#"<g transform="translate({left} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#
+        );
         x += 32.0 + text.chars().count() as f64 * 6.6 + 22.0;
     }
     sheet.push_str("</g>\n");
@@ -131,20 +143,34 @@ pub(super) fn legend(sheet: &mut String, top: f64, shown: Shown) {
     if shown.paths {
         entry(r#"<path class="wire" d="M0 0h24"/>"#, "wire");
         entry(r#"<path class="lead" d="M0 0h24"/>"#, "lead");
-        entry(r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#, "thread hole");
+        entry(
+            r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#,
+            "thread hole",
+        );
     }
     if shown.faults {
-        entry(r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#, "too tight");
-        entry(r#"<circle class="correction" cx="12" cy="0" r="8"/>"#, "correction");
+        entry(
+            r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#,
+            "too tight",
+        );
+        entry(
+            r#"<circle class="correction" cx="12" cy="0" r="8"/>"#,
+            "correction",
+        );
     }
     if shown.others {
-        entry(r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#, "other finding");
+        entry(
+            r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#,
+            "other finding",
+        );
     }
 }
 
 /// A bar of a round length whose right end is at `right`; `scale` is sheet units in 1 mm.
 pub(super) fn scale_bar(sheet: &mut String, right: f64, top: f64, scale: f64) {
-    let Some(length) = round_length(140.0 / scale) else { return };
+    let Some(length) = round_length(140.0 / scale) else {
+        return;
+    };
     let (left, y) = (right - length * scale, top + 8.0);
     let _ = writeln!(
         sheet,
@@ -161,7 +187,10 @@ pub(super) fn scale_bar(sheet: &mut String, right: f64, top: f64, scale: f64) {
 /// The largest of 1, 2, 5 × 10ⁿ that is not above `length`; `None` where there is none.
 fn round_length(length: f64) -> Option<f64> {
     let decade = 10f64.powf(length.log10().floor());
-    let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= length).unwrap_or(1.0);
+    let step = [5.0, 2.0, 1.0]
+        .into_iter()
+        .find(|step| step * decade <= length)
+        .unwrap_or(1.0);
     Some(step * decade).filter(|length| length.is_finite() && *length > 0.0)
 }
 

@@ -6,7 +6,13 @@ use crate::geometry::{Point, Segment};
 use crate::toolpath::PathSegment;
 
 fn entity(handle: &str, layer: &str, kind: Kind, geometry: Geometry) -> Entity {
-    Entity { handle: handle.into(), layer: layer.into(), role: None, kind, geometry }
+    Entity {
+        handle: handle.into(),
+        layer: layer.into(),
+        role: None,
+        kind,
+        geometry,
+    }
 }
 
 fn tight(id: EntityId, segment: usize, geometry: Segment, required: f64) -> Finding {
@@ -25,7 +31,10 @@ fn tight(id: EntityId, segment: usize, geometry: Segment, required: f64) -> Find
         pass: None,
         no_fix: None,
     };
-    let place = Place::Segment { entity: id, segment };
+    let place = Place::Segment {
+        entity: id,
+        segment,
+    };
     Finding {
         rule: Rule::SmallRadius,
         severity: Severity::Error,
@@ -39,26 +48,94 @@ fn tight(id: EntityId, segment: usize, geometry: Segment, required: f64) -> Find
 fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
     let quarter = (std::f64::consts::PI / 8.0).tan();
     let mut drawing = Drawing::new(None);
-    let rectangle = [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)].map(|(x, y)| Vertex::new(x, y, 0.0));
-    drawing.push(entity("10", "PLATE", Kind::LightPolyline, Geometry::Polyline { closed: true, vertices: rectangle.to_vec() }));
-    let opening = [(10.0, 8.0, 0.0), (29.92, 8.0, quarter), (30.0, 8.08, 0.0), (30.0, 22.0, 0.0), (10.0, 22.0, 0.0)];
+    let rectangle =
+        [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)].map(|(x, y)| Vertex::new(x, y, 0.0));
+    drawing.push(entity(
+        "10",
+        "PLATE",
+        Kind::LightPolyline,
+        Geometry::Polyline {
+            closed: true,
+            vertices: rectangle.to_vec(),
+        },
+    ));
+    let opening = [
+        (10.0, 8.0, 0.0),
+        (29.92, 8.0, quarter),
+        (30.0, 8.08, 0.0),
+        (30.0, 22.0, 0.0),
+        (10.0, 22.0, 0.0),
+    ];
     let opening = opening.map(|(x, y, bulge)| Vertex::new(x, y, bulge));
-    let id = drawing.push(entity("2A", "DIE", Kind::LightPolyline, Geometry::Polyline { closed: true, vertices: opening.to_vec() }));
-    drawing.push(entity("2B", "DIE", Kind::Text, Geometry::Text { at: Point::new(20.0, 15.0), text: "O".into() }));
-    drawing.push(entity("2C", "NOTE", Kind::Text, Geometry::Text { at: Point::new(2.0, 26.0), text: "<plate & die>".into() }));
+    let id = drawing.push(entity(
+        "2A",
+        "DIE",
+        Kind::LightPolyline,
+        Geometry::Polyline {
+            closed: true,
+            vertices: opening.to_vec(),
+        },
+    ));
+    drawing.push(entity(
+        "2B",
+        "DIE",
+        Kind::Text,
+        Geometry::Text {
+            at: Point::new(20.0, 15.0),
+            text: "O".into(),
+        },
+    ));
+    drawing.push(entity(
+        "2C",
+        "NOTE",
+        Kind::Text,
+        Geometry::Text {
+            at: Point::new(2.0, 26.0),
+            text: "<plate & die>".into(),
+        },
+    ));
     let contour = Contour::new(&drawing, [(id, false)], true);
     let twice_area = contour.twice_area(&drawing);
     let fault = contour.segment(&drawing, 1).unwrap();
     let findings = vec![tight(id, 1, fault.geometry, 0.1)];
     let at = |x, y| Point::new(x, y);
-    let around = [at(20.0, 15.0), at(20.0, 8.1), at(29.9, 8.1), at(29.9, 21.9), at(10.1, 21.9), at(10.1, 8.1), at(20.0, 8.1)];
+    let around = [
+        at(20.0, 15.0),
+        at(20.0, 8.1),
+        at(29.9, 8.1),
+        at(29.9, 21.9),
+        at(10.1, 21.9),
+        at(10.1, 8.1),
+        at(20.0, 8.1),
+    ];
     let mut segments: Vec<PathSegment> = around
         .windows(2)
-        .map(|ends| PathSegment { geometry: Segment::line(ends[0], ends[1]), source: Source::Segment { entity: id, segment: 0 } })
+        .map(|ends| PathSegment {
+            geometry: Segment::line(ends[0], ends[1]),
+            source: Source::Segment {
+                entity: id,
+                segment: 0,
+            },
+        })
         .collect();
     segments[0].source = Source::LeadIn;
-    let path = WirePath { outline: 0, correction: 0.1, thread_hole: at(20.0, 15.0), side: None, segments };
-    (drawing, vec![Outline { contour, role: Role::Opening, twice_area }], findings, vec![path])
+    let path = WirePath {
+        outline: 0,
+        correction: 0.1,
+        thread_hole: at(20.0, 15.0),
+        side: None,
+        segments,
+    };
+    (
+        drawing,
+        vec![Outline {
+            contour,
+            role: Role::Opening,
+            twice_area,
+        }],
+        findings,
+        vec![path],
+    )
 }
 
 #[test]
@@ -91,15 +168,33 @@ fn figures_for_people_are_mm_whatever_the_unit() {
 
 #[test]
 fn a_full_circle_is_drawn_in_pieces_below_a_half_turn() {
-    let frame = Frame { origin: Point::origin(), scale: 1.0, left: 0.0, bottom: 0.0 };
-    let circle = Geometry::Circle { center: Point::new(5.0, 5.0), radius: 2.0 };
+    let frame = Frame {
+        origin: Point::origin(),
+        scale: 1.0,
+        left: 0.0,
+        bottom: 0.0,
+    };
+    let circle = Geometry::Circle {
+        center: Point::new(5.0, 5.0),
+        radius: 2.0,
+    };
     let data = path_data(&frame, circle.segments(), true);
-    assert_eq!(data, "M7 5A2 2 0 0 1 4 6.732A2 2 0 0 1 4 3.268A2 2 0 0 1 7 5Z");
+    assert_eq!(
+        data,
+        "M7 5A2 2 0 0 1 4 6.732A2 2 0 0 1 4 3.268A2 2 0 0 1 7 5Z"
+    );
 }
 
 #[test]
 fn numbers_are_short() {
-    for (value, text) in [(0.0, "0"), (-0.0001, "0"), (1.5, "1.5"), (100.0, "100"), (-2.0625, "-2.062"), (1e-9, "0")] {
+    for (value, text) in [
+        (0.0, "0"),
+        (-0.0001, "0"),
+        (1.5, "1.5"),
+        (100.0, "100"),
+        (-2.0625, "-2.062"),
+        (1e-9, "0"),
+    ] {
         assert_eq!(number(value), text, "{value}");
     }
 }
@@ -108,17 +203,39 @@ fn numbers_are_short() {
 fn nothing_and_a_single_point_are_pictures_too() {
     assert!(svg(&Drawing::default(), &[], &[], &[], 1.0).contains("no lines, arcs or circles"));
     let mut drawing = Drawing::default();
-    drawing.push(entity("1", "0", Kind::Text, Geometry::Text { at: Point::new(3.0, 4.0), text: "O\u{1}".into() }));
+    drawing.push(entity(
+        "1",
+        "0",
+        Kind::Text,
+        Geometry::Text {
+            at: Point::new(3.0, 4.0),
+            text: "O\u{1}".into(),
+        },
+    ));
     let picture = svg(&drawing, &[], &[], &[], 1.0);
     assert!(picture.contains(">O</text>") && !picture.contains("NaN") && !picture.contains("inf"));
 }
 
 #[test]
 fn coordinates_beyond_all_measure_are_no_picture() {
-    for (far, texts) in [(1e308, ["no lines, arcs", ""]), (1e150, ["class=\"aside\"", "e149 mm"])] {
+    for (far, texts) in [
+        (1e308, ["no lines, arcs", ""]),
+        (1e150, ["class=\"aside\"", "e149 mm"]),
+    ] {
         let mut drawing = Drawing::default();
-        drawing.push(entity("1", "0", Kind::Line, Geometry::Line { start: Point::new(-far, -far), end: Point::new(far, far) }));
+        drawing.push(entity(
+            "1",
+            "0",
+            Kind::Line,
+            Geometry::Line {
+                start: Point::new(-far, -far),
+                end: Point::new(far, far),
+            },
+        ));
         let picture = svg(&drawing, &[], &[], &[], 1.0);
-        assert!(texts.iter().all(|text| picture.contains(text)) && picture.len() < 5000, "{far}: {picture}");
+        assert!(
+            texts.iter().all(|text| picture.contains(text)) && picture.len() < 5000,
+            "{far}: {picture}"
+        );
     }
 }

@@ -32,11 +32,15 @@ pub struct Node {
 impl Node {
     /// A node of a program that names its places.
     pub fn at(point: Point) -> Node {
-        Node { stands: point, meant: point }
+        Node {
+            stands: point,
+            meant: point,
+        }
     }
 
     fn is_near(&self, other: &Node, tolerance: f64) -> bool {
-        (self.stands - other.stands).norm() <= tolerance || (self.meant - other.meant).norm() <= tolerance
+        (self.stands - other.stands).norm() <= tolerance
+            || (self.meant - other.meant).norm() <= tolerance
     }
 }
 
@@ -60,7 +64,12 @@ pub trait Way {
     fn piece(&self, index: usize) -> Option<Segment>;
     /// Hands out all pieces that come within `reach` µm of a place, and perhaps others, in their order, until `each` says that it has
     /// seen enough.
-    fn pieces_about(&self, at: Point, reach: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()>;
+    fn pieces_about(
+        &self,
+        at: Point,
+        reach: f64,
+        each: &mut dyn FnMut(usize, &Segment) -> bool,
+    ) -> Option<()>;
 
     /// The blocks before its first stop, where it holds one: what comes behind is the tab.
     fn stop(&self) -> Option<usize>;
@@ -87,12 +96,22 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
         return Some(Closing::default());
     }
     let tolerance = way.tolerance();
-    let is_near = |one: usize, other: usize| Some(way.node(one)?.is_near(&way.node(other)?, tolerance));
-    let closed = |lead_in, lead_out| Some(Closing { closed: true, lead_in, lead_out });
+    let is_near =
+        |one: usize, other: usize| Some(way.node(one)?.is_near(&way.node(other)?, tolerance));
+    let closed = |lead_in, lead_out| {
+        Some(Closing {
+            closed: true,
+            lead_in,
+            lead_out,
+        })
+    };
     if is_near(0, count)? {
         // The way out runs back along the way in.
         let mut leads = 0;
-        while 2 * leads + 2 < count && is_near(leads + 1, count - leads - 1)? && encloses(way, leads + 1, leads + 1)? {
+        while 2 * leads + 2 < count
+            && is_near(leads + 1, count - leads - 1)?
+            && encloses(way, leads + 1, leads + 1)?
+        {
             leads += 1;
         }
         return closed(leads, leads);
@@ -101,11 +120,18 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
         return closed(1, 0);
     }
     // A last block like the first, there or back, was meant to lead to the start.
-    let longest_out = if is_mirrored(way, tolerance)? { 0 } else { LONGEST_WAY_OUT };
+    let longest_out = if is_mirrored(way, tolerance)? {
+        0
+    } else {
+        LONGEST_WAY_OUT
+    };
     for both in 1..=SHORT_LEADS.min(count) {
         for lead_out in 0..=(both - 1).min(longest_out) {
             let lead_in = both - lead_out;
-            if lead_in + lead_out < count && is_near(lead_in, count - lead_out)? && encloses(way, lead_in, lead_out)? {
+            if lead_in + lead_out < count
+                && is_near(lead_in, count - lead_out)?
+                && encloses(way, lead_in, lead_out)?
+            {
                 return closed(lead_in, lead_out);
             }
         }
@@ -123,7 +149,9 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
         let end = way.node(count - lead_out)?.meant;
         let mut found = None;
         way.pieces_about(end, tolerance, &mut |index, piece| {
-            let is_it = index > 0 && (piece.start() - end).norm() <= tolerance && encloses(way, index, lead_out) == Some(true);
+            let is_it = index > 0
+                && (piece.start() - end).norm() <= tolerance
+                && encloses(way, index, lead_out) == Some(true);
             found = found.or(is_it.then_some(index));
             found.is_some() || index + lead_out >= count
         })?;
@@ -136,7 +164,12 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
 
 /// A way whose tab comes to meet what was cut before its stop, elsewhere than where it stopped.
 fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {
-    let Some(before) = way.stop().filter(|before| (3..way.count()).contains(before)) else { return Some(None) };
+    let Some(before) = way
+        .stop()
+        .filter(|before| (3..way.count()).contains(before))
+    else {
+        return Some(None);
+    };
     let stopped = way.node(before)?.meant;
     for behind in before + 1..=way.count().min(before + BEHIND_A_STOP) {
         let end = way.node(behind)?.meant;
@@ -149,7 +182,11 @@ fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {
             met.is_some() || index >= before
         })?;
         if let Some(lead_in) = met {
-            return Some(Some(Closing { closed: true, lead_in, lead_out: way.count() - behind }));
+            return Some(Some(Closing {
+                closed: true,
+                lead_in,
+                lead_out: way.count() - behind,
+            }));
         }
     }
     Some(None)
@@ -161,7 +198,10 @@ fn encloses(way: &dyn Way, lead_in: usize, lead_out: usize) -> Option<bool> {
     let count = way.count().saturating_sub(lead_in + lead_out);
     let goes_round = match count {
         0 => false,
-        1 => way.piece(lead_in)?.as_arc().is_some_and(|arc| arc.is_full_turn()),
+        1 => way
+            .piece(lead_in)?
+            .as_arc()
+            .is_some_and(|arc| arc.is_full_turn()),
         2 => is_arc(lead_in)? || is_arc(lead_in + 1)?,
         _ => true,
     };
@@ -172,7 +212,10 @@ fn encloses(way: &dyn Way, lead_in: usize, lead_out: usize) -> Option<bool> {
     let begin = way.node(lead_in)?.meant;
     for index in lead_in..lead_in + count.min(LOOKED_THROUGH) {
         let piece = way.piece(index)?;
-        if [0.5, 1.0].into_iter().any(|share| (piece.point_at(share) - begin).norm() > 2.0 * way.tolerance()) {
+        if [0.5, 1.0]
+            .into_iter()
+            .any(|share| (piece.point_at(share) - begin).norm() > 2.0 * way.tolerance())
+        {
             return Some(true);
         }
     }
@@ -196,14 +239,24 @@ pub fn gap(way: &dyn Way) -> Option<[f64; 2]> {
     let end = way.node(count)?.meant;
     let to = |index: usize| Some(way.node(index)?.meant - end);
     let to_start = to(0)?;
-    let nearer = if count >= 3 { [to_start, to(1)?].into_iter().min_by(|a, b| a.norm().total_cmp(&b.norm()))? } else { to_start };
+    let nearer = if count >= 3 {
+        [to_start, to(1)?]
+            .into_iter()
+            .min_by(|a, b| a.norm().total_cmp(&b.norm()))?
+    } else {
+        to_start
+    };
     Some([nearer.x, nearer.y])
 }
 
 /// Whether a way that goes on behind a stop belongs to the contour before it, which is open: it closes the contour or comes to meet it.
 /// `before` are the blocks up to the stop, `whole` those and the ones behind it.
 pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<bool> {
-    if before.count() == 0 || behind.count() == 0 || closing(before)?.closed || closing(behind)?.closed {
+    if before.count() == 0
+        || behind.count() == 0
+        || closing(before)?.closed
+        || closing(behind)?.closed
+    {
         return Some(false);
     }
     let closing = closing(whole)?;
@@ -222,7 +275,11 @@ pub struct HeldWay {
 
 impl HeldWay {
     pub fn from(start: Node, writing: Writing) -> HeldWay {
-        HeldWay { nodes: vec![start], writing, ..HeldWay::default() }
+        HeldWay {
+            nodes: vec![start],
+            writing,
+            ..HeldWay::default()
+        }
     }
 
     /// What comes next stands behind a stop.
@@ -263,8 +320,17 @@ impl Way for HeldWay {
         self.pieces.get(index).copied()
     }
 
-    fn pieces_about(&self, _: Point, _: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()> {
-        _ = self.pieces.iter().enumerate().any(|(index, piece)| each(index, piece));
+    fn pieces_about(
+        &self,
+        _: Point,
+        _: f64,
+        each: &mut dyn FnMut(usize, &Segment) -> bool,
+    ) -> Option<()> {
+        _ = self
+            .pieces
+            .iter()
+            .enumerate()
+            .any(|(index, piece)| each(index, piece));
         Some(())
     }
 }
@@ -283,20 +349,33 @@ mod tests {
     fn answers(language: Language, text: &str) -> bool {
         let document = Document::read(language, text.into(), &Effective::default());
         let (findings, _) = document.findings(&Effective::default(), usize::MAX);
-        let by_rule = !findings.iter().any(|finding| finding.rule == Rule::NotClosed);
-        let contours: Vec<_> = passages(&document.trace()).into_iter().filter(|passage| !passage.is_way).collect();
+        let by_rule = !findings
+            .iter()
+            .any(|finding| finding.rule == Rule::NotClosed);
+        let contours: Vec<_> = passages(&document.trace())
+            .into_iter()
+            .filter(|passage| !passage.is_way)
+            .collect();
         let by_passages = contours.iter().all(|passage| passage.closed);
         let outline = symbols(&document);
-        let mut contours_of_outline = outline.iter().filter(|symbol| symbol.kind == SymbolKind::Contour);
+        let mut contours_of_outline = outline
+            .iter()
+            .filter(|symbol| symbol.kind == SymbolKind::Contour);
         let by_outline = contours_of_outline.all(|symbol| symbol.detail.starts_with("closed"));
         let cuts = convert::cuts(&document);
         let by_conversion = cuts.cuts.iter().all(|cut| cut.closed);
         let all = [by_rule, by_passages, by_outline, by_conversion];
-        assert!(all.iter().all(|one| *one == by_rule), "rule, passages, outline, conversion: {all:?}\n{text}");
+        assert!(
+            all.iter().all(|one| *one == by_rule),
+            "rule, passages, outline, conversion: {all:?}\n{text}"
+        );
         assert_eq!(cuts.cuts.len(), contours.len(), "{text}");
         for (cut, passage) in cuts.cuts.iter().zip(&contours) {
             // Where a cut meets itself within a segment, that is parted.
-            assert!(cut.lead_in - passage.lead_in <= 1 && cut.lead_out - passage.lead_out <= 1, "{text}");
+            assert!(
+                cut.lead_in - passage.lead_in <= 1 && cut.lead_out - passage.lead_out <= 1,
+                "{text}"
+            );
         }
         by_rule
     }
@@ -319,7 +398,11 @@ mod tests {
                 _ => 4,
             };
             let (a, b) = (dx.abs(), dy.abs());
-            let axis = if a > b || (a == b && quadrant % 2 == 0) { 'X' } else { 'Y' };
+            let axis = if a > b || (a == b && quadrant % 2 == 0) {
+                'X'
+            } else {
+                'Y'
+            };
             text.push_str(&format!("B{a}B{b}B{}G{axis}L{quadrant}\n", a.max(b)));
         }
         text + "DD\n"
@@ -330,12 +413,20 @@ mod tests {
             Some([x, y]) => format!("G01 X{:.3} Y{:.3}\n", *x as f64 / 1e3, *y as f64 / 1e3),
             None => "M00\n".to_owned(),
         };
-        format!("G92 X0. Y0.\nG90\n{}M02\n", way.iter().map(line).collect::<String>())
+        format!(
+            "G92 X0. Y0.\nG90\n{}M02\n",
+            way.iter().map(line).collect::<String>()
+        )
     }
 
     #[track_caller]
     fn check(way: &[Option<[i64; 2]>], expected: bool) {
-        assert_eq!(answers(Language::ThreeB, &three_b(way)), expected, "{}", three_b(way));
+        assert_eq!(
+            answers(Language::ThreeB, &three_b(way)),
+            expected,
+            "{}",
+            three_b(way)
+        );
         assert_eq!(answers(Language::Iso, &iso(way)), expected, "{}", iso(way));
     }
 
@@ -352,39 +443,80 @@ mod tests {
 
     #[test]
     fn a_square_closes_behind_a_bent_way_in() {
-        let square = [[9000, 2000], [9000, 12000], [-1000, 12000], [-1000, 2000], [4000, 2000]];
+        let square = [
+            [9000, 2000],
+            [9000, 12000],
+            [-1000, 12000],
+            [-1000, 2000],
+            [4000, 2000],
+        ];
         let bent = [[0, -3000], [4000, -3000], [4000, 2000]];
         check(&some(&[&bent[..], &square[..]].concat()), true);
         // A way out that goes elsewhere, and one back along the way in.
-        check(&some(&[&bent[..], &square[..], &[[5000, -4000]]].concat()), true);
-        check(&some(&[&bent[..], &square[..], &[[4000, -3000], [0, -3000], [0, 0]]].concat()), true);
+        check(
+            &some(&[&bent[..], &square[..], &[[5000, -4000]]].concat()),
+            true,
+        );
+        check(
+            &some(&[&bent[..], &square[..], &[[4000, -3000], [0, -3000], [0, 0]]].concat()),
+            true,
+        );
         // It ends 1 mm beside the end of its way in.
-        check(&some(&[&bent[..], &square[..4], &[[3000, 2000]]].concat()), false);
+        check(
+            &some(&[&bent[..], &square[..4], &[[3000, 2000]]].concat()),
+            false,
+        );
         check(&some(&square), false);
     }
 
     #[test]
     fn a_stop_before_the_tab_does_not_end_a_contour() {
         let [hole, entry] = [[0, 0], [4000, 0]];
-        let main = [entry, [4000, 5000], [24000, 5000], [24000, -15000], [4000, -15000], [4000, -3000]];
+        let main = [
+            entry,
+            [4000, 5000],
+            [24000, 5000],
+            [24000, -15000],
+            [4000, -15000],
+            [4000, -3000],
+        ];
         let with = |behind: &[Option<[i64; 2]>]| [&some(&main)[..], &[None], behind].concat();
         // The tab closes the contour; with and without a way out; or comes to meet it past its entry; or stops twice.
         check(&with(&some(&[entry])), true);
         check(&with(&some(&[entry, hole])), true);
         check(&with(&some(&[[4000, 300]])), true);
-        check(&with(&[Some([4000, -1000]), None, Some(entry), Some(hole)]), true);
+        check(
+            &with(&[Some([4000, -1000]), None, Some(entry), Some(hole)]),
+            true,
+        );
         // The tab is left standing.
         check(&[&some(&main)[..], &[None]].concat(), false);
         check(&with(&some(&[[3000, -9000]])), false);
-        for (language, text) in
-            [(Language::ThreeB, three_b(&with(&some(&[entry, hole])))), (Language::Iso, iso(&with(&some(&[entry, hole]))))]
-        {
+        for (language, text) in [
+            (Language::ThreeB, three_b(&with(&some(&[entry, hole])))),
+            (Language::Iso, iso(&with(&some(&[entry, hole])))),
+        ] {
             let document = Document::read(language, text.clone().into(), &Effective::default());
             let trace = document.trace();
             let contours = passages(&trace);
             assert_eq!(contours.len(), 1, "{text}");
-            assert_eq!((contours[0].lead_in, contours[0].lead_out, contours[0].closed), (1, 1, true), "{text}");
-            assert!(trace.steps.iter().filter(|step| step.moves()).all(|step| step.contour == 0), "{text}");
+            assert_eq!(
+                (
+                    contours[0].lead_in,
+                    contours[0].lead_out,
+                    contours[0].closed
+                ),
+                (1, 1, true),
+                "{text}"
+            );
+            assert!(
+                trace
+                    .steps
+                    .iter()
+                    .filter(|step| step.moves())
+                    .all(|step| step.contour == 0),
+                "{text}"
+            );
             let cuts = convert::cuts(&document);
             assert_eq!((cuts.cuts.len(), cuts.stops.len()), (1, 1), "{text}");
             assert_eq!(cuts.cuts[0].contour().len(), 6, "{text}");
@@ -397,24 +529,37 @@ mod tests {
                     B4000B0B16000GYNR1\nB4000B0B4000GXL3\nDD\n";
         assert!(answers(Language::ThreeB, text));
         let document = Document::read(Language::ThreeB, text.into(), &Effective::default());
-        let contours: Vec<_> = passages(&document.trace()).iter().map(|passage| (passage.contour, passage.is_way)).collect();
+        let contours: Vec<_> = passages(&document.trace())
+            .iter()
+            .map(|passage| (passage.contour, passage.is_way))
+            .collect();
         assert_eq!(contours, [(0, false), (1, true), (2, false)]);
     }
 
     /// A ring of places about a middle, none of which lie on one line.
     fn ring() -> impl Strategy<Value = Vec<[i64; 2]>> {
-        (prop::collection::vec(3_000.0_f64..20_000.0, 3..12), 0.0_f64..1.0).prop_map(|(radii, turned)| {
-            let count = radii.len() as f64;
-            let at = |(index, radius): (usize, &f64)| {
-                let angle = (index as f64 + turned) / count * std::f64::consts::TAU;
-                [(radius * angle.cos()).round() as i64, (radius * angle.sin()).round() as i64]
-            };
-            radii.iter().enumerate().map(at).collect()
-        })
+        (
+            prop::collection::vec(3_000.0_f64..20_000.0, 3..12),
+            0.0_f64..1.0,
+        )
+            .prop_map(|(radii, turned)| {
+                let count = radii.len() as f64;
+                let at = |(index, radius): (usize, &f64)| {
+                    let angle = (index as f64 + turned) / count * std::f64::consts::TAU;
+                    [
+                        (radius * angle.cos()).round() as i64,
+                        (radius * angle.sin()).round() as i64,
+                    ]
+                };
+                radii.iter().enumerate().map(at).collect()
+            })
     }
 
     fn ways() -> impl Strategy<Value = Vec<[i64; 2]>> {
-        prop::collection::vec((20_500_i64..60_000, 20_500_i64..60_000).prop_map(|(x, y)| [x, y]), 0..10)
+        prop::collection::vec(
+            (20_500_i64..60_000, 20_500_i64..60_000).prop_map(|(x, y)| [x, y]),
+            0..10,
+        )
     }
 
     proptest! {

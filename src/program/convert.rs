@@ -40,7 +40,9 @@ pub struct Cut {
 impl Cut {
     /// The segments of the contour, without the ways in and out.
     pub fn contour(&self) -> &[Segment] {
-        self.segments.get(self.lead_in..self.segments.len().saturating_sub(self.lead_out)).unwrap_or_default()
+        self.segments
+            .get(self.lead_in..self.segments.len().saturating_sub(self.lead_out))
+            .unwrap_or_default()
     }
 }
 
@@ -86,11 +88,16 @@ pub fn cuts(document: &Document) -> Cuts {
     let mut node = trace.start;
     let mut arcs = 0_usize;
     for (index, step) in trace.steps.iter().enumerate() {
-        while passages.next_if(|passage| passage.steps.end <= index).is_some() {
+        while passages
+            .next_if(|passage| passage.steps.end <= index)
+            .is_some()
+        {
             cuts.close(std::mem::take(&mut open));
         }
         if !step.moves() {
-            let is_within = passages.peek().is_some_and(|passage| passage.steps.contains(&index));
+            let is_within = passages
+                .peek()
+                .is_some_and(|passage| passage.steps.contains(&index));
             cuts.stops.extend(is_within.then_some(step.line));
             continue;
         }
@@ -142,12 +149,22 @@ fn between(ideal: &Segment, step: &Step, from: Point, to: Point) -> Segment {
         Segment::Arc(arc) => {
             let center = arc.center + (from - step.start);
             if arc.is_full_turn() {
-                return Segment::Arc(Arc { center, start: from, end: from, ..*arc });
+                return Segment::Arc(Arc {
+                    center,
+                    start: from,
+                    end: from,
+                    ..*arc
+                });
             }
             let made = Arc::about(center, from, to, arc.sweep > 0.0);
             // Where both ends are nearly one place, rounding must not make a turn of nothing, or nothing of a turn.
             if (made.sweep - arc.sweep).abs() > PI {
-                Segment::Arc(Arc { center, start: from, end: to, ..*arc })
+                Segment::Arc(Arc {
+                    center,
+                    start: from,
+                    end: to,
+                    ..*arc
+                })
             } else {
                 Segment::Arc(made)
             }
@@ -165,10 +182,17 @@ impl Cuts {
             ));
         }
         if let Some(line) = self.cuts.iter().find_map(|cut| cut.switched) {
-            return Some(format!("line {}: the correction is switched within the contour, expected one side all the way round", line + 1));
+            return Some(format!(
+                "line {}: the correction is switched within the contour, expected one side all the way round",
+                line + 1
+            ));
         }
         let differs = |correction: &f64| (correction.abs() - settings.correction).abs() > 5e-4;
-        let own = self.corrections.iter().find(|(_, correction)| differs(correction)).filter(|_| format == Format::FourB);
+        let own = self
+            .corrections
+            .iter()
+            .find(|(_, correction)| differs(correction))
+            .filter(|_| format == Format::FourB);
         let (name, correction) = own.filter(|_| self.cuts.iter().any(|cut| cut.side.is_some()))?;
         Some(format!(
             "the program's own correction {name} is {correction:.3} mm, that of the settings {:.3} mm: the transition arcs of 4B hang on it, \
@@ -181,14 +205,25 @@ impl Cuts {
     pub fn losses(&self) -> Vec<String> {
         let mut losses = Vec::new();
         if self.cuts.iter().any(|cut| cut.side.is_some()) && !self.corrections.is_empty() {
-            let own: Vec<String> = self.corrections.iter().take(5).map(|(name, mm)| format!("{name} = {mm:.3} mm")).collect();
-            losses.push(format!("not written: the program's own corrections, {}; set them at the machine", own.join(", ")));
+            let own: Vec<String> = self
+                .corrections
+                .iter()
+                .take(5)
+                .map(|(name, mm)| format!("{name} = {mm:.3} mm"))
+                .collect();
+            losses.push(format!(
+                "not written: the program's own corrections, {}; set them at the machine",
+                own.join(", ")
+            ));
         }
         if let Some(taper) = &self.taper {
             losses.push(format!("not written: the taper; {taper}"));
         }
         if let Some(line) = self.stops.first() {
-            losses.push(format!("not written: the stop in line {}, which holds the part while its tab is cut", line + 1));
+            losses.push(format!(
+                "not written: the stop in line {}, which holds the part while its tab is cut",
+                line + 1
+            ));
         }
         losses
     }
@@ -197,8 +232,17 @@ impl Cuts {
     fn close(&mut self, mut cut: Cut) {
         let count = cut.segments.len();
         let last = count.saturating_sub(cut.lead_out + 1);
-        let (Some(begin), Some(end)) = (cut.segments.get(cut.lead_in).copied(), cut.segments.get(last).copied()) else { return };
-        let arcs = cut.segments.iter().filter(|segment| segment.as_arc().is_some()).count();
+        let (Some(begin), Some(end)) = (
+            cut.segments.get(cut.lead_in).copied(),
+            cut.segments.get(last).copied(),
+        ) else {
+            return;
+        };
+        let arcs = cut
+            .segments
+            .iter()
+            .filter(|segment| segment.as_arc().is_some())
+            .count();
         let near = |a: Point, b: Point| (a - b).norm() <= 2.0 * tolerance(arcs);
         if cut.closed {
             let mut target = begin.start();
@@ -220,7 +264,9 @@ impl Cuts {
             let last = cut.segments.len().saturating_sub(cut.lead_out + 1);
             let by = target - cut.segments[last].end();
             self.join(&mut cut.segments, last, target);
-            cut.segments[last + 1..].iter_mut().for_each(|segment| *segment = segment.moved(by));
+            cut.segments[last + 1..]
+                .iter_mut()
+                .for_each(|segment| *segment = segment.moved(by));
             let first = cut.segments[0].start();
             if let Some(out) = cut.segments.len().checked_sub(1).filter(|out| *out > last)
                 && near(cut.segments[out].end(), first)
@@ -239,7 +285,11 @@ impl Cuts {
             Segment::Arc(arc) if arc.is_full_turn() => Segment::Arc(arc),
             Segment::Arc(arc) => {
                 let made = Arc::about(arc.center, arc.start, end, arc.sweep > 0.0);
-                let sweep = if (made.sweep - arc.sweep).abs() > PI { arc.sweep } else { made.sweep };
+                let sweep = if (made.sweep - arc.sweep).abs() > PI {
+                    arc.sweep
+                } else {
+                    made.sweep
+                };
                 Segment::Arc(Arc { sweep, ..made })
             }
         };
@@ -250,7 +300,9 @@ impl Cuts {
         let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
         for cut in &self.cuts {
             let way_out = cut.segments.len().saturating_sub(cut.lead_out);
-            cut.segments[..cut.lead_in.min(way_out)].iter().for_each(|lead| push_lead(&mut drawing, lead));
+            cut.segments[..cut.lead_in.min(way_out)]
+                .iter()
+                .for_each(|lead| push_lead(&mut drawing, lead));
             if let Some(geometry) = polyline(cut.contour(), cut.closed) {
                 drawing.push(Entity {
                     handle: CUT.into(),
@@ -260,7 +312,9 @@ impl Cuts {
                     geometry,
                 });
             }
-            cut.segments[way_out..].iter().for_each(|lead| push_lead(&mut drawing, lead));
+            cut.segments[way_out..]
+                .iter()
+                .for_each(|lead| push_lead(&mut drawing, lead));
         }
         for &ends in &self.ways {
             push_line(&mut drawing, WAY, ends);
@@ -273,13 +327,29 @@ impl Cuts {
         let source = |cut: &Cut, index: usize| match index {
             _ if index < cut.lead_in => Source::LeadIn,
             _ if index + cut.lead_out >= cut.segments.len() => Source::LeadOut,
-            _ => Source::Segment { entity: EntityId(0), segment: index },
+            _ => Source::Segment {
+                entity: EntityId(0),
+                segment: index,
+            },
         };
         let paths = self.cuts.iter().filter_map(|cut| {
             let thread_hole = cut.segments.first()?.start();
-            let segments =
-                cut.segments.iter().enumerate().map(|(index, &geometry)| PathSegment { geometry, source: source(cut, index) }).collect();
-            Some(WirePath { outline: 0, correction: 0.0, thread_hole, side: cut.side, segments })
+            let segments = cut
+                .segments
+                .iter()
+                .enumerate()
+                .map(|(index, &geometry)| PathSegment {
+                    geometry,
+                    source: source(cut, index),
+                })
+                .collect();
+            Some(WirePath {
+                outline: 0,
+                correction: 0.0,
+                thread_hole,
+                side: cut.side,
+                segments,
+            })
         });
         paths.collect()
     }
@@ -291,20 +361,40 @@ fn push_lead(drawing: &mut Drawing, lead: &Segment) {
     }
     if let Some(geometry) = polyline(&[*lead], false) {
         let kind = crate::drawing::Kind::LightPolyline;
-        drawing.push(Entity { handle: LEAD.into(), layer: LEAD.into(), role: None, kind, geometry });
+        drawing.push(Entity {
+            handle: LEAD.into(),
+            layer: LEAD.into(),
+            role: None,
+            kind,
+            geometry,
+        });
     }
 }
 
 fn push_line(drawing: &mut Drawing, layer: &str, [start, end]: [Point; 2]) {
-    let geometry = Geometry::Line { start: start / 1e3, end: end / 1e3 };
-    drawing.push(Entity { handle: layer.into(), layer: layer.into(), role: None, kind: crate::drawing::Kind::Line, geometry });
+    let geometry = Geometry::Line {
+        start: start / 1e3,
+        end: end / 1e3,
+    };
+    drawing.push(Entity {
+        handle: layer.into(),
+        layer: layer.into(),
+        role: None,
+        kind: crate::drawing::Kind::Line,
+        geometry,
+    });
 }
 
 /// The segments as a polyline in mm; arcs near a full turn, which no bulge holds well, in two halves.
 fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
     let last = segments.last()?;
     let mut vertices = Vec::with_capacity(segments.len() + 1);
-    let mut push = |at: Point, bulge: f64| vertices.push(Vertex { point: at / 1e3, bulge });
+    let mut push = |at: Point, bulge: f64| {
+        vertices.push(Vertex {
+            point: at / 1e3,
+            bulge,
+        })
+    };
     for segment in segments {
         match segment {
             Segment::Arc(arc) if arc.sweep.abs() > TAU * 0.75 => {
@@ -324,13 +414,19 @@ fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
 /// The coordinates that stand behind the blocks of a 3B program, µm, by the byte at which the block begins.
 fn stated_ends(document: &Document) -> FxHashMap<usize, Point> {
     let mut ends = FxHashMap::default();
-    let Document::ThreeB(program) = document else { return ends };
+    let Document::ThreeB(program) = document else {
+        return ends;
+    };
     let text = program.text();
     for line in 0..text.line_count() {
         let range = text.line_range(line);
         let start = range.start;
         read_line(&text.bytes()[range], start, &Words::default(), |item| {
-            if let Item::Block { range, stated_end: Some(stated), .. } = item
+            if let Item::Block {
+                range,
+                stated_end: Some(stated),
+                ..
+            } = item
                 && stated.decimals >= 3
             {
                 let [x, y] = stated.at.map(|mm| (mm * 1e6).round() / 1e3);

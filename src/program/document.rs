@@ -38,12 +38,16 @@ impl Language {
     }
 
     pub fn of_id(id: &str) -> Option<Language> {
-        Language::ALL.into_iter().find(|language| language.id() == id)
+        Language::ALL
+            .into_iter()
+            .find(|language| language.id() == id)
     }
 
     /// The language of files with an ending (lower-case, without its dot).
     pub fn of_ending(ending: &str) -> Option<Language> {
-        Language::ALL.into_iter().find(|language| language.endings().contains(&ending))
+        Language::ALL
+            .into_iter()
+            .find(|language| language.endings().contains(&ending))
     }
 }
 
@@ -105,7 +109,10 @@ impl Document {
         for finding in of_reader {
             // The reader knows no severities but its own: the settings' are laid over them here.
             if let Some(severity) = settings.severity_of(&finding) {
-                findings.push(Finding { severity, ..finding });
+                findings.push(Finding {
+                    severity,
+                    ..finding
+                });
             }
         }
         let count = findings.len();
@@ -133,7 +140,10 @@ impl Document {
         let (mut findings, _) = self.findings(settings, usize::MAX);
         findings.retain(|finding| finding.severity <= Severity::Information);
         let safe = |finding: &Finding| {
-            let fix = self.offered(finding).into_iter().find(|fix| fix.preferred && fix.in_fix_all)?;
+            let fix = self
+                .offered(finding)
+                .into_iter()
+                .find(|fix| fix.preferred && fix.in_fix_all)?;
             Some((finding.rule, fix))
         };
         let edits = gate::together(self, findings.iter().filter_map(safe).collect());
@@ -174,22 +184,42 @@ impl Document {
 
     /// The same with every step of the chain.
     pub fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
-        let Trace { mut steps, writing, .. } = self.trace();
-        let touches = |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
+        let Trace {
+            mut steps, writing, ..
+        } = self.trace();
+        let touches =
+            |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
         let touched = steps.iter().rposition(touches)?;
-        let own = steps.get(touched).map(|step| (step.contour, step.kind == Kind::Rapid))?;
+        let own = steps
+            .get(touched)
+            .map(|step| (step.contour, step.kind == Kind::Rapid))?;
         let is_same = |step: &Step| step.moves() && (step.contour, step.kind == Kind::Rapid) == own;
         // A pause of the contour's own stands before its tab.
-        let pauses = |until: usize| steps[..until].iter().filter(|step| step.kind == Kind::Pause).count();
-        let stop = steps.iter().position(|step| step.kind == Kind::Pause && step.contour == own.0 && own.1 == (step.kind == Kind::Rapid));
+        let pauses = |until: usize| {
+            steps[..until]
+                .iter()
+                .filter(|step| step.kind == Kind::Pause)
+                .count()
+        };
+        let stop = steps.iter().position(|step| {
+            step.kind == Kind::Pause && step.contour == own.0 && own.1 == (step.kind == Kind::Rapid)
+        });
         let stop = stop.map(|stop| stop - pauses(stop));
         let index = touched - pauses(touched);
         steps.retain(|step| step.kind != Kind::Pause);
-        let first = steps[..index].iter().rposition(|step| !is_same(step)).map_or(0, |before| before + 1);
-        let end = steps[index..].iter().position(|step| !is_same(step)).map_or(steps.len(), |behind| index + behind);
+        let first = steps[..index]
+            .iter()
+            .rposition(|step| !is_same(step))
+            .map_or(0, |before| before + 1);
+        let end = steps[index..]
+            .iter()
+            .position(|step| !is_same(step))
+            .map_or(steps.len(), |behind| index + behind);
         steps.truncate(end);
         steps.drain(..first);
-        let stop = stop.and_then(|stop| stop.checked_sub(first)).filter(|stop| (1..end - first).contains(stop));
+        let stop = stop
+            .and_then(|stop| stop.checked_sub(first))
+            .filter(|stop| (1..end - first).contains(stop));
         Some((Chain::of(steps, writing).stopping(stop), index - first))
     }
 
@@ -198,7 +228,12 @@ impl Document {
         match self {
             Document::ThreeB(document) => document.chain_before(offset),
             Document::Iso(_) => {
-                let last = self.trace().steps.into_iter().rfind(|step| step.range.end <= offset).filter(Step::moves)?;
+                let last = self
+                    .trace()
+                    .steps
+                    .into_iter()
+                    .rfind(|step| step.range.end <= offset)
+                    .filter(Step::moves)?;
                 let (chain, nth) = self.whole_chain_at(last.range.start)?;
                 Some(Chain::of(chain.steps_to(nth + 1), self.writing()))
             }
@@ -209,9 +244,12 @@ impl Document {
     pub fn stop_behind(&self, offset: usize) -> Option<Range<usize>> {
         match self {
             Document::ThreeB(document) => document.word_behind(offset),
-            Document::Iso(_) => {
-                self.trace().steps.into_iter().find(|step| !step.moves() && step.range.start > offset).map(|step| step.range)
-            }
+            Document::Iso(_) => self
+                .trace()
+                .steps
+                .into_iter()
+                .find(|step| !step.moves() && step.range.start > offset)
+                .map(|step| step.range),
         }
     }
 
@@ -219,7 +257,12 @@ impl Document {
     pub fn first_move(&self) -> Option<Range<usize>> {
         match self {
             Document::ThreeB(document) => document.first_block(),
-            Document::Iso(_) => self.trace().steps.into_iter().find(Step::moves).map(|step| step.range),
+            Document::Iso(_) => self
+                .trace()
+                .steps
+                .into_iter()
+                .find(Step::moves)
+                .map(|step| step.range),
         }
     }
 

@@ -16,9 +16,13 @@ pub(in crate::program) fn joined(edits: Vec<TextEdit>, text: &SourceText) -> Vec
     }
     let mut joined: Vec<TextEdit> = Vec::new();
     for edit in edits {
-        let between = |last: &TextEdit| std::str::from_utf8(text.bytes().get(last.range.end..edit.range.start)?).ok();
+        let between = |last: &TextEdit| {
+            std::str::from_utf8(text.bytes().get(last.range.end..edit.range.start)?).ok()
+        };
         match joined.last_mut() {
-            Some(last) if edit.range.start - last.range.end <= LITTLE && between(last).is_some() => {
+            Some(last)
+                if edit.range.start - last.range.end <= LITTLE && between(last).is_some() =>
+            {
                 let between = between(last).unwrap_or_default();
                 last.text.reserve(between.len() + edit.text.len());
                 last.text.push_str(between);
@@ -38,11 +42,17 @@ mod tests {
     fn check(count: usize, apart: usize, expected: usize) {
         let line = format!("x{}\n", ".".repeat(apart));
         let text = SourceText::new(line.repeat(count).into_bytes());
-        let edit = |nth: usize| TextEdit { range: nth * line.len()..nth * line.len() + 1, text: "yy".into() };
+        let edit = |nth: usize| TextEdit {
+            range: nth * line.len()..nth * line.len() + 1,
+            text: "yy".into(),
+        };
         let edits = joined((0..count).map(edit).collect(), &text);
         assert_eq!(edits.len(), expected, "{count} edits, {apart} bytes apart");
         let mut result = text.as_str_lossy().into_owned();
-        edits.iter().rev().for_each(|edit| result.replace_range(edit.range.clone(), &edit.text));
+        edits
+            .iter()
+            .rev()
+            .for_each(|edit| result.replace_range(edit.range.clone(), &edit.text));
         assert_eq!(result, line.replace('x', "yy").repeat(count));
     }
 

@@ -27,7 +27,9 @@ impl Format {
 
     /// The format of a name, in either letter case. The error names those that there are.
     pub fn of(name: &str) -> Result<Format, String> {
-        let found = Format::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name));
+        let found = Format::ALL
+            .into_iter()
+            .find(|format| format.name().eq_ignore_ascii_case(name));
         found.ok_or_else(|| {
             let names = Format::ALL.map(|format| format!("\"{}\"", format.name()));
             format!("format is \"{name}\", expected {}", names.join(", "))
@@ -37,9 +39,20 @@ impl Format {
     /// The settings under which paths for this format are laid: 4B holds the part's contour, whatever is set for the others.
     pub fn settings<'a>(self, settings: &'a Effective) -> Cow<'a, Effective> {
         match (self, settings.compensation) {
-            (Format::FourB, Compensation::Path) => Cow::Owned(Effective { compensation: Compensation::Controller, ..settings.clone() }),
-            (Format::Iso, _) if settings.profile.as_ref().is_ok_and(|profile| !profile.stops()) => {
-                Cow::Owned(Effective { stays_threaded: true, ..settings.clone() })
+            (Format::FourB, Compensation::Path) => Cow::Owned(Effective {
+                compensation: Compensation::Controller,
+                ..settings.clone()
+            }),
+            (Format::Iso, _)
+                if settings
+                    .profile
+                    .as_ref()
+                    .is_ok_and(|profile| !profile.stops()) =>
+            {
+                Cow::Owned(Effective {
+                    stays_threaded: true,
+                    ..settings.clone()
+                })
             }
             _ => Cow::Borrowed(settings),
         }

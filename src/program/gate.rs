@@ -32,8 +32,17 @@ pub(super) struct Standing {
 impl Standing {
     pub fn of(program: &Document) -> Standing {
         let own = findings_of(program);
-        let mut standing = Standing { findings: BTreeMap::new(), open: 0, gap: 0.0, full_turns: 0, moves: Vec::new() };
-        for finding in own.iter().filter(|finding| finding.severity <= Severity::Information) {
+        let mut standing = Standing {
+            findings: BTreeMap::new(),
+            open: 0,
+            gap: 0.0,
+            full_turns: 0,
+            moves: Vec::new(),
+        };
+        for finding in own
+            .iter()
+            .filter(|finding| finding.severity <= Severity::Information)
+        {
             *standing.findings.entry(finding.rule.name()).or_default() += 1;
             if let Some(gap) = gap_of(finding) {
                 standing.open += 1;
@@ -41,10 +50,21 @@ impl Standing {
             }
         }
         for step in program.trace().steps.iter().filter(|step| step.moves()) {
-            let sweep = step.ideal.as_ref().and_then(Segment::as_arc).map_or(0.0, |arc| arc.sweep);
+            let sweep = step
+                .ideal
+                .as_ref()
+                .and_then(Segment::as_arc)
+                .map_or(0.0, |arc| arc.sweep);
             let by = step.meant();
-            standing.full_turns += usize::from(step.ideal.as_ref().and_then(Segment::as_arc).is_some_and(Arc::is_full_turn));
-            standing.moves.push((step.kind, step.contour, [by.x, by.y, sweep]));
+            standing.full_turns += usize::from(
+                step.ideal
+                    .as_ref()
+                    .and_then(Segment::as_arc)
+                    .is_some_and(Arc::is_full_turn),
+            );
+            standing
+                .moves
+                .push((step.kind, step.contour, [by.x, by.y, sweep]));
         }
         standing
     }
@@ -54,8 +74,13 @@ impl Standing {
         if self.moves == after.moves {
             return true;
         }
-        let has_new = after.findings.iter().any(|(rule, count)| *count > self.findings.get(rule).copied().unwrap_or(0));
-        let closes = after.open == 0 || after.open < self.open || (speaks_for_itself && after.open <= self.open && after.gap <= self.gap);
+        let has_new = after
+            .findings
+            .iter()
+            .any(|(rule, count)| *count > self.findings.get(rule).copied().unwrap_or(0));
+        let closes = after.open == 0
+            || after.open < self.open
+            || (speaks_for_itself && after.open <= self.open && after.gap <= self.gap);
         !has_new && closes && (by_a_slip || after.full_turns <= self.full_turns)
     }
 }
@@ -76,7 +101,10 @@ fn alike(program: &Document, finding: &Finding) -> [usize; 2] {
         Some(gap) => gap_of(other).is_some_and(|its| (its - gap).abs() < 1.0),
         None => other.detail == finding.detail,
     };
-    [of_rule.clone().filter(says_the_same).count(), of_rule.count()]
+    [
+        of_rule.clone().filter(says_the_same).count(),
+        of_rule.count(),
+    ]
 }
 
 /// How far a contour is open, µm.
@@ -122,13 +150,18 @@ fn edited(program: &Document, edits: &[TextEdit]) -> Document {
         && let Some(bytes) = crate::text::edited(program.text().bytes(), edits)
     {
         let behind = program.text().len() - last.range.end;
-        let between = bytes.get(first.range.start..bytes.len() - behind).unwrap_or_default();
+        let between = bytes
+            .get(first.range.start..bytes.len() - behind)
+            .unwrap_or_default();
         if let Ok(between) = std::str::from_utf8(between) {
             edited.edit(first.range.start..last.range.end, between);
             return edited;
         }
     }
-    edits.iter().rev().for_each(|edit| edited.edit(edit.range.clone(), &edit.text));
+    edits
+        .iter()
+        .rev()
+        .for_each(|edit| edited.edit(edit.range.clone(), &edit.text));
     edited
 }
 
@@ -136,7 +169,12 @@ fn edited(program: &Document, edits: &[TextEdit]) -> Document {
 pub(in crate::program) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
     let head = found.iter().zip(meant).take_while(|(a, b)| a == b).count();
     let (a, b) = (&found[head..], &meant[head..]);
-    let tail = a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count();
+    let tail = a
+        .iter()
+        .rev()
+        .zip(b.iter().rev())
+        .take_while(|(a, b)| a == b)
+        .count();
     match (&a[..a.len() - tail], &b[..b.len() - tail]) {
         ([_], [] | [_]) | ([], [_]) => true,
         ([one, two], [other, another]) => one == another && two == other,
@@ -145,17 +183,31 @@ pub(in crate::program) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
 }
 
 fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
-    let found = |edit: &TextEdit| program.text().bytes().get(edit.range.clone()).unwrap_or_default().to_vec();
+    let found = |edit: &TextEdit| {
+        program
+            .text()
+            .bytes()
+            .get(edit.range.clone())
+            .unwrap_or_default()
+            .to_vec()
+    };
     matches!(edits, [edit] if is_slip(&found(edit), edit.text.as_bytes()))
 }
 
 type TextFix = Fix<Vec<TextEdit>>;
 
 /// The repairs of a finding for which it goes, those that pass the gate before those that do not, which are neither preferred nor made without asking.
-pub(super) fn gated(program: &Document, finding: &Finding, mut fixes: Vec<TextFix>) -> Vec<TextFix> {
+pub(super) fn gated(
+    program: &Document,
+    finding: &Finding,
+    mut fixes: Vec<TextFix>,
+) -> Vec<TextFix> {
     if program.text().len() > TRIED || fixes.is_empty() {
         // By what the language found out of it.
-        fixes.iter_mut().filter(|fix| invents(&fix.kind) || !fix.in_fix_all).for_each(refuse);
+        fixes
+            .iter_mut()
+            .filter(|fix| invents(&fix.kind) || !fix.in_fix_all)
+            .for_each(refuse);
         return fixes;
     }
     let (before, alike_before) = (Standing::of(program), alike(program, finding));
@@ -166,11 +218,18 @@ pub(super) fn gated(program: &Document, finding: &Finding, mut fixes: Vec<TextFi
         // one beside it.
         let [says_the_same, of_rule] = alike(&tried, finding);
         let needs_fewer = matches!(finding.rule, Rule::Syntax | Rule::PathCrossesItself);
-        if alike_before[0] > 0 && of_rule >= alike_before[1] && (needs_fewer || says_the_same >= alike_before[0]) {
+        if alike_before[0] > 0
+            && of_rule >= alike_before[1]
+            && (needs_fewer || says_the_same >= alike_before[0])
+        {
             continue;
         }
         let after = Standing::of(&tried);
-        let passes = before.allows(&after, speaks_for_itself(finding.rule), is_by_a_slip(program, &fix.edit));
+        let passes = before.allows(
+            &after,
+            speaks_for_itself(finding.rule),
+            is_by_a_slip(program, &fix.edit),
+        );
         if !passes || invents(&fix.kind) {
             refuse(&mut fix);
         }
@@ -192,25 +251,38 @@ fn refuse(fix: &mut TextFix) {
 /// another as far as they pass. At most one changes a line.
 pub(super) fn together(program: &Document, fixes: Vec<(Rule, TextFix)>) -> Vec<TextEdit> {
     let mut taken = Taken::default();
-    let fixes: Vec<(Rule, TextFix)> = fixes.into_iter().filter(|(_, fix)| taken.take(program, &fix.edit)).collect();
+    let fixes: Vec<(Rule, TextFix)> = fixes
+        .into_iter()
+        .filter(|(_, fix)| taken.take(program, &fix.edit))
+        .collect();
     if fixes.is_empty() {
         return Vec::new();
     }
     let before = Standing::of(program);
     let all = taken.edits();
     let for_itself = fixes.iter().all(|(rule, _)| speaks_for_itself(*rule));
-    let by_slips = fixes.iter().all(|(_, fix)| is_by_a_slip(program, &fix.edit));
+    let by_slips = fixes
+        .iter()
+        .all(|(_, fix)| is_by_a_slip(program, &fix.edit));
     if before.allows(&Standing::of(&edited(program, &all)), for_itself, by_slips) {
         return all;
     }
     let mut kept = Taken::default();
-    let most = if program.text().len() > TRIED { ONE_BY_ONE_OF_LONG } else { ONE_BY_ONE };
+    let most = if program.text().len() > TRIED {
+        ONE_BY_ONE_OF_LONG
+    } else {
+        ONE_BY_ONE
+    };
     for (rule, fix) in fixes.into_iter().take(most) {
         let mut more = kept.clone();
         more.take(program, &fix.edit);
         let present = Standing::of(&edited(program, &kept.clone().edits()));
         let after = Standing::of(&edited(program, &more.clone().edits()));
-        if present.allows(&after, speaks_for_itself(rule), is_by_a_slip(program, &fix.edit)) {
+        if present.allows(
+            &after,
+            speaks_for_itself(rule),
+            is_by_a_slip(program, &fix.edit),
+        ) {
             kept = more;
         }
     }
@@ -236,17 +308,25 @@ impl Taken {
         let lines = |edit: &TextEdit| {
             // What is put behind a line is none of it.
             let (first, last) = (text.line_of(edit.range.start), text.line_of(edit.range.end));
-            let is_behind = edit.range.is_empty() && edit.range.start == text.line_range(first).end && edit.text.starts_with(['\r', '\n']);
+            let is_behind = edit.range.is_empty()
+                && edit.range.start == text.line_range(first).end
+                && edit.text.starts_with(['\r', '\n']);
             (!is_behind).then_some((first, last))
         };
         let is_line_free = |edit: &TextEdit| {
-            lines(edit).is_none_or(|(first, last)| self.lines.range(..=last).next_back().is_none_or(|(_, end)| *end < first))
+            lines(edit).is_none_or(|(first, last)| {
+                self.lines
+                    .range(..=last)
+                    .next_back()
+                    .is_none_or(|(_, end)| *end < first)
+            })
         };
         if !edits.iter().all(|edit| is_free(edit) && is_line_free(edit)) {
             return false;
         }
         self.lines.extend(edits.iter().filter_map(lines));
-        self.edits.extend(edits.iter().map(|edit| (edit.range.start, edit.clone())));
+        self.edits
+            .extend(edits.iter().map(|edit| (edit.range.start, edit.clone())));
         true
     }
 
@@ -271,7 +351,11 @@ mod tests {
             ("5000", "3100", false),
             ("12", "2100", false),
         ] {
-            assert_eq!(is_slip(found.as_bytes(), meant.as_bytes()), expected, "{found} {meant}");
+            assert_eq!(
+                is_slip(found.as_bytes(), meant.as_bytes()),
+                expected,
+                "{found} {meant}"
+            );
         }
     }
 }

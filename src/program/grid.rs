@@ -14,7 +14,10 @@ pub struct Node {
 pub fn snap(point: Point) -> Option<Node> {
     const FAR: f64 = 1e12;
     let fits = |value: f64| value.abs() <= FAR;
-    (fits(point.x) && fits(point.y)).then(|| Node { x: point.x.round() as i64, y: point.y.round() as i64 })
+    (fits(point.x) && fits(point.y)).then(|| Node {
+        x: point.x.round() as i64,
+        y: point.y.round() as i64,
+    })
 }
 
 pub fn point_of(node: Node) -> Point {
@@ -34,11 +37,21 @@ pub struct GridCenter {
 /// The nine grid points around the true centre, the best first: the one about which the arc stays nearest to the true one over its whole
 /// length and ends nearest to its node. Of those that are equally good the one nearest to the true centre.
 pub fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
-    let nearest = Node { x: arc.center.x.round() as i64, y: arc.center.y.round() as i64 };
+    let nearest = Node {
+        x: arc.center.x.round() as i64,
+        y: arc.center.y.round() as i64,
+    };
     let mut centers = std::array::from_fn(|index| {
-        let node = Node { x: nearest.x + index as i64 / 3 - 1, y: nearest.y + index as i64 % 3 - 1 };
+        let node = Node {
+            x: nearest.x + index as i64 / 3 - 1,
+            y: nearest.y + index as i64 % 3 - 1,
+        };
         let cost = (cost_of(arc, node, from, to) * 100.0).round().min(1e15) as i64;
-        GridCenter { node, cost, away: (point_of(node) - arc.center).norm() }
+        GridCenter {
+            node,
+            cost,
+            away: (point_of(node) - arc.center).norm(),
+        }
     });
     centers.sort_by(|a: &GridCenter, b| a.cost.cmp(&b.cost).then(a.away.total_cmp(&b.away)));
     centers
@@ -54,7 +67,12 @@ fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
     if center == from || center == to {
         return f64::INFINITY;
     }
-    let written = Arc::about(point_of(center), point_of(from), point_of(to), arc.sweep > 0.0);
+    let written = Arc::about(
+        point_of(center),
+        point_of(from),
+        point_of(to),
+        arc.sweep > 0.0,
+    );
     if (written.sweep - arc.sweep).abs() > PI {
         return f64::INFINITY;
     }
@@ -65,7 +83,11 @@ fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
 
 /// The largest distance of a written line or arc from the piece of the path that it stands for, over its whole length.
 pub fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
-    let look = |share: f64| (0.0..=1.0).contains(&share).then(|| written.point_at(share));
+    let look = |share: f64| {
+        (0.0..=1.0)
+            .contains(&share)
+            .then(|| written.point_at(share))
+    };
     // Between its ends it is farthest where it runs along the piece.
     let between = match (written, piece) {
         (Segment::Line(line), Segment::Arc(arc)) => [look(line.share_of(arc.center)), None, None],
@@ -75,14 +97,25 @@ pub fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
                 Segment::Line(line) => left_normal(line.direction()),
                 Segment::Arc(arc) => own.center - arc.center,
             };
-            let by = if along.norm() > 0.0 { along.normalize() * own.radius } else { along };
+            let by = if along.norm() > 0.0 {
+                along.normalize() * own.radius
+            } else {
+                along
+            };
             // It comes to its end at its own radius, which may miss that a little.
             let end = own.center + direction(own.start_angle + own.sweep) * own.radius;
-            [look(own.share_of(own.center + by)), look(own.share_of(own.center - by)), Some(end)]
+            [
+                look(own.share_of(own.center + by)),
+                look(own.share_of(own.center - by)),
+                Some(end),
+            ]
         }
     };
     let ends = [written.start(), written.end()];
-    ends.into_iter().chain(between.into_iter().flatten()).map(|place| piece.distance_to(place)).fold(0.0, f64::max)
+    ends.into_iter()
+        .chain(between.into_iter().flatten())
+        .map(|place| piece.distance_to(place))
+        .fold(0.0, f64::max)
 }
 
 fn distance(a: Node, b: Node) -> f64 {
@@ -90,14 +123,24 @@ fn distance(a: Node, b: Node) -> f64 {
 }
 
 /// Cuts `whole` into `count` pieces of equal length with snapped nodes between them; pieces without length are left out.
-pub fn in_pieces(whole: &Segment, from: Node, to: Node, count: i64, mut each: impl FnMut(Segment, Node, Node) -> Option<()>) -> Option<()> {
+pub fn in_pieces(
+    whole: &Segment,
+    from: Node,
+    to: Node,
+    count: i64,
+    mut each: impl FnMut(Segment, Node, Node) -> Option<()>,
+) -> Option<()> {
     if count <= 1 {
         return each(*whole, from, to);
     }
     let (mut node, mut share) = (from, 0.0);
     for number in 1..=count {
         let next_share = number as f64 / count as f64;
-        let next = if number == count { to } else { snap(whole.point_at(next_share))? };
+        let next = if number == count {
+            to
+        } else {
+            snap(whole.point_at(next_share))?
+        };
         if next != node {
             each(whole.part(share, next_share), node, next)?;
             (node, share) = (next, next_share);
@@ -115,7 +158,11 @@ pub fn sagitta(arc: &Arc) -> f64 {
 pub fn chord_count(arc: &Arc, sagitta: f64) -> Option<i64> {
     let half_step = (1.0 - (sagitta / arc.radius).min(1.0)).acos();
     // Where the radius is so large that the step vanishes in rounding, s = l² / 8r gives it.
-    let step = if half_step > 1e-6 { 2.0 * half_step } else { (8.0 * sagitta / arc.radius).sqrt() };
+    let step = if half_step > 1e-6 {
+        2.0 * half_step
+    } else {
+        (8.0 * sagitta / arc.radius).sqrt()
+    };
     let length = arc.radius * arc.sweep.abs();
     let count = (arc.sweep.abs() / step).ceil();
     (count.is_finite() && length.is_finite() && count <= 1e7).then_some((count as i64).max(1))
@@ -129,11 +176,23 @@ mod tests {
     fn arc() -> impl Strategy<Value = (Arc, Node, Node)> {
         let size = prop_oneof![20.0_f64..2e3, 2e3_f64..2e5];
         let turn = prop_oneof![0.05_f64..6.0, -6.0_f64..-0.05];
-        (-1e5_f64..1e5, -1e5_f64..1e5, size, 0.0_f64..7.0, turn, any::<bool>()).prop_map(|(x, y, radius, start, sweep, on_grid)| {
-            let center = if on_grid { Point::new(x.round(), y.round()) } else { Point::new(x, y) };
-            let arc = Arc::from_center(center, radius, start, sweep);
-            (arc, snap(arc.start).unwrap(), snap(arc.end).unwrap())
-        })
+        (
+            -1e5_f64..1e5,
+            -1e5_f64..1e5,
+            size,
+            0.0_f64..7.0,
+            turn,
+            any::<bool>(),
+        )
+            .prop_map(|(x, y, radius, start, sweep, on_grid)| {
+                let center = if on_grid {
+                    Point::new(x.round(), y.round())
+                } else {
+                    Point::new(x, y)
+                };
+                let arc = Arc::from_center(center, radius, start, sweep);
+                (arc, snap(arc.start).unwrap(), snap(arc.end).unwrap())
+            })
     }
 
     #[test]

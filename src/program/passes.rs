@@ -12,7 +12,10 @@ const BESIDE: f64 = 1_000.0;
 
 /// The passes of a way, the ways in and out with the first and the last of them; none where it goes round once.
 pub fn passes(way: &dyn Way) -> Vec<Range<usize>> {
-    may_have_passes(way).and_then(|()| found(way)).filter(|passes| passes.len() > 1).unwrap_or_default()
+    may_have_passes(way)
+        .and_then(|()| found(way))
+        .filter(|passes| passes.len() > 1)
+        .unwrap_or_default()
 }
 
 /// `None` where the way does not come back to one of its first nodes long before it ends. Costs what lies about them.
@@ -22,7 +25,8 @@ fn may_have_passes(way: &dyn Way) -> Option<()> {
         let node = way.node(index)?.meant;
         let mut comes_back = false;
         way.pieces_about(node, tolerance, &mut |other, piece| {
-            let is_back = other > index && other + 2 <= count && (piece.start() - node).norm() <= tolerance;
+            let is_back =
+                other > index && other + 2 <= count && (piece.start() - node).norm() <= tolerance;
             comes_back |= is_back && other > index + 1 && count - other >= 2;
             comes_back
         })?;
@@ -38,7 +42,8 @@ fn found(way: &dyn Way) -> Option<Vec<Range<usize>>> {
     let mut from = 0;
     // The way in and out may come back to their own begin, behind all passes.
     let round = |from: usize, first_box: Option<&Bounds>| {
-        let rounds = (from..=from + BETWEEN).filter_map(|start| round_from(&pieces, start, tolerance, first_box));
+        let rounds = (from..=from + BETWEEN)
+            .filter_map(|start| round_from(&pieces, start, tolerance, first_box));
         rounds.min_by_key(|(round, _)| round.end)
     };
     while let Some((round, bounds)) = round(from, first_box.as_ref()) {
@@ -64,7 +69,12 @@ pub fn pieces_of(way: &dyn Way) -> Option<Vec<Segment>> {
 }
 
 /// From a piece on the first way round that comes back to where it begins, and its box, which is that of the first pass.
-fn round_from(pieces: &[Segment], start: usize, tolerance: f64, first_box: Option<&Bounds>) -> Option<(Range<usize>, Bounds)> {
+fn round_from(
+    pieces: &[Segment],
+    start: usize,
+    tolerance: f64,
+    first_box: Option<&Bounds>,
+) -> Option<(Range<usize>, Bounds)> {
     let begin = pieces.get(start)?.start();
     let mut bounds = Bounds::EMPTY;
     for (index, piece) in pieces.iter().enumerate().skip(start) {
@@ -72,7 +82,9 @@ fn round_from(pieces: &[Segment], start: usize, tolerance: f64, first_box: Optio
         let is_back = (piece.end() - begin).norm() <= tolerance;
         let goes_round = match index - start {
             0 => piece.as_arc().is_some_and(|arc| arc.is_full_turn()),
-            1 => pieces[start..=index].iter().any(|piece| piece.as_arc().is_some()),
+            1 => pieces[start..=index]
+                .iter()
+                .any(|piece| piece.as_arc().is_some()),
             _ => true,
         };
         let is_large = bounds.width().min(bounds.height()) > 4.0 * tolerance;
@@ -81,7 +93,9 @@ fn round_from(pieces: &[Segment], start: usize, tolerance: f64, first_box: Optio
                 let apart = |a: Point, b: Point| (a - b).amax();
                 apart(first.min, bounds.min) <= BESIDE && apart(first.max, bounds.max) <= BESIDE
             };
-            return first_box.is_none_or(is_same).then_some((start..index + 1, bounds));
+            return first_box
+                .is_none_or(is_same)
+                .then_some((start..index + 1, bounds));
         }
     }
     None
@@ -95,8 +109,14 @@ mod tests {
     /// A star, R 10 and 5, at a distance beside it.
     fn star(beside: f64) -> Vec<[f64; 2]> {
         let at = |index: usize| {
-            let (angle, radius) = (index as f64 * 0.2 * std::f64::consts::PI, if index.is_multiple_of(2) { 10.0 } else { 5.0 });
-            [angle.cos() * (radius + beside), angle.sin() * (radius + beside)]
+            let (angle, radius) = (
+                index as f64 * 0.2 * std::f64::consts::PI,
+                if index.is_multiple_of(2) { 10.0 } else { 5.0 },
+            );
+            [
+                angle.cos() * (radius + beside),
+                angle.sin() * (radius + beside),
+            ]
         };
         (0..=10).map(at).collect()
     }
@@ -104,7 +124,10 @@ mod tests {
     #[track_caller]
     fn crossings(way: &[[f64; 2]]) -> usize {
         let lines = |at: &[f64; 2]| format!("G01 X{:.3} Y{:.3}\n", at[0], at[1]);
-        let iso = format!("G92 X0. Y0.\nG90\n{}M02\n", way.iter().map(lines).collect::<String>());
+        let iso = format!(
+            "G92 X0. Y0.\nG90\n{}M02\n",
+            way.iter().map(lines).collect::<String>()
+        );
         let mut at = [0_i64, 0];
         let block = |to: &[f64; 2]| {
             let to = to.map(|mm| (mm * 1e3).round() as i64);
@@ -117,15 +140,26 @@ mod tests {
                 _ => 4,
             };
             let axis = if dx.abs() > dy.abs() { 'X' } else { 'Y' };
-            format!("B{}B{}B{}G{axis}L{quadrant}\n", dx.abs(), dy.abs(), dx.abs().max(dy.abs()))
+            format!(
+                "B{}B{}B{}G{axis}L{quadrant}\n",
+                dx.abs(),
+                dy.abs(),
+                dx.abs().max(dy.abs())
+            )
         };
         let three_b = format!("{}DD\n", way.iter().map(block).collect::<String>());
         let count = |language: Language, text: &str| {
             let document = Document::read(language, text.into(), &Effective::default());
             let (findings, _) = document.findings(&Effective::default(), usize::MAX);
-            findings.iter().filter(|finding| finding.rule.name() == "path-crosses-itself").count()
+            findings
+                .iter()
+                .filter(|finding| finding.rule.name() == "path-crosses-itself")
+                .count()
         };
-        let (of_iso, of_three_b) = (count(Language::Iso, &iso), count(Language::ThreeB, &three_b));
+        let (of_iso, of_three_b) = (
+            count(Language::Iso, &iso),
+            count(Language::ThreeB, &three_b),
+        );
         assert_eq!(of_iso, of_three_b, "{iso}\n{three_b}");
         of_iso
     }
@@ -136,12 +170,35 @@ mod tests {
         let back: Vec<[f64; 2]> = star(0.0).into_iter().rev().collect();
         assert_eq!(crossings(&[&star(0.0)[..], &out].concat()), 0);
         // Three times the same, to and fro, and a second one inside the first.
-        assert_eq!(crossings(&[&star(0.0)[..], &star(0.0)[1..], &star(0.0)[1..], &out].concat()), 0);
-        assert_eq!(crossings(&[&star(0.0)[..], &back[1..], &star(0.0)[1..], &out].concat()), 0);
-        assert_eq!(crossings(&[&star(0.0)[..], &star(0.03)[..], &out].concat()), 0);
-        assert_eq!(crossings(&[&star(0.0)[..], &star(0.03)[..], &star(0.04)[..], &[[12.0, 3.0]]].concat()), 0);
+        assert_eq!(
+            crossings(&[&star(0.0)[..], &star(0.0)[1..], &star(0.0)[1..], &out].concat()),
+            0
+        );
+        assert_eq!(
+            crossings(&[&star(0.0)[..], &back[1..], &star(0.0)[1..], &out].concat()),
+            0
+        );
+        assert_eq!(
+            crossings(&[&star(0.0)[..], &star(0.03)[..], &out].concat()),
+            0
+        );
+        assert_eq!(
+            crossings(
+                &[
+                    &star(0.0)[..],
+                    &star(0.03)[..],
+                    &star(0.04)[..],
+                    &[[12.0, 3.0]]
+                ]
+                .concat()
+            ),
+            0
+        );
         // A way out on the other side of the first pass.
-        assert_eq!(crossings(&[&star(0.0)[..], &star(0.0)[1..], &[[13.0, 0.0]]].concat()), 0);
+        assert_eq!(
+            crossings(&[&star(0.0)[..], &star(0.0)[1..], &[[13.0, 0.0]]].concat()),
+            0
+        );
     }
 
     #[test]

@@ -45,7 +45,8 @@ pub struct Step {
 impl Step {
     /// From the ideal end to where the machine stops, µm.
     pub fn miss(&self) -> Vector {
-        self.ideal.map_or_else(Vector::zeros, |ideal| self.end - ideal.end())
+        self.ideal
+            .map_or_else(Vector::zeros, |ideal| self.end - ideal.end())
     }
 
     /// Distance of the machine's end from the ideal end, µm.
@@ -55,7 +56,9 @@ impl Step {
 
     /// From its start to its end as the block means it, µm.
     pub fn meant(&self) -> Vector {
-        self.ideal.as_ref().map_or(self.end - self.start, |ideal| ideal.end() - ideal.start())
+        self.ideal
+            .as_ref()
+            .map_or(self.end - self.start, |ideal| ideal.end() - ideal.start())
     }
 
     pub fn moves(&self) -> bool {
@@ -102,13 +105,19 @@ impl Trace {
 
     /// Length of the way in µm, along the ideal lines and arcs.
     pub fn length(&self) -> f64 {
-        self.steps.iter().filter_map(|step| step.ideal.as_ref()).map(Segment::length).sum()
+        self.steps
+            .iter()
+            .filter_map(|step| step.ideal.as_ref())
+            .map(Segment::length)
+            .sum()
     }
 
     /// Length in µm of what is cut: ways without the wire left out.
     pub fn cut_length(&self) -> f64 {
         let cut = self.steps.iter().filter(|step| step.kind != Kind::Rapid);
-        cut.filter_map(|step| step.ideal.as_ref()).map(Segment::length).sum()
+        cut.filter_map(|step| step.ideal.as_ref())
+            .map(Segment::length)
+            .sum()
     }
 
     /// The box of the way, µm; `None` where nothing moves.
@@ -163,10 +172,24 @@ impl<'a> Chain<'a> {
     }
 
     /// A chain of `count` steps, `arcs` of them arcs, by its first and last ones; together the blocks mean to lead by `meant`, µm.
-    pub fn by_ends(head: Vec<Step>, tail: Vec<Step>, (count, arcs): (usize, usize), meant: Vector) -> Chain<'static> {
+    pub fn by_ends(
+        head: Vec<Step>,
+        tail: Vec<Step>,
+        (count, arcs): (usize, usize),
+        meant: Vector,
+    ) -> Chain<'static> {
         let of_tail: Vector = tail.iter().map(Step::meant).sum();
         let (to_head, to_tail) = (sums(Vector::zeros(), &head), sums(meant - of_tail, &tail));
-        Chain { head: head.into(), tail, count, arcs, writing: Writing::default(), stop: None, to_head, to_tail }
+        Chain {
+            head: head.into(),
+            tail,
+            count,
+            arcs,
+            writing: Writing::default(),
+            stop: None,
+            to_head,
+            to_tail,
+        }
     }
 
     /// The same with a stop behind so many steps, before its tab.
@@ -180,12 +203,18 @@ impl<'a> Chain<'a> {
 
     /// The first steps, as far as they are held.
     pub fn steps_to(&self, count: usize) -> Vec<Step> {
-        self.head.get(..count.min(self.head.len())).unwrap_or_default().to_vec()
+        self.head
+            .get(..count.min(self.head.len()))
+            .unwrap_or_default()
+            .to_vec()
     }
 
     /// A step by its index, where it is held.
     pub fn step(&self, index: usize) -> Option<&Step> {
-        let in_tail = || self.tail.get((index + self.tail.len()).checked_sub(self.count)?);
+        let in_tail = || {
+            self.tail
+                .get((index + self.tail.len()).checked_sub(self.count)?)
+        };
         self.head.get(index).or_else(in_tail)
     }
 
@@ -199,7 +228,10 @@ impl<'a> Chain<'a> {
 
     /// Where it would stand, did it not drift while it counts.
     fn meant(&self, index: usize) -> Option<Point> {
-        let in_tail = || self.to_tail.get((index + self.tail.len()).checked_sub(self.count)?);
+        let in_tail = || {
+            self.to_tail
+                .get((index + self.tail.len()).checked_sub(self.count)?)
+        };
         Some(self.stands(0)? + self.to_head.get(index).or_else(in_tail)?)
     }
 }
@@ -222,15 +254,29 @@ impl Way for Chain<'_> {
     }
 
     fn node(&self, index: usize) -> Option<Node> {
-        Some(Node { stands: self.stands(index)?, meant: self.meant(index)? })
+        Some(Node {
+            stands: self.stands(index)?,
+            meant: self.meant(index)?,
+        })
     }
 
     fn piece(&self, index: usize) -> Option<Segment> {
         let (step, at) = (self.step(index)?, self.meant(index)?);
-        Some(step.ideal.as_ref().map_or(Segment::line(at, at + step.meant()), |ideal| ideal.moved(at - step.start)))
+        Some(
+            step.ideal
+                .as_ref()
+                .map_or(Segment::line(at, at + step.meant()), |ideal| {
+                    ideal.moved(at - step.start)
+                }),
+        )
     }
 
-    fn pieces_about(&self, _: Point, _: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()> {
+    fn pieces_about(
+        &self,
+        _: Point,
+        _: f64,
+        each: &mut dyn FnMut(usize, &Segment) -> bool,
+    ) -> Option<()> {
         if self.head.len() < self.count {
             return None;
         }

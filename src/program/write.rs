@@ -46,11 +46,15 @@ impl fmt::Display for ProofError {
 impl std::error::Error for ProofError {}
 
 /// Said of paths that are shorter than a step of the grid.
-pub(super) const NOTHING_TO_WRITE: &str = "the path is shorter than the smallest step of a program: nothing of it can be written";
+pub(super) const NOTHING_TO_WRITE: &str =
+    "the path is shorter than the smallest step of a program: nothing of it can be written";
 
 /// No number of a program reaches `point`, which is in steps of its grid.
 pub(super) fn too_far_out(point: Point) -> ProofError {
-    ProofError::Refused(format!("the path passes {:.0}, {:.0} steps of the grid, too far out for a program", point.x, point.y))
+    ProofError::Refused(format!(
+        "the path passes {:.0}, {:.0} steps of the grid, too far out for a program",
+        point.x, point.y
+    ))
 }
 
 /// How far apart two pieces of a path may be that belong together, µm.
@@ -59,9 +63,20 @@ const GAP: f64 = 1.5;
 /// Puts pieces of a path into the text of one language and proves them. Nodes and pieces are in steps of the language's grid.
 pub trait Writer {
     /// A path begins at `first`. `from` is where the program stands, `None` before the first path: the wire has to be taken there.
-    fn begin(&mut self, from: Option<Node>, first: Node, side: Option<Side>) -> Result<(), ProofError>;
+    fn begin(
+        &mut self,
+        from: Option<Node>,
+        first: Node,
+        side: Option<Side>,
+    ) -> Result<(), ProofError>;
     /// One piece of the path between two nodes, which are its snapped ends.
-    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Result<(), ProofError>;
+    fn piece(
+        &mut self,
+        piece: &Segment,
+        from: Node,
+        to: Node,
+        source: Source,
+    ) -> Result<(), ProofError>;
     /// The path ends at `last`; it is closed where both ends of it are one point.
     fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError>;
 }
@@ -81,7 +96,9 @@ pub fn walk(
     for path in paths {
         // Where the wire can only stand, it is threaded and cuts nothing.
         let (begin, end) = match (path.segments.first(), path.segments.last()) {
-            (Some(first), Some(last)) => (first.geometry.start() * steps, last.geometry.end() * steps),
+            (Some(first), Some(last)) => {
+                (first.geometry.start() * steps, last.geometry.end() * steps)
+            }
             _ => (path.thread_hole * steps, path.thread_hole * steps),
         };
         let first_node = node_of(begin)?;
@@ -96,7 +113,9 @@ pub fn walk(
             let piece = scaled(&segment.geometry, steps);
             let gap = (piece.start() - reached).norm() * step_um;
             if gap > GAP || gap.is_nan() {
-                return Err(ProofError::Mismatch(format!("the path has a gap of {gap:.3} µm before segment {done}")));
+                return Err(ProofError::Mismatch(format!(
+                    "the path has a gap of {gap:.3} µm before segment {done}"
+                )));
             }
             reached = piece.end();
             let to = node_of(piece.end())?;

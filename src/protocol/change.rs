@@ -49,11 +49,22 @@ fn given<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<Ent
 
 impl<'de> Deserialize<'de> for DrawingChange {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let Keys { handle, vertices, entity, before } = Keys::deserialize(deserializer)?;
+        let Keys {
+            handle,
+            vertices,
+            entity,
+            before,
+        } = Keys::deserialize(deserializer)?;
         match (vertices, entity) {
             (Some(vertices), None) => Ok(DrawingChange::Vertices { handle, vertices }),
-            (None, Some(entity)) => Ok(DrawingChange::Entity { handle, entity, before }),
-            _ => Err(D::Error::custom(format!("the change of {handle} holds neither or both of vertices and entity, expected one"))),
+            (None, Some(entity)) => Ok(DrawingChange::Entity {
+                handle,
+                entity,
+                before,
+            }),
+            _ => Err(D::Error::custom(format!(
+                "the change of {handle} holds neither or both of vertices and entity, expected one"
+            ))),
         }
     }
 }
@@ -68,7 +79,11 @@ enum Standing {
 
 impl Standing {
     fn of(drawing: &core::Drawing, handle: &str) -> Standing {
-        match drawing.find(handle).and_then(|id| drawing.get(id)).map(|entity| &entity.geometry) {
+        match drawing
+            .find(handle)
+            .and_then(|id| drawing.get(id))
+            .map(|entity| &entity.geometry)
+        {
             None => Standing::Nothing,
             Some(core::Geometry::Polyline { vertices, .. }) => Standing::Polyline(vertices.len()),
             Some(_) => Standing::Other,
@@ -81,7 +96,8 @@ pub fn apply(drawing: &mut core::Drawing, changes: Vec<DrawingChange>) -> Result
     // All are tried on what the handles stand for first: undoing half of them would need new ids for what was removed.
     let mut standing: FxHashMap<&str, Standing> = FxHashMap::default();
     for (index, change) in changes.iter().enumerate() {
-        try_change(drawing, &mut standing, change).map_err(|reason| format!("change {index}: {reason}"))?;
+        try_change(drawing, &mut standing, change)
+            .map_err(|reason| format!("change {index}: {reason}"))?;
     }
     let mut delta = Delta::default();
     for change in changes {
@@ -90,34 +106,75 @@ pub fn apply(drawing: &mut core::Drawing, changes: Vec<DrawingChange>) -> Result
     Ok(delta)
 }
 
-fn try_change<'a>(drawing: &core::Drawing, standing: &mut FxHashMap<&'a str, Standing>, change: &'a DrawingChange) -> Result<(), String> {
-    let mut stands = |handle: &'a str| *standing.entry(handle).or_insert_with(|| Standing::of(drawing, handle));
+fn try_change<'a>(
+    drawing: &core::Drawing,
+    standing: &mut FxHashMap<&'a str, Standing>,
+    change: &'a DrawingChange,
+) -> Result<(), String> {
+    let mut stands = |handle: &'a str| {
+        *standing
+            .entry(handle)
+            .or_insert_with(|| Standing::of(drawing, handle))
+    };
     match change {
-        DrawingChange::Vertices { handle, vertices: Splice { start, delete_count, insert } } => {
+        DrawingChange::Vertices {
+            handle,
+            vertices:
+                Splice {
+                    start,
+                    delete_count,
+                    insert,
+                },
+        } => {
             let count = match stands(handle) {
                 Standing::Polyline(count) => count,
                 Standing::Nothing => return Err(format!("there is no entity {handle}")),
-                Standing::Other => return Err(format!("entity {handle} is not a polyline and has no vertices")),
+                Standing::Other => {
+                    return Err(format!(
+                        "entity {handle} is not a polyline and has no vertices"
+                    ));
+                }
             };
-            if start.checked_add(*delete_count).is_none_or(|end| end > count) {
-                return Err(format!("vertices {start} + {delete_count} are out of range, polyline {handle} has {count}"));
+            if start
+                .checked_add(*delete_count)
+                .is_none_or(|end| end > count)
+            {
+                return Err(format!(
+                    "vertices {start} + {delete_count} are out of range, polyline {handle} has {count}"
+                ));
             }
             if let Some(index) = insert.iter().position(|vertex| !vertex.is_finite()) {
-                return Err(format!("vertex {index} to insert in {handle} is not of finite numbers"));
+                return Err(format!(
+                    "vertex {index} to insert in {handle} is not of finite numbers"
+                ));
             }
-            standing.insert(handle, Standing::Polyline(count - delete_count + insert.len()));
+            standing.insert(
+                handle,
+                Standing::Polyline(count - delete_count + insert.len()),
+            );
         }
-        DrawingChange::Entity { handle, entity, before } => {
+        DrawingChange::Entity {
+            handle,
+            entity,
+            before,
+        } => {
             if let Some(before) = before
                 && matches!(stands(before), Standing::Nothing)
             {
-                return Err(format!("there is no entity {before} to put {handle} before"));
+                return Err(format!(
+                    "there is no entity {before} to put {handle} before"
+                ));
             }
             let becomes = match entity {
-                None if matches!(stands(handle), Standing::Nothing) => return Err(format!("there is no entity {handle} to delete")),
+                None if matches!(stands(handle), Standing::Nothing) => {
+                    return Err(format!("there is no entity {handle} to delete"));
+                }
                 None => Standing::Nothing,
                 Some(entity) if entity.handle != *handle => {
-                    return Err(format!("the entity's handle is {}, expected {handle}", entity.handle));
+                    return Err(format!(
+                        "the entity's handle is {}, expected {handle}",
+                        entity.handle
+                    ));
                 }
                 Some(entity) => {
                     entity.check()?;
@@ -133,21 +190,52 @@ fn try_change<'a>(drawing: &core::Drawing, standing: &mut FxHashMap<&'a str, Sta
     Ok(())
 }
 
-fn apply_one(drawing: &mut core::Drawing, change: DrawingChange, delta: &mut Delta) -> Result<(), String> {
+fn apply_one(
+    drawing: &mut core::Drawing,
+    change: DrawingChange,
+    delta: &mut Delta,
+) -> Result<(), String> {
     match change {
-        DrawingChange::Vertices { handle, vertices: Splice { start, delete_count, insert } } => {
-            let id = drawing.find(&handle).ok_or_else(|| format!("there is no entity {handle}"))?;
+        DrawingChange::Vertices {
+            handle,
+            vertices:
+                Splice {
+                    start,
+                    delete_count,
+                    insert,
+                },
+        } => {
+            let id = drawing
+                .find(&handle)
+                .ok_or_else(|| format!("there is no entity {handle}"))?;
             let insert: Vec<core::Vertex> = insert.into_iter().map(core::Vertex::from).collect();
-            delta.touched.push(drawing.splice(id, start, delete_count, &insert).map_err(|error| error.to_string())?);
+            delta.touched.push(
+                drawing
+                    .splice(id, start, delete_count, &insert)
+                    .map_err(|error| error.to_string())?,
+            );
         }
-        DrawingChange::Entity { handle, entity: None, .. } => {
-            let id = drawing.find(&handle).ok_or_else(|| format!("there is no entity {handle}"))?;
+        DrawingChange::Entity {
+            handle,
+            entity: None,
+            ..
+        } => {
+            let id = drawing
+                .find(&handle)
+                .ok_or_else(|| format!("there is no entity {handle}"))?;
             drawing.remove(id);
             delta.touched.push(Touched::Removed { entity: id });
         }
-        DrawingChange::Entity { handle, entity: Some(entity), before } => {
+        DrawingChange::Entity {
+            handle,
+            entity: Some(entity),
+            before,
+        } => {
             let entity = entity.into_core()?;
-            match (drawing.find(&handle), before.filter(|before| *before != handle)) {
+            match (
+                drawing.find(&handle),
+                before.filter(|before| *before != handle),
+            ) {
                 (Some(id), None) => {
                     drawing.replace(id, entity);
                     delta.touched.push(Touched::Entity { entity: id });
@@ -158,7 +246,8 @@ fn apply_one(drawing: &mut core::Drawing, change: DrawingChange, delta: &mut Del
                         delta.touched.push(Touched::Removed { entity: old });
                     }
                     let next = before.and_then(|before| drawing.find(&before));
-                    let position = next.and_then(|next| drawing.order().iter().position(|&id| id == next));
+                    let position =
+                        next.and_then(|next| drawing.order().iter().position(|&id| id == next));
                     let id = drawing.insert_at(position.unwrap_or(drawing.len()), entity);
                     delta.touched.push(Touched::Entity { entity: id });
                 }
@@ -183,24 +272,67 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
                 at.own = at.own.or(Some(Some(vertex)));
             }
             Change::RemoveVertex { index, .. } => {
-                vertices.entry(id).or_default().entry(index).or_default().own = Some(None);
+                vertices
+                    .entry(id)
+                    .or_default()
+                    .entry(index)
+                    .or_default()
+                    .own = Some(None);
             }
             Change::InsertVertex { index, vertex, .. } => {
-                vertices.entry(id).or_default().entry(index).or_default().before.push(vertex);
+                vertices
+                    .entry(id)
+                    .or_default()
+                    .entry(index)
+                    .or_default()
+                    .before
+                    .push(vertex);
             }
             Change::SetClosed { closed, .. } => {
                 if let core::Geometry::Polyline { vertices, .. } = &old.geometry {
-                    let geometry = core::Geometry::Polyline { closed, vertices: vertices.clone() };
-                    entities.insert(id, Some(core::Entity { geometry, ..old.clone() }));
+                    let geometry = core::Geometry::Polyline {
+                        closed,
+                        vertices: vertices.clone(),
+                    };
+                    entities.insert(
+                        id,
+                        Some(core::Entity {
+                            geometry,
+                            ..old.clone()
+                        }),
+                    );
                 }
             }
             Change::AddEntity { after, .. } => added.push((after, change)),
             Change::SetLine { start, end, .. } => {
-                entities.insert(id, Some(core::Entity { geometry: core::Geometry::Line { start, end }, ..old.clone() }));
+                entities.insert(
+                    id,
+                    Some(core::Entity {
+                        geometry: core::Geometry::Line { start, end },
+                        ..old.clone()
+                    }),
+                );
             }
-            Change::SetArc { center, radius, start_angle, end_angle, .. } => {
-                let geometry = core::Geometry::Arc { center, radius, start_angle, end_angle };
-                entities.insert(id, Some(core::Entity { geometry, ..old.clone() }));
+            Change::SetArc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+                ..
+            } => {
+                let geometry = core::Geometry::Arc {
+                    center,
+                    radius,
+                    start_angle,
+                    end_angle,
+                };
+                entities.insert(
+                    id,
+                    Some(core::Entity {
+                        geometry,
+                        ..old.clone()
+                    }),
+                );
             }
             Change::RemoveEntity { .. } => {
                 entities.insert(id, None);
@@ -209,24 +341,53 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
     }
     let mut changes = Vec::new();
     for (id, by_index) in &vertices {
-        let Some(entity) = drawing.get(*id).filter(|_| !entities.contains_key(id)) else { continue };
-        changes
-            .extend(splices(by_index).into_iter().map(|vertices| DrawingChange::Vertices { handle: entity.handle.to_string(), vertices }));
+        let Some(entity) = drawing.get(*id).filter(|_| !entities.contains_key(id)) else {
+            continue;
+        };
+        changes.extend(
+            splices(by_index)
+                .into_iter()
+                .map(|vertices| DrawingChange::Vertices {
+                    handle: entity.handle.to_string(),
+                    vertices,
+                }),
+        );
     }
     for (id, entity) in entities {
         let Some(old) = drawing.get(id) else { continue };
-        changes.push(DrawingChange::Entity { handle: old.handle.to_string(), entity: entity.as_ref().map(Entity::from), before: None });
+        changes.push(DrawingChange::Entity {
+            handle: old.handle.to_string(),
+            entity: entity.as_ref().map(Entity::from),
+            before: None,
+        });
     }
     // New entities come first, while those that they stand next to are still there; their handles are those that the core gives.
     let mut grown = drawing.clone();
     let mut new = Vec::new();
     for (after, change) in added {
-        let Ok(delta) = grown.apply(&core::DrawingEdit { changes: vec![change.clone()] }) else { continue };
-        let Some(core::Touched::Entity { entity }) = delta.touched.first() else { continue };
-        let Some(entity) = grown.get(*entity) else { continue };
-        let next = drawing.order().iter().skip_while(|&&id| id != after).nth(1).and_then(|&id| drawing.get(id));
+        let Ok(delta) = grown.apply(&core::DrawingEdit {
+            changes: vec![change.clone()],
+        }) else {
+            continue;
+        };
+        let Some(core::Touched::Entity { entity }) = delta.touched.first() else {
+            continue;
+        };
+        let Some(entity) = grown.get(*entity) else {
+            continue;
+        };
+        let next = drawing
+            .order()
+            .iter()
+            .skip_while(|&&id| id != after)
+            .nth(1)
+            .and_then(|&id| drawing.get(id));
         let before = next.map(|next| next.handle.to_string());
-        new.push(DrawingChange::Entity { handle: entity.handle.to_string(), entity: Some(Entity::from(entity)), before });
+        new.push(DrawingChange::Entity {
+            handle: entity.handle.to_string(),
+            entity: Some(Entity::from(entity)),
+            before,
+        });
     }
     new.append(&mut changes);
     new
@@ -244,14 +405,23 @@ struct AtVertex {
 fn splices(by_index: &BTreeMap<usize, AtVertex>) -> Vec<Splice> {
     let mut splices: Vec<Splice> = Vec::new();
     for (&index, at) in by_index {
-        let insert = at.before.iter().copied().chain(at.own.flatten()).map(Vertex::from);
+        let insert = at
+            .before
+            .iter()
+            .copied()
+            .chain(at.own.flatten())
+            .map(Vertex::from);
         let delete_count = usize::from(at.own.is_some());
         match splices.last_mut() {
             Some(last) if last.start + last.delete_count == index => {
                 last.delete_count += delete_count;
                 last.insert.extend(insert);
             }
-            _ => splices.push(Splice { start: index, delete_count, insert: insert.collect() }),
+            _ => splices.push(Splice {
+                start: index,
+                delete_count,
+                insert: insert.collect(),
+            }),
         }
     }
     splices.reverse();
@@ -273,7 +443,8 @@ mod tests {
     }
 
     fn try_apply(changes: Value) -> Result<core::Drawing, String> {
-        let changes: Vec<DrawingChange> = serde_json::from_value(changes).map_err(|error| error.to_string())?;
+        let changes: Vec<DrawingChange> =
+            serde_json::from_value(changes).map_err(|error| error.to_string())?;
         let mut result = drawing();
         apply(&mut result, changes).map(|_| result)
     }
@@ -285,21 +456,45 @@ mod tests {
             assert!(error.contains(expected), "{error}");
         };
         let splice = |handle: &str, start: u64, delete: u64, insert: Value| json!({ "handle": handle, "vertices": { "start": start, "deleteCount": delete, "insert": insert } });
-        check(json!([splice("Z", 0, 1, json!([]))]), "change 0: there is no entity Z");
-        check(json!([splice("B", 0, 1, json!([]))]), "entity B is not a polyline");
-        check(json!([splice("A", 4, 2, json!([]))]), "vertices 4 + 2 are out of range, polyline A has 5");
+        check(
+            json!([splice("Z", 0, 1, json!([]))]),
+            "change 0: there is no entity Z",
+        );
+        check(
+            json!([splice("B", 0, 1, json!([]))]),
+            "entity B is not a polyline",
+        );
+        check(
+            json!([splice("A", 4, 2, json!([]))]),
+            "vertices 4 + 2 are out of range, polyline A has 5",
+        );
         check(json!([splice("A", u64::MAX, 2, json!([]))]), "out of range");
-        check(json!([splice("A", 0, 1, json!([[0, null]]))]), "vertex 0 to insert in A");
+        check(
+            json!([splice("A", 0, 1, json!([[0, null]]))]),
+            "vertex 0 to insert in A",
+        );
         check(
             json!([splice("A", 0, 4, json!([])), splice("A", 1, 1, json!([]))]),
             "change 1: vertices 1 + 1 are out of range, polyline A has 1",
         );
-        check(json!([{ "handle": "Z", "entity": null }]), "no entity Z to delete");
+        check(
+            json!([{ "handle": "Z", "entity": null }]),
+            "no entity Z to delete",
+        );
         check(json!([{ "handle": "Z" }]), "neither or both");
-        check(json!([{ "handle": "B", "entity": null }, splice("B", 0, 0, json!([]))]), "change 1: there is no entity B");
+        check(
+            json!([{ "handle": "B", "entity": null }, splice("B", 0, 0, json!([]))]),
+            "change 1: there is no entity B",
+        );
         let line = json!({ "handle": "C", "type": "line", "start": [0, 0], "end": [1, 0] });
-        check(json!([{ "handle": "C", "entity": line, "before": "Z" }]), "no entity Z to put C before");
-        check(json!([{ "handle": "D", "entity": line }]), "the entity's handle is C, expected D");
+        check(
+            json!([{ "handle": "C", "entity": line, "before": "Z" }]),
+            "no entity Z to put C before",
+        );
+        check(
+            json!([{ "handle": "D", "entity": line }]),
+            "the entity's handle is C, expected D",
+        );
     }
 
     #[test]
@@ -313,12 +508,26 @@ mod tests {
             { "handle": "C", "entity": line, "before": "A" },
         ]))
         .unwrap();
-        let handles: Vec<_> = result.entities().map(|(_, entity)| entity.handle.to_string()).collect();
+        let handles: Vec<_> = result
+            .entities()
+            .map(|(_, entity)| entity.handle.to_string())
+            .collect();
         assert_eq!(handles, ["C", "A"]);
         let id = result.find("A").unwrap();
-        let core::Geometry::Polyline { vertices, .. } = &result.get(id).unwrap().geometry else { panic!("a polyline") };
-        let expected = [(0.0, 0.0, 0.0), (8.0, 8.0, 0.0), (9.0, 9.0, 0.5), (0.0, 1.0, 0.0), (0.0, 0.5, 0.0)];
-        assert_eq!(*vertices, expected.map(|(x, y, bulge)| core::Vertex::new(x, y, bulge)));
+        let core::Geometry::Polyline { vertices, .. } = &result.get(id).unwrap().geometry else {
+            panic!("a polyline")
+        };
+        let expected = [
+            (0.0, 0.0, 0.0),
+            (8.0, 8.0, 0.0),
+            (9.0, 9.0, 0.5),
+            (0.0, 1.0, 0.0),
+            (0.0, 0.5, 0.0),
+        ];
+        assert_eq!(
+            *vertices,
+            expected.map(|(x, y, bulge)| core::Vertex::new(x, y, bulge))
+        );
     }
 
     #[test]
@@ -327,9 +536,17 @@ mod tests {
         let entity = before.find("A").unwrap();
         let edit = core::DrawingEdit {
             changes: vec![
-                Change::SetVertex { entity, index: 0, vertex: core::Vertex::new(7.0, 0.0, 0.0) },
+                Change::SetVertex {
+                    entity,
+                    index: 0,
+                    vertex: core::Vertex::new(7.0, 0.0, 0.0),
+                },
                 Change::RemoveVertex { entity, index: 2 },
-                Change::SetVertex { entity, index: 3, vertex: core::Vertex::new(7.0, 3.0, 0.1) },
+                Change::SetVertex {
+                    entity,
+                    index: 3,
+                    vertex: core::Vertex::new(7.0, 3.0, 0.1),
+                },
                 Change::RemoveVertex { entity, index: 4 },
             ],
         };

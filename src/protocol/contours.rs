@@ -74,7 +74,11 @@ impl Contours {
     pub fn new(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Contours {
         let unit_mm = settings.unit_of(drawing).mm;
         let mut contours = Contours::unordered(drawing, outlines, unit_mm);
-        for (order, cut) in toolpath::cuts(drawing, outlines, settings).into_iter().flatten().enumerate() {
+        for (order, cut) in toolpath::cuts(drawing, outlines, settings)
+            .into_iter()
+            .flatten()
+            .enumerate()
+        {
             if let Some(contour) = contours.contours.get_mut(cut.outline) {
                 contour.order = Some(order);
                 contour.mark = cut.mark.map(|at| [at.x, at.y]);
@@ -85,7 +89,13 @@ impl Contours {
 
     /// `unit_mm` is the drawing's unit in mm.
     fn unordered(drawing: &Drawing, outlines: &[Outline], unit_mm: f64) -> Contours {
-        Contours { units_to_mm: unit_mm, contours: outlines.iter().map(|outline| contour(drawing, outline, unit_mm)).collect() }
+        Contours {
+            units_to_mm: unit_mm,
+            contours: outlines
+                .iter()
+                .map(|outline| contour(drawing, outline, unit_mm))
+                .collect(),
+        }
     }
 }
 
@@ -94,19 +104,33 @@ fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64) -> ContoursContou
     let segments: Vec<_> = outline.contour.segments(drawing).collect();
     let count = segments.len();
     let closed = outline.contour.closed;
-    let joints = if closed { count } else { count.saturating_sub(1) };
+    let joints = if closed {
+        count
+    } else {
+        count.saturating_sub(1)
+    };
     let gaps = (0..joints).filter_map(|after| {
-        let (end, start) = (segments.get(after)?.geometry.end(), segments.get((after + 1) % count)?.geometry.start());
+        let (end, start) = (
+            segments.get(after)?.geometry.end(),
+            segments.get((after + 1) % count)?.geometry.start(),
+        );
         let distance = (start - end).norm();
         (distance > rounding).then_some(Gap { after, distance })
     });
-    let direction = if outline.twice_area < 0.0 { Direction::Cw } else { Direction::Ccw };
+    let direction = if outline.twice_area < 0.0 {
+        Direction::Cw
+    } else {
+        Direction::Ccw
+    };
     ContoursContour {
         closed,
         direction: (closed && outline.twice_area != 0.0).then_some(direction),
         role: outline.role,
         area: closed.then_some(outline.twice_area.abs() / 2.0),
-        length: segments.iter().map(|segment| segment.geometry.length()).sum(),
+        length: segments
+            .iter()
+            .map(|segment| segment.geometry.length())
+            .sum(),
         order: None,
         mark: None,
         gaps: gaps.collect(),
@@ -142,12 +166,29 @@ mod tests {
                 start_angle,
                 end_angle: start_angle + PI,
             };
-            let ids = [half(0.0, 0.0), half(off, PI)]
-                .map(|geometry| drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: Kind::Arc, geometry }));
+            let ids = [half(0.0, 0.0), half(off, PI)].map(|geometry| {
+                drawing.push(Entity {
+                    handle: "A".into(),
+                    layer: "0".into(),
+                    role: None,
+                    kind: Kind::Arc,
+                    geometry,
+                })
+            });
             let contour = Contour::new(&drawing, ids.map(|id| (id, false)), true);
-            let outline = Outline { contour, role: Role::Both, twice_area: 1.0 };
-            let listed = Contours::unordered(&drawing, &[outline], 1.0).contours.remove(0).gaps;
-            let listed: Vec<_> = listed.into_iter().map(|gap| (gap.after, (gap.distance * 1e9).round() / 1e9)).collect();
+            let outline = Outline {
+                contour,
+                role: Role::Both,
+                twice_area: 1.0,
+            };
+            let listed = Contours::unordered(&drawing, &[outline], 1.0)
+                .contours
+                .remove(0)
+                .gaps;
+            let listed: Vec<_> = listed
+                .into_iter()
+                .map(|gap| (gap.after, (gap.distance * 1e9).round() / 1e9))
+                .collect();
             assert_eq!(listed, expected);
         }
     }
@@ -155,16 +196,47 @@ mod tests {
     #[test]
     fn what_is_cut_first_and_where_it_is_marked() {
         let mut drawing = Drawing::new(None);
-        let circle = |x: f64, radius: f64| Geometry::Circle { center: Point::new(x, 0.0), radius };
-        let mark = Geometry::Text { at: Point::new(5.0, 0.5), text: "O".into() };
-        let outline = |drawing: &mut Drawing, geometry: Geometry, kind: Kind| {
-            let id = drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind, geometry });
-            Outline { contour: Contour::new(drawing, [(id, false)], true), role: Role::Opening, twice_area: 1.0 }
+        let circle = |x: f64, radius: f64| Geometry::Circle {
+            center: Point::new(x, 0.0),
+            radius,
         };
-        let outlines = [circle(0.0, 20.0), circle(5.0, 2.0)].map(|geometry| outline(&mut drawing, geometry, Kind::Circle));
-        drawing.push(Entity { handle: "M".into(), layer: "0".into(), role: None, kind: Kind::Text, geometry: mark });
-        let listed = Contours::new(&drawing, &outlines, &Effective::of(&crate::settings::Settings::default())).contours;
-        let told: Vec<_> = listed.iter().map(|contour| (contour.order, contour.mark)).collect();
+        let mark = Geometry::Text {
+            at: Point::new(5.0, 0.5),
+            text: "O".into(),
+        };
+        let outline = |drawing: &mut Drawing, geometry: Geometry, kind: Kind| {
+            let id = drawing.push(Entity {
+                handle: "A".into(),
+                layer: "0".into(),
+                role: None,
+                kind,
+                geometry,
+            });
+            Outline {
+                contour: Contour::new(drawing, [(id, false)], true),
+                role: Role::Opening,
+                twice_area: 1.0,
+            }
+        };
+        let outlines = [circle(0.0, 20.0), circle(5.0, 2.0)]
+            .map(|geometry| outline(&mut drawing, geometry, Kind::Circle));
+        drawing.push(Entity {
+            handle: "M".into(),
+            layer: "0".into(),
+            role: None,
+            kind: Kind::Text,
+            geometry: mark,
+        });
+        let listed = Contours::new(
+            &drawing,
+            &outlines,
+            &Effective::of(&crate::settings::Settings::default()),
+        )
+        .contours;
+        let told: Vec<_> = listed
+            .iter()
+            .map(|contour| (contour.order, contour.mark))
+            .collect();
         assert_eq!(told, [(Some(1), None), (Some(0), Some([5.0, 0.5]))]);
     }
 }

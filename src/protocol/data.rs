@@ -2,7 +2,9 @@
 
 use super::drawing::Point;
 use crate::drawing::Drawing;
-use crate::finding::{Detail, Finding, IsoFault, NoFix, NotJudged, Place, ProgramFault, Side, SmallRadius};
+use crate::finding::{
+    Detail, Finding, IsoFault, NoFix, NotJudged, Place, ProgramFault, Side, SmallRadius,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -91,7 +93,8 @@ impl FindingData {
     /// The data of one finding; `drawing` is where its place lies, `None` for a program or a settings file.
     pub fn of(drawing: Option<&Drawing>, finding: &Finding) -> FindingData {
         let mut data = FindingData::default();
-        if let (Place::Segment { entity, .. } | Place::Entity { entity }, Some(drawing)) = (&finding.place, drawing)
+        if let (Place::Segment { entity, .. } | Place::Entity { entity }, Some(drawing)) =
+            (&finding.place, drawing)
             && let Some(found) = drawing.get(*entity)
         {
             data.handle = Some(found.handle.to_string());
@@ -108,7 +111,10 @@ impl FindingData {
                 Place::Entity { entity } => (entity, None),
                 Place::Text { .. } | Place::Document => return None,
             };
-            Some(RelatedPlace { handle: drawing?.get(entity)?.handle.to_string(), segment })
+            Some(RelatedPlace {
+                handle: drawing?.get(entity)?.handle.to_string(),
+                segment,
+            })
         };
         data.related = finding.related.iter().filter_map(related).collect();
         match &finding.detail {
@@ -118,7 +124,12 @@ impl FindingData {
                 data.count = Some(*count);
             }
             Detail::Unseen { count, .. } | Detail::More { count } => data.count = Some(*count),
-            Detail::SharpCorner { turn, radius, uncut, count } => {
+            Detail::SharpCorner {
+                turn,
+                radius,
+                uncut,
+                count,
+            } => {
                 data.turn = Some(turn.to_degrees());
                 data.radius = Some(*radius);
                 data.uncut = Some(*uncut);
@@ -128,20 +139,31 @@ impl FindingData {
                 data.distance = Some(*width);
                 data.required = Some(*required);
             }
-            Detail::LostPocket { near } | Detail::UnprovedPath { near } => data.at = Some((*near).into()),
+            Detail::LostPocket { near } | Detail::UnprovedPath { near } => {
+                data.at = Some((*near).into())
+            }
             Detail::DeadEnd { near, uncut } => {
                 data.at = Some((*near).into());
                 data.uncut = Some(*uncut);
             }
             Detail::OffsetCollapse { required, .. } => data.required = Some(*required),
-            Detail::OpenContour { distance } | Detail::Gap { distance } => data.distance = Some(*distance),
+            Detail::OpenContour { distance } | Detail::Gap { distance } => {
+                data.distance = Some(*distance)
+            }
             Detail::NotJudged(what) => data.count = left_out(what),
             Detail::DuplicateEntity => {}
-            Detail::Overlap { length } | Detail::ShortSegment { length } => data.length = Some(*length),
+            Detail::Overlap { length } | Detail::ShortSegment { length } => {
+                data.length = Some(*length)
+            }
             Detail::Size { size } => data.length = Some(*size),
             Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
             Detail::SelfIntersection { at, .. } => data.at = Some((*at).into()),
-            Detail::ArcAsChords { chords, center, radius, deviation } => {
+            Detail::ArcAsChords {
+                chords,
+                center,
+                radius,
+                deviation,
+            } => {
                 data.count = Some(*chords);
                 data.center = Some((*center).into());
                 data.radius = Some(*radius);
@@ -159,11 +181,15 @@ impl FindingData {
     fn program(&mut self, fault: &ProgramFault) {
         let mm = |um: i64| um as f64 / 1000.0;
         match *fault {
-            ProgramFault::LengthInJ { j, projection, .. } | ProgramFault::WrongJ { j, projection, .. } => {
+            ProgramFault::LengthInJ { j, projection, .. }
+            | ProgramFault::WrongJ { j, projection, .. } => {
                 self.length = Some(mm(j));
                 self.required = Some(mm(projection));
             }
-            ProgramFault::JKeepsOpen { j, meant: required, .. } | ProgramFault::JOverTurn { j, turn: required } => {
+            ProgramFault::JKeepsOpen {
+                j, meant: required, ..
+            }
+            | ProgramFault::JOverTurn { j, turn: required } => {
                 self.length = Some(mm(j));
                 self.required = Some(mm(required));
             }
@@ -171,7 +197,9 @@ impl FindingData {
                 self.length = Some(mm(value));
                 self.required = Some(mm(meant));
             }
-            ProgramFault::SmallerProjection { counted, larger, .. } => {
+            ProgramFault::SmallerProjection {
+                counted, larger, ..
+            } => {
                 self.length = Some(mm(counted));
                 self.required = Some(mm(larger));
             }
@@ -179,7 +207,9 @@ impl FindingData {
             ProgramFault::NotClosed { x, y, .. } | ProgramFault::PositionMismatch { x, y } => {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
-            ProgramFault::PathCrossesItself { at, .. } => self.at = Some(crate::geometry::Point::from(at).into()),
+            ProgramFault::PathCrossesItself { at, .. } => {
+                self.at = Some(crate::geometry::Point::from(at).into())
+            }
             _ => {}
         }
     }

@@ -6,7 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Zero-based line and character, counted as the client and the server agreed on in the handshake.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 pub struct Position {
     pub line: u32,
     pub character: u32,
@@ -21,8 +23,14 @@ pub struct Range {
 impl Range {
     /// The place of a drawing's finding: the line is the segment's index within its entity.
     pub fn of_segment(segment: usize) -> Range {
-        let position = Position { line: segment.try_into().unwrap_or(u32::MAX), character: 0 };
-        Range { start: position, end: position }
+        let position = Position {
+            line: segment.try_into().unwrap_or(u32::MAX),
+            character: 0,
+        };
+        Range {
+            start: position,
+            end: position,
+        }
     }
 }
 

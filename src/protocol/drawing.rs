@@ -73,7 +73,10 @@ impl<'de> Deserialize<'de> for Vertex {
             fn visit_seq<A: SeqAccess<'de>>(self, mut numbers: A) -> Result<Vertex, A::Error> {
                 let mut next = |missing: Option<f64>| -> Result<f64, A::Error> {
                     let number: Option<Number> = numbers.next_element()?;
-                    number.map(|number| number.0).or(missing).ok_or_else(|| A::Error::invalid_length(1, &"[x, y] or [x, y, bulge]"))
+                    number
+                        .map(|number| number.0)
+                        .or(missing)
+                        .ok_or_else(|| A::Error::invalid_length(1, &"[x, y] or [x, y, bulge]"))
                 };
                 let vertex = Vertex(next(None)?, next(None)?, next(Some(0.0))?);
                 match numbers.next_element::<Number>()? {
@@ -142,7 +145,11 @@ pub struct Entity {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "lowercase", rename_all_fields = "camelCase")]
+#[serde(
+    tag = "type",
+    rename_all = "lowercase",
+    rename_all_fields = "camelCase"
+)]
 pub enum Geometry {
     Polyline {
         closed: bool,
@@ -208,7 +215,10 @@ impl<'de> Deserialize<'de> for Entity {
                 closed: keys.closed.ok_or_else(|| missing("closed"))?,
                 vertices: keys.vertices.ok_or_else(|| missing("vertices"))?,
             },
-            "line" => Geometry::Line { start: keys.start.ok_or_else(|| missing("start"))?, end: keys.end.ok_or_else(|| missing("end"))? },
+            "line" => Geometry::Line {
+                start: keys.start.ok_or_else(|| missing("start"))?,
+                end: keys.end.ok_or_else(|| missing("end"))?,
+            },
             "arc" => Geometry::Arc {
                 center: keys.center.ok_or_else(|| missing("center"))?,
                 radius: keys.radius.ok_or_else(|| missing("radius"))?,
@@ -219,13 +229,23 @@ impl<'de> Deserialize<'de> for Entity {
                 center: keys.center.ok_or_else(|| missing("center"))?,
                 radius: keys.radius.ok_or_else(|| missing("radius"))?,
             },
-            "text" => Geometry::Text { at: keys.at.ok_or_else(|| missing("at"))?, text: keys.text.ok_or_else(|| missing("text"))? },
+            "text" => Geometry::Text {
+                at: keys.at.ok_or_else(|| missing("at"))?,
+                text: keys.text.ok_or_else(|| missing("text"))?,
+            },
             _ => {
-                let message = format!("entity {name}: type is \"{kind}\", expected polyline, line, arc, circle or text");
+                let message = format!(
+                    "entity {name}: type is \"{kind}\", expected polyline, line, arc, circle or text"
+                );
                 return Err(D::Error::custom(message));
             }
         };
-        Ok(Entity { handle: keys.handle, layer: keys.layer, role: keys.role, geometry })
+        Ok(Entity {
+            handle: keys.handle,
+            layer: keys.layer,
+            role: keys.role,
+            geometry,
+        })
     }
 }
 
@@ -236,7 +256,10 @@ impl Drawing {
         for entity in self.entities {
             let entity = entity.into_core()?;
             if drawing.find(&entity.handle).is_some() {
-                return Err(format!("handle {} stands twice, expected a handle of its own for each entity", entity.handle));
+                return Err(format!(
+                    "handle {} stands twice, expected a handle of its own for each entity",
+                    entity.handle
+                ));
             }
             drawing.push(entity);
         }
@@ -251,18 +274,58 @@ impl Entity {
         let (kind, geometry) = match self.geometry {
             Geometry::Polyline { closed, vertices } => {
                 let vertices = vertices.into_iter().map(core::Vertex::from).collect();
-                (core::Kind::LightPolyline, core::Geometry::Polyline { closed, vertices })
+                (
+                    core::Kind::LightPolyline,
+                    core::Geometry::Polyline { closed, vertices },
+                )
             }
-            Geometry::Line { start, end } => (core::Kind::Line, core::Geometry::Line { start: start.into(), end: end.into() }),
-            Geometry::Arc { center, radius, start_angle, end_angle } => {
+            Geometry::Line { start, end } => (
+                core::Kind::Line,
+                core::Geometry::Line {
+                    start: start.into(),
+                    end: end.into(),
+                },
+            ),
+            Geometry::Arc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+            } => {
                 let (start_angle, end_angle) = (radians(start_angle), radians(end_angle));
-                (core::Kind::Arc, core::Geometry::Arc { center: center.into(), radius, start_angle, end_angle })
+                (
+                    core::Kind::Arc,
+                    core::Geometry::Arc {
+                        center: center.into(),
+                        radius,
+                        start_angle,
+                        end_angle,
+                    },
+                )
             }
-            Geometry::Circle { center, radius } => (core::Kind::Circle, core::Geometry::Circle { center: center.into(), radius }),
-            Geometry::Text { at, text } => (core::Kind::Text, core::Geometry::Text { at: at.into(), text }),
+            Geometry::Circle { center, radius } => (
+                core::Kind::Circle,
+                core::Geometry::Circle {
+                    center: center.into(),
+                    radius,
+                },
+            ),
+            Geometry::Text { at, text } => (
+                core::Kind::Text,
+                core::Geometry::Text {
+                    at: at.into(),
+                    text,
+                },
+            ),
         };
         let layer = self.layer.unwrap_or_else(|| "0".into());
-        Ok(core::Entity { handle: self.handle.into(), layer: layer.into(), role: self.role, kind, geometry })
+        Ok(core::Entity {
+            handle: self.handle.into(),
+            layer: layer.into(),
+            role: self.role,
+            kind,
+            geometry,
+        })
     }
 
     /// Says which number of the entity is none.
@@ -274,24 +337,37 @@ impl Entity {
         };
         let radius_is_sound = |radius: f64| match radius.is_finite() && radius > 0.0 {
             true => Ok(()),
-            false => Err(format!("entity {name}: radius is {radius}, expected a finite number above 0")),
+            false => Err(format!(
+                "entity {name}: radius is {radius}, expected a finite number above 0"
+            )),
         };
         let angle = |key: &str, angle: f64| match angle.is_finite() {
             true => Ok(()),
             false => Err(format!("entity {name}: {key} is not a finite number")),
         };
         match &self.geometry {
-            Geometry::Polyline { vertices, .. } => match vertices.iter().position(|vertex| !vertex.is_finite()) {
-                Some(index) => Err(format!("entity {name}: vertex {index} is not of finite numbers")),
-                None => Ok(()),
-            },
+            Geometry::Polyline { vertices, .. } => {
+                match vertices.iter().position(|vertex| !vertex.is_finite()) {
+                    Some(index) => Err(format!(
+                        "entity {name}: vertex {index} is not of finite numbers"
+                    )),
+                    None => Ok(()),
+                }
+            }
             Geometry::Line { start, end } => point("start", *start).and(point("end", *end)),
-            Geometry::Arc { center, radius, start_angle, end_angle } => {
+            Geometry::Arc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+            } => {
                 point("center", *center)?;
                 radius_is_sound(*radius)?;
                 angle("startAngle", *start_angle).and(angle("endAngle", *end_angle))
             }
-            Geometry::Circle { center, radius } => point("center", *center).and(radius_is_sound(*radius)),
+            Geometry::Circle { center, radius } => {
+                point("center", *center).and(radius_is_sound(*radius))
+            }
             Geometry::Text { at, .. } => point("at", *at),
         }
     }
@@ -300,20 +376,40 @@ impl Entity {
 impl From<&core::Entity> for Entity {
     fn from(entity: &core::Entity) -> Entity {
         let geometry = match &entity.geometry {
-            core::Geometry::Polyline { closed, vertices } => {
-                Geometry::Polyline { closed: *closed, vertices: vertices.iter().map(|&vertex| vertex.into()).collect() }
-            }
-            core::Geometry::Line { start, end } => Geometry::Line { start: (*start).into(), end: (*end).into() },
-            core::Geometry::Arc { center, radius, start_angle, end_angle } => Geometry::Arc {
+            core::Geometry::Polyline { closed, vertices } => Geometry::Polyline {
+                closed: *closed,
+                vertices: vertices.iter().map(|&vertex| vertex.into()).collect(),
+            },
+            core::Geometry::Line { start, end } => Geometry::Line {
+                start: (*start).into(),
+                end: (*end).into(),
+            },
+            core::Geometry::Arc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+            } => Geometry::Arc {
                 center: (*center).into(),
                 radius: *radius,
                 start_angle: start_angle.to_degrees(),
                 end_angle: end_angle.to_degrees(),
             },
-            core::Geometry::Circle { center, radius } => Geometry::Circle { center: (*center).into(), radius: *radius },
-            core::Geometry::Text { at, text } => Geometry::Text { at: (*at).into(), text: text.clone() },
+            core::Geometry::Circle { center, radius } => Geometry::Circle {
+                center: (*center).into(),
+                radius: *radius,
+            },
+            core::Geometry::Text { at, text } => Geometry::Text {
+                at: (*at).into(),
+                text: text.clone(),
+            },
         };
-        Entity { handle: entity.handle.to_string(), layer: Some(entity.layer.to_string()), role: entity.role, geometry }
+        Entity {
+            handle: entity.handle.to_string(),
+            layer: Some(entity.layer.to_string()),
+            role: entity.role,
+            geometry,
+        }
     }
 }
 
@@ -324,7 +420,8 @@ mod tests {
 
     fn read(entities: Value) -> Result<core::Drawing, String> {
         let drawing = json!({ "uri": "cad:///1", "version": 1, "entities": entities });
-        let drawing: Drawing = serde_json::from_value(drawing).map_err(|error| error.to_string())?;
+        let drawing: Drawing =
+            serde_json::from_value(drawing).map_err(|error| error.to_string())?;
         drawing.into_core()
     }
 
@@ -335,15 +432,36 @@ mod tests {
             assert!(error.contains(expected), "{error}");
         };
         let polyline = |vertices: Value| json!([{ "handle": "2A", "type": "polyline", "closed": true, "vertices": vertices }]);
-        check(polyline(json!([[0, 0], [1, null]])), "entity 2A: vertex 1 is not of finite numbers");
-        check(polyline(json!([["NaN", 0], [1, 2]])), "entity 2A: vertex 0 is not of finite numbers");
-        check(polyline(json!([[0, 0, null], [1, 2]])), "entity 2A: vertex 0 is not of finite numbers");
+        check(
+            polyline(json!([[0, 0], [1, null]])),
+            "entity 2A: vertex 1 is not of finite numbers",
+        );
+        check(
+            polyline(json!([["NaN", 0], [1, 2]])),
+            "entity 2A: vertex 0 is not of finite numbers",
+        );
+        check(
+            polyline(json!([[0, 0, null], [1, 2]])),
+            "entity 2A: vertex 0 is not of finite numbers",
+        );
         check(polyline(json!([[0], [1, 2]])), "[x, y] or [x, y, bulge]");
         check(polyline(json!([[0, 1, 2, 3]])), "[x, y] or [x, y, bulge]");
-        check(json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": 0 }]), "entity 1: radius is 0, expected");
-        check(json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": null }]), "entity 1: radius is NaN, expected");
-        check(json!([{ "handle": "1", "type": "circle", "center": [0, 0] }]), "entity 1: a circle needs radius");
-        check(json!([{ "handle": "1", "type": "spline" }]), "entity 1: type is \"spline\"");
+        check(
+            json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": 0 }]),
+            "entity 1: radius is 0, expected",
+        );
+        check(
+            json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": null }]),
+            "entity 1: radius is NaN, expected",
+        );
+        check(
+            json!([{ "handle": "1", "type": "circle", "center": [0, 0] }]),
+            "entity 1: a circle needs radius",
+        );
+        check(
+            json!([{ "handle": "1", "type": "spline" }]),
+            "entity 1: type is \"spline\"",
+        );
         let line = json!({ "handle": "7", "type": "line", "start": [0, 0], "end": [1, 0] });
         check(json!([line, line]), "handle 7 stands twice");
     }
@@ -358,7 +476,10 @@ mod tests {
             json!({ "handle": "5", "layer": "0", "type": "text", "at": [0.0, 0.0], "text": "O" }),
         ] {
             let read: Entity = serde_json::from_value(entity.clone()).unwrap();
-            assert_eq!(serde_json::to_value(Entity::from(&read.into_core().unwrap())).unwrap(), entity);
+            assert_eq!(
+                serde_json::to_value(Entity::from(&read.into_core().unwrap())).unwrap(),
+                entity
+            );
         }
     }
 }

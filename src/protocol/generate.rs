@@ -51,7 +51,10 @@ impl Program {
             program: proved.text,
             blocks: proved.blocks,
             length: proved.length,
-            closure: Closure { x: proved.closure[0], y: proved.closure[1] },
+            closure: Closure {
+                x: proved.closure[0],
+                y: proved.closure[1],
+            },
             deviation: proved.deviation,
             warnings,
         }

@@ -47,7 +47,14 @@ impl Inspection {
         let unit = document.settings().unit_of(drawing);
         let zero_length = document.settings().tolerances.in_units(unit.mm).zero_length;
         let is_cut = |id| crate::analysis::is_cut(drawing, document.settings(), id);
-        Some(Inspection::new(drawing, unit.mm, zero_length, &findings, &is_cut, handle))
+        Some(Inspection::new(
+            drawing,
+            unit.mm,
+            zero_length,
+            &findings,
+            &is_cut,
+            handle,
+        ))
     }
 
     /// The list of all of `drawing`, or of the entity `handle`. `findings` are all of the drawing's; a segment shorter
@@ -61,7 +68,10 @@ impl Inspection {
         handle: Option<&str>,
     ) -> Inspection {
         let mut rules: FxHashMap<(EntityId, usize), Vec<&'static str>> = FxHashMap::default();
-        for finding in findings.iter().filter(|finding| finding.severity <= Severity::Warning) {
+        for finding in findings
+            .iter()
+            .filter(|finding| finding.severity <= Severity::Warning)
+        {
             if let Place::Segment { entity, segment } = finding.place {
                 let names = rules.entry((entity, segment)).or_default();
                 if !names.contains(&finding.rule.name()) {
@@ -71,18 +81,32 @@ impl Inspection {
         }
         let segments_of = |id: EntityId, entity: &Entity| -> Vec<InspectedSegment> {
             if let Some(at) = entity.point_of_arc() {
-                return vec![InspectedSegment { index: 0, shape: SegmentShape::point(at.into()), verdict: Rule::Syntax.name().into() }];
+                return vec![InspectedSegment {
+                    index: 0,
+                    shape: SegmentShape::point(at.into()),
+                    verdict: Rule::Syntax.name().into(),
+                }];
             }
-            let segments = entity.geometry.segments_of(drawing.flat()).enumerate().filter(|(_, segment)| segment.length() > zero_length);
+            let segments = entity
+                .geometry
+                .segments_of(drawing.flat())
+                .enumerate()
+                .filter(|(_, segment)| segment.length() > zero_length);
             let inspected = segments.map(|(index, segment)| InspectedSegment {
                 index,
                 shape: SegmentShape::from(&segment),
-                verdict: rules.get(&(id, index)).map_or_else(|| "ok".into(), |names| names.join(",")),
+                verdict: rules
+                    .get(&(id, index))
+                    .map_or_else(|| "ok".into(), |names| names.join(",")),
             });
             inspected.collect()
         };
-        let asked_for = drawing.entities().filter(|(_, entity)| handle.is_none_or(|handle| *entity.handle == *handle));
-        let with_geometry = asked_for.filter(|(_, entity)| entity.geometry.segment_count() > 0 || entity.point_of_arc().is_some());
+        let asked_for = drawing
+            .entities()
+            .filter(|(_, entity)| handle.is_none_or(|handle| *entity.handle == *handle));
+        let with_geometry = asked_for.filter(|(_, entity)| {
+            entity.geometry.segment_count() > 0 || entity.point_of_arc().is_some()
+        });
         let entities = with_geometry.map(|(id, entity)| InspectedEntity {
             handle: entity.handle.to_string(),
             r#type: entity.kind.name().into(),
@@ -91,6 +115,9 @@ impl Inspection {
             cut: is_cut(id),
             segments: segments_of(id, entity),
         });
-        Inspection { units_to_mm: unit_mm, entities: entities.collect() }
+        Inspection {
+            units_to_mm: unit_mm,
+            entities: entities.collect(),
+        }
     }
 }

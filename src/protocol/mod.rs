@@ -22,15 +22,17 @@ mod toolpath;
 pub use change::{DrawingChange, Splice, apply, changes_of};
 pub use contours::{ContourPiece, Contours, ContoursContour, Direction, Gap};
 pub use data::{FindingData, RelatedPlace, SideName};
-pub use diagnostic::{CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number};
+pub use diagnostic::{
+    CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number,
+};
 pub use drawing::{Drawing, Entity, Geometry, Point, Units, Vertex};
 pub use generate::{Closure, Generate, Program, Refused};
 pub use in_force::{CorrectionSource, SettingsInForce};
 pub use inspection::{InspectedEntity, InspectedSegment, Inspection};
 pub use locate::{Locate, Located};
 pub use requests::{
-    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, DrawingVersion, Inspect, OpenDrawing, OptionsOf,
-    Picture, ResendDrawing, Resent, ScaleProgram,
+    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName,
+    DrawingVersion, Inspect, OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, ScaleProgram,
 };
 pub use schema::schema;
 pub use segment::{SegmentKind, SegmentShape};

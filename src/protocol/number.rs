@@ -48,13 +48,21 @@ mod tests {
     #[test]
     fn the_number_is_the_one_that_was_written_to_the_last_bit() {
         // Parsers that multiply by a power of ten are a bit off with these: a radius then falls on the other side of its limit.
-        for text in ["0.10000000000000009", "31.245270191439438", "7.2057594037927933e16", "123.456789012345678", "0.8999999999999999"] {
+        for text in [
+            "0.10000000000000009",
+            "31.245270191439438",
+            "7.2057594037927933e16",
+            "123.456789012345678",
+            "0.8999999999999999",
+        ] {
             let Number(found) = serde_json::from_str(text).unwrap();
             assert_eq!(found, text.parse::<f64>().unwrap(), "{text}");
         }
         let mut state = 1_u64;
         for _ in 0..10_000 {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
             let number = (state >> 11) as f64 / 1e13;
             let Number(found) = serde_json::from_str(&number.to_string()).unwrap();
             assert_eq!(found, number);

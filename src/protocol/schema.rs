@@ -62,7 +62,10 @@ mod tests {
     fn every_reference_of_the_schema_leads_to_a_type() {
         let schema = super::schema();
         let text = schema.to_string();
-        let references = text.split("\"#/$defs/").skip(1).filter_map(|rest| rest.split('"').next());
+        let references = text
+            .split("\"#/$defs/")
+            .skip(1)
+            .filter_map(|rest| rest.split('"').next());
         for name in references {
             assert!(schema["$defs"].get(name).is_some(), "{name}");
         }

@@ -92,12 +92,20 @@ impl Simulation {
         let length = trace.length() / 1000.0;
         Simulation {
             blocks: trace.steps.iter().map(SimulatedBlock::of).collect(),
-            closure: Closure { x: closure.x, y: closure.y },
+            closure: Closure {
+                x: closure.x,
+                y: closure.y,
+            },
             length,
             deviation: trace.steps.iter().map(Step::deviation).fold(0.0, f64::max),
             start_is_known: trace.start_is_known,
-            bounds: trace.bounds().map(|bounds| SimulatedBounds { min: bounds.min.into(), max: bounds.max.into() }),
-            minutes: feed.filter(|feed| *feed > 0.0 && feed.is_finite()).map(|feed| length / feed),
+            bounds: trace.bounds().map(|bounds| SimulatedBounds {
+                min: bounds.min.into(),
+                max: bounds.max.into(),
+            }),
+            minutes: feed
+                .filter(|feed| *feed > 0.0 && feed.is_finite())
+                .map(|feed| length / feed),
         }
     }
 }

@@ -58,7 +58,10 @@ pub struct PathPiece {
 impl Toolpath {
     /// `unit_mm` is the drawing's unit in mm.
     pub fn new(drawing: &Drawing, paths: &[WirePath], unit_mm: f64) -> Toolpath {
-        Toolpath { units_to_mm: unit_mm, paths: paths.iter().map(|path| one_path(drawing, path)).collect() }
+        Toolpath {
+            units_to_mm: unit_mm,
+            paths: paths.iter().map(|path| one_path(drawing, path)).collect(),
+        }
     }
 }
 
@@ -82,7 +85,11 @@ fn one_path(drawing: &Drawing, path: &WirePath) -> ToolpathPath {
         pass: 1,
         correction: path.correction,
         thread_hole: path.thread_hole.into(),
-        length: path.segments.iter().map(|piece| piece.geometry.length()).sum(),
+        length: path
+            .segments
+            .iter()
+            .map(|piece| piece.geometry.length())
+            .sum(),
         segments: segments.collect(),
     }
 }

@@ -58,18 +58,43 @@ fn fit(points: &[Point], tolerance: f64) -> Option<Fit> {
     let chords = points.len() - 1;
     // All the way round, the ends are one point.
     let round = (last - first).norm() < (points[1] - first).norm() * 0.5;
-    let (middle, end) = if round { (points[chords / 3], points[2 * chords / 3]) } else { (points[chords / 2], last) };
+    let (middle, end) = if round {
+        (points[chords / 3], points[2 * chords / 3])
+    } else {
+        (points[chords / 2], last)
+    };
     let center = center_through(first, middle, end)?;
     let radius = (first - center).norm();
-    let deviation = points.iter().map(|point| ((point - center).norm() - radius).abs()).fold(0.0, f64::max);
+    let deviation = points
+        .iter()
+        .map(|point| ((point - center).norm() - radius).abs())
+        .fold(0.0, f64::max);
     let (axis, straight) = (last - first, (last - first).norm());
-    let rise = if round { radius } else { points.iter().map(|point| cross(axis, point - first).abs()).fold(0.0, f64::max) / straight };
-    (deviation <= tolerance && rise > 4.0 * deviation).then_some(Fit { center, radius, deviation, counter_clockwise: side > 0.0 })
+    let rise = if round {
+        radius
+    } else {
+        points
+            .iter()
+            .map(|point| cross(axis, point - first).abs())
+            .fold(0.0, f64::max)
+            / straight
+    };
+    (deviation <= tolerance && rise > 4.0 * deviation).then_some(Fit {
+        center,
+        radius,
+        deviation,
+        counter_clockwise: side > 0.0,
+    })
 }
 
 fn center_through(a: Point, b: Point, c: Point) -> Option<Point> {
     let (one, other) = (b - a, c - b);
-    line_line(a + one * 0.5, left_normal(one), b + other * 0.5, left_normal(other))
+    line_line(
+        a + one * 0.5,
+        left_normal(one),
+        b + other * 0.5,
+        left_normal(other),
+    )
 }
 
 /// Corners of the segments from `first` on, as far as they are lines, at most `count` of them.
@@ -77,7 +102,10 @@ fn corners(outlook: &Outlook, first: isize, count: usize) -> Vec<Point> {
     let mut points = Vec::with_capacity(count.min(MOST) + 1);
     let mut end = None;
     for index in first..first + count as isize {
-        let Some(Segment::Line(line)) = outlook.segment(index).map(|segment| segment.geometry) else { break };
+        let Some(Segment::Line(line)) = outlook.segment(index).map(|segment| segment.geometry)
+        else {
+            break;
+        };
         points.push(line.start);
         end = Some(line.end);
     }
@@ -96,7 +124,11 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     for (index, pair) in range.zip(fits.windows(2)) {
         // A round of nothing but chords has no beginning: it may be given one at the first segment.
         if pair[1] && (!pair[0] || (outlook.contour.closed && index == 0)) {
-            facts.push(Fact { index: index as u32, side: None, needs_side: false });
+            facts.push(Fact {
+                index: index as u32,
+                side: None,
+                needs_side: false,
+            });
         }
     }
 }
@@ -111,7 +143,9 @@ fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
         Segment::Line(line) => Some(line),
         Segment::Arc(_) => None,
     };
-    let lines: Vec<_> = (starts.start..starts.end + LEAST as isize - 1).map(line).collect();
+    let lines: Vec<_> = (starts.start..starts.end + LEAST as isize - 1)
+        .map(line)
+        .collect();
     let mut points = [Point::origin(); LEAST + 1];
     let fits = |window: &[Option<Line>]| {
         for (chord, slot) in window.iter().enumerate() {
@@ -127,7 +161,10 @@ fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
 pub fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<bool> {
     // The chord before the corner and the one behind it lie in one window.
     let starts = range.start as isize - (LEAST as isize - 1)..range.end as isize - 1;
-    windows(outlook, starts).windows(LEAST - 1).map(|windows| windows.contains(&true)).collect()
+    windows(outlook, starts)
+        .windows(LEAST - 1)
+        .map(|windows| windows.contains(&true))
+        .collect()
 }
 
 /// What is told of a corner may depend on so many segments before and behind it.
@@ -150,7 +187,9 @@ fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)>
     let tolerance = outlook.limits.tolerances.chords;
     let mut points = corners(outlook, first as isize, outlook.contour.len().min(MOST));
     let mut chords = LEAST;
-    while chords + 1 < points.len() && fit(&points[chords + 1 - LEAST..=chords + 1], tolerance).is_some() {
+    while chords + 1 < points.len()
+        && fit(&points[chords + 1 - LEAST..=chords + 1], tolerance).is_some()
+    {
         chords += 1;
     }
     points.truncate(chords + 1);
@@ -172,16 +211,28 @@ fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)>
 
 fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     let (chords, fit, _) = sequence(outlook, fact.index as usize)?;
-    Some(Detail::ArcAsChords { chords, center: fit.center, radius: fit.radius, deviation: fit.deviation })
+    Some(Detail::ArcAsChords {
+        chords,
+        center: fit.center,
+        radius: fit.radius,
+        deviation: fit.deviation,
+    })
 }
 
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     let first = fact.index as usize;
     let count = outlook.contour.len();
-    let Some((mut chords, fit, mut points)) = sequence(outlook, first) else { return Vec::new() };
+    let Some((mut chords, fit, mut points)) = sequence(outlook, first) else {
+        return Vec::new();
+    };
     let mut arcs: Vec<(Range<usize>, Arc)> = Vec::new();
     let mut add = |range: Range<usize>, fit: &Fit, points: &[Point]| {
-        let arc = Arc::about(fit.center, points[range.start], points[range.end], fit.counter_clockwise);
+        let arc = Arc::about(
+            fit.center,
+            points[range.start],
+            points[range.end],
+            fit.counter_clockwise,
+        );
         arcs.push((range, arc));
     };
     if chords == count && outlook.contour.closed {
@@ -191,7 +242,14 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     } else {
         add(0..chords, &fit, &points);
         // What one finding does not hold goes on behind it: it would be the next finding.
-        let (mut last, limit) = (chords, if outlook.contour.closed { count } else { count - first });
+        let (mut last, limit) = (
+            chords,
+            if outlook.contour.closed {
+                count
+            } else {
+                count - first
+            },
+        );
         while last == MOST
             && chords < limit
             && let Some((more, further, behind)) = sequence(outlook, (first + chords) % count)
@@ -203,25 +261,54 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
             chords += more;
         }
     }
-    let places: Vec<ContourSegment> = (first..first + chords).filter_map(|index| outlook.segment(index as isize)).collect();
-    let Some(changes) = in_polyline(outlook, &places, &arcs).or_else(|| in_chain(outlook, &places, &arcs)) else { return Vec::new() };
-    let moved = arcs.iter().map(|(range, arc)| moved(&points[range.start..=range.end], arc)).fold(0.0, f64::max);
-    let kind = FixKind::OneArc { chords, radius: fit.radius };
-    vec![Fix { kind, preferred: true, in_fix_all: moved <= outlook.limits.tolerances.join, edit: DrawingEdit { changes } }]
+    let places: Vec<ContourSegment> = (first..first + chords)
+        .filter_map(|index| outlook.segment(index as isize))
+        .collect();
+    let Some(changes) =
+        in_polyline(outlook, &places, &arcs).or_else(|| in_chain(outlook, &places, &arcs))
+    else {
+        return Vec::new();
+    };
+    let moved = arcs
+        .iter()
+        .map(|(range, arc)| moved(&points[range.start..=range.end], arc))
+        .fold(0.0, f64::max);
+    let kind = FixKind::OneArc {
+        chords,
+        radius: fit.radius,
+    };
+    vec![Fix {
+        kind,
+        preferred: true,
+        in_fix_all: moved <= outlook.limits.tolerances.join,
+        edit: DrawingEdit { changes },
+    }]
 }
 
 /// How far an arc lies from the chords that it takes the place of: at the middle of the longest chord, and at its ends.
 fn moved(points: &[Point], arc: &Arc) -> f64 {
-    let longest = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+    let longest = points
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).norm())
+        .fold(0.0, f64::max);
     let half = (longest / (2.0 * arc.radius)).min(1.0).asin();
-    let deviation = points.iter().map(|point| ((point - arc.center).norm() - arc.radius).abs()).fold(0.0, f64::max);
+    let deviation = points
+        .iter()
+        .map(|point| ((point - arc.center).norm() - arc.radius).abs())
+        .fold(0.0, f64::max);
     arc.radius * (1.0 - half.cos()) + deviation
 }
 
 /// Each arc takes the place of its chords' first vertex, the others go.
-fn in_polyline(outlook: &Outlook, places: &[ContourSegment], arcs: &[(Range<usize>, Arc)]) -> Option<Vec<Change>> {
+fn in_polyline(
+    outlook: &Outlook,
+    places: &[ContourSegment],
+    arcs: &[(Range<usize>, Arc)],
+) -> Option<Vec<Change>> {
     let entity = places.first()?.entity;
-    let Geometry::Polyline { vertices, .. } = &outlook.drawing.get(entity)?.geometry else { return None };
+    let Geometry::Polyline { vertices, .. } = &outlook.drawing.get(entity)?.geometry else {
+        return None;
+    };
     if places.iter().any(|place| place.entity != entity) {
         return None;
     }
@@ -232,31 +319,61 @@ fn in_polyline(outlook: &Outlook, places: &[ContourSegment], arcs: &[(Range<usiz
             false => (own.first()?.segment, arc.bulge()),
             true => (own.last()?.segment, -arc.bulge()),
         };
-        let vertex = Vertex { bulge, ..*vertices.get(start)? };
-        changes.push(Change::SetVertex { entity, index: start, vertex });
-        changes.extend((1..own.len()).map(|along| Change::RemoveVertex { entity, index: (start + along) % vertices.len() }));
+        let vertex = Vertex {
+            bulge,
+            ..*vertices.get(start)?
+        };
+        changes.push(Change::SetVertex {
+            entity,
+            index: start,
+            vertex,
+        });
+        changes.extend((1..own.len()).map(|along| Change::RemoveVertex {
+            entity,
+            index: (start + along) % vertices.len(),
+        }));
     }
     Some(changes)
 }
 
 /// An ARC comes in behind the first LINE, the LINEs go.
-fn in_chain(outlook: &Outlook, places: &[ContourSegment], arcs: &[(Range<usize>, Arc)]) -> Option<Vec<Change>> {
-    let is_line =
-        |place: &ContourSegment| matches!(outlook.drawing.get(place.entity).map(|entity| &entity.geometry), Some(Geometry::Line { .. }));
+fn in_chain(
+    outlook: &Outlook,
+    places: &[ContourSegment],
+    arcs: &[(Range<usize>, Arc)],
+) -> Option<Vec<Change>> {
+    let is_line = |place: &ContourSegment| {
+        matches!(
+            outlook
+                .drawing
+                .get(place.entity)
+                .map(|entity| &entity.geometry),
+            Some(Geometry::Line { .. })
+        )
+    };
     if !places.iter().all(is_line) {
         return None;
     }
     let mut changes = Vec::new();
     for (range, arc) in arcs {
-        let forward = if arc.sweep > 0.0 { *arc } else { arc.reversed() };
+        let forward = if arc.sweep > 0.0 {
+            *arc
+        } else {
+            arc.reversed()
+        };
         let geometry = Geometry::Arc {
             center: arc.center,
             radius: arc.radius,
             start_angle: positive_angle(forward.start_angle),
             end_angle: positive_angle(forward.start_angle + forward.sweep.min(TAU)),
         };
-        changes.push(Change::AddEntity { after: places.get(range.start)?.entity, geometry });
+        changes.push(Change::AddEntity {
+            after: places.get(range.start)?.entity,
+            geometry,
+        });
     }
-    changes.extend(places.iter().map(|place| Change::RemoveEntity { entity: place.entity }));
+    changes.extend(places.iter().map(|place| Change::RemoveEntity {
+        entity: place.entity,
+    }));
     Some(changes)
 }

@@ -94,7 +94,12 @@ fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
                     && end.may_matter(&one.outlook)
                 {
                     let disc = Some((center, radius));
-                    sights.push(Sight { sides: (Some(side), Some(side)), disc, own_disc: true, mildest: None });
+                    sights.push(Sight {
+                        sides: (Some(side), Some(side)),
+                        disc,
+                        own_disc: true,
+                        mildest: None,
+                    });
                 }
             }
         }
@@ -108,8 +113,14 @@ const RUNS_ON: f64 = 0.25;
 /// True for two lines that run the same way, the one behind the other and too far off for a disc to touch both: where it touches two walls,
 /// the places are as far from each other as the two normals, times its radius. Most of what is near a line among many short ones is so.
 fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
-    let (Segment::Line(line), Segment::Line(next)) = (one.geometry(), other.geometry()) else { return false };
-    let (along, length, next_length) = (line.end - line.start, one.geometry().length(), other.geometry().length());
+    let (Segment::Line(line), Segment::Line(next)) = (one.geometry(), other.geometry()) else {
+        return false;
+    };
+    let (along, length, next_length) = (
+        line.end - line.start,
+        one.geometry().length(),
+        other.geometry().length(),
+    );
     if length.min(next_length) <= one.outlook.limits.tolerances.zero_length {
         return false;
     }
@@ -120,11 +131,14 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     }
     // In the vertex that it starts in, a wall is touched from anywhere between its own normal and that of the wall before.
     for wall in [one, other] {
-        turned = turned.max(wall.beside(-1).map_or(0.0, |before| (before.end_tangent() - along).norm()));
+        turned = turned.max(
+            wall.beside(-1)
+                .map_or(0.0, |before| (before.end_tangent() - along).norm()),
+        );
     }
     let count = one.outlook.contour.len();
-    let are_neighbours =
-        one.index.abs_diff(other.index) == 1 || (one.outlook.contour.closed && one.index.abs_diff(other.index) + 1 == count);
+    let are_neighbours = one.index.abs_diff(other.index) == 1
+        || (one.outlook.contour.closed && one.index.abs_diff(other.index) + 1 == count);
     let gap = if are_neighbours {
         // Where they meet there is one corner.
         length.min(next_length) / 2.0
@@ -139,8 +153,18 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
 
 /// Where a disc may lie that touches a wall, or the vertex that it starts in.
 fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
-    let along = Locus::beside(wall.geometry(), side.sign(), radius, wall.outlook.limits.tolerances.zero_length);
-    [along, start_of(wall).filter(|corner| is_tip(corner, side)).map(|corner| Locus::about(corner.at, radius))]
+    let along = Locus::beside(
+        wall.geometry(),
+        side.sign(),
+        radius,
+        wall.outlook.limits.tolerances.zero_length,
+    );
+    [
+        along,
+        start_of(wall)
+            .filter(|corner| is_tip(corner, side))
+            .map(|corner| Locus::about(corner.at, radius)),
+    ]
 }
 
 /// The vertex that a wall starts in.
@@ -150,7 +174,9 @@ fn start_of(wall: &Wall) -> Option<Corner> {
 
 /// True for a vertex that the contour turns away from the wire in.
 fn is_tip(corner: &Corner, side: Side) -> bool {
-    let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else { return false };
+    let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else {
+        return false;
+    };
     turn(incoming.end_tangent(), outgoing.start_tangent()) * side.sign() < -SMOOTH
 }
 
@@ -167,19 +193,29 @@ fn touch(wall: &Wall, side: Side, center: Point, radius: f64) -> Option<Touch> {
         && touches(away.norm())
         && left_normal(geometry.tangent_at(share)).dot(&away) * side.sign() > 0.0
     {
-        return Some(Touch { index: wall.index, at_vertex: false, normal: away / away.norm() });
+        return Some(Touch {
+            index: wall.index,
+            at_vertex: false,
+            normal: away / away.norm(),
+        });
     }
     let corner = start_of(wall).filter(|corner| is_tip(corner, side))?;
     let away = center - corner.at;
     let normal = away.try_normalize(0.0)?;
-    (touches(away.norm()) && corner.is_nearest(normal)).then_some(Touch { index: wall.index, at_vertex: true, normal })
+    (touches(away.norm()) && corner.is_nearest(normal)).then_some(Touch {
+        index: wall.index,
+        at_vertex: true,
+        normal,
+    })
 }
 
 /// The place of a segment's line or circle nearest to `point`, which lies at `share` of it.
 fn foot(segment: &Segment, point: Point, share: f64) -> Point {
     match segment {
         Segment::Line(line) => line.start + (line.end - line.start) * share,
-        Segment::Arc(arc) => (point - arc.center).try_normalize(0.0).map_or(arc.start, |away| arc.center + away * arc.radius),
+        Segment::Arc(arc) => (point - arc.center)
+            .try_normalize(0.0)
+            .map_or(arc.start, |away| arc.center + away * arc.radius),
     }
 }
 
@@ -189,19 +225,41 @@ impl DeadEnd {
     pub fn between(one: &Wall, other: &Wall, side: Side, center: Point) -> Option<DeadEnd> {
         let (outlook, limits) = (&one.outlook, one.outlook.limits);
         let radius = radius(limits);
-        let (first, second) = (touch(one, side, center, radius)?, touch(other, side, center, radius)?);
+        let (first, second) = (
+            touch(one, side, center, radius)?,
+            touch(other, side, center, radius)?,
+        );
         let spin = cross(first.normal, second.normal) * side.sign();
         // Walls right opposite to each other let it pass.
         if spin.abs() < 1e-9 {
             return None;
         }
-        let (from, to) = if spin > 0.0 { (first, second) } else { (second, first) };
+        let (from, to) = if spin > 0.0 {
+            (first, second)
+        } else {
+            (second, first)
+        };
         let count = outlook.contour.len();
-        let steps = if outlook.contour.closed { (to.index + count - from.index) % count } else { to.index.checked_sub(from.index)? };
-        let end = DeadEnd { center, radius, side, from, to, steps };
+        let steps = if outlook.contour.closed {
+            (to.index + count - from.index) % count
+        } else {
+            to.index.checked_sub(from.index)?
+        };
+        let end = DeadEnd {
+            center,
+            radius,
+            side,
+            from,
+            to,
+            steps,
+        };
         match end.joints().count() {
             0 => None,
-            1 => (end.is_between_tips() && end.joints().any(|joint| end.turn_at(outlook, joint) > FACING)).then_some(end),
+            1 => (end.is_between_tips()
+                && end
+                    .joints()
+                    .any(|joint| end.turn_at(outlook, joint) > FACING))
+            .then_some(end),
             _ => Some(end),
         }
     }
@@ -230,15 +288,23 @@ impl DeadEnd {
 
     /// The turn (radians) towards the wire in the joint where a segment starts.
     fn turn_at(&self, outlook: &Outlook, joint: isize) -> f64 {
-        let (Some(before), Some(behind)) = (outlook.segment(joint - 1), outlook.segment(joint)) else { return 0.0 };
-        turn(before.geometry.end_tangent(), behind.geometry.start_tangent()) * self.side.sign()
+        let (Some(before), Some(behind)) = (outlook.segment(joint - 1), outlook.segment(joint))
+        else {
+            return 0.0;
+        };
+        turn(
+            before.geometry.end_tangent(),
+            behind.geometry.start_tangent(),
+        ) * self.side.sign()
     }
 
     /// True when no segment beside the two walls reaches into the disc.
     fn is_clear_nearby(&self, one: &Wall, other: &Wall) -> bool {
         let least = self.radius - slack(one.outlook.limits, self.radius);
         let reach = NEIGHBOURS as isize;
-        let mut near = [one, other].into_iter().flat_map(|wall| (-reach..=reach).filter_map(|steps| wall.beside(steps)));
+        let mut near = [one, other]
+            .into_iter()
+            .flat_map(|wall| (-reach..=reach).filter_map(|steps| wall.beside(steps)));
         near.all(|segment| segment.distance_to(self.center) >= least)
     }
 
@@ -255,7 +321,12 @@ impl DeadEnd {
     /// The depth of the joint where a segment starts, where that lies beyond the disc.
     pub fn depths<'a>(&'a self, outlook: &'a Outlook) -> impl Iterator<Item = (usize, f64)> + 'a {
         let count = outlook.contour.len().max(1);
-        self.joints().filter_map(move |joint| Some((joint as usize % count, self.depth(outlook.segment(joint)?.geometry.start()))))
+        self.joints().filter_map(move |joint| {
+            Some((
+                joint as usize % count,
+                self.depth(outlook.segment(joint)?.geometry.start()),
+            ))
+        })
     }
 
     pub fn side(&self) -> Side {
@@ -269,12 +340,18 @@ impl DeadEnd {
 
     /// Points of what lies beyond the disc among which the deepest is.
     fn points<'a>(&'a self, outlook: &'a Outlook) -> impl Iterator<Item = (isize, Point)> + 'a {
-        let joints = self.joints().filter_map(|joint| Some((joint, outlook.segment(joint)?.geometry.start())));
+        let joints = self
+            .joints()
+            .filter_map(|joint| Some((joint, outlook.segment(joint)?.geometry.start())));
         let bellies = self.segments().filter_map(|index| {
-            let Segment::Arc(arc) = outlook.segment(index)?.geometry else { return None };
+            let Segment::Arc(arc) = outlook.segment(index)?.geometry else {
+                return None;
+            };
             let away = (arc.center - self.center).try_normalize(0.0)?;
             let point = arc.center + away * arc.radius;
-            (0.0..=1.0).contains(&arc.share_of(point)).then_some((index, point))
+            (0.0..=1.0)
+                .contains(&arc.share_of(point))
+                .then_some((index, point))
         });
         joints.chain(bellies)
     }
@@ -288,15 +365,33 @@ impl DeadEnd {
             let segment = outlook.segment(index)?;
             Some((outlook.drawing.rank(segment.entity), segment.segment))
         };
-        let points: Vec<(isize, f64, Point)> = self.points(outlook).map(|(at, point)| (at, self.depth(point), point)).collect();
+        let points: Vec<(isize, f64, Point)> = self
+            .points(outlook)
+            .map(|(at, point)| (at, self.depth(point), point))
+            .collect();
         let depth = points.iter().map(|point| point.1).fold(0.0, f64::max);
         // Which of equally deep points is named does not hang on where the contour begins, or which way it runs.
         let named = |least: f64| move |value: &f64| *value >= least - 1e-9;
-        let near = points.iter().filter(|point| named(depth)(&point.1)).min_by_key(|point| rank(point.0))?.2;
-        let missed = |index: isize| outlook.segment(index).map_or(0.0, |segment| segment.geometry.distance_to(self.center));
+        let near = points
+            .iter()
+            .filter(|point| named(depth)(&point.1))
+            .min_by_key(|point| rank(point.0))?
+            .2;
+        let missed = |index: isize| {
+            outlook
+                .segment(index)
+                .map_or(0.0, |segment| segment.geometry.distance_to(self.center))
+        };
         let most = self.segments().map(missed).fold(0.0, f64::max);
-        let index = self.segments().filter(|&index| named(most)(&missed(index))).min_by_key(|&index| rank(index))?;
-        Some(Left { depth, near, index: index as usize % outlook.contour.len().max(1) })
+        let index = self
+            .segments()
+            .filter(|&index| named(most)(&missed(index)))
+            .min_by_key(|&index| rank(index))?;
+        Some(Left {
+            depth,
+            near,
+            index: index as usize % outlook.contour.len().max(1),
+        })
     }
 
     /// Whether more is left than each single corner explains, and than is said of each arc below the correction: a wall between two
@@ -309,39 +404,73 @@ impl DeadEnd {
             let segment = outlook.segment(index)?;
             small_radius::check(&segment, Some(self.side), limits).map(|told| told.stock_left)
         };
-        let told = self.segments().filter_map(told).fold(None, |most: Option<f64>, stock| Some(most.map_or(stock, |most| most.max(stock))));
-        let is_deeper = |depth: f64| self.points(outlook).any(|(_, point)| self.depth(point) > depth + least);
+        let told = self
+            .segments()
+            .filter_map(told)
+            .fold(None, |most: Option<f64>, stock| {
+                Some(most.map_or(stock, |most| most.max(stock)))
+            });
+        let is_deeper = |depth: f64| {
+            self.points(outlook)
+                .any(|(_, point)| self.depth(point) > depth + least)
+        };
         if let Some(told) = told {
             // Nothing but arcs that bend about the wire are a run, which `small-radius` mends as one.
             let is_of_run = |index: isize| {
                 let segment = outlook.segment(index).map(|segment| segment.geometry);
-                segment.is_some_and(|segment| segment.as_arc().is_some_and(|arc| arc.sweep * self.side.sign() > 0.0))
+                segment.is_some_and(|segment| {
+                    segment
+                        .as_arc()
+                        .is_some_and(|arc| arc.sweep * self.side.sign() > 0.0)
+                })
             };
             return is_deeper(told) && !self.segments().all(is_of_run);
         }
-        let corners: Vec<(isize, f64)> = self.joints().filter_map(|joint| self.corner_at(outlook, joint, spares_chords)).collect();
+        let corners: Vec<(isize, f64)> = self
+            .joints()
+            .filter_map(|joint| self.corner_at(outlook, joint, spares_chords))
+            .collect();
         let faces = |&(_, turn): &(isize, f64)| turn > FACING;
         if self.is_between_tips() && corners.iter().any(faces) && is_deeper(0.0) {
             return true;
         }
-        let (Some(&(first, _)), Some(&(last, _))) = (corners.first(), corners.last()) else { return false };
+        let (Some(&(first, _)), Some(&(last, _))) = (corners.first(), corners.last()) else {
+            return false;
+        };
         let is_missed = |index: isize| {
-            let distance = outlook.segment(index).map_or(0.0, |segment| segment.geometry.distance_to(self.center));
+            let distance = outlook
+                .segment(index)
+                .map_or(0.0, |segment| segment.geometry.distance_to(self.center));
             distance - self.radius > least
         };
         let is_beyond = |&(joint, turn): &(isize, f64)| {
             let share = self.radius * (1.0 / (turn / 2.0).cos() - 1.0);
-            outlook.segment(joint).is_some_and(|segment| self.depth(segment.geometry.start()) > share + least)
+            outlook
+                .segment(joint)
+                .is_some_and(|segment| self.depth(segment.geometry.start()) > share + least)
         };
-        (first..last).any(is_missed) && corners.iter().any(|corner| faces(corner) || is_beyond(corner))
+        (first..last).any(is_missed)
+            && corners
+                .iter()
+                .any(|corner| faces(corner) || is_beyond(corner))
     }
 
     /// The joint where a segment starts with its turn, if it is a corner that turns towards the wire.
-    fn corner_at(&self, outlook: &Outlook, joint: isize, spares_chords: bool) -> Option<(isize, f64)> {
+    fn corner_at(
+        &self,
+        outlook: &Outlook,
+        joint: isize,
+        spares_chords: bool,
+    ) -> Option<(isize, f64)> {
         let turn = self.turn_at(outlook, joint);
         inner_side(turn).filter(|&side| side == Side::Left)?;
-        let (before, behind) = (outlook.segment(joint - 1)?.geometry, outlook.segment(joint)?.geometry);
-        if spares_chords && before.length().max(behind.length()) >= 2.0 * self.radius * (turn / 2.0).tan() {
+        let (before, behind) = (
+            outlook.segment(joint - 1)?.geometry,
+            outlook.segment(joint)?.geometry,
+        );
+        if spares_chords
+            && before.length().max(behind.length()) >= 2.0 * self.radius * (turn / 2.0).tan()
+        {
             let index = joint as usize % outlook.contour.len().max(1);
             if are_between_chords(outlook, index..index + 1).contains(&true) {
                 return None;
@@ -359,35 +488,78 @@ const HOLDING: isize = 8;
 pub fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     let count = outlook.contour.len();
     let wall = |index: isize| {
-        let index = if outlook.contour.closed { index.rem_euclid(count as isize) } else { index };
+        let index = if outlook.contour.closed {
+            index.rem_euclid(count as isize)
+        } else {
+            index
+        };
         Wall::new(outlook, usize::try_from(index).ok()?)
     };
     let index = index as isize;
     let (before, behind) = (wall(index - 1)?, wall(index)?);
-    let turned = turn(before.geometry().end_tangent(), behind.geometry().start_tangent());
-    let (side, at) = (if turned > 0.0 { Side::Left } else { Side::Right }, behind.geometry().start());
+    let turned = turn(
+        before.geometry().end_tangent(),
+        behind.geometry().start_tangent(),
+    );
+    let (side, at) = (
+        if turned > 0.0 {
+            Side::Left
+        } else {
+            Side::Right
+        },
+        behind.geometry().start(),
+    );
     let least = radius - slack(outlook.limits, radius);
     let reach = HOLDING.min(count as isize / 2);
     let depth_of = |one: &Wall, other: &Wall, center: Point| {
         let depth = (at - center).norm() - radius;
-        let is_held = depth >= 0.0 && touch(one, side, center, radius).is_some() && touch(other, side, center, radius).is_some();
-        let is_clear = || (-2 * reach..=2 * reach).filter_map(|steps| behind.beside(steps)).all(|near| near.distance_to(center) >= least);
+        let is_held = depth >= 0.0
+            && touch(one, side, center, radius).is_some()
+            && touch(other, side, center, radius).is_some();
+        let is_clear = || {
+            (-2 * reach..=2 * reach)
+                .filter_map(|steps| behind.beside(steps))
+                .all(|near| near.distance_to(center) >= least)
+        };
         (is_held && is_clear()).then_some(depth)
     };
     // Most corners have walls that are long enough.
-    let along = |wall: &Wall| Locus::beside(wall.geometry(), side.sign(), radius, outlook.limits.tolerances.zero_length);
+    let along = |wall: &Wall| {
+        Locus::beside(
+            wall.geometry(),
+            side.sign(),
+            radius,
+            outlook.limits.tolerances.zero_length,
+        )
+    };
     let centers = along(&before)?.meet(&along(&behind)?).into_iter();
-    if let Some(depth) = centers.filter_map(|center| depth_of(&before, &behind, center)).min_by(f64::total_cmp) {
+    if let Some(depth) = centers
+        .filter_map(|center| depth_of(&before, &behind, center))
+        .min_by(f64::total_cmp)
+    {
         return Some(depth);
     }
     // A wall holds the disc, or the tip that it starts in does: behind the corner a tip may end the last wall.
-    let early: Vec<Wall> = (1..=reach).filter_map(|steps| wall(index - steps)).collect();
-    let late: Vec<Wall> = (0..=reach).filter_map(|steps| wall(index + steps)).collect();
-    let pairs = early.iter().flat_map(|one| late.iter().map(move |other| (one, other)));
+    let early: Vec<Wall> = (1..=reach)
+        .filter_map(|steps| wall(index - steps))
+        .collect();
+    let late: Vec<Wall> = (0..=reach)
+        .filter_map(|steps| wall(index + steps))
+        .collect();
+    let pairs = early
+        .iter()
+        .flat_map(|one| late.iter().map(move |other| (one, other)));
     let depths = pairs.flat_map(|(one, other)| {
         let (own, theirs) = (loci(one, side, radius), loci(other, side, radius));
-        let centers = own.into_iter().flatten().flat_map(move |own| theirs.into_iter().flatten().flat_map(move |locus| own.meet(&locus)));
-        centers.filter_map(|center| depth_of(one, other, center)).collect::<Vec<_>>()
+        let centers = own.into_iter().flatten().flat_map(move |own| {
+            theirs
+                .into_iter()
+                .flatten()
+                .flat_map(move |locus| own.meet(&locus))
+        });
+        centers
+            .filter_map(|center| depth_of(one, other, center))
+            .collect::<Vec<_>>()
     });
     depths.min_by(f64::total_cmp)
 }

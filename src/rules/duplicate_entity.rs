@@ -12,7 +12,13 @@ use crate::geometry::{Point, Segment};
 pub const RULE: PairRule = PairRule {
     rule: Rule::DuplicateEntity,
     reach: |limits| limits.tolerances.same_place,
-    look: |one, other, _| if are_doubles(one, other).unwrap_or(false) { vec![Sight::default()] } else { Vec::new() },
+    look: |one, other, _| {
+        if are_doubles(one, other).unwrap_or(false) {
+            vec![Sight::default()]
+        } else {
+            Vec::new()
+        }
+    },
     detail: |_, _, _| Some(Detail::DuplicateEntity),
     fixes,
     one_per_place: false,
@@ -29,32 +35,59 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
         return None;
     }
     // A point is cut no times.
-    if [a, b].into_iter().all(|point| is_point(&one.outlook, &point)) {
+    if [a, b]
+        .into_iter()
+        .all(|point| is_point(&one.outlook, &point))
+    {
         return None;
     }
-    let (first, second) = (&one.outlook.drawing.get(a.entity)?.geometry, &other.outlook.drawing.get(b.entity)?.geometry);
-    let (count, tolerance) = (first.segment_count(), one.outlook.limits.tolerances.same_place);
+    let (first, second) = (
+        &one.outlook.drawing.get(a.entity)?.geometry,
+        &other.outlook.drawing.get(b.entity)?.geometry,
+    );
+    let (count, tolerance) = (
+        first.segment_count(),
+        one.outlook.limits.tolerances.same_place,
+    );
     let flat = one.outlook.drawing.flat();
     let forward = || b.segment == 0 && run_together(first, second, false, tolerance, flat);
     let backward = || b.segment + 1 == count && run_together(first, second, true, tolerance, flat);
-    let rings = || first.is_closed() && second.is_closed() && are_one_ring(first, second, b.segment, tolerance, flat);
+    let rings = || {
+        first.is_closed()
+            && second.is_closed()
+            && are_one_ring(first, second, b.segment, tolerance, flat)
+    };
     Some(forward() || backward() || rings())
 }
 
 /// True when the first of two closed outlines begins on segment `at` of the other, and each lies on the other all along.
 fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64, flat: f64) -> bool {
-    let (Some(begin), Some(under)) = (first.segment_of(0, flat), second.segment_of(at, flat)) else { return false };
+    let (Some(begin), Some(under)) = (first.segment_of(0, flat), second.segment_of(at, flat))
+    else {
+        return false;
+    };
     let start = begin.start();
     let share = under.share_of(start).clamp(0.0, 1.0);
     let is_on = |segment: &Segment, point: Point| segment.distance_to(point) <= tolerance;
     // A point that two segments meet in belongs to the one that begins there.
     let is_alone = second.segment_count() == 1;
-    if !is_on(&under, start) || (!is_alone && (under.end() - start).norm() <= tolerance && share > 0.5) {
+    if !is_on(&under, start)
+        || (!is_alone && (under.end() - start).norm() <= tolerance && share > 0.5)
+    {
         return false;
     }
     // A little further on, the one still lies beside the start of the other: most outlines that meet in a point are told apart here.
-    let Some(before) = second.segment_of((at + second.segment_count() - 1) % second.segment_count().max(1), flat) else { return false };
-    let step = [&begin, &under, &before].into_iter().map(Segment::length).fold(f64::INFINITY, f64::min) / 2.0;
+    let Some(before) = second.segment_of(
+        (at + second.segment_count() - 1) % second.segment_count().max(1),
+        flat,
+    ) else {
+        return false;
+    };
+    let step = [&begin, &under, &before]
+        .into_iter()
+        .map(Segment::length)
+        .fold(f64::INFINITY, f64::min)
+        / 2.0;
     let further = begin.point_at((step / begin.length()).min(1.0));
     if !is_on(&under, further) && !is_on(&before, further) {
         return false;
@@ -62,10 +95,16 @@ fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64, 
     let (one, other) = (Ring::of(first, flat), Ring::of(second, flat));
     let begins_at = other.distance_of(at, share);
     let stretch = other.length() / one.length();
-    let lies_on = |ring: &Ring, point: Point, along: f64| ring.at(along).is_some_and(|met| (met - point).norm() <= tolerance);
+    let lies_on = |ring: &Ring, point: Point, along: f64| {
+        ring.at(along)
+            .is_some_and(|met| (met - point).norm() <= tolerance)
+    };
     [1.0, -1.0].into_iter().any(|direction| {
-        one.samples().all(|(point, along)| lies_on(&other, point, begins_at + direction * along * stretch))
-            && other.samples().all(|(point, along)| lies_on(&one, point, direction * (along - begins_at) / stretch))
+        one.samples()
+            .all(|(point, along)| lies_on(&other, point, begins_at + direction * along * stretch))
+            && other.samples().all(|(point, along)| {
+                lies_on(&one, point, direction * (along - begins_at) / stretch)
+            })
     })
 }
 
@@ -99,10 +138,17 @@ impl Ring {
 
     fn at(&self, along: f64) -> Option<Point> {
         let along = along.rem_euclid(self.length());
-        let index = self.ends.partition_point(|&end| end < along).min(self.segments.len().checked_sub(1)?);
+        let index = self
+            .ends
+            .partition_point(|&end| end < along)
+            .min(self.segments.len().checked_sub(1)?);
         let segment = self.segments.get(index)?;
         let length = segment.length();
-        let share = if length > 0.0 { 1.0 - (self.ends.get(index)? - along) / length } else { 0.0 };
+        let share = if length > 0.0 {
+            1.0 - (self.ends.get(index)? - along) / length
+        } else {
+            0.0
+        };
         Some(segment.point_at(share.clamp(0.0, 1.0)))
     }
 
@@ -111,14 +157,28 @@ impl Ring {
         self.segments
             .iter()
             .enumerate()
-            .flat_map(|(index, segment)| [0.0, 0.25, 0.5, 0.75].map(|share| (segment.point_at(share), self.distance_of(index, share))))
+            .flat_map(|(index, segment)| {
+                [0.0, 0.25, 0.5, 0.75]
+                    .map(|share| (segment.point_at(share), self.distance_of(index, share)))
+            })
     }
 }
 
 fn fixes(one: &Wall, other: &Wall) -> Vec<Fix> {
     let (a, b) = (one.segment, other.segment);
     let rank = |id| one.outlook.drawing.rank(id);
-    let entity = if rank(a.entity) > rank(b.entity) { a.entity } else { b.entity };
-    let edit = DrawingEdit { changes: vec![Change::RemoveEntity { entity }] };
-    vec![Fix { kind: FixKind::DeleteDouble, preferred: true, in_fix_all: true, edit }]
+    let entity = if rank(a.entity) > rank(b.entity) {
+        a.entity
+    } else {
+        b.entity
+    };
+    let edit = DrawingEdit {
+        changes: vec![Change::RemoveEntity { entity }],
+    };
+    vec![Fix {
+        kind: FixKind::DeleteDouble,
+        preferred: true,
+        in_fix_all: true,
+        edit,
+    }]
 }

@@ -7,25 +7,73 @@ use std::f64::consts::PI;
 /// The change that puts the end (or, with `at_end` false, the start) of a contour's segment to `to`. A line swings about its
 /// other end, an arc keeps its sweep. `None` where the segment is not the last of its entity on that side, for a circle, and
 /// for an arc of nearly a full turn, whose ends say little about it.
-pub fn end_moved(drawing: &Drawing, place: &ContourSegment, at_end: bool, to: Point) -> Option<Change> {
+pub fn end_moved(
+    drawing: &Drawing,
+    place: &ContourSegment,
+    at_end: bool,
+    to: Point,
+) -> Option<Change> {
     let entity = place.entity;
     let own_end = at_end != place.reversed;
     let geometry = &drawing.get(entity)?.geometry;
     match geometry {
-        Geometry::Line { start, .. } if own_end => Some(Change::SetLine { entity, start: *start, end: to }),
-        Geometry::Line { end, .. } => Some(Change::SetLine { entity, start: to, end: *end }),
+        Geometry::Line { start, .. } if own_end => Some(Change::SetLine {
+            entity,
+            start: *start,
+            end: to,
+        }),
+        Geometry::Line { end, .. } => Some(Change::SetLine {
+            entity,
+            start: to,
+            end: *end,
+        }),
         Geometry::Arc { .. } => {
-            let Segment::Arc(own) = drawing.segment(entity, 0)? else { return None };
-            let (start, end) = if own_end { (own.start, to) } else { (to, own.end) };
-            let moved = (own.sweep < 1.9 * PI).then(|| Arc::from_bulge(start, end, own.bulge())).flatten()?;
-            let (start_angle, end_angle) = (positive_angle(moved.start_angle), positive_angle(moved.start_angle + moved.sweep));
-            Some(Change::SetArc { entity, center: moved.center, radius: moved.radius, start_angle, end_angle })
+            let Segment::Arc(own) = drawing.segment(entity, 0)? else {
+                return None;
+            };
+            let (start, end) = if own_end {
+                (own.start, to)
+            } else {
+                (to, own.end)
+            };
+            let moved = (own.sweep < 1.9 * PI)
+                .then(|| Arc::from_bulge(start, end, own.bulge()))
+                .flatten()?;
+            let (start_angle, end_angle) = (
+                positive_angle(moved.start_angle),
+                positive_angle(moved.start_angle + moved.sweep),
+            );
+            Some(Change::SetArc {
+                entity,
+                center: moved.center,
+                radius: moved.radius,
+                start_angle,
+                end_angle,
+            })
         }
-        Geometry::Polyline { closed: false, vertices } => {
-            let index = if own_end { vertices.len().checked_sub(1)? } else { 0 };
-            let at_this_end = if own_end { place.segment + 2 == vertices.len() } else { place.segment == 0 };
-            let vertex = Vertex { point: to, ..*vertices.get(index)? };
-            at_this_end.then_some(Change::SetVertex { entity, index, vertex })
+        Geometry::Polyline {
+            closed: false,
+            vertices,
+        } => {
+            let index = if own_end {
+                vertices.len().checked_sub(1)?
+            } else {
+                0
+            };
+            let at_this_end = if own_end {
+                place.segment + 2 == vertices.len()
+            } else {
+                place.segment == 0
+            };
+            let vertex = Vertex {
+                point: to,
+                ..*vertices.get(index)?
+            };
+            at_this_end.then_some(Change::SetVertex {
+                entity,
+                index,
+                vertex,
+            })
         }
         Geometry::Polyline { .. } | Geometry::Circle { .. } | Geometry::Text { .. } => None,
     }
@@ -33,10 +81,18 @@ pub fn end_moved(drawing: &Drawing, place: &ContourSegment, at_end: bool, to: Po
 
 /// The change that brings two ends together which should meet: the start of the segment behind goes to the end of the one
 /// before. Where only the one before is straight, it is that one which moves: a line bears it better than an arc.
-pub fn joined(drawing: &Drawing, before: &ContourSegment, behind: &ContourSegment) -> Option<Change> {
+pub fn joined(
+    drawing: &Drawing,
+    before: &ContourSegment,
+    behind: &ContourSegment,
+) -> Option<Change> {
     let is_line = |place: &ContourSegment| place.geometry.as_arc().is_none();
     let (end, start) = (before.geometry.end(), behind.geometry.start());
     let of_behind = || end_moved(drawing, behind, false, end);
     let of_before = || end_moved(drawing, before, true, start);
-    if is_line(before) && !is_line(behind) { of_before().or_else(of_behind) } else { of_behind().or_else(of_before) }
+    if is_line(before) && !is_line(behind) {
+        of_before().or_else(of_behind)
+    } else {
+        of_behind().or_else(of_before)
+    }
 }

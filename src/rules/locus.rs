@@ -19,26 +19,53 @@ impl Locus {
                 (line.length() > zero_length).then_some(Locus::Line { point, direction })
             }
             Segment::Arc(arc) if arc.sweep * side > 0.0 => {
-                (arc.radius > radius).then_some(Locus::Circle { center: arc.center, radius: arc.radius - radius })
+                (arc.radius > radius).then_some(Locus::Circle {
+                    center: arc.center,
+                    radius: arc.radius - radius,
+                })
             }
-            Segment::Arc(arc) => Some(Locus::Circle { center: arc.center, radius: arc.radius + radius }),
+            Segment::Arc(arc) => Some(Locus::Circle {
+                center: arc.center,
+                radius: arc.radius + radius,
+            }),
         }
     }
 
     /// Of discs of `radius` with `point` on their edge.
     pub fn about(point: Point, radius: f64) -> Locus {
-        Locus::Circle { center: point, radius }
+        Locus::Circle {
+            center: point,
+            radius,
+        }
     }
 
     /// The centres that lie on both.
     pub fn meet(&self, other: &Locus) -> Vec<Point> {
         match (self, other) {
-            (Locus::Line { point: p, direction: u }, Locus::Line { point: q, direction: v }) => {
-                line_line(*p, *u, *q, *v).into_iter().collect()
-            }
+            (
+                Locus::Line {
+                    point: p,
+                    direction: u,
+                },
+                Locus::Line {
+                    point: q,
+                    direction: v,
+                },
+            ) => line_line(*p, *u, *q, *v).into_iter().collect(),
             (Locus::Line { point, direction }, Locus::Circle { center, radius })
-            | (Locus::Circle { center, radius }, Locus::Line { point, direction }) => line_circle(*point, *direction, *center, *radius),
-            (Locus::Circle { center: a, radius: ra }, Locus::Circle { center: b, radius: rb }) => circle_circle(*a, *ra, *b, *rb),
+            | (Locus::Circle { center, radius }, Locus::Line { point, direction }) => {
+                line_circle(*point, *direction, *center, *radius)
+            }
+            (
+                Locus::Circle {
+                    center: a,
+                    radius: ra,
+                },
+                Locus::Circle {
+                    center: b,
+                    radius: rb,
+                },
+            ) => circle_circle(*a, *ra, *b, *rb),
         }
     }
 }

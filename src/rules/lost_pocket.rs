@@ -33,7 +33,10 @@ pub fn look(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
     if !contour.closed || contour.len() > MOST_SEGMENTS {
         return Vec::new();
     }
-    let segments: Vec<Segment> = contour.segments(outlook.drawing).map(|segment| segment.geometry).collect();
+    let segments: Vec<Segment> = contour
+        .segments(outlook.drawing)
+        .map(|segment| segment.geometry)
+        .collect();
     let (correction, twice_area) = (outlook.limits.correction, outlook.index.twice_area());
     let inward = twice_area * side.sign() > 0.0;
     let length: f64 = segments.iter().map(Segment::length).sum();
@@ -42,19 +45,30 @@ pub fn look(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
     if !has_neck && !may_collapse {
         return Vec::new();
     }
-    let Some(loops) = offset(&segments, correction * side.sign()) else { return Vec::new() };
+    let Some(loops) = offset(&segments, correction * side.sign()) else {
+        return Vec::new();
+    };
     let clear = |point: Point| clearance(outlook, point, correction).is_none();
     let real = |(points, area): &(Vec<Point>, f64)| {
         let bounds = Bounds::of_points(points);
-        *area != 0.0 && bounds.width().max(bounds.height()) > outlook.limits.tolerances.touch && points.iter().all(|&point| clear(point))
+        *area != 0.0
+            && bounds.width().max(bounds.height()) > outlook.limits.tolerances.touch
+            && points.iter().all(|&point| clear(point))
     };
     let mut loops: Vec<(Vec<Point>, f64)> = loops.into_iter().filter(real).collect();
     if loops.is_empty() {
-        let tight = |segment: &Segment| segment.as_arc().is_some_and(|arc| small_radius::is_too_small(arc.radius, outlook.limits));
+        let tight = |segment: &Segment| {
+            segment
+                .as_arc()
+                .is_some_and(|arc| small_radius::is_too_small(arc.radius, outlook.limits))
+        };
         let fits = |segment: &Segment| {
-            [0.0, 0.25, 0.5, 0.75]
-                .iter()
-                .any(|&share| clear(segment.point_at(share) + left_normal(segment.tangent_at(share)) * (correction * side.sign())))
+            [0.0, 0.25, 0.5, 0.75].iter().any(|&share| {
+                clear(
+                    segment.point_at(share)
+                        + left_normal(segment.tangent_at(share)) * (correction * side.sign()),
+                )
+            })
         };
         let lost = inward && !segments.iter().all(tight) && !segments.iter().any(fits);
         return if lost { vec![Lost::All] } else { Vec::new() };
@@ -67,7 +81,10 @@ pub fn look(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
         // Away from the neck, which is told of by itself.
         let depth = |point: &Point| nalgebra::distance(point, &threaded);
         let near = *points.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
-        Some(Lost::Pocket { near, index: nearest(outlook, near, 1.01 * correction)? })
+        Some(Lost::Pocket {
+            near,
+            index: nearest(outlook, near, 1.01 * correction)?,
+        })
     };
     loops[1..].iter().filter_map(pocket).collect()
 }
@@ -84,7 +101,9 @@ fn offset(segments: &[Segment], by: f64) -> Option<Vec<(Vec<Point>, f64)>> {
     for segment in segments.iter().filter(|segment| segment.length() > 1e-9) {
         // The library takes no arc beyond a half turn.
         if segment.bulge().abs() > 0.9 {
-            [segment.part(0.0, 0.5), segment.part(0.5, 1.0)].iter().for_each(&mut add);
+            [segment.part(0.0, 0.5), segment.part(0.5, 1.0)]
+                .iter()
+                .for_each(&mut add);
         } else {
             add(segment);
         }
@@ -94,7 +113,10 @@ fn offset(segments: &[Segment], by: f64) -> Option<Vec<(Vec<Point>, f64)>> {
     }
     let loops = catch_unwind(AssertUnwindSafe(|| outline.parallel_offset(by))).ok()?;
     let told = |found: &Polyline<f64>| {
-        let points = found.iter_vertexes().map(|vertex| origin + crate::geometry::Vector::new(vertex.x, vertex.y)).collect();
+        let points = found
+            .iter_vertexes()
+            .map(|vertex| origin + crate::geometry::Vector::new(vertex.x, vertex.y))
+            .collect();
         (points, found.area().abs())
     };
     Some(loops.iter().map(told).collect())
@@ -110,6 +132,13 @@ fn clearance(outlook: &Outlook, point: Point, distance: f64) -> Option<usize> {
 fn nearest(outlook: &Outlook, point: Point, within: f64) -> Option<usize> {
     let area = Bounds::of_disc(point, within);
     let indices = outlook.index.near(&area).flatten();
-    let near = indices.filter_map(|index| Some((outlook.segment(index as isize)?.geometry.distance_to(point), index)));
-    near.filter(|(distance, _)| *distance < within).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, index)| index)
+    let near = indices.filter_map(|index| {
+        Some((
+            outlook.segment(index as isize)?.geometry.distance_to(point),
+            index,
+        ))
+    });
+    near.filter(|(distance, _)| *distance < within)
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, index)| index)
 }

@@ -50,7 +50,12 @@ impl Limits {
     pub fn new(settings: &Effective, unit_mm: f64) -> Limits {
         Limits {
             correction: settings.correction / unit_mm,
-            last_correction: settings.corrections.iter().copied().fold(settings.correction, f64::min) / unit_mm,
+            last_correction: settings
+                .corrections
+                .iter()
+                .copied()
+                .fold(settings.correction, f64::min)
+                / unit_mm,
             fix_radius: (settings.correction + settings.margin) / unit_mm,
             pass: settings.pass,
             tolerances: settings.tolerances.in_units(unit_mm),
@@ -75,19 +80,26 @@ impl Outlook<'_> {
         if count == 0 || (!self.contour.closed && !(0..count).contains(&index)) {
             return None;
         }
-        self.contour.segment(self.drawing, index.rem_euclid(count) as usize)
+        self.contour
+            .segment(self.drawing, index.rem_euclid(count) as usize)
     }
 
     /// The place of the segment at `index`.
     pub fn place(&self, index: usize) -> Option<Place> {
         let segment = self.segment(index as isize)?;
-        Some(Place::Segment { entity: segment.entity, segment: segment.segment })
+        Some(Place::Segment {
+            entity: segment.entity,
+            segment: segment.segment,
+        })
     }
 
     /// The angle (radians, positive to the left) by which the contour turns where the segment at `index` begins.
     /// `None` at the start of an open contour, and beside a segment too short to have a direction that counts.
     pub fn turn_at(&self, index: usize) -> Option<f64> {
-        let (before, behind) = (self.segment(index as isize - 1)?.geometry, self.segment(index as isize)?.geometry);
+        let (before, behind) = (
+            self.segment(index as isize - 1)?.geometry,
+            self.segment(index as isize)?.geometry,
+        );
         let least = self.limits.tolerances.short;
         let long_enough = before.length() >= least && behind.length() >= least;
         long_enough.then(|| turn(before.end_tangent(), behind.start_tangent()))
@@ -128,13 +140,28 @@ pub struct LocalRule {
 
 /// The segment before the joint that a fact stands at, where it is of another entity.
 fn other_at_joint(outlook: &Outlook, fact: Fact) -> Vec<Place> {
-    let (before, own) = (outlook.segment(fact.index as isize - 1), outlook.segment(fact.index as isize));
+    let (before, own) = (
+        outlook.segment(fact.index as isize - 1),
+        outlook.segment(fact.index as isize),
+    );
     let other = before.filter(|before| own.is_some_and(|own| own.entity != before.entity));
-    other.map(|before| Place::Segment { entity: before.entity, segment: before.segment }).into_iter().collect()
+    other
+        .map(|before| Place::Segment {
+            entity: before.entity,
+            segment: before.segment,
+        })
+        .into_iter()
+        .collect()
 }
 
 /// Every rule on single segments and their neighbours.
-pub const LOCAL_RULES: &[LocalRule] = &[sharp_corner::RULE, gap::RULE, short_segment::RULE, near_tangent::RULE, arc_as_chords::RULE];
+pub const LOCAL_RULES: &[LocalRule] = &[
+    sharp_corner::RULE,
+    gap::RULE,
+    short_segment::RULE,
+    near_tangent::RULE,
+    arc_as_chords::RULE,
+];
 
 /// A place, and the other places that are concerned.
 pub type Places = (Place, Vec<Place>);
@@ -192,4 +219,10 @@ pub struct PairRule {
 pub const NEIGHBOURS: usize = 4;
 
 /// Every rule on pairs of segments; `duplicate-entity` first, which others are silent for.
-pub const PAIR_RULES: &[PairRule] = &[duplicate_entity::RULE, overlap::RULE, self_intersection::RULE, narrow_slot::RULE, dead_end::RULE];
+pub const PAIR_RULES: &[PairRule] = &[
+    duplicate_entity::RULE,
+    overlap::RULE,
+    self_intersection::RULE,
+    narrow_slot::RULE,
+    dead_end::RULE,
+];

@@ -15,13 +15,23 @@ pub const RULE: PairRule = PairRule {
     look: |one, other, same_contour| {
         let sight = |slot: Slot| {
             let center = slot.from + (slot.to - slot.from) * 0.5;
-            Sight { sides: slot.sides, disc: Some((center, slot.width / 2.0)), ..Sight::default() }
+            Sight {
+                sides: slot.sides,
+                disc: Some((center, slot.width / 2.0)),
+                ..Sight::default()
+            }
         };
-        narrowest(one, other, same_contour).map(sight).into_iter().collect()
+        narrowest(one, other, same_contour)
+            .map(sight)
+            .into_iter()
+            .collect()
     },
     detail: |one, other, same_contour| {
         let Slot { width, .. } = narrowest(one, other, same_contour)?;
-        Some(Detail::NarrowSlot { width, required: 2.0 * one.outlook.limits.correction })
+        Some(Detail::NarrowSlot {
+            width,
+            required: 2.0 * one.outlook.limits.correction,
+        })
     },
     fixes: |_, _| Vec::new(),
     one_per_place: true,
@@ -48,18 +58,32 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     }
     let (a, b) = (one.geometry(), other.geometry());
     let mut best: Option<Slot> = None;
-    let mut consider = |from: Point, to: Point, sides: &dyn Fn(crate::geometry::Vector) -> Option<(Option<Side>, Option<Side>)>| {
-        let width = (to - from).norm();
-        let narrow = width > tolerances.touch && width < 2.0 * limits.correction - tolerances.report;
-        if narrow
-            && best.is_none_or(|best| width < best.width)
-            && !(joints.are_at(from, tolerances.touch) && joints.are_at(to, tolerances.touch))
-            && let Some(sides) = sides((to - from) / width)
-        {
-            best = Some(Slot { from, to, width, sides });
-        }
+    let mut consider =
+        |from: Point,
+         to: Point,
+         sides: &dyn Fn(crate::geometry::Vector) -> Option<(Option<Side>, Option<Side>)>| {
+            let width = (to - from).norm();
+            let narrow =
+                width > tolerances.touch && width < 2.0 * limits.correction - tolerances.report;
+            if narrow
+                && best.is_none_or(|best| width < best.width)
+                && !(joints.are_at(from, tolerances.touch) && joints.are_at(to, tolerances.touch))
+                && let Some(sides) = sides((to - from) / width)
+            {
+                best = Some(Slot {
+                    from,
+                    to,
+                    width,
+                    sides,
+                });
+            }
+        };
+    let wall_side = |segment: &Segment, at: Point, toward| {
+        Some(side_of(
+            segment.tangent_at(segment.share_of(at).clamp(0.0, 1.0)),
+            toward,
+        ))
     };
-    let wall_side = |segment: &Segment, at: Point, toward| Some(side_of(segment.tangent_at(segment.share_of(at).clamp(0.0, 1.0)), toward));
     for (from, to) in facing(a, b) {
         consider(from, to, &|toward| {
             let width = (to - from).norm();
@@ -71,26 +95,42 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     for corner in one.corners() {
         if let Some(foot) = inside(&corner, b) {
             consider(corner.at, foot, &|toward| {
-                (corner.is_nearest(toward) && is_minimum((foot - corner.at).norm(), f64::NEG_INFINITY, curvature(b, foot, -toward)))
-                    .then(|| (corner.side(toward), wall_side(b, foot, -toward)))
+                (corner.is_nearest(toward)
+                    && is_minimum(
+                        (foot - corner.at).norm(),
+                        f64::NEG_INFINITY,
+                        curvature(b, foot, -toward),
+                    ))
+                .then(|| (corner.side(toward), wall_side(b, foot, -toward)))
             });
         }
         // Between the two ends of an open contour lies the opening of it: `open-contour` says it.
-        for met in other.corners().filter(|met| !(same_contour && corner.is_free_end() && met.is_free_end())) {
+        for met in other
+            .corners()
+            .filter(|met| !(same_contour && corner.is_free_end() && met.is_free_end()))
+        {
             consider(corner.at, met.at, &|toward| {
-                (corner.is_nearest(toward) && met.is_nearest(-toward)).then(|| (corner.side(toward), met.side(-toward)))
+                (corner.is_nearest(toward) && met.is_nearest(-toward))
+                    .then(|| (corner.side(toward), met.side(-toward)))
             });
         }
     }
     for corner in other.corners() {
         if let Some(foot) = inside(&corner, a) {
             consider(foot, corner.at, &|toward| {
-                (corner.is_nearest(-toward) && is_minimum((foot - corner.at).norm(), curvature(a, foot, toward), f64::NEG_INFINITY))
-                    .then(|| (wall_side(a, foot, toward), corner.side(-toward)))
+                (corner.is_nearest(-toward)
+                    && is_minimum(
+                        (foot - corner.at).norm(),
+                        curvature(a, foot, toward),
+                        f64::NEG_INFINITY,
+                    ))
+                .then(|| (wall_side(a, foot, toward), corner.side(-toward)))
             });
         }
     }
-    best.filter(|_| !(same_contour && (is_mouth(one, other, limits) || is_mouth(other, one, limits))))
+    best.filter(|_| {
+        !(same_contour && (is_mouth(one, other, limits) || is_mouth(other, one, limits)))
+    })
 }
 
 /// True when the distance of two walls has a minimum, or stays as it is, where they are `width` apart and curve toward each
@@ -110,7 +150,10 @@ fn is_minimum(width: f64, one: f64, other: f64) -> bool {
 fn is_mouth(one: &Wall, other: &Wall, limits: &Limits) -> bool {
     let mut bend = 0.0;
     let is_tight = |segment: &Segment, bend: &mut f64| match segment {
-        Segment::Arc(arc) if small_radius::is_too_small(arc.radius, limits) && (*bend == 0.0 || *bend == arc.sweep.signum()) => {
+        Segment::Arc(arc)
+            if small_radius::is_too_small(arc.radius, limits)
+                && (*bend == 0.0 || *bend == arc.sweep.signum()) =>
+        {
             *bend = arc.sweep.signum();
             true
         }
@@ -120,12 +163,18 @@ fn is_mouth(one: &Wall, other: &Wall, limits: &Limits) -> bool {
     let own = is_tight(one.geometry(), &mut bend);
     for steps in 1..=NEIGHBOURS {
         let index = one.index + steps;
-        let index = if one.outlook.contour.closed { index % count } else { index };
+        let index = if one.outlook.contour.closed {
+            index % count
+        } else {
+            index
+        };
         if index == other.index {
             // Two straight walls with a round end are a slot all the same: that is seen between the walls.
             return own;
         }
-        let Some(segment) = one.beside(steps as isize) else { return false };
+        let Some(segment) = one.beside(steps as isize) else {
+            return false;
+        };
         if !is_tight(&segment, &mut bend) {
             return false;
         }

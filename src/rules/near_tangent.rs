@@ -27,9 +27,16 @@ const LEAST: f64 = 0.02 * std::f64::consts::PI / 180.0;
 
 fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     for index in range {
-        if let Some(turn) = outlook.turn_at(index).filter(|turn| turn.abs() > LEAST && turn.abs() < CLEAR) {
+        if let Some(turn) = outlook
+            .turn_at(index)
+            .filter(|turn| turn.abs() > LEAST && turn.abs() < CLEAR)
+        {
             // Where the wire runs inside, the larger of them are sharp corners.
-            facts.push(Fact { index: index as u32, side: inner_side(turn).map(Side::reversed), needs_side: false });
+            facts.push(Fact {
+                index: index as u32,
+                side: inner_side(turn).map(Side::reversed),
+                needs_side: false,
+            });
         }
     }
 }
@@ -37,16 +44,22 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
 fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     let turn = outlook.turn_at(fact.index as usize)?;
     let reversed = outlook.segment(fact.index as isize)?.reversed;
-    Some(Detail::NearTangent { turn: if reversed { -turn } else { turn } })
+    Some(Detail::NearTangent {
+        turn: if reversed { -turn } else { turn },
+    })
 }
 
 /// The change that moves the contour least, and by less than a difference that counts as the same place.
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     let index = fact.index as isize;
-    let (Some(before), Some(behind)) = (outlook.segment(index - 1), outlook.segment(index)) else { return Vec::new() };
+    let (Some(before), Some(behind)) = (outlook.segment(index - 1), outlook.segment(index)) else {
+        return Vec::new();
+    };
     let least = outlook.limits.tolerances.same_place;
     let mut found: Vec<(f64, DrawingEdit)> = match (&before.geometry, &behind.geometry) {
-        (Segment::Line(_), Segment::Line(_)) => one_line(outlook, &before, &behind).into_iter().collect(),
+        (Segment::Line(_), Segment::Line(_)) => {
+            one_line(outlook, &before, &behind).into_iter().collect()
+        }
         _ => [(index - 1, &before, true), (index, &behind, false)]
             .into_iter()
             .flat_map(|(at, place, at_end)| arc_of(outlook, at, place, at_end))
@@ -54,43 +67,82 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     };
     found.retain(|(moved, _)| *moved < least);
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let fix = |(place, (moved, edit))| Fix { kind: FixKind::MakeTangent { moved }, preferred: place == 0, in_fix_all: false, edit };
+    let fix = |(place, (moved, edit))| Fix {
+        kind: FixKind::MakeTangent { moved },
+        preferred: place == 0,
+        in_fix_all: false,
+        edit,
+    };
     found.into_iter().enumerate().map(fix).collect()
 }
 
 /// The arc at one side of the joint, of the same radius, tangent there and at its other end if it was, or through that end.
-fn arc_of(outlook: &Outlook, index: isize, place: &ContourSegment, joint_at_end: bool) -> Vec<(f64, DrawingEdit)> {
-    let Segment::Arc(arc) = place.geometry else { return Vec::new() };
+fn arc_of(
+    outlook: &Outlook,
+    index: isize,
+    place: &ContourSegment,
+    joint_at_end: bool,
+) -> Vec<(f64, DrawingEdit)> {
+    let Segment::Arc(arc) = place.geometry else {
+        return Vec::new();
+    };
     let side = center_side(arc.sweep);
-    let travel = Travel { drawing: outlook.drawing, contour: outlook.contour, index: outlook.index, side };
+    let travel = Travel {
+        drawing: outlook.drawing,
+        contour: outlook.contour,
+        index: outlook.index,
+        side,
+    };
     let position = travel.position_of(index.rem_euclid(outlook.contour.len() as isize) as usize);
     let at_end = joint_at_end == (side == Side::Left);
     let found = made_tangent(&travel, position, at_end, outlook.limits);
     let edits = found.into_iter().filter_map(|replacement| {
         let moved = replacement.moved;
-        Some((moved, drawing_edit(outlook.drawing, &[(travel, replacement)])?))
+        Some((
+            moved,
+            drawing_edit(outlook.drawing, &[(travel, replacement)])?,
+        ))
     });
     edits.collect()
 }
 
 /// Two lines in a row as one.
-fn one_line(outlook: &Outlook, before: &ContourSegment, behind: &ContourSegment) -> Option<(f64, DrawingEdit)> {
+fn one_line(
+    outlook: &Outlook,
+    before: &ContourSegment,
+    behind: &ContourSegment,
+) -> Option<(f64, DrawingEdit)> {
     let whole = Segment::line(before.geometry.start(), behind.geometry.end());
     let moved = whole.distance_to(before.geometry.end());
     let geometry = &outlook.drawing.get(before.entity)?.geometry;
     let changes = match geometry {
         Geometry::Polyline { closed, vertices } if before.entity == behind.entity => {
             // The vertex between them starts the later one in the entity's own direction.
-            let index = if before.reversed { before.segment } else { behind.segment };
+            let index = if before.reversed {
+                before.segment
+            } else {
+                behind.segment
+            };
             if vertices.len() <= if *closed { 3 } else { 2 } {
                 return None;
             }
-            vec![Change::RemoveVertex { entity: before.entity, index }]
+            vec![Change::RemoveVertex {
+                entity: before.entity,
+                index,
+            }]
         }
         Geometry::Line { .. } if before.entity != behind.entity => {
-            let Geometry::Line { .. } = outlook.drawing.get(behind.entity)?.geometry else { return None };
-            let longer = super::ends::end_moved(outlook.drawing, before, true, behind.geometry.end())?;
-            vec![longer, Change::RemoveEntity { entity: behind.entity }]
+            let Geometry::Line { .. } = outlook.drawing.get(behind.entity)?.geometry else {
+                return None;
+            };
+            let longer =
+                super::ends::end_moved(outlook.drawing, before, true, behind.geometry.end())?;
+            vec![
+                longer,
+                Change::RemoveEntity {
+                    entity: behind.entity,
+                },
+            ]
         }
         _ => return None,
     };

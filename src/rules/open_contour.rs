@@ -8,7 +8,14 @@ use crate::finding::{Detail, Fix, FixKind, Place, Rule, Severity};
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Effective};
 
-pub const RULE: ContourRule = ContourRule { rule: Rule::OpenContour, holds, mildest, places, detail, fixes };
+pub const RULE: ContourRule = ContourRule {
+    rule: Rule::OpenContour,
+    holds,
+    mildest,
+    places,
+    detail,
+    fixes,
+};
 
 /// A gap of less than this share of the contour, or than so many join tolerances (1 mm), was most likely meant to be closed.
 const SHARE: f64 = 0.05;
@@ -16,7 +23,10 @@ const JOINS: f64 = 100.0;
 
 fn holds(outlook: &Outlook) -> bool {
     // What has no length is told of by `short-segment`.
-    !outlook.contour.closed && outlook.contour.has_length(outlook.drawing, outlook.limits.tolerances.zero_length)
+    !outlook.contour.closed
+        && outlook
+            .contour
+            .has_length(outlook.drawing, outlook.limits.tolerances.zero_length)
 }
 
 /// Where the contour itself is the wire's path, it may well be open.
@@ -37,27 +47,60 @@ fn ends(outlook: &Outlook) -> Option<(Segment, Segment)> {
 
 fn detail(outlook: &Outlook) -> Option<Detail> {
     let (last, first) = ends(outlook)?;
-    Some(Detail::OpenContour { distance: (first.start() - last.end()).norm() })
+    Some(Detail::OpenContour {
+        distance: (first.start() - last.end()).norm(),
+    })
 }
 
 fn fixes(outlook: &Outlook) -> Vec<Fix> {
-    let Some((last, first)) = ends(outlook) else { return Vec::new() };
+    let Some((last, first)) = ends(outlook) else {
+        return Vec::new();
+    };
     let (from, to) = (last.end(), first.start());
     let length = (to - from).norm();
     let contour = outlook.contour;
     // One line, closed with another, would only be cut twice.
     let encloses = contour.len() > 1 || last.as_arc().is_some();
-    let Some(piece) = contour.pieces.last().filter(|_| encloses && !contour.closed && length > outlook.limits.tolerances.join) else {
+    let Some(piece) = contour
+        .pieces
+        .last()
+        .filter(|_| encloses && !contour.closed && length > outlook.limits.tolerances.join)
+    else {
         return Vec::new();
     };
     // A spline has no vertices of its own to be closed with.
     let own = outlook.drawing.is_editable(piece.entity)
-        && matches!(outlook.drawing.get(piece.entity).map(|entity| &entity.geometry), Some(Geometry::Polyline { .. }));
+        && matches!(
+            outlook
+                .drawing
+                .get(piece.entity)
+                .map(|entity| &entity.geometry),
+            Some(Geometry::Polyline { .. })
+        );
     let change = match contour.pieces.len() {
-        1 if own => Change::SetClosed { entity: piece.entity, closed: true },
-        _ => Change::AddEntity { after: piece.entity, geometry: Geometry::Line { start: from, end: to } },
+        1 if own => Change::SetClosed {
+            entity: piece.entity,
+            closed: true,
+        },
+        _ => Change::AddEntity {
+            after: piece.entity,
+            geometry: Geometry::Line {
+                start: from,
+                end: to,
+            },
+        },
     };
-    let along: f64 = contour.segments(outlook.drawing).map(|segment| segment.geometry.length()).sum();
+    let along: f64 = contour
+        .segments(outlook.drawing)
+        .map(|segment| segment.geometry.length())
+        .sum();
     let preferred = length < (SHARE * along).max(JOINS * outlook.limits.tolerances.join);
-    vec![Fix { kind: FixKind::Close { length }, preferred, in_fix_all: false, edit: DrawingEdit { changes: vec![change] } }]
+    vec![Fix {
+        kind: FixKind::Close { length },
+        preferred,
+        in_fix_all: false,
+        edit: DrawingEdit {
+            changes: vec![change],
+        },
+    }]
 }

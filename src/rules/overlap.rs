@@ -13,7 +13,11 @@ pub const RULE: PairRule = PairRule {
     rule: Rule::Overlap,
     reach: |limits| limits.tolerances.same_place,
     look,
-    detail: |one, other, _| Some(Detail::Overlap { length: shared(one, other) }),
+    detail: |one, other, _| {
+        Some(Detail::Overlap {
+            length: shared(one, other),
+        })
+    },
     fixes,
     one_per_place: false,
     silent_for_doubles: true,
@@ -28,27 +32,48 @@ fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
         return Vec::new();
     }
     // Ends that are joined within the tolerance may reach past each other.
-    let joined = Joints::of(one, other, same_contour, tolerances.touch).neighbours && length <= tolerances.join;
-    if joined { Vec::new() } else { vec![Sight::default()] }
+    let joined = Joints::of(one, other, same_contour, tolerances.touch).neighbours
+        && length <= tolerances.join;
+    if joined {
+        Vec::new()
+    } else {
+        vec![Sight::default()]
+    }
 }
 
 fn shared(one: &Wall, other: &Wall) -> f64 {
-    shared_length(one.geometry(), other.geometry(), one.outlook.limits.tolerances.same_place)
+    shared_length(
+        one.geometry(),
+        other.geometry(),
+        one.outlook.limits.tolerances.same_place,
+    )
 }
 
 fn fixes(one: &Wall, other: &Wall) -> Vec<Fix> {
     let tolerance = one.outlook.limits.tolerances.same_place;
     let lies_within = |inner: &Wall, outer: &Wall| {
         let entity = inner.segment.entity;
-        let alone = inner.outlook.drawing.get(entity).is_some_and(|entity| entity.geometry.segment_count() == 1);
-        alone && entity != outer.segment.entity && shared(inner, outer) >= inner.geometry().length() - tolerance
+        let alone = inner
+            .outlook
+            .drawing
+            .get(entity)
+            .is_some_and(|entity| entity.geometry.segment_count() == 1);
+        alone
+            && entity != outer.segment.entity
+            && shared(inner, outer) >= inner.geometry().length() - tolerance
     };
-    let inner = [(other, one), (one, other)].into_iter().find(|(inner, outer)| lies_within(inner, outer));
+    let inner = [(other, one), (one, other)]
+        .into_iter()
+        .find(|(inner, outer)| lies_within(inner, outer));
     let delete = |(inner, _): (&Wall, &Wall)| Fix {
         kind: FixKind::DeleteDouble,
         preferred: true,
         in_fix_all: true,
-        edit: DrawingEdit { changes: vec![Change::RemoveEntity { entity: inner.segment.entity }] },
+        edit: DrawingEdit {
+            changes: vec![Change::RemoveEntity {
+                entity: inner.segment.entity,
+            }],
+        },
     };
     inner.map(delete).into_iter().collect()
 }

@@ -7,16 +7,23 @@
 use super::wall::{Corner, Joints, Wall, parts_for_good};
 use super::{PairRule, Sight};
 use crate::finding::{Detail, Rule, Severity};
-use crate::geometry::{Point, Segment, Vector, cross, facing, foot_inside, meetings, positive_angle, shared_length};
+use crate::geometry::{
+    Point, Segment, Vector, cross, facing, foot_inside, meetings, positive_angle, shared_length,
+};
 
 pub const RULE: PairRule = PairRule {
     rule: Rule::SelfIntersection,
     reach: |limits| limits.tolerances.touch,
     look: |one, other, same_contour| {
         let both_closed = one.outlook.contour.closed && other.outlook.contour.closed;
-        let sight =
-            |contact: Contact| Sight { mildest: (contact.touches && !both_closed).then_some(Severity::Warning), ..Sight::default() };
-        contact(one, other, same_contour).map(sight).into_iter().collect()
+        let sight = |contact: Contact| Sight {
+            mildest: (contact.touches && !both_closed).then_some(Severity::Warning),
+            ..Sight::default()
+        };
+        contact(one, other, same_contour)
+            .map(sight)
+            .into_iter()
+            .collect()
     },
     detail: |one, other, same_contour| {
         let Contact { at, touches } = contact(one, other, same_contour)?;
@@ -46,24 +53,38 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
         return None;
     }
     let joints = Joints::of(one, other, same_contour, tolerances.join);
-    if joints.neighbours && parts_for_good(one, other) || shared_length(a, b, tolerances.same_place) > tolerances.same_place {
+    if joints.neighbours && parts_for_good(one, other)
+        || shared_length(a, b, tolerances.same_place) > tolerances.same_place
+    {
         return None;
     }
-    let near = Near { a, b, touch: tolerances.touch, same_place: tolerances.same_place };
+    let near = Near {
+        a,
+        b,
+        touch: tolerances.touch,
+        same_place: tolerances.same_place,
+    };
     let at_joint = |point: Point| joints.are_at(point, tolerances.join);
     // Where the two come so near without one going through the other that a meeting close by is none of its own.
     let ends_of = |ends: &Segment, on: &Segment| {
-        [ends.start(), ends.end()].into_iter().filter(|&end| on.distance_to(end) <= near.touch).collect::<Vec<_>>()
+        [ends.start(), ends.end()]
+            .into_iter()
+            .filter(|&end| on.distance_to(end) <= near.touch)
+            .collect::<Vec<_>>()
     };
     let tangential: Vec<Point> = match (a, b) {
         (Segment::Line(_), Segment::Line(_)) => Vec::new(),
-        _ => facing(a, b).into_iter().filter(|(p, q)| (p - q).norm() <= near.touch).map(|(p, _)| p).collect(),
+        _ => facing(a, b)
+            .into_iter()
+            .filter(|(p, q)| (p - q).norm() <= near.touch)
+            .map(|(p, _)| p)
+            .collect(),
     };
     let mut anchors = [ends_of(a, b), ends_of(b, a), joints.points.clone()].concat();
     anchors.extend(&tangential);
-    if let Some(at) =
-        meetings(a, b).into_iter().find(|&point| !at_joint(point) && !anchors.iter().any(|&anchor| near.all_along(point, anchor)))
-    {
+    if let Some(at) = meetings(a, b).into_iter().find(|&point| {
+        !at_joint(point) && !anchors.iter().any(|&anchor| near.all_along(point, anchor))
+    }) {
         return Some(Contact { at, touches: false });
     }
     let mut touch = None;
@@ -85,8 +106,18 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
             }
         }
     }
-    let touching_inside = || tangential.iter().copied().find(|&point| !at_joint(point) && !near.is_at_end(point));
-    touch.or_else(|| Some(Contact { at: touching_inside()?, touches: true }))
+    let touching_inside = || {
+        tangential
+            .iter()
+            .copied()
+            .find(|&point| !at_joint(point) && !near.is_at_end(point))
+    };
+    touch.or_else(|| {
+        Some(Contact {
+            at: touching_inside()?,
+            touches: true,
+        })
+    })
 }
 
 /// Two segments, and how near counts.
@@ -100,12 +131,19 @@ struct Near<'a> {
 impl Near<'_> {
     /// True when the two touch all the way from `point` to `anchor`.
     fn all_along(&self, point: Point, anchor: Point) -> bool {
-        let (from, to) = (self.a.share_of(point).clamp(0.0, 1.0), self.a.share_of(anchor).clamp(0.0, 1.0));
-        [0.25, 0.5, 0.75, 1.0].iter().all(|t| self.b.distance_to(self.a.point_at(from + (to - from) * t)) <= self.touch)
+        let (from, to) = (
+            self.a.share_of(point).clamp(0.0, 1.0),
+            self.a.share_of(anchor).clamp(0.0, 1.0),
+        );
+        [0.25, 0.5, 0.75, 1.0]
+            .iter()
+            .all(|t| self.b.distance_to(self.a.point_at(from + (to - from) * t)) <= self.touch)
     }
 
     fn is_at_end(&self, point: Point) -> bool {
-        [self.a.start(), self.a.end(), self.b.start(), self.b.end()].iter().any(|end| (end - point).norm() <= self.touch)
+        [self.a.start(), self.a.end(), self.b.start(), self.b.end()]
+            .iter()
+            .any(|end| (end - point).norm() <= self.touch)
     }
 
     /// A point of a segment some way from one of its ends, far enough that rounding does not decide on which side it lies.
@@ -115,20 +153,32 @@ impl Near<'_> {
     }
 
     fn runs_along(&self, segment: Option<Segment>, on: Option<Segment>) -> bool {
-        let (Some(segment), Some(on)) = (segment, on) else { return false };
+        let (Some(segment), Some(on)) = (segment, on) else {
+            return false;
+        };
         shared_length(&segment, &on, self.same_place) > self.same_place
     }
 
     /// A vertex on the inside of a segment.
     fn on_segment(&self, corner: &Corner, on: &Segment) -> Option<Contact> {
-        if self.runs_along(corner.incoming, Some(*on)) || self.runs_along(corner.outgoing, Some(*on)) {
+        if self.runs_along(corner.incoming, Some(*on))
+            || self.runs_along(corner.outgoing, Some(*on))
+        {
             return None;
         }
         let at = foot_inside(on, corner.at).unwrap_or(corner.at);
-        let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else { return Some(Contact { at, touches: true }) };
-        let (from, to) = (side(on, self.some_way_from(&incoming, false)), side(on, self.some_way_from(&outgoing, true)));
+        let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else {
+            return Some(Contact { at, touches: true });
+        };
+        let (from, to) = (
+            side(on, self.some_way_from(&incoming, false)),
+            side(on, self.some_way_from(&outgoing, true)),
+        );
         let crosses = from * to < 0.0 && from.abs().min(to.abs()) > self.touch;
-        Some(Contact { at, touches: !crosses })
+        Some(Contact {
+            at,
+            touches: !crosses,
+        })
     }
 
     /// A vertex on a vertex.
@@ -144,8 +194,12 @@ impl Near<'_> {
         if open(one) && open(other) || along.into_iter().any(|(a, b)| self.runs_along(a, b)) {
             return None;
         }
-        let touches = Contact { at: one.at, touches: true };
-        let (Some(in_one), Some(out_one), Some(in_other), Some(out_other)) = (one.incoming, one.outgoing, other.incoming, other.outgoing)
+        let touches = Contact {
+            at: one.at,
+            touches: true,
+        };
+        let (Some(in_one), Some(out_one), Some(in_other), Some(out_other)) =
+            (one.incoming, one.outgoing, other.incoming, other.outgoing)
         else {
             return Some(touches);
         };
@@ -156,9 +210,15 @@ impl Near<'_> {
         let from = angle(self.some_way_from(&in_one, false), one.at);
         let relative = |angle: f64| positive_angle(angle - from);
         let to = relative(angle(self.some_way_from(&out_one, true), one.at));
-        let (in_other, out_other) = (self.some_way_from(&in_other, false), self.some_way_from(&out_other, true));
+        let (in_other, out_other) = (
+            self.some_way_from(&in_other, false),
+            self.some_way_from(&out_other, true),
+        );
         let within = |point: Point| relative(angle(point, other.at)) < to;
-        Some(Contact { touches: within(in_other) == within(out_other), ..touches })
+        Some(Contact {
+            touches: within(in_other) == within(out_other),
+            ..touches
+        })
     }
 }
 

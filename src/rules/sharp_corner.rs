@@ -40,11 +40,20 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
         if let Some(turn) = outlook.turn_at(index)
             && let Some(side) = inner_side(turn)
         {
-            let mut is_between = || between.get_or_insert_with(|| are_between_chords(outlook, range.clone())).get(index - first).copied();
+            let mut is_between = || {
+                between
+                    .get_or_insert_with(|| are_between_chords(outlook, range.clone()))
+                    .get(index - first)
+                    .copied()
+            };
             if turn.abs() <= steepest && is_between().unwrap_or(false) {
                 continue;
             }
-            facts.push(Fact { index: index as u32, side: Some(side), needs_side: turn.abs() < CLEAR });
+            facts.push(Fact {
+                index: index as u32,
+                side: Some(side),
+                needs_side: turn.abs() < CLEAR,
+            });
         }
     }
 }
@@ -59,22 +68,47 @@ fn detail(outlook: &Outlook, fact: Fact, count: Option<usize>) -> Option<Detail>
     let of_long_walls = || {
         let half = (turn / 2.0).cos();
         let shorter = before.geometry.length().min(behind.geometry.length());
-        if half * (radius + shorter) > radius { radius * (1.0 / half - 1.0) } else { shorter }
+        if half * (radius + shorter) > radius {
+            radius * (1.0 / half - 1.0)
+        } else {
+            shorter
+        }
     };
     let uncut = corner_depth(outlook, fact.index as usize, radius).unwrap_or_else(of_long_walls);
-    Some(Detail::SharpCorner { turn: if behind.reversed { -turn } else { turn }, radius, uncut, count })
+    Some(Detail::SharpCorner {
+        turn: if behind.reversed { -turn } else { turn },
+        radius,
+        uncut,
+        count,
+    })
 }
 
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
-    let Some(side) = outlook.turn_at(fact.index as usize).and_then(inner_side) else { return Vec::new() };
-    let travel = Travel { drawing: outlook.drawing, contour: outlook.contour, index: outlook.index, side };
+    let Some(side) = outlook.turn_at(fact.index as usize).and_then(inner_side) else {
+        return Vec::new();
+    };
+    let travel = Travel {
+        drawing: outlook.drawing,
+        contour: outlook.contour,
+        index: outlook.index,
+        side,
+    };
     let index = fact.index as usize;
     // The corner lies at the start of the segment at `index`; against the contour's direction, at its end.
     let before = match side {
         Side::Left => travel.position_of(index) - 1,
         Side::Right => travel.position_of(index),
     };
-    let Some(edit) = fillet(&travel, before, outlook.limits) else { return Vec::new() };
-    let kind = FixKind::Fillet { radius: outlook.limits.fix_radius };
-    vec![Fix { kind, preferred: true, in_fix_all: false, edit }]
+    let Some(edit) = fillet(&travel, before, outlook.limits) else {
+        return Vec::new();
+    };
+    let kind = FixKind::Fillet {
+        radius: outlook.limits.fix_radius,
+    };
+    vec![Fix {
+        kind,
+        preferred: true,
+        in_fix_all: false,
+        edit,
+    }]
 }

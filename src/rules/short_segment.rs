@@ -22,57 +22,121 @@ pub const RULE: LocalRule = LocalRule {
 
 fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     for index in range {
-        let short = outlook.segment(index as isize).is_some_and(|segment| segment.geometry.length() < outlook.limits.tolerances.short);
+        let short = outlook
+            .segment(index as isize)
+            .is_some_and(|segment| segment.geometry.length() < outlook.limits.tolerances.short);
         if short {
-            facts.push(Fact { index: index as u32, side: None, needs_side: false });
+            facts.push(Fact {
+                index: index as u32,
+                side: None,
+                needs_side: false,
+            });
         }
     }
 }
 
 fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
     let length = outlook.segment(fact.index as isize)?.geometry.length();
-    Some(Detail::ShortSegment { length: if length > outlook.limits.tolerances.zero_length { length } else { 0.0 } })
+    Some(Detail::ShortSegment {
+        length: if length > outlook.limits.tolerances.zero_length {
+            length
+        } else {
+            0.0
+        },
+    })
 }
 
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
-    let Some(place) = outlook.segment(fact.index as isize) else { return Vec::new() };
+    let Some(place) = outlook.segment(fact.index as isize) else {
+        return Vec::new();
+    };
     if is_point(outlook, &place) {
-        let edit = DrawingEdit { changes: vec![Change::RemoveEntity { entity: place.entity }] };
-        return vec![Fix { kind: FixKind::DeletePoint, preferred: true, in_fix_all: true, edit }];
+        let edit = DrawingEdit {
+            changes: vec![Change::RemoveEntity {
+                entity: place.entity,
+            }],
+        };
+        return vec![Fix {
+            kind: FixKind::DeletePoint,
+            preferred: true,
+            in_fix_all: true,
+            edit,
+        }];
     }
-    let changes = match outlook.drawing.get(place.entity).map(|entity| &entity.geometry) {
+    let changes = match outlook
+        .drawing
+        .get(place.entity)
+        .map(|entity| &entity.geometry)
+    {
         Some(Geometry::Polyline { closed, vertices }) => in_polyline(&place, *closed, vertices),
-        Some(Geometry::Line { .. } | Geometry::Arc { .. }) => in_chain(outlook, fact.index as isize, &place),
+        Some(Geometry::Line { .. } | Geometry::Arc { .. }) => {
+            in_chain(outlook, fact.index as isize, &place)
+        }
         _ => None,
     };
-    let fix = |changes| Fix { kind: FixKind::Merge, preferred: true, in_fix_all: true, edit: DrawingEdit { changes } };
+    let fix = |changes| Fix {
+        kind: FixKind::Merge,
+        preferred: true,
+        in_fix_all: true,
+        edit: DrawingEdit { changes },
+    };
     changes.map(fix).into_iter().collect()
 }
 
 /// True where the entity of a segment has no other and no length: nothing changes when it goes.
 pub(super) fn is_point(outlook: &Outlook, place: &ContourSegment) -> bool {
-    let is_alone = outlook.drawing.get(place.entity).is_some_and(|entity| entity.geometry.segment_count() == 1);
+    let is_alone = outlook
+        .drawing
+        .get(place.entity)
+        .is_some_and(|entity| entity.geometry.segment_count() == 1);
     is_alone && place.geometry.length() <= outlook.limits.tolerances.zero_length
 }
 
 /// The segment's start vertex goes and its end becomes that of what came before. The ends of an open polyline stay.
 fn in_polyline(place: &ContourSegment, closed: bool, vertices: &[Vertex]) -> Option<Vec<Change>> {
-    let (entity, count) = (place.entity, if closed { vertices.len() } else { vertices.len().checked_sub(1)? });
+    let (entity, count) = (
+        place.entity,
+        if closed {
+            vertices.len()
+        } else {
+            vertices.len().checked_sub(1)?
+        },
+    );
     if count <= if closed { 3 } else { 1 } {
         return None;
     }
     if !closed && place.segment == 0 {
-        let vertex = Vertex { bulge: vertices.get(1)?.bulge, ..*vertices.first()? };
-        return Some(vec![Change::SetVertex { entity, index: 0, vertex }, Change::RemoveVertex { entity, index: 1 }]);
+        let vertex = Vertex {
+            bulge: vertices.get(1)?.bulge,
+            ..*vertices.first()?
+        };
+        return Some(vec![
+            Change::SetVertex {
+                entity,
+                index: 0,
+                vertex,
+            },
+            Change::RemoveVertex { entity, index: 1 },
+        ]);
     }
-    Some(vec![Change::RemoveVertex { entity, index: place.segment }])
+    Some(vec![Change::RemoveVertex {
+        entity,
+        index: place.segment,
+    }])
 }
 
 /// The entity goes and a neighbour's end moves to where the other neighbour is; a line's rather than an arc's.
 fn in_chain(outlook: &Outlook, index: isize, place: &ContourSegment) -> Option<Vec<Change>> {
     let (before, behind) = (outlook.segment(index - 1)?, outlook.segment(index + 1)?);
-    if [before.entity, behind.entity].contains(&place.entity) || before.entity == behind.entity && outlook.contour.len() < 3 {
+    if [before.entity, behind.entity].contains(&place.entity)
+        || before.entity == behind.entity && outlook.contour.len() < 3
+    {
         return None;
     }
-    Some(vec![joined(outlook.drawing, &before, &behind)?, Change::RemoveEntity { entity: place.entity }])
+    Some(vec![
+        joined(outlook.drawing, &before, &behind)?,
+        Change::RemoveEntity {
+            entity: place.entity,
+        },
+    ])
 }

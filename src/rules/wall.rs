@@ -24,7 +24,11 @@ pub struct Corner {
 
 impl<'a> Wall<'a> {
     pub fn new(outlook: &Outlook<'a>, index: usize) -> Option<Wall<'a>> {
-        Some(Wall { outlook: *outlook, index, segment: outlook.segment(index as isize)? })
+        Some(Wall {
+            outlook: *outlook,
+            index,
+            segment: outlook.segment(index as isize)?,
+        })
     }
 
     pub fn geometry(&self) -> &Segment {
@@ -33,16 +37,26 @@ impl<'a> Wall<'a> {
 
     /// The segment `steps` further in the direction of travel.
     pub fn beside(&self, steps: isize) -> Option<Segment> {
-        self.outlook.segment(self.index as isize + steps).map(|segment| segment.geometry)
+        self.outlook
+            .segment(self.index as isize + steps)
+            .map(|segment| segment.geometry)
     }
 
     /// The vertex that the segment starts in; and the one it ends in where no other segment starts there. So each vertex
     /// belongs to one segment.
     pub fn corners(&self) -> impl Iterator<Item = Corner> + use<> {
         let geometry = *self.geometry();
-        let start = Corner { at: geometry.start(), incoming: self.beside(-1), outgoing: Some(geometry) };
+        let start = Corner {
+            at: geometry.start(),
+            incoming: self.beside(-1),
+            outgoing: Some(geometry),
+        };
         let is_last = !self.outlook.contour.closed && self.index + 1 == self.outlook.contour.len();
-        let end = is_last.then(|| Corner { at: geometry.end(), incoming: Some(geometry), outgoing: None });
+        let end = is_last.then(|| Corner {
+            at: geometry.end(),
+            incoming: Some(geometry),
+            outgoing: None,
+        });
         std::iter::once(start).chain(end)
     }
 
@@ -76,10 +90,17 @@ impl Joints {
         }
         let mut direct = 0;
         for (from, to) in [(one, other), (other, one)] {
-            let Some(steps) = from.steps_to(to) else { continue };
-            let between: f64 = (1..steps as isize).filter_map(|step| from.beside(step)).map(|segment| segment.length()).sum();
+            let Some(steps) = from.steps_to(to) else {
+                continue;
+            };
+            let between: f64 = (1..steps as isize)
+                .filter_map(|step| from.beside(step))
+                .map(|segment| segment.length())
+                .sum();
             if steps == 1 || between <= short {
-                joints.points.extend([from.geometry().end(), to.geometry().start()]);
+                joints
+                    .points
+                    .extend([from.geometry().end(), to.geometry().start()]);
                 direct += usize::from(steps == 1);
             }
         }
@@ -89,7 +110,9 @@ impl Joints {
 
     /// True when a point lies at a joint.
     pub fn are_at(&self, point: Point, tolerance: f64) -> bool {
-        self.points.iter().any(|joint| (joint - point).norm() <= tolerance)
+        self.points
+            .iter()
+            .any(|joint| (joint - point).norm() <= tolerance)
     }
 }
 
@@ -115,8 +138,11 @@ impl Corner {
     /// True when no step along the contour brings the vertex nearer to what lies in `direction` (a unit vector) of it.
     pub fn is_nearest(&self, direction: Vector) -> bool {
         const ROUNDING: f64 = 1e-6;
-        self.outgoing.is_none_or(|segment| direction.dot(&segment.start_tangent()) <= ROUNDING)
-            && self.incoming.is_none_or(|segment| direction.dot(&segment.end_tangent()) >= -ROUNDING)
+        self.outgoing
+            .is_none_or(|segment| direction.dot(&segment.start_tangent()) <= ROUNDING)
+            && self
+                .incoming
+                .is_none_or(|segment| direction.dot(&segment.end_tangent()) >= -ROUNDING)
     }
 
     /// Side of travel on which `direction` leaves the vertex; `None` at an open end and at the tip of a spike.
@@ -128,5 +154,9 @@ impl Corner {
 
 /// Side of `along` on which `direction` lies.
 pub fn side_of(along: Vector, direction: Vector) -> Side {
-    if cross(along, direction) > 0.0 { Side::Left } else { Side::Right }
+    if cross(along, direction) > 0.0 {
+        Side::Left
+    } else {
+        Side::Right
+    }
 }

@@ -69,7 +69,12 @@ pub(super) enum Weight {
 
 impl Client {
     pub fn new(writer: Writer) -> Client {
-        Client { abilities: Abilities::default(), writer, next_id: 0, asked: FxHashMap::default() }
+        Client {
+            abilities: Abilities::default(),
+            writer,
+            next_id: 0,
+            asked: FxHashMap::default(),
+        }
     }
 
     pub fn writer(&self) -> &Writer {
@@ -85,8 +90,20 @@ impl Client {
     ) {
         self.next_id += 1;
         let id = format!("wedm-{}", self.next_id);
-        self.writer.send_json(&Request { jsonrpc: "2.0", id: &id, method, params });
-        self.asked.insert(id, Asked { method, deadline: Instant::now() + TIME_OUT, then: Box::new(then) });
+        self.writer.send_json(&Request {
+            jsonrpc: "2.0",
+            id: &id,
+            method,
+            params,
+        });
+        self.asked.insert(
+            id,
+            Asked {
+                method,
+                deadline: Instant::now() + TIME_OUT,
+                then: Box::new(then),
+            },
+        );
     }
 
     /// A line for the client's log.
@@ -100,7 +117,10 @@ impl Client {
     }
 
     fn say(&self, method: &str, weight: Weight, message: String) {
-        self.writer.notify(method, serde_json::json!({ "type": weight as u8, "message": readable(&message) }));
+        self.writer.notify(
+            method,
+            serde_json::json!({ "type": weight as u8, "message": readable(&message) }),
+        );
     }
 
     /// When the next request is given up.
@@ -114,22 +134,43 @@ pub(super) fn answered(state: &mut State, id: &str, result: Result<Value, Value>
     match state.client.asked.remove(id) {
         Some(Asked { then, method, .. }) => {
             let result = result.map_err(|error| {
-                let reason = error.get("message").and_then(Value::as_str).unwrap_or("no reason given");
+                let reason = error
+                    .get("message")
+                    .and_then(Value::as_str)
+                    .unwrap_or("no reason given");
                 format!("{method} failed: {reason}")
             });
             then(state, result);
         }
-        None => state.client.log(Weight::Info, format!("an answer to {id} came late or answers nothing that was asked")),
+        None => state.client.log(
+            Weight::Info,
+            format!("an answer to {id} came late or answers nothing that was asked"),
+        ),
     }
 }
 
 /// Gives up what has waited too long.
 pub(super) fn expire(state: &mut State) {
     let now = Instant::now();
-    while let Some(id) = state.client.asked.iter().find(|(_, asked)| asked.deadline <= now).map(|(id, _)| id.clone()) {
+    while let Some(id) = state
+        .client
+        .asked
+        .iter()
+        .find(|(_, asked)| asked.deadline <= now)
+        .map(|(id, _)| id.clone())
+    {
         if let Some(Asked { then, method, .. }) = state.client.asked.remove(&id) {
-            state.client.log(Weight::Warning, format!("{method} was not answered within {} s", TIME_OUT.as_secs()));
-            then(state, Err(format!("the client did not answer {method} within {} s", TIME_OUT.as_secs())));
+            state.client.log(
+                Weight::Warning,
+                format!("{method} was not answered within {} s", TIME_OUT.as_secs()),
+            );
+            then(
+                state,
+                Err(format!(
+                    "the client did not answer {method} within {} s",
+                    TIME_OUT.as_secs()
+                )),
+            );
         }
     }
 }

@@ -1,7 +1,10 @@
 //! The levels of settings, and which `wedm.toml` holds for which document.
 
 use crate::finding::Rule;
-use crate::settings::{Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, place_in, read_file as read_settings};
+use crate::settings::{
+    Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, place_in,
+    read_file as read_settings,
+};
 use crate::text::SourceText;
 use ls_types::Uri;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -68,14 +71,28 @@ impl Config {
         }
         errors.retain(|error| error.rule == Rule::Settings);
         errors.extend(self.settings_for(None).pass_errors(&|_| None));
-        let sentences: Vec<String> = errors.iter().map(|error| format!("settings in {}: {}", level.name(), error.message)).collect();
-        let old: FxHashSet<String> = self.shown.insert(level.name(), sentences.clone()).unwrap_or_default().into_iter().collect();
-        sentences.into_iter().filter(|sentence| !old.contains(sentence)).collect()
+        let sentences: Vec<String> = errors
+            .iter()
+            .map(|error| format!("settings in {}: {}", level.name(), error.message))
+            .collect();
+        let old: FxHashSet<String> = self
+            .shown
+            .insert(level.name(), sentences.clone())
+            .unwrap_or_default()
+            .into_iter()
+            .collect();
+        sentences
+            .into_iter()
+            .filter(|sentence| !old.contains(sentence))
+            .collect()
     }
 
     /// The settings for a document, before a request's own options; `file` is what [`Config::file_for`] found.
     pub fn settings_for(&self, file: Option<&ProjectFile>) -> Settings {
-        let levels = self.initialization.overlaid(&self.pushed).overlaid(&self.pulled);
+        let levels = self
+            .initialization
+            .overlaid(&self.pushed)
+            .overlaid(&self.pulled);
         match file {
             Some(project) => levels.overlaid(&project.settings),
             None => levels,
@@ -87,7 +104,12 @@ impl Config {
     }
 
     /// The project's file that holds for a document: upwards from it, or from the workspace folder where it is no file.
-    pub fn file_for(&self, uri: &str, search: &mut Search, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<Arc<ProjectFile>> {
+    pub fn file_for(
+        &self,
+        uri: &str,
+        search: &mut Search,
+        opened: &dyn Fn(&Path) -> Option<SourceText>,
+    ) -> Option<Arc<ProjectFile>> {
         let document = path_of(uri);
         let start = match &document {
             Some(path) => path.parent()?,
@@ -101,7 +123,11 @@ impl Config {
         let (settings, mut errors) = from_toml(text);
         errors.retain(|error| error.rule == Rule::Settings);
         let all = self.settings_for(None).overlaid(&settings);
-        errors.extend(all.pass_errors(&|fault| place_in(text, fault)).into_iter().filter(|error| error.range.is_some()));
+        errors.extend(
+            all.pass_errors(&|fault| place_in(text, fault))
+                .into_iter()
+                .filter(|error| error.range.is_some()),
+        );
         errors
     }
 }
@@ -114,7 +140,11 @@ pub(super) struct Search {
 }
 
 impl Search {
-    fn upwards(&mut self, start: &Path, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<Arc<ProjectFile>> {
+    fn upwards(
+        &mut self,
+        start: &Path,
+        opened: &dyn Fn(&Path) -> Option<SourceText>,
+    ) -> Option<Arc<ProjectFile>> {
         let mut asked = Vec::new();
         let mut found = None;
         for folder in start.ancestors() {
@@ -128,22 +158,36 @@ impl Search {
                 break;
             }
         }
-        self.found.extend(asked.into_iter().map(|folder| (folder.to_path_buf(), found.clone())));
+        self.found.extend(
+            asked
+                .into_iter()
+                .map(|folder| (folder.to_path_buf(), found.clone())),
+        );
         found
     }
 }
 
 /// A project's file as it is now; `None` where there is none. `opened` are files whose text the client holds.
-pub(super) fn read(file: &Path, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<ProjectFile> {
+pub(super) fn read(
+    file: &Path,
+    opened: &dyn Fn(&Path) -> Option<SourceText>,
+) -> Option<ProjectFile> {
     match opened(file) {
         Some(text) => Some(parse(file, text)),
-        None => std::fs::metadata(file).is_ok_and(|metadata| metadata.is_file()).then(|| read_file(file)),
+        None => std::fs::metadata(file)
+            .is_ok_and(|metadata| metadata.is_file())
+            .then(|| read_file(file)),
     }
 }
 
 fn parse(path: &Path, text: SourceText) -> ProjectFile {
     let (settings, errors) = from_toml(&text.as_str_lossy());
-    ProjectFile { path: path.to_path_buf(), settings, errors, text }
+    ProjectFile {
+        path: path.to_path_buf(),
+        settings,
+        errors,
+        text,
+    }
 }
 
 fn read_file(path: &Path) -> ProjectFile {
@@ -153,7 +197,11 @@ fn read_file(path: &Path) -> ProjectFile {
             path: path.to_path_buf(),
             text: SourceText::default(),
             settings: Settings::default(),
-            errors: vec![SettingsError::new("", format!("the file cannot be taken: {reason}"), None)],
+            errors: vec![SettingsError::new(
+                "",
+                format!("the file cannot be taken: {reason}"),
+                None,
+            )],
         },
     }
 }
@@ -162,7 +210,9 @@ fn read_file(path: &Path) -> ProjectFile {
 pub(super) fn path_of(uri: &str) -> Option<PathBuf> {
     let parsed = Uri::from_str(uri).ok()?;
     let is_file = parsed.scheme().as_str().eq_ignore_ascii_case("file");
-    is_file.then(|| parsed.to_file_path().map(|path| path.into_owned())).flatten()
+    is_file
+        .then(|| parsed.to_file_path().map(|path| path.into_owned()))
+        .flatten()
 }
 
 /// The URI of a file.
@@ -180,20 +230,43 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let deep = folder.path().join("a").join("b c");
         std::fs::create_dir_all(&deep).unwrap();
-        std::fs::write(folder.path().join(FILE_NAME), "margin = 0.5\ncorrection = 0.3\n").unwrap();
+        std::fs::write(
+            folder.path().join(FILE_NAME),
+            "margin = 0.5\ncorrection = 0.3\n",
+        )
+        .unwrap();
         let mut config = Config::default();
         config.set_folders(vec![folder.path().to_path_buf()]);
-        assert!(config.set_level(Level::Initialization, &json!({ "correction": 0.1, "side": "punch" })).is_empty());
-        assert!(config.set_level(Level::Pulled, &json!({ "correction": 0.2, "gap": null })).is_empty());
+        assert!(
+            config
+                .set_level(
+                    Level::Initialization,
+                    &json!({ "correction": 0.1, "side": "punch" })
+                )
+                .is_empty()
+        );
+        assert!(
+            config
+                .set_level(Level::Pulled, &json!({ "correction": 0.2, "gap": null }))
+                .is_empty()
+        );
         let nothing_open = |_: &Path| None;
         for uri in [uri_of(&deep.join("x.dxf")).unwrap(), "cad:///1".into()] {
-            let file = config.file_for(&uri, &mut Search::default(), &nothing_open).unwrap();
+            let file = config
+                .file_for(&uri, &mut Search::default(), &nothing_open)
+                .unwrap();
             let settings = config.settings_for(Some(&file));
-            assert_eq!((settings.correction, settings.margin), (Some(0.3), Some(0.5)), "{uri}");
+            assert_eq!(
+                (settings.correction, settings.margin),
+                (Some(0.3), Some(0.5)),
+                "{uri}"
+            );
         }
         assert_eq!(config.settings_for(None).correction, Some(0.2));
         let edited = |_: &Path| Some(SourceText::new(b"correction = 0.4".to_vec()));
-        let file = config.file_for("cad:///1", &mut Search::default(), &edited).unwrap();
+        let file = config
+            .file_for("cad:///1", &mut Search::default(), &edited)
+            .unwrap();
         assert_eq!(config.settings_for(Some(&file)).correction, Some(0.4));
     }
 
@@ -209,7 +282,14 @@ mod tests {
         let (config, mut search) = (Config::default(), Search::default());
         for number in 0..1000 {
             let path = folder.path().join(format!("{}/{number}.dxf", number % 10));
-            assert_eq!(config.file_for(&uri_of(&path).unwrap(), &mut search, &nothing_open).unwrap().settings.margin, Some(0.5));
+            assert_eq!(
+                config
+                    .file_for(&uri_of(&path).unwrap(), &mut search, &nothing_open)
+                    .unwrap()
+                    .settings
+                    .margin,
+                Some(0.5)
+            );
         }
         assert_eq!(asked.get(), 11);
     }
@@ -220,7 +300,9 @@ mod tests {
         let bad = json!({ "correction": -1 });
         assert_eq!(
             config.set_level(Level::Pushed, &bad),
-            ["settings in workspace/didChangeConfiguration: correction is -1, expected a number above 0"]
+            [
+                "settings in workspace/didChangeConfiguration: correction is -1, expected a number above 0"
+            ]
         );
         assert!(config.set_level(Level::Pushed, &bad).is_empty());
         assert!(config.set_level(Level::Pushed, &json!({})).is_empty());

@@ -43,17 +43,24 @@ impl Content {
     /// Replaces bytes of the text. One that has not been read is not read for it.
     pub fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str) {
         match self {
-            Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => text.replace(range, replacement),
+            Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => {
+                text.replace(range, replacement)
+            }
             Content::Foreign | Content::Away | Content::Unread(Remains::Drawing(_)) => {}
             Content::Read(document) => {
                 let before = document.text().map_or(0, SourceText::len);
-                let edited = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).edit_text(range.clone(), replacement)));
+                let edited = catch_unwind(AssertUnwindSafe(|| {
+                    Arc::make_mut(document).edit_text(range.clone(), replacement)
+                }));
                 if let Err(panic) = edited {
                     report(&*panic);
                     let (kind, mut text) = text_of(document);
                     // The panic came before the text was touched, or behind that.
                     let done = text.len() == before - range.len() + replacement.len()
-                        && text.bytes().get(range.start..range.start + replacement.len()) == Some(replacement.as_bytes());
+                        && text
+                            .bytes()
+                            .get(range.start..range.start + replacement.len())
+                            == Some(replacement.as_bytes());
                     if !done {
                         text.replace(range, replacement);
                     }
@@ -67,10 +74,12 @@ impl Content {
     /// them, and only the client knows the whole.
     pub fn change_drawing(&mut self, changes: Vec<DrawingChange>) -> Result<(), String> {
         let changed = catch_unwind(AssertUnwindSafe(|| match &mut *self {
-            Content::Read(document) => {
-                Arc::make_mut(document).edit_drawing(|drawing| protocol::apply(drawing, changes)).unwrap_or(Err(no_drawing()))
+            Content::Read(document) => Arc::make_mut(document)
+                .edit_drawing(|drawing| protocol::apply(drawing, changes))
+                .unwrap_or(Err(no_drawing())),
+            Content::Unread(Remains::Drawing(drawing)) => {
+                protocol::apply(Arc::make_mut(drawing), changes).map(|_| ())
             }
-            Content::Unread(Remains::Drawing(drawing)) => protocol::apply(Arc::make_mut(drawing), changes).map(|_| ()),
             _ => Err(no_drawing()),
         }));
         changed.unwrap_or_else(|panic| {
@@ -83,7 +92,9 @@ impl Content {
     pub fn set_settings(&mut self, settings: &Arc<Effective>) {
         if let Content::Read(document) = self
             && document.settings() != settings
-            && let Err(panic) = catch_unwind(AssertUnwindSafe(|| Arc::make_mut(document).set_settings(settings.clone())))
+            && let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
+                Arc::make_mut(document).set_settings(settings.clone())
+            }))
         {
             report(&*panic);
             self.forget();
@@ -106,13 +117,22 @@ impl Content {
 
     /// Reads what has not been read.
     pub fn read(&mut self, settings: &Arc<Effective>) {
-        let Content::Unread(remains) = self else { return };
+        let Content::Unread(remains) = self else {
+            return;
+        };
         let read = catch_unwind(AssertUnwindSafe(|| {
             let source = match &*remains {
-                Remains::Text { kind: Kind::Program(language), text } => {
-                    Source::Program(program::Document::read(*language, text.bytes().to_vec(), settings))
+                Remains::Text {
+                    kind: Kind::Program(language),
+                    text,
+                } => Source::Program(program::Document::read(
+                    *language,
+                    text.bytes().to_vec(),
+                    settings,
+                )),
+                Remains::Text { text, .. } => {
+                    Source::Dxf(dxf::Document::read(text.bytes().to_vec()))
                 }
-                Remains::Text { text, .. } => Source::Dxf(dxf::Document::read(text.bytes().to_vec())),
                 Remains::Drawing(drawing) => Source::Cad(drawing.clone()),
             };
             Arc::new(Document::new(source, settings.clone()))
@@ -124,10 +144,17 @@ impl Content {
     }
 
     /// What the client is shown now, and how many findings there are in all.
-    pub fn diagnostics(&mut self, encoding: Encoding, related_of: Option<&str>, settings: &Arc<Effective>) -> (Vec<Diagnostic>, usize) {
+    pub fn diagnostics(
+        &mut self,
+        encoding: Encoding,
+        related_of: Option<&str>,
+        settings: &Arc<Effective>,
+    ) -> (Vec<Diagnostic>, usize) {
         match self {
             Content::Read(document) => {
-                let found = catch_unwind(AssertUnwindSafe(|| convert::publish_of(Arc::make_mut(document), encoding, related_of)));
+                let found = catch_unwind(AssertUnwindSafe(|| {
+                    convert::publish_of(Arc::make_mut(document), encoding, related_of)
+                }));
                 found.unwrap_or_else(|panic| {
                     report(&*panic);
                     self.forget();
@@ -150,12 +177,17 @@ fn no_drawing() -> String {
 }
 
 fn text_of(document: &Document) -> (Kind, SourceText) {
-    let kind = document.program().map_or(Kind::Dxf, |program| Kind::Program(program.language()));
+    let kind = document
+        .program()
+        .map_or(Kind::Dxf, |program| Kind::Program(program.language()));
     (kind, document.text().cloned().unwrap_or_default())
 }
 
 fn report(panic: &(dyn Any + Send)) {
-    tracing::error!("a document could not be read or judged: {}", panic_text(panic));
+    tracing::error!(
+        "a document could not be read or judged: {}",
+        panic_text(panic)
+    );
 }
 
 fn internal_error() -> Diagnostic {

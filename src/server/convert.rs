@@ -3,7 +3,10 @@
 use crate::document::Document;
 use crate::finding::{Detail, Finding, Place, Rule};
 use crate::message::en;
-use crate::protocol::{CodeDescription, Diagnostic, FindingData, Location, Position, Range, RelatedInformation, severity_number};
+use crate::protocol::{
+    CodeDescription, Diagnostic, FindingData, Location, Position, Range, RelatedInformation,
+    severity_number,
+};
 use crate::settings::SettingsError;
 use crate::text::{Encoding, SourceText, TextEdit};
 use ls_types as lsp;
@@ -18,16 +21,31 @@ const RULES: &str = "https://github.com/wedm/wedm/blob/main/docs/rules/";
 /// there are in all.
 ///
 /// With the document's `uri`, for a client that shows them, the other places of a finding are told, too.
-pub(super) fn publish_of(document: &mut Document, encoding: Encoding, uri: Option<&str>) -> (Vec<Diagnostic>, usize) {
+pub(super) fn publish_of(
+    document: &mut Document,
+    encoding: Encoding,
+    uri: Option<&str>,
+) -> (Vec<Diagnostic>, usize) {
     let (findings, count) = document.findings(PUBLISH_LIMIT);
-    let mut diagnostics: Vec<Diagnostic> = findings.iter().map(|finding| diagnostic(document, finding, encoding, uri)).collect();
+    let mut diagnostics: Vec<Diagnostic> = findings
+        .iter()
+        .map(|finding| diagnostic(document, finding, encoding, uri))
+        .collect();
     if count > findings.len()
         && let Some(severity) = document.settings().severity(Rule::More)
     {
-        let detail = Detail::More { count: count - findings.len() };
+        let detail = Detail::More {
+            count: count - findings.len(),
+        };
         diagnostics.push(diagnostic(
             document,
-            &Finding { rule: Rule::More, severity, place: Place::Document, detail, related: Vec::new() },
+            &Finding {
+                rule: Rule::More,
+                severity,
+                place: Place::Document,
+                detail,
+                related: Vec::new(),
+            },
             encoding,
             None,
         ));
@@ -35,18 +53,40 @@ pub(super) fn publish_of(document: &mut Document, encoding: Encoding, uri: Optio
     (diagnostics, count)
 }
 
-pub(super) fn diagnostics(document: &Document, findings: &[Finding], encoding: Encoding) -> Vec<Diagnostic> {
-    findings.iter().map(|finding| diagnostic(document, finding, encoding, None)).collect()
+pub(super) fn diagnostics(
+    document: &Document,
+    findings: &[Finding],
+    encoding: Encoding,
+) -> Vec<Diagnostic> {
+    findings
+        .iter()
+        .map(|finding| diagnostic(document, finding, encoding, None))
+        .collect()
 }
 
 /// A finding of `document` as the client is shown it.
-pub(super) fn diagnostic(document: &Document, finding: &Finding, encoding: Encoding, uri: Option<&str>) -> Diagnostic {
-    let related = uri.map(|uri| related_information(document, finding, encoding, uri)).filter(|related| !related.is_empty());
-    Diagnostic { related_information: related, ..diagnostic_at(document, finding, encoding) }
+pub(super) fn diagnostic(
+    document: &Document,
+    finding: &Finding,
+    encoding: Encoding,
+    uri: Option<&str>,
+) -> Diagnostic {
+    let related = uri
+        .map(|uri| related_information(document, finding, encoding, uri))
+        .filter(|related| !related.is_empty());
+    Diagnostic {
+        related_information: related,
+        ..diagnostic_at(document, finding, encoding)
+    }
 }
 
 /// The other places of a finding; in a drawing the line is the index of the segment within its entity.
-fn related_information(document: &Document, finding: &Finding, encoding: Encoding, uri: &str) -> Vec<RelatedInformation> {
+fn related_information(
+    document: &Document,
+    finding: &Finding,
+    encoding: Encoding,
+    uri: &str,
+) -> Vec<RelatedInformation> {
     let drawing = document.drawing();
     let related = |place: &Place| {
         let range = match (document.text(), document.range_of(place), place) {
@@ -60,7 +100,13 @@ fn related_information(document: &Document, finding: &Finding, encoding: Encodin
             Place::Text { .. } | Place::Document => return None,
         };
         let message = en::related(finding, &drawing?.get(entity)?.handle, segment);
-        Some(RelatedInformation { location: Location { uri: uri.into(), range }, message })
+        Some(RelatedInformation {
+            location: Location {
+                uri: uri.into(),
+                range,
+            },
+            message,
+        })
     };
     finding.related.iter().filter_map(related).collect()
 }
@@ -91,9 +137,16 @@ fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> 
 }
 
 /// What is wrong in a `wedm.toml`.
-pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], encoding: Encoding) -> Vec<Diagnostic> {
+pub(super) fn settings_diagnostics(
+    text: &SourceText,
+    errors: &[SettingsError],
+    encoding: Encoding,
+) -> Vec<Diagnostic> {
     let diagnostic = |error: &SettingsError| Diagnostic {
-        range: error.range.clone().map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
+        range: error
+            .range
+            .clone()
+            .map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
         severity: severity_number(error.severity),
         code: error.rule.name().into(),
         code_description: code_description(error.rule),
@@ -106,31 +159,66 @@ pub(super) fn settings_diagnostics(text: &SourceText, errors: &[SettingsError], 
 }
 
 fn code_description(rule: Rule) -> Option<CodeDescription> {
-    Some(CodeDescription { href: format!("{RULES}{}.md", rule.name()) })
+    Some(CodeDescription {
+        href: format!("{RULES}{}.md", rule.name()),
+    })
 }
 
-pub(super) fn range_of(text: &SourceText, bytes: std::ops::Range<usize>, encoding: Encoding) -> Range {
+pub(super) fn range_of(
+    text: &SourceText,
+    bytes: std::ops::Range<usize>,
+    encoding: Encoding,
+) -> Range {
     let position = |offset: usize| {
         let (line, character) = text.position_of(offset, encoding);
-        Position { line: line.try_into().unwrap_or(u32::MAX), character: character.try_into().unwrap_or(u32::MAX) }
+        Position {
+            line: line.try_into().unwrap_or(u32::MAX),
+            character: character.try_into().unwrap_or(u32::MAX),
+        }
     };
-    Range { start: position(bytes.start), end: position(bytes.end) }
+    Range {
+        start: position(bytes.start),
+        end: position(bytes.end),
+    }
 }
 
 /// Bytes of a client's range, clamped to the text; an end before the start is the start.
-pub(super) fn bytes_of(text: &SourceText, range: lsp::Range, encoding: Encoding) -> std::ops::Range<usize> {
-    let offset = |position: lsp::Position| text.offset_of(position.line as usize, position.character as usize, encoding);
+pub(super) fn bytes_of(
+    text: &SourceText,
+    range: lsp::Range,
+    encoding: Encoding,
+) -> std::ops::Range<usize> {
+    let offset = |position: lsp::Position| {
+        text.offset_of(
+            position.line as usize,
+            position.character as usize,
+            encoding,
+        )
+    };
     let start = offset(range.start);
     start..offset(range.end).max(start)
 }
 
 pub(super) fn lsp_range(range: Range) -> lsp::Range {
-    let position = |position: Position| lsp::Position { line: position.line, character: position.character };
-    lsp::Range { start: position(range.start), end: position(range.end) }
+    let position = |position: Position| lsp::Position {
+        line: position.line,
+        character: position.character,
+    };
+    lsp::Range {
+        start: position(range.start),
+        end: position(range.end),
+    }
 }
 
-pub(super) fn lsp_edits(text: &SourceText, edits: Vec<TextEdit>, encoding: Encoding) -> Vec<lsp::TextEdit> {
-    let edit = |edit: TextEdit| lsp::TextEdit { range: lsp_range(range_of(text, edit.range, encoding)), new_text: edit.text };
+pub(super) fn lsp_edits(
+    text: &SourceText,
+    edits: Vec<TextEdit>,
+    encoding: Encoding,
+) -> Vec<lsp::TextEdit> {
+    let edit = |edit: TextEdit| lsp::TextEdit {
+        range: lsp_range(range_of(text, edit.range, encoding)),
+        new_text: edit.text,
+    };
     edits.into_iter().map(edit).collect()
 }
 

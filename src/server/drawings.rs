@@ -18,10 +18,17 @@ pub(super) struct Sent {
 impl Sent {
     /// Reads the params of `wedm/didOpenDrawing`; `Err` where not even the URI can be read.
     pub fn read(mut params: Value) -> Result<Sent, String> {
-        let drawing = params.get_mut("drawing").map(Value::take).unwrap_or_default();
-        let uri = drawing.get("uri").and_then(Value::as_str).ok_or("drawing.uri is missing or not a string")?;
+        let drawing = params
+            .get_mut("drawing")
+            .map(Value::take)
+            .unwrap_or_default();
+        let uri = drawing
+            .get("uri")
+            .and_then(Value::as_str)
+            .ok_or("drawing.uri is missing or not a string")?;
         let uri: Arc<str> = uri.into();
-        let read = serde_json::from_value::<protocol::Drawing>(drawing).map_err(|error| error.to_string());
+        let read =
+            serde_json::from_value::<protocol::Drawing>(drawing).map_err(|error| error.to_string());
         let drawing = read.and_then(|drawing| Ok((drawing.version, drawing.into_core()?)));
         Ok(Sent { uri, drawing })
     }
@@ -34,14 +41,24 @@ pub(super) fn open(state: &mut State, sent: Sent) {
             state.log_if_open(&uri);
             insert(state, uri, version, drawing);
         }
-        Err(reason) => refuse(state, &uri, &format!("the drawing {uri} is not sound: {reason}")),
+        Err(reason) => refuse(
+            state,
+            &uri,
+            &format!("the drawing {uri} is not sound: {reason}"),
+        ),
     }
 }
 
 fn insert(state: &mut State, uri: Arc<str>, version: i64, drawing: Drawing) {
     let settings = state.settings_for(&uri);
     let stamp = state.next_stamp();
-    state.insert(Open::new(uri, version, Task::Drawing(Box::new(drawing)), settings, stamp));
+    state.insert(Open::new(
+        uri,
+        version,
+        Task::Drawing(Box::new(drawing)),
+        settings,
+        stamp,
+    ));
 }
 
 /// Changes as they came, with the reason where they cannot be read.
@@ -53,19 +70,29 @@ pub(super) struct SentChanges {
 impl SentChanges {
     /// Reads the params of `wedm/didChangeDrawing`; `Err` where not even the URI can be read.
     pub fn read(params: Value) -> Result<SentChanges, String> {
-        let uri = params.pointer("/drawing/uri").and_then(Value::as_str).ok_or("drawing.uri is missing or not a string")?;
+        let uri = params
+            .pointer("/drawing/uri")
+            .and_then(Value::as_str)
+            .ok_or("drawing.uri is missing or not a string")?;
         let uri: Arc<str> = uri.into();
         let changes = serde_json::from_value::<protocol::ChangeDrawing>(params);
-        let changes = changes.map(|params| (params.drawing.version, params.changes)).map_err(|error| error.to_string());
+        let changes = changes
+            .map(|params| (params.drawing.version, params.changes))
+            .map_err(|error| error.to_string());
         Ok(SentChanges { uri, changes })
     }
 }
 
 pub(super) fn change(state: &mut State, sent: SentChanges) {
     let SentChanges { uri, changes } = sent;
-    let is_open = state.documents.get(&uri).is_some_and(|open| open.is_drawing);
+    let is_open = state
+        .documents
+        .get(&uri)
+        .is_some_and(|open| open.is_drawing);
     match changes {
-        Ok((version, changes)) if is_open => state.add_task(&uri, Task::ChangeDrawing { version, changes }),
+        Ok((version, changes)) if is_open => {
+            state.add_task(&uri, Task::ChangeDrawing { version, changes })
+        }
         Ok(_) => does_not_apply(state, &uri, "there is no such drawing open"),
         Err(reason) => does_not_apply(state, &uri, &reason),
     }
@@ -73,14 +100,21 @@ pub(super) fn change(state: &mut State, sent: SentChanges) {
 
 /// A change of a drawing was not made.
 pub(super) fn does_not_apply(state: &mut State, uri: &Arc<str>, reason: &str) {
-    refuse(state, uri, &format!("a change of the drawing {uri} does not apply: {reason}"));
+    refuse(
+        state,
+        uri,
+        &format!("a change of the drawing {uri} does not apply: {reason}"),
+    );
 }
 
 pub(super) fn close(state: &mut State, uri: &Arc<str>) {
     state.resending.remove(uri);
     let is_open = state.documents.get(uri).is_some_and(|open| open.is_drawing);
     if !is_open || !state.close(uri) {
-        state.client.log(Weight::Warning, format!("the drawing {uri} was closed without being open"));
+        state.client.log(
+            Weight::Warning,
+            format!("the drawing {uri} was closed without being open"),
+        );
     }
 }
 
@@ -90,7 +124,9 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
     if !state.client.abilities.resend_drawing || !state.resending.insert(uri.clone()) {
         return;
     }
-    let params = ResendDrawing { uri: uri.to_string() };
+    let params = ResendDrawing {
+        uri: uri.to_string(),
+    };
     let uri = uri.clone();
     let about = uri.clone();
     let take = move |state: &mut State, answer: Result<Value, String>| {
@@ -99,15 +135,24 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
             return;
         }
         let drawing = answer
-            .and_then(|answer| serde_json::from_value::<Resent>(answer).map_err(|error| error.to_string()))
+            .and_then(|answer| {
+                serde_json::from_value::<Resent>(answer).map_err(|error| error.to_string())
+            })
             .and_then(|resent| resent_drawing(state, &uri, resent));
         if let Err(reason) = drawing {
-            state.client.log(Weight::Warning, format!("the drawing {uri} was not sent again as it should be: {reason}"));
+            state.client.log(
+                Weight::Warning,
+                format!("the drawing {uri} was not sent again as it should be: {reason}"),
+            );
         }
     };
-    state.client.ask(method::RESEND_DRAWING, params, move |state, answer| {
-        state.in_turn(method::RESEND_DRAWING, about, move |state| take(state, answer));
-    });
+    state
+        .client
+        .ask(method::RESEND_DRAWING, params, move |state, answer| {
+            state.in_turn(method::RESEND_DRAWING, about, move |state| {
+                take(state, answer)
+            });
+        });
 }
 
 fn resent_drawing(state: &mut State, uri: &Arc<str>, resent: Resent) -> Result<(), String> {
@@ -116,7 +161,11 @@ fn resent_drawing(state: &mut State, uri: &Arc<str>, resent: Resent) -> Result<(
         return Err(format!("its uri is {}", drawing.uri));
     }
     let version = drawing.version;
-    if let Some(open) = state.documents.get(uri).filter(|open| open.version > version) {
+    if let Some(open) = state
+        .documents
+        .get(uri)
+        .filter(|open| open.version > version)
+    {
         return Err(format!("version {version} is older than {}", open.version));
     }
     insert(state, uri.clone(), version, drawing.into_core()?);

@@ -41,7 +41,9 @@ pub(super) struct Progress {
 impl Progress {
     /// `params` are those of the request, which may hold a `workDoneToken`.
     pub fn begin(writer: &Writer, token: Option<Value>, title: &str) -> Progress {
-        let progress = Progress { to: token.map(|token| (writer.clone(), token)) };
+        let progress = Progress {
+            to: token.map(|token| (writer.clone(), token)),
+        };
         progress.send(json!({ "kind": "begin", "title": title, "cancellable": true }));
         progress
     }
@@ -94,7 +96,11 @@ const REST: Duration = Duration::from_secs(10);
 
 impl Pool {
     fn new(name: &'static str, most: usize) -> Pool {
-        Pool { shared: Arc::default(), name, most }
+        Pool {
+            shared: Arc::default(),
+            name,
+            most,
+        }
     }
 
     fn push(&self, job: Job) {
@@ -102,7 +108,10 @@ impl Pool {
         bench.jobs.push_back(job);
         if bench.idle < bench.jobs.len() && bench.threads < self.most {
             let shared = self.shared.clone();
-            match std::thread::Builder::new().name(self.name.into()).spawn(move || work(&shared)) {
+            match std::thread::Builder::new()
+                .name(self.name.into())
+                .spawn(move || work(&shared))
+            {
                 Ok(_) => bench.threads += 1,
                 Err(error) => tracing::error!("a worker cannot be started: {error}"),
             }
@@ -136,7 +145,12 @@ impl Workers {
     pub fn new(mailbox: Mailbox, writer: Writer) -> Workers {
         let count = std::thread::available_parallelism().map_or(2, usize::from);
         // Two at least, so that one long job does not hold up a short one.
-        Workers { requests: Pool::new("wedm-worker", count.clamp(2, 4)), judges: Pool::new("wedm-judge", MOST_JUDGED), mailbox, writer }
+        Workers {
+            requests: Pool::new("wedm-worker", count.clamp(2, 4)),
+            judges: Pool::new("wedm-judge", MOST_JUDGED),
+            mailbox,
+            writer,
+        }
     }
 
     /// Takes a document through what has come for it and hands it back to `then` on the state thread, whatever comes.
@@ -166,7 +180,8 @@ impl Workers {
             while writer.is_congested() && !cancel.is_cancelled() {
                 writer.wait_for_room(Duration::from_millis(200));
             }
-            let result = catch_unwind(AssertUnwindSafe(|| job(&cancel))).map_err(|panic| panic_text(&*panic).to_owned());
+            let result = catch_unwind(AssertUnwindSafe(|| job(&cancel)))
+                .map_err(|panic| panic_text(&*panic).to_owned());
             if let Err(text) = &result {
                 tracing::error!("{name} panicked: {text}");
             }
@@ -194,7 +209,9 @@ fn work((bench, filled): &(Mutex<Bench>, Condvar)) {
                 break job;
             }
             guard.idle += 1;
-            let (woken, timeout) = filled.wait_timeout(guard, REST).unwrap_or_else(PoisonError::into_inner);
+            let (woken, timeout) = filled
+                .wait_timeout(guard, REST)
+                .unwrap_or_else(PoisonError::into_inner);
             guard = woken;
             guard.idle -= 1;
             if guard.is_ended || (timeout.timed_out() && guard.jobs.is_empty()) {

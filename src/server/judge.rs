@@ -22,9 +22,15 @@ pub(super) enum Task {
     /// It is this drawing.
     Drawing(Box<Drawing>),
     /// The client has changed its text.
-    Change { version: i64, changes: Vec<TextDocumentContentChangeEvent> },
+    Change {
+        version: i64,
+        changes: Vec<TextDocumentContentChangeEvent>,
+    },
     /// The client has changed its drawing.
-    ChangeDrawing { version: i64, changes: Vec<DrawingChange> },
+    ChangeDrawing {
+        version: i64,
+        changes: Vec<DrawingChange>,
+    },
     /// Other settings hold for it.
     Settings,
     /// What was derived from it is in doubt.
@@ -91,7 +97,12 @@ impl Job {
         let is_small_task = |task: &Task| match task {
             Task::Text { text, .. } => is_small_text(text.as_bytes()),
             Task::Drawing(drawing) => is_small_drawing(drawing),
-            Task::Change { changes, .. } => changes.len() <= FEW && changes.iter().all(|change| is_small_text(change.text.as_bytes())),
+            Task::Change { changes, .. } => {
+                changes.len() <= FEW
+                    && changes
+                        .iter()
+                        .all(|change| is_small_text(change.text.as_bytes()))
+            }
             Task::ChangeDrawing { changes, .. } => changes.len() <= FEW,
             Task::Settings | Task::Rebuild => true,
         };
@@ -100,7 +111,9 @@ impl Job {
 
     fn kind(&self) -> Kind {
         let of_content = match &self.content {
-            Content::Read(document) => document.program().map_or(Kind::Dxf, |program| Kind::Program(program.language())),
+            Content::Read(document) => document
+                .program()
+                .map_or(Kind::Dxf, |program| Kind::Program(program.language())),
             Content::Unread(Remains::Text { kind, .. }) => *kind,
             _ => Kind::Foreign,
         };
@@ -108,14 +121,30 @@ impl Job {
             Task::Text { kind, .. } => Some(*kind),
             _ => None,
         };
-        self.tasks.iter().rev().find_map(of_task).unwrap_or(of_content)
+        self.tasks
+            .iter()
+            .rev()
+            .find_map(of_task)
+            .unwrap_or(of_content)
     }
 
     pub fn run(self) -> Judged {
         let began = Instant::now();
-        let Job { uri, mut version, mut content, tasks, settings, encoding, shows_related, is_slow } = self;
+        let Job {
+            uri,
+            mut version,
+            mut content,
+            tasks,
+            settings,
+            encoding,
+            shows_related,
+            is_slow,
+        } = self;
         let (mut remarks, mut refused) = (Vec::new(), Vec::new());
-        let changes = tasks.iter().filter(|task| matches!(task, Task::Change { .. } | Task::ChangeDrawing { .. })).count();
+        let changes = tasks
+            .iter()
+            .filter(|task| matches!(task, Task::Change { .. } | Task::ChangeDrawing { .. }))
+            .count();
         if is_slow && changes > 1 {
             // All of them cost one look then, not one each.
             content.forget();
@@ -125,9 +154,19 @@ impl Job {
         for task in tasks {
             let refusals = refused.len();
             match task {
-                Task::Text { kind, text } => content = Content::Unread(Remains::Text { kind, text: SourceText::new(text.into_bytes()) }),
-                Task::Drawing(drawing) => content = Content::Unread(Remains::Drawing(Arc::new(*drawing))),
-                Task::Change { version: newer, changes } => {
+                Task::Text { kind, text } => {
+                    content = Content::Unread(Remains::Text {
+                        kind,
+                        text: SourceText::new(text.into_bytes()),
+                    })
+                }
+                Task::Drawing(drawing) => {
+                    content = Content::Unread(Remains::Drawing(Arc::new(*drawing)))
+                }
+                Task::Change {
+                    version: newer,
+                    changes,
+                } => {
                     if newer < version {
                         remarks.push(format!("{uri} was changed to version {newer}, which is older than {version}: applied all the same"));
                     }
@@ -137,7 +176,10 @@ impl Job {
                 Task::ChangeDrawing { version: newer, .. } if newer <= version => {
                     refused.push(format!("version {newer} is not newer than {version}"));
                 }
-                Task::ChangeDrawing { version: newer, changes } => match content.change_drawing(changes) {
+                Task::ChangeDrawing {
+                    version: newer,
+                    changes,
+                } => match content.change_drawing(changes) {
                     Ok(()) => version = newer,
                     Err(reason) => refused.push(reason),
                 },
@@ -151,12 +193,24 @@ impl Job {
         content.read(&settings);
         let related_of = shows_related.then_some(&*uri);
         let told = is_changed.then(|| content.diagnostics(encoding, related_of, &settings));
-        Judged { version, content, told, is_slow: began.elapsed() > LONG, remarks, refused, uri }
+        Judged {
+            version,
+            content,
+            told,
+            is_slow: began.elapsed() > LONG,
+            remarks,
+            refused,
+            uri,
+        }
     }
 }
 
 /// Makes the changes of one message in a text.
-pub(super) fn change(content: &mut Content, changes: Vec<TextDocumentContentChangeEvent>, encoding: Encoding) {
+pub(super) fn change(
+    content: &mut Content,
+    changes: Vec<TextDocumentContentChangeEvent>,
+    encoding: Encoding,
+) {
     for change in changes {
         let length = content.source_text().map_or(0, SourceText::len);
         let range = match (change.range, content.source_text()) {
@@ -173,7 +227,10 @@ fn is_small_text(kind: Kind, text: &[u8]) -> bool {
         Kind::Program(Language::Iso) => &MULTIPLIERS_IN_ISO,
         _ => &[],
     };
-    text.len() <= SMALL_TEXT && !multipliers.iter().any(|word| memmem::find(text, word).is_some())
+    text.len() <= SMALL_TEXT
+        && !multipliers
+            .iter()
+            .any(|word| memmem::find(text, word).is_some())
 }
 
 fn is_small_drawing(drawing: &Drawing) -> bool {

@@ -68,8 +68,18 @@ fn serve(options: Options) -> std::io::Result<u8> {
     let flags = Arc::new(backend::Flags::default());
     let orphaned: Option<fn()> = options.watch_parent.then_some(|| end_of_process(BAD_END));
     // Held to the end: threads that still work are not waited for.
-    let _transport = serve_between(input, &writer, &flags, orphaned, [LAST_ANSWERS, LAST_WRITES])?;
-    end_of_process(if flags.shut_down.load(Ordering::Acquire) { GOOD_END } else { BAD_END })
+    let _transport = serve_between(
+        input,
+        &writer,
+        &flags,
+        orphaned,
+        [LAST_ANSWERS, LAST_WRITES],
+    )?;
+    end_of_process(if flags.shut_down.load(Ordering::Acquire) {
+        GOOD_END
+    } else {
+        BAD_END
+    })
 }
 
 /// Serves `input` to its end, then waits for the last answers and for the client to read them.
@@ -83,7 +93,10 @@ fn serve_between(
     let mailbox = state::start(writer.clone())?;
     let prepared = Prepared::default();
     let service = backend::service(mailbox.clone(), prepared.clone(), flags.clone(), orphaned);
-    let inbox = ToState { mailbox: mailbox.clone(), flags: flags.clone() };
+    let inbox = ToState {
+        mailbox: mailbox.clone(),
+        flags: flags.clone(),
+    };
     let mut transport = Transport::new(service, inbox, writer.clone(), prepared)?;
     transport.serve(input);
     transport.drain(last_answers);
@@ -107,11 +120,15 @@ struct ToState {
 
 impl Inbox for ToState {
     fn reply(&self, id: String, result: Result<Value, Value>) {
-        self.mailbox.tell("reply", None, move |state| client::answered(state, &id, result));
+        self.mailbox.tell("reply", None, move |state| {
+            client::answered(state, &id, result)
+        });
     }
 
     fn note(&self, text: String) {
-        self.mailbox.tell("note", None, move |state| state.client.log(client::Weight::Warning, text));
+        self.mailbox.tell("note", None, move |state| {
+            state.client.log(client::Weight::Warning, text)
+        });
     }
 
     fn taken(&self) -> usize {
@@ -121,6 +138,11 @@ impl Inbox for ToState {
 
 /// Logs to stderr by `WEDM_LOG`, warnings and worse by default. Standard output belongs to the protocol.
 fn log_to_stderr() {
-    let filter = tracing_subscriber::EnvFilter::try_from_env("WEDM_LOG").unwrap_or_else(|_| "warn".into());
-    let _ = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).with_ansi(false).try_init();
+    let filter =
+        tracing_subscriber::EnvFilter::try_from_env("WEDM_LOG").unwrap_or_else(|_| "warn".into());
+    let _ = tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .with_ansi(false)
+        .try_init();
 }

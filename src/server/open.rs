@@ -29,13 +29,17 @@ impl Kind {
         if name.eq_ignore_ascii_case(FILE_NAME) {
             return Kind::Settings;
         }
-        let by_name = name.rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
+        let by_name = name
+            .rsplit_once('.')
+            .map(|(_, extension)| extension.to_ascii_lowercase());
         match (language, by_name.as_deref()) {
             ("dxf", _) => Kind::Dxf,
             (language, ending) => match (Language::of_id(language), ending) {
                 (Some(language), _) => Kind::Program(language),
                 (None, Some("dxf")) => Kind::Dxf,
-                (None, ending) => ending.and_then(Language::of_ending).map_or(Kind::Foreign, Kind::Program),
+                (None, ending) => ending
+                    .and_then(Language::of_ending)
+                    .map_or(Kind::Foreign, Kind::Program),
             },
         }
     }
@@ -84,11 +88,26 @@ impl Shot {
 
 impl Open {
     /// A document that is yet to be read: its first task brings the text or drawing.
-    pub fn new(uri: Arc<str>, version: i64, first: Task, settings: Arc<Effective>, stamp: u64) -> Open {
+    pub fn new(
+        uri: Arc<str>,
+        version: i64,
+        first: Task,
+        settings: Arc<Effective>,
+        stamp: u64,
+    ) -> Open {
         let is_drawing = matches!(first, Task::Drawing(_));
         let (content, tasks) = match first {
-            Task::Text { kind: Kind::Settings, text } => (Content::Settings(SourceText::new(text.into_bytes())), Vec::new()),
-            Task::Text { kind: Kind::Foreign, .. } => (Content::Foreign, Vec::new()),
+            Task::Text {
+                kind: Kind::Settings,
+                text,
+            } => (
+                Content::Settings(SourceText::new(text.into_bytes())),
+                Vec::new(),
+            ),
+            Task::Text {
+                kind: Kind::Foreign,
+                ..
+            } => (Content::Foreign, Vec::new()),
             first => (Content::Foreign, vec![first]),
         };
         Open {
@@ -114,7 +133,10 @@ impl Open {
             return Some(shot);
         }
         let text = self.content.source_text()?.clone();
-        let shot = Arc::new(Shot { text, outdated: AtomicBool::new(false) });
+        let shot = Arc::new(Shot {
+            text,
+            outdated: AtomicBool::new(false),
+        });
         self.shot = Arc::downgrade(&shot);
         Some(shot)
     }
@@ -147,14 +169,20 @@ mod tests {
 
     #[test]
     fn a_text_is_known_by_its_language_or_its_name() {
-        let check = |language: &str, uri: &str, expected: Kind| assert_eq!(Kind::of(language, uri), expected, "{language} {uri}");
+        let check = |language: &str, uri: &str, expected: Kind| {
+            assert_eq!(Kind::of(language, uri), expected, "{language} {uri}")
+        };
         check("dxf", "file:///a/b", Kind::Dxf);
         check("plaintext", "file:///a/B.DXF", Kind::Dxf);
         check("", "untitled:plate.3b", Kind::Program(Language::ThreeB));
         check("3b", "file:///a/plate.txt", Kind::Program(Language::ThreeB));
         check("toml", "file:///a/wedm.toml", Kind::Settings);
         check("toml", "file:///a/Cargo.toml", Kind::Foreign);
-        check("wire-iso", "file:///a/plate.txt", Kind::Program(Language::Iso));
+        check(
+            "wire-iso",
+            "file:///a/plate.txt",
+            Kind::Program(Language::Iso),
+        );
         check("", "file:///a/plate.NC", Kind::Program(Language::Iso));
     }
 }

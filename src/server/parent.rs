@@ -6,12 +6,14 @@ const INTERVAL: Duration = Duration::from_secs(2);
 
 /// Calls `gone` once the process `pid` has died. Nothing happens where that cannot be seen.
 pub(super) fn watch(pid: u32, gone: impl FnOnce() + Send + 'static) {
-    let watching = std::thread::Builder::new().name("wedm-parent".into()).spawn(move || {
-        while is_alive(pid) {
-            std::thread::sleep(INTERVAL);
-        }
-        gone();
-    });
+    let watching = std::thread::Builder::new()
+        .name("wedm-parent".into())
+        .spawn(move || {
+            while is_alive(pid) {
+                std::thread::sleep(INTERVAL);
+            }
+            gone();
+        });
     if let Err(error) = watching {
         tracing::warn!("the client's process cannot be watched: {error}");
     }
@@ -20,7 +22,9 @@ pub(super) fn watch(pid: u32, gone: impl FnOnce() + Send + 'static) {
 /// False only when there is surely no such process: one that may not be asked is alive.
 #[cfg(unix)]
 fn is_alive(pid: u32) -> bool {
-    let Ok(pid) = i32::try_from(pid) else { return true };
+    let Ok(pid) = i32::try_from(pid) else {
+        return true;
+    };
     // 0 and 1 stand for "our own group" and for the first process, which outlives us.
     if pid <= 1 {
         return true;
@@ -36,7 +40,8 @@ fn is_alive(pid: u32) -> bool {
 fn is_zombie(pid: i32) -> bool {
     let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
     // The name before it stands in parentheses and may hold anything.
-    stat.rsplit_once(')').is_some_and(|(_, rest)| matches!(rest.trim_start().chars().next(), Some('Z' | 'X')))
+    stat.rsplit_once(')')
+        .is_some_and(|(_, rest)| matches!(rest.trim_start().chars().next(), Some('Z' | 'X')))
 }
 
 #[cfg(all(unix, not(target_os = "linux")))]

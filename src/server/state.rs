@@ -50,13 +50,33 @@ pub(super) struct Mailbox {
 
 impl Mailbox {
     /// Hands `act` to the state thread. Nothing happens once that has ended.
-    pub fn tell(&self, name: &'static str, about: Option<Arc<str>>, act: impl FnOnce(&mut State) + Send + 'static) {
-        let _ = self.sender.send(Message { name, about, changes: false, act: Box::new(act) });
+    pub fn tell(
+        &self,
+        name: &'static str,
+        about: Option<Arc<str>>,
+        act: impl FnOnce(&mut State) + Send + 'static,
+    ) {
+        let _ = self.sender.send(Message {
+            name,
+            about,
+            changes: false,
+            act: Box::new(act),
+        });
     }
 
     /// The same for what changes a document and looks at nothing in it: several of these are judged together.
-    pub fn tell_change(&self, name: &'static str, about: Arc<str>, act: impl FnOnce(&mut State) + Send + 'static) {
-        let _ = self.sender.send(Message { name, about: Some(about), changes: true, act: Box::new(act) });
+    pub fn tell_change(
+        &self,
+        name: &'static str,
+        about: Arc<str>,
+        act: impl FnOnce(&mut State) + Send + 'static,
+    ) {
+        let _ = self.sender.send(Message {
+            name,
+            about: Some(about),
+            changes: true,
+            act: Box::new(act),
+        });
     }
 }
 
@@ -102,7 +122,9 @@ pub(super) fn start(writer: Writer) -> std::io::Result<Mailbox> {
         stamp: 0,
         stopped: None,
     };
-    std::thread::Builder::new().name("wedm-state".into()).spawn(move || state.run(&receiver))?;
+    std::thread::Builder::new()
+        .name("wedm-state".into())
+        .spawn(move || state.run(&receiver))?;
     Ok(mailbox)
 }
 
@@ -111,7 +133,9 @@ impl State {
         loop {
             let first = match self.client.next_deadline() {
                 None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Some(deadline) => inbox.recv_timeout(deadline.saturating_duration_since(Instant::now())),
+                Some(deadline) => {
+                    inbox.recv_timeout(deadline.saturating_duration_since(Instant::now()))
+                }
             };
             let began = Instant::now();
             let mut name = "time-out";
@@ -131,7 +155,10 @@ impl State {
             client::expire(&mut self);
             self.judge_dirty();
             if began.elapsed() > LONG_TURN {
-                tracing::info!("a turn that began with {name} took {} ms", began.elapsed().as_millis());
+                tracing::info!(
+                    "a turn that began with {name} took {} ms",
+                    began.elapsed().as_millis()
+                );
             }
             if self.away == 0
                 && let Some(done) = self.stopped.take()
@@ -145,17 +172,26 @@ impl State {
 
     /// Acts on a message, or lets it wait where a worker has its document: what comes about one document is done in its order.
     fn handle(&mut self, message: Message) {
-        match message.about.clone().filter(|uri| self.waiting.contains_key(uri) || self.is_busy(uri, message.changes)) {
+        match message
+            .about
+            .clone()
+            .filter(|uri| self.waiting.contains_key(uri) || self.is_busy(uri, message.changes))
+        {
             Some(uri) => self.waiting.entry(uri).or_default().push_back(message),
             None => self.act_on(message),
         }
     }
 
     fn act_on(&mut self, message: Message) {
-        let Message { name, about, act, .. } = message;
+        let Message {
+            name, about, act, ..
+        } = message;
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| act(self))) {
             tracing::error!("{name} panicked: {}", panic_text(&*panic));
-            self.client.log(Weight::Warning, format!("internal error in {name}: {}", panic_text(&*panic)));
+            self.client.log(
+                Weight::Warning,
+                format!("internal error in {name}: {}", panic_text(&*panic)),
+            );
             if let Some(uri) = about {
                 self.rebuild(&uri);
             }
@@ -163,13 +199,28 @@ impl State {
     }
 
     /// Does `act` when what has come about a document before is done.
-    pub fn in_turn(&mut self, name: &'static str, about: Arc<str>, act: impl FnOnce(&mut State) + Send + 'static) {
-        self.handle(Message { name, about: Some(about), changes: false, act: Box::new(act) });
+    pub fn in_turn(
+        &mut self,
+        name: &'static str,
+        about: Arc<str>,
+        act: impl FnOnce(&mut State) + Send + 'static,
+    ) {
+        self.handle(Message {
+            name,
+            about: Some(about),
+            changes: false,
+            act: Box::new(act),
+        });
     }
 
     /// True where a worker has a document. One that has changed is judged before anybody looks at it.
     fn is_busy(&mut self, uri: &Arc<str>, changes: bool) -> bool {
-        if !changes && self.documents.get(uri).is_some_and(|open| !open.is_away() && !open.tasks.is_empty()) {
+        if !changes
+            && self
+                .documents
+                .get(uri)
+                .is_some_and(|open| !open.is_away() && !open.tasks.is_empty())
+        {
             self.judge(uri);
         }
         self.documents.get(uri).is_some_and(Open::is_away)
@@ -187,11 +238,9 @@ impl State {
 
     /// Drops what was derived from a document, never its text, and derives it again.
     pub fn rebuild(&mut self, uri: &Arc<str>) {
-        if self
-            .documents
-            .get(uri)
-            .is_some_and(|open| matches!(open.content, Content::Settings(_) | Content::Foreign) && open.tasks.is_empty())
-        {
+        if self.documents.get(uri).is_some_and(|open| {
+            matches!(open.content, Content::Settings(_) | Content::Foreign) && open.tasks.is_empty()
+        }) {
             self.mark_dirty(uri);
         } else {
             self.add_task(uri, Task::Rebuild);
@@ -232,23 +281,37 @@ impl State {
 
     pub fn log_if_open(&self, uri: &Arc<str>) {
         if self.documents.contains_key(uri) {
-            self.client.log(Weight::Info, format!("{uri} was open already: the new text or drawing takes its place"));
+            self.client.log(
+                Weight::Info,
+                format!("{uri} was open already: the new text or drawing takes its place"),
+            );
         }
     }
 
     /// Closes a document; false when it is not open.
     pub fn close(&mut self, uri: &Arc<str>) -> bool {
-        let Some(open) = self.documents.remove(uri) else { return false };
+        let Some(open) = self.documents.remove(uri) else {
+            return false;
+        };
         if matches!(open.content, Content::Settings(_)) {
             self.settings_texts.retain(|_, other| other != uri);
         }
-        self.client.writer().publish(Publish { uri: uri.clone(), version: None, diagnostics: Vec::new(), owed: true });
+        self.client.writer().publish(Publish {
+            uri: uri.clone(),
+            version: None,
+            diagnostics: Vec::new(),
+            owed: true,
+        });
         true
     }
 
     fn judge_dirty(&mut self) {
         for uri in std::mem::take(&mut self.dirty) {
-            if self.documents.get(&uri).is_some_and(|open| open.is_dirty && !open.is_away()) {
+            if self
+                .documents
+                .get(&uri)
+                .is_some_and(|open| open.is_dirty && !open.is_away())
+            {
                 self.judge(&uri);
             }
         }
@@ -256,7 +319,9 @@ impl State {
 
     /// Takes a document through what has come for it: here where that is little, else on a worker.
     fn judge(&mut self, uri: &Arc<str>) {
-        let Some(open) = self.documents.get_mut(uri) else { return };
+        let Some(open) = self.documents.get_mut(uri) else {
+            return;
+        };
         open.is_dirty = false;
         let job = Job {
             uri: open.uri.clone(),
@@ -284,20 +349,37 @@ impl State {
 
     /// Takes back a document and tells the client of it.
     fn take_back(&mut self, judged: Judged) {
-        let Judged { uri, version, content, told, is_slow, remarks, refused } = judged;
-        let Some(open) = self.documents.get_mut(&uri) else { return };
+        let Judged {
+            uri,
+            version,
+            content,
+            told,
+            is_slow,
+            remarks,
+            refused,
+        } = judged;
+        let Some(open) = self.documents.get_mut(&uri) else {
+            return;
+        };
         (open.version, open.content, open.is_slow) = (version, content, is_slow);
         if let Some((diagnostics, findings)) = told {
             open.findings = findings;
             // What is wrong in a project's file depends on what the client says as well.
             let diagnostics = match &open.content {
-                Content::Settings(text) => {
-                    super::convert::settings_diagnostics(text, &self.config.errors_in(&text.as_str_lossy()), self.encoding)
-                }
+                Content::Settings(text) => super::convert::settings_diagnostics(
+                    text,
+                    &self.config.errors_in(&text.as_str_lossy()),
+                    self.encoding,
+                ),
                 _ => diagnostics,
             };
             let owed = !std::mem::replace(&mut open.published, true);
-            self.client.writer().publish(Publish { uri: uri.clone(), version: Some(version), diagnostics, owed });
+            self.client.writer().publish(Publish {
+                uri: uri.clone(),
+                version: Some(version),
+                diagnostics,
+                owed,
+            });
         }
         // What came while it was away.
         if open.is_dirty {
@@ -313,7 +395,9 @@ impl State {
 
     /// Acts on what has waited for a document, until a worker has it again.
     fn go_on(&mut self, uri: &Arc<str>) {
-        let Some(mut waiting) = self.waiting.remove(uri) else { return };
+        let Some(mut waiting) = self.waiting.remove(uri) else {
+            return;
+        };
         while let Some(message) = waiting.pop_front() {
             if self.is_busy(uri, message.changes) {
                 waiting.push_front(message);
@@ -331,14 +415,20 @@ impl State {
     }
 
     pub fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
-        let file = self.config.file_for(uri, &mut Search::default(), &|file| self.opened_text(file))?;
+        let file = self
+            .config
+            .file_for(uri, &mut Search::default(), &|file| self.opened_text(file))?;
         self.show_file(&file.path, Some(&file));
         Some(file)
     }
 
     /// The text of a project's file that the client holds open.
     fn opened_text(&self, file: &Path) -> Option<SourceText> {
-        self.documents.get(self.settings_texts.get(file)?)?.content.source_text().cloned()
+        self.documents
+            .get(self.settings_texts.get(file)?)?
+            .content
+            .source_text()
+            .cloned()
     }
 
     /// Shows the errors of a file that the client does not hold open itself.
@@ -349,9 +439,21 @@ impl State {
         }
         let errors = match project {
             Some(project) => {
-                let own = project.errors.iter().filter(|error| error.rule == Rule::Settings).cloned();
-                let beside = self.config.errors_in(&project.text.as_str_lossy()).into_iter().filter(|error| error.rule != Rule::Settings);
-                super::convert::settings_diagnostics(&project.text, &own.chain(beside).collect::<Vec<_>>(), self.encoding)
+                let own = project
+                    .errors
+                    .iter()
+                    .filter(|error| error.rule == Rule::Settings)
+                    .cloned();
+                let beside = self
+                    .config
+                    .errors_in(&project.text.as_str_lossy())
+                    .into_iter()
+                    .filter(|error| error.rule != Rule::Settings);
+                super::convert::settings_diagnostics(
+                    &project.text,
+                    &own.chain(beside).collect::<Vec<_>>(),
+                    self.encoding,
+                )
             }
             None => Vec::new(),
         };
@@ -369,7 +471,12 @@ impl State {
 
     fn publish_file(&self, file: &Path, diagnostics: Vec<Diagnostic>) {
         if let Some(uri) = config::uri_of(file) {
-            self.client.writer().publish(Publish { uri: uri.into(), version: None, diagnostics, owed: false });
+            self.client.writer().publish(Publish {
+                uri: uri.into(),
+                version: None,
+                diagnostics,
+                owed: false,
+            });
         }
     }
 
@@ -384,7 +491,9 @@ impl State {
         let mut effective: FxHashMap<Option<PathBuf>, Arc<Effective>> = FxHashMap::default();
         let uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
         for uri in uris {
-            let file = self.config.file_for(&uri, &mut search, &|file| self.opened_text(file));
+            let file = self
+                .config
+                .file_for(&uri, &mut search, &|file| self.opened_text(file));
             let key = file.as_ref().map(|file| file.path.clone());
             let settings = match effective.get(&key) {
                 Some(settings) => settings.clone(),
@@ -397,7 +506,11 @@ impl State {
                     settings
                 }
             };
-            if let Some(open) = self.documents.get_mut(&uri).filter(|open| open.settings != settings) {
+            if let Some(open) = self
+                .documents
+                .get_mut(&uri)
+                .filter(|open| open.settings != settings)
+            {
                 open.settings = settings;
                 if !matches!(open.content, Content::Settings(_)) {
                     self.add_task(&uri, Task::Settings);
@@ -408,7 +521,9 @@ impl State {
 
     /// The open document, or the error that says there is none.
     pub fn document(&mut self, uri: &str) -> jsonrpc::Result<&mut Open> {
-        self.documents.get_mut(uri).ok_or_else(|| jsonrpc::Error::invalid_params(format!("{uri} is not open")))
+        self.documents
+            .get_mut(uri)
+            .ok_or_else(|| jsonrpc::Error::invalid_params(format!("{uri} is not open")))
     }
 
     pub fn set_abilities(&mut self, abilities: Abilities) {

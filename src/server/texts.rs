@@ -13,16 +13,30 @@ pub(super) fn open(state: &mut State, uri: Arc<str>, language: &str, version: i6
     let settings = state.settings_for(&uri);
     let stamp = state.next_stamp();
     state.log_if_open(&uri);
-    state.insert(Open::new(uri, version, Task::Text { kind, text }, settings, stamp));
+    state.insert(Open::new(
+        uri,
+        version,
+        Task::Text { kind, text },
+        settings,
+        stamp,
+    ));
     if kind == Kind::Settings {
         state.settings_changed();
     }
 }
 
-pub(super) fn change(state: &mut State, uri: &Arc<str>, version: i64, changes: Vec<TextDocumentContentChangeEvent>) {
+pub(super) fn change(
+    state: &mut State,
+    uri: &Arc<str>,
+    version: i64,
+    changes: Vec<TextDocumentContentChangeEvent>,
+) {
     let encoding = state.encoding;
     let Some(open) = state.documents.get_mut(uri).filter(|open| !open.is_drawing) else {
-        state.client.log(Weight::Warning, format!("{uri} was changed without being open as a text: nothing was done"));
+        state.client.log(
+            Weight::Warning,
+            format!("{uri} was changed without being open as a text: nothing was done"),
+        );
         return;
     };
     if !matches!(open.content, Content::Settings(_)) {
@@ -36,13 +50,21 @@ pub(super) fn change(state: &mut State, uri: &Arc<str>, version: i64, changes: V
 }
 
 pub(super) fn close(state: &mut State, uri: &Arc<str>) {
-    match state.documents.get(uri).map(|open| (open.is_drawing, matches!(open.content, Content::Settings(_)))) {
+    match state.documents.get(uri).map(|open| {
+        (
+            open.is_drawing,
+            matches!(open.content, Content::Settings(_)),
+        )
+    }) {
         Some((false, is_settings)) => {
             state.close(uri);
             if is_settings {
                 state.settings_changed();
             }
         }
-        _ => state.client.log(Weight::Warning, format!("{uri} was closed without being open as a text")),
+        _ => state.client.log(
+            Weight::Warning,
+            format!("{uri} was closed without being open as a text"),
+        ),
     }
 }

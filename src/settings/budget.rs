@@ -16,6 +16,10 @@ pub struct Budget {
 
 impl Default for Budget {
     fn default() -> Self {
-        Budget { looks: 20_000_000, looks_of_a_segment: 64, most_seen: 20_000 }
+        Budget {
+            looks: 20_000_000,
+            looks_of_a_segment: 64,
+            most_seen: 20_000,
+        }
     }
 }

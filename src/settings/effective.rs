@@ -2,7 +2,8 @@
 
 use super::profile::DEFAULT_PROFILE;
 use super::{
-    Budget, Compensation, Corner, Direction, Jumps, Layout, Order, PointSetting, Profile, RuleSeverity, Settings, SideSetting, UnitSetting,
+    Budget, Compensation, Corner, Direction, Jumps, Layout, Order, PointSetting, Profile,
+    RuleSeverity, Settings, SideSetting, UnitSetting,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
@@ -77,18 +78,41 @@ impl Effective {
         let single = match (settings.correction, settings.wire_diameter, settings.gap) {
             (Some(correction), ..) => correction,
             (None, None, None) => Self::CORRECTION,
-            (None, diameter, gap) => diameter.unwrap_or(Self::WIRE_DIAMETER) / 2.0 + gap.unwrap_or(Self::GAP),
+            (None, diameter, gap) => {
+                diameter.unwrap_or(Self::WIRE_DIAMETER) / 2.0 + gap.unwrap_or(Self::GAP)
+            }
         };
-        let passes = settings.passes.as_ref().and_then(|passes| passes.corrections.clone()).filter(|list| !list.is_empty());
+        let passes = settings
+            .passes
+            .as_ref()
+            .and_then(|passes| passes.corrections.clone())
+            .filter(|list| !list.is_empty());
         let corrections = passes.clone().unwrap_or_else(|| vec![single]);
-        let largest = corrections.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        let largest = corrections
+            .iter()
+            .copied()
+            .enumerate()
+            .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
         let (index, correction) = largest.unwrap_or((0, single));
         let program = settings.program.clone().unwrap_or_default();
         let severities = Rule::ALL.map(|rule| {
-            let set: Option<&RuleSeverity> = settings.rules.as_ref().and_then(|rules| rules.get(rule.name()));
-            (rule, set.map_or(Some(rule.default_severity()), |severity| severity.severity()))
+            let set: Option<&RuleSeverity> = settings
+                .rules
+                .as_ref()
+                .and_then(|rules| rules.get(rule.name()));
+            (
+                rule,
+                set.map_or(Some(rule.default_severity()), |severity| {
+                    severity.severity()
+                }),
+            )
         });
-        let is_stated = |rule: &Rule| settings.rules.as_ref().is_some_and(|rules| rules.get(rule.name()).is_some());
+        let is_stated = |rule: &Rule| {
+            settings
+                .rules
+                .as_ref()
+                .is_some_and(|rules| rules.get(rule.name()).is_some())
+        };
         Effective {
             correction,
             pass: (corrections.len() > 1).then_some(index + 1),
@@ -103,7 +127,12 @@ impl Effective {
             margin: settings.margin.unwrap_or(0.001),
             layers: settings.layers.clone().unwrap_or_default(),
             contours: settings.contours.clone().unwrap_or_default(),
-            colors: settings.colors.iter().flatten().filter_map(|(name, role)| Some((Color::named(name)?, *role))).collect(),
+            colors: settings
+                .colors
+                .iter()
+                .flatten()
+                .filter_map(|(name, role)| Some((Color::named(name)?, *role)))
+                .collect(),
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             layout: program.layout.unwrap_or_default(),
@@ -121,10 +150,16 @@ impl Effective {
             compensation: program.compensation.unwrap_or_default(),
             digits: program.digits.map_or(Self::DIGITS, u32::from),
             program_units: program.units,
-            profile: Profile::of(program.profile.as_deref().unwrap_or(DEFAULT_PROFILE), settings.profiles.as_ref()),
+            profile: Profile::of(
+                program.profile.as_deref().unwrap_or(DEFAULT_PROFILE),
+                settings.profiles.as_ref(),
+            ),
             end: program.end.unwrap_or_else(|| "DD".into()),
             pause: program.pause.unwrap_or_else(|| "D".into()),
-            tolerances: Tolerances { arc_fit: settings.arc_fit.unwrap_or(Tolerances::default().arc_fit), ..Tolerances::default() },
+            tolerances: Tolerances {
+                arc_fit: settings.arc_fit.unwrap_or(Tolerances::default().arc_fit),
+                ..Tolerances::default()
+            },
             budget: Budget::default(),
         }
     }
@@ -137,21 +172,43 @@ impl Effective {
     /// Why no program is written: what is wrong with the corrections of the passes, where that is an error.
     pub fn pass_error(&self) -> Option<String> {
         let is_error = self.severity(Rule::PassOrder) == Some(Severity::Error);
-        let faults = || super::pass_faults(&self.corrections, self.corrections.len() > 1, self.wire_diameter);
-        if is_error { faults().into_iter().next().map(|fault| fault.message) } else { None }
+        let faults = || {
+            super::pass_faults(
+                &self.corrections,
+                self.corrections.len() > 1,
+                self.wire_diameter,
+            )
+        };
+        if is_error {
+            faults().into_iter().next().map(|fault| fault.message)
+        } else {
+            None
+        }
     }
 
     /// What is said beside a program that holds one pass of several.
     pub fn one_pass(&self) -> Option<Finding> {
         let passes = self.corrections.len();
-        let detail = Detail::OnePass { passes, correction: self.correction };
+        let detail = Detail::OnePass {
+            passes,
+            correction: self.correction,
+        };
         let severity = Severity::Warning;
-        (passes > 1).then(|| Finding { rule: Rule::PassOrder, severity, place: Place::Document, detail, related: Vec::new() })
+        (passes > 1).then(|| Finding {
+            rule: Rule::PassOrder,
+            severity,
+            place: Place::Document,
+            detail,
+            related: Vec::new(),
+        })
     }
 
     /// Severity of a rule, `None` when it is switched off.
     pub fn severity(&self, rule: Rule) -> Option<Severity> {
-        self.severities.get(&rule).copied().unwrap_or(Some(rule.default_severity()))
+        self.severities
+            .get(&rule)
+            .copied()
+            .unwrap_or(Some(rule.default_severity()))
     }
 
     /// Severity of a reader's finding: what is set for its rule, else what the reader gave it. `None` when it is switched off.
@@ -161,7 +218,11 @@ impl Effective {
 
     /// Severity of something whose rule has other severities than its default one: `own`, unless somebody has set the rule.
     pub fn severity_over(&self, rule: Rule, own: Severity) -> Option<Severity> {
-        if self.stated.contains(&rule) { self.severity(rule) } else { Some(own) }
+        if self.stated.contains(&rule) {
+            self.severity(rule)
+        } else {
+            Some(own)
+        }
     }
 
     /// The unit of a drawing: its own, else that of the settings.

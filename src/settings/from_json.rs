@@ -8,7 +8,9 @@ use super::{Settings, SettingsError};
 ///
 /// An object that holds the section `wedm` stands for that section: editors send the one or the other.
 pub fn from_json(json: &serde_json::Value) -> (Settings, Vec<SettingsError>) {
-    let section = json.get("wedm").filter(|section| section.is_object() || section.is_null());
+    let section = json
+        .get("wedm")
+        .filter(|section| section.is_object() || section.is_null());
     reader::read(&node(section.unwrap_or(json)))
 }
 
@@ -21,7 +23,11 @@ fn node(json: &serde_json::Value) -> Node {
         Json::String(text) => Value::Text(text.clone()),
         Json::Array(items) => Value::List(items.iter().map(node).collect()),
         Json::Object(entries) => {
-            let entries = entries.iter().map(|(key, value)| Entry { key: key.clone(), key_range: None, node: node(value) });
+            let entries = entries.iter().map(|(key, value)| Entry {
+                key: key.clone(),
+                key_range: None,
+                node: node(value),
+            });
             Value::Table(entries.collect())
         }
     };

@@ -27,19 +27,38 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, String> {
 /// a mebibyte nothing does.
 pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     if text.len() > LARGEST {
-        let message = format!("the file has {} bytes, expected at most {LARGEST}: none of it holds", text.len());
-        return (Settings::default(), vec![SettingsError::new("", message, Some(0..0))]);
+        let message = format!(
+            "the file has {} bytes, expected at most {LARGEST}: none of it holds",
+            text.len()
+        );
+        return (
+            Settings::default(),
+            vec![SettingsError::new("", message, Some(0..0))],
+        );
     }
     let (table, faults) = DeTable::parse_recoverable(text);
     let mut errors: Vec<SettingsError> = faults
         .into_iter()
-        .map(|fault| SettingsError::new("", format!("not TOML: {}", fault.message().replace('\n', ", ")), fault.span()))
+        .map(|fault| {
+            SettingsError::new(
+                "",
+                format!("not TOML: {}", fault.message().replace('\n', ", ")),
+                fault.span(),
+            )
+        })
         .collect();
     // What follows a fault on its line is the parser's guess.
     let line_ends: Vec<usize> = memchr::memchr_iter(b'\n', text.as_bytes()).collect();
-    errors.dedup_by_key(|error| error.range.as_ref().map_or(0, |range| line_ends.partition_point(|&end| end < range.start)));
+    errors.dedup_by_key(|error| {
+        error.range.as_ref().map_or(0, |range| {
+            line_ends.partition_point(|&end| end < range.start)
+        })
+    });
     let range = table.span();
-    let (settings, misfits) = reader::read(&Node { value: Value::Table(entries(table.get_ref())), range: Some(range) });
+    let (settings, misfits) = reader::read(&Node {
+        value: Value::Table(entries(table.get_ref())),
+        range: Some(range),
+    });
     errors.extend(misfits);
     errors.sort_by_key(|error| error.range.as_ref().map_or(0, |range| range.start));
     (settings, errors)
@@ -51,11 +70,21 @@ pub fn place_in(text: &str, fault: &PassFault) -> Option<Range<usize>> {
         return None;
     }
     let (table, _) = DeTable::parse_recoverable(text);
-    reader::place_of(&Node { value: Value::Table(entries(table.get_ref())), range: None }, fault)
+    reader::place_of(
+        &Node {
+            value: Value::Table(entries(table.get_ref())),
+            range: None,
+        },
+        fault,
+    )
 }
 
 fn entries(table: &DeTable<'_>) -> Vec<Entry> {
-    let entries = table.iter().map(|(key, value)| Entry { key: key.get_ref().to_string(), key_range: Some(key.span()), node: node(value) });
+    let entries = table.iter().map(|(key, value)| Entry {
+        key: key.get_ref().to_string(),
+        key_range: Some(key.span()),
+        node: node(value),
+    });
     entries.collect()
 }
 
@@ -63,7 +92,11 @@ fn node(value: &Spanned<DeValue<'_>>) -> Node {
     let range = Some(value.span());
     let value = match value.get_ref() {
         // The parser puts an empty stand-in where it found no value; the fault has been said.
-        DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) | DeValue::Boolean(_) if value.span().is_empty() => Value::Null,
+        DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) | DeValue::Boolean(_)
+            if value.span().is_empty() =>
+        {
+            Value::Null
+        }
         DeValue::Boolean(truth) => Value::Truth(*truth),
         DeValue::Integer(integer) => {
             let number = i64::from_str_radix(integer.as_str(), integer.radix());

@@ -16,7 +16,9 @@ pub use effective::Effective;
 pub use from_json::from_json;
 pub use from_toml::{FILE_NAME, from_toml, place_in, read_file};
 pub use passes::{PassFault, pass_faults};
-pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Profile, ProfileSettings, Zero, shipped_profiles};
+pub use profile::{
+    CenterRule, Coordinates, LineEnd, NumberUnit, Profile, ProfileSettings, Zero, shipped_profiles,
+};
 
 use crate::drawing::Role;
 use crate::finding::{Rule, Severity};
@@ -285,7 +287,9 @@ impl Settings {
             profiles: match (earlier.profiles, &later.profiles) {
                 (Some(mut earlier), Some(later)) => {
                     for (name, profile) in later {
-                        let merged = earlier.get(name).map_or_else(|| profile.clone(), |known| known.overlaid(profile));
+                        let merged = earlier
+                            .get(name)
+                            .map_or_else(|| profile.clone(), |known| known.overlaid(profile));
                         earlier.insert(name.clone(), merged);
                     }
                     Some(earlier)
@@ -298,16 +302,40 @@ impl Settings {
 
 impl Settings {
     /// What is wrong with the corrections of the passes once all levels are laid over each other. `place` says where a text speaks of it.
-    pub fn pass_errors(&self, place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>) -> Vec<SettingsError> {
+    pub fn pass_errors(
+        &self,
+        place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
+    ) -> Vec<SettingsError> {
         let rule = Rule::PassOrder;
         let stated = self.rules.as_ref().and_then(|rules| rules.get(rule.name()));
-        let Some(severity) = stated.map_or(Some(rule.default_severity()), |severity| severity.severity()) else { return Vec::new() };
-        let (key, faults) = match (self.passes.as_ref().and_then(|passes| passes.corrections.as_ref()), self.correction) {
-            (Some(list), _) => ("passes.corrections", pass_faults(list, true, self.wire_diameter)),
-            (None, Some(single)) => ("correction", pass_faults(&[single], false, self.wire_diameter)),
+        let Some(severity) = stated.map_or(Some(rule.default_severity()), |severity| {
+            severity.severity()
+        }) else {
+            return Vec::new();
+        };
+        let (key, faults) = match (
+            self.passes
+                .as_ref()
+                .and_then(|passes| passes.corrections.as_ref()),
+            self.correction,
+        ) {
+            (Some(list), _) => (
+                "passes.corrections",
+                pass_faults(list, true, self.wire_diameter),
+            ),
+            (None, Some(single)) => (
+                "correction",
+                pass_faults(&[single], false, self.wire_diameter),
+            ),
             (None, None) => return Vec::new(),
         };
-        let error = |fault: PassFault| SettingsError { key: key.into(), range: place(&fault), message: fault.message, rule, severity };
+        let error = |fault: PassFault| SettingsError {
+            key: key.into(),
+            range: place(&fault),
+            message: fault.message,
+            rule,
+            severity,
+        };
         faults.into_iter().map(error).collect()
     }
 }
@@ -333,7 +361,10 @@ impl ProgramSettings {
     }
 }
 
-fn merged<V>(earlier: Option<BTreeMap<String, V>>, later: Option<BTreeMap<String, V>>) -> Option<BTreeMap<String, V>> {
+fn merged<V>(
+    earlier: Option<BTreeMap<String, V>>,
+    later: Option<BTreeMap<String, V>>,
+) -> Option<BTreeMap<String, V>> {
     match (earlier, later) {
         (Some(mut earlier), Some(later)) => {
             earlier.extend(later);
@@ -358,7 +389,17 @@ pub struct SettingsError {
 
 impl SettingsError {
     /// A value that does not fit by itself.
-    pub fn new(key: impl Into<String>, message: String, range: Option<std::ops::Range<usize>>) -> SettingsError {
-        SettingsError { key: key.into(), message, range, rule: Rule::Settings, severity: Rule::Settings.default_severity() }
+    pub fn new(
+        key: impl Into<String>,
+        message: String,
+        range: Option<std::ops::Range<usize>>,
+    ) -> SettingsError {
+        SettingsError {
+            key: key.into(),
+            message,
+            range,
+            rule: Rule::Settings,
+            severity: Rule::Settings.default_severity(),
+        }
     }
 }

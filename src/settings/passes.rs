@@ -14,21 +14,38 @@ pub struct PassFault {
 
 /// What is wrong with the corrections of the passes from rough to finish, mm: one that is above that of the pass before it, and one
 /// that is below the wire's radius, where the diameter is known. `is_list`: they come from `passes.corrections`, not from `correction`.
-pub fn pass_faults(corrections: &[f64], is_list: bool, wire_diameter: Option<f64>) -> Vec<PassFault> {
-    let name = |pass: usize| if is_list { format!("passes.corrections[{pass}]") } else { "correction".into() };
+pub fn pass_faults(
+    corrections: &[f64],
+    is_list: bool,
+    wire_diameter: Option<f64>,
+) -> Vec<PassFault> {
+    let name = |pass: usize| {
+        if is_list {
+            format!("passes.corrections[{pass}]")
+        } else {
+            "correction".into()
+        }
+    };
     let mut faults = Vec::new();
     for (pass, &correction) in corrections.iter().enumerate() {
-        if let Some(before) = pass.checked_sub(1).and_then(|before| corrections.get(before))
+        if let Some(before) = pass
+            .checked_sub(1)
+            .and_then(|before| corrections.get(before))
             && correction > before + ROUNDING
         {
-            let message = format!("{} is {correction}, expected at most {before}, that of the pass before: corrections fall", name(pass));
+            let message = format!(
+                "{} is {correction}, expected at most {before}, that of the pass before: corrections fall",
+                name(pass)
+            );
             faults.push(PassFault { pass, message });
         }
         if let Some(radius) = wire_diameter.map(|diameter| diameter / 2.0)
             && correction < radius - ROUNDING
         {
-            let message =
-                format!("{} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part", name(pass));
+            let message = format!(
+                "{} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part",
+                name(pass)
+            );
             faults.push(PassFault { pass, message });
         }
     }
@@ -42,7 +59,10 @@ mod tests {
     #[test]
     fn corrections_fall_and_stay_above_the_radius_of_the_wire() {
         let check = |corrections: &[f64], diameter: Option<f64>, expected: &[usize]| {
-            let passes: Vec<usize> = pass_faults(corrections, true, diameter).iter().map(|fault| fault.pass).collect();
+            let passes: Vec<usize> = pass_faults(corrections, true, diameter)
+                .iter()
+                .map(|fault| fault.pass)
+                .collect();
             assert_eq!(passes, expected, "{corrections:?} {diameter:?}");
         };
         check(&[0.175, 0.146, 0.140], None, &[]);

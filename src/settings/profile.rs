@@ -131,8 +131,12 @@ pub const DEFAULT_PROFILE: &str = "generic";
 /// Digits behind the point of micrometres in millimetres, and of the finest step.
 pub const DECIMALS: std::ops::RangeInclusive<u8> = 3..=6;
 
-static SHIPPED: LazyLock<BTreeMap<String, ProfileSettings>> =
-    LazyLock::new(|| super::from_toml(include_str!("profiles.toml")).0.profiles.unwrap_or_default());
+static SHIPPED: LazyLock<BTreeMap<String, ProfileSettings>> = LazyLock::new(|| {
+    super::from_toml(include_str!("profiles.toml"))
+        .0
+        .profiles
+        .unwrap_or_default()
+});
 
 /// Names of the profiles that ship.
 pub fn shipped_profiles() -> impl Iterator<Item = &'static str> {
@@ -166,12 +170,19 @@ impl ProfileSettings {
 impl Profile {
     /// True where its pause stops the machine by an M word, so that the wire can be taken out.
     pub fn stops(&self) -> bool {
-        let stops = |line: &String| line.as_bytes().windows(2).any(|pair| matches!(pair, [b'M' | b'm', digit] if digit.is_ascii_digit()));
+        let stops = |line: &String| {
+            line.as_bytes()
+                .windows(2)
+                .any(|pair| matches!(pair, [b'M' | b'm', digit] if digit.is_ascii_digit()))
+        };
         self.pause.iter().any(stops)
     }
 
     /// The profile of a name: a user's, laid over its base, or one that ships. The error says which there are.
-    pub fn of(name: &str, own: Option<&BTreeMap<String, ProfileSettings>>) -> Result<Profile, String> {
+    pub fn of(
+        name: &str,
+        own: Option<&BTreeMap<String, ProfileSettings>>,
+    ) -> Result<Profile, String> {
         let mine = own.and_then(|own| own.get(name));
         let base = mine.and_then(|mine| mine.base.as_deref());
         let shipped = match (mine, base) {
@@ -181,10 +192,17 @@ impl Profile {
         };
         let Some(shipped) = shipped else {
             let mut names: Vec<&str> = shipped_profiles().collect();
-            names.extend(own.into_iter().flat_map(|own| own.keys().map(String::as_str)));
+            names.extend(
+                own.into_iter()
+                    .flat_map(|own| own.keys().map(String::as_str)),
+            );
             names.sort_unstable();
             names.dedup();
-            return Err(format!("there is no profile {:?}, expected {}", base.unwrap_or(name), names.join(", ")));
+            return Err(format!(
+                "there is no profile {:?}, expected {}",
+                base.unwrap_or(name),
+                names.join(", ")
+            ));
         };
         let set = mine.map_or_else(|| shipped.clone(), |mine| shipped.overlaid(mine));
         Ok(Profile {
@@ -243,7 +261,10 @@ mod tests {
     fn shipped_profiles_are_read_without_a_fault() {
         let (_, errors) = from_toml(include_str!("profiles.toml"));
         assert_eq!(errors, []);
-        assert_eq!(shipped_profiles().collect::<Vec<_>>(), ["fast-wire", "generic", "robofil"]);
+        assert_eq!(
+            shipped_profiles().collect::<Vec<_>>(),
+            ["fast-wire", "generic", "robofil"]
+        );
         assert_eq!(Profile::default().name, "generic");
     }
 
@@ -253,8 +274,14 @@ mod tests {
         let (settings, errors) = from_toml(text);
         assert_eq!(errors, []);
         let profile = Effective::of(&settings).profile.unwrap();
-        assert_eq!((profile.name.as_str(), profile.numbers, profile.center), ("mine", 10, CenterRule::Absolute));
-        assert_eq!((profile.end, profile.begin.len()), (vec!["M30".to_string()], 3));
+        assert_eq!(
+            (profile.name.as_str(), profile.numbers, profile.center),
+            ("mine", 10, CenterRule::Absolute)
+        );
+        assert_eq!(
+            (profile.end, profile.begin.len()),
+            (vec!["M30".to_string()], 3)
+        );
     }
 
     #[test]
@@ -262,18 +289,48 @@ mod tests {
         let check = |line: &str, place: &str, expected: &str| {
             let text = format!("[profiles.mine]\nspaces = false\n{line}\n");
             let (settings, errors) = from_toml(&text);
-            let [error] = errors.as_slice() else { panic!("{line}: {errors:?}") };
+            let [error] = errors.as_slice() else {
+                panic!("{line}: {errors:?}")
+            };
             assert!(error.message.contains(expected), "{}", error.message);
             assert_eq!(&text[error.range.clone().unwrap()], place);
-            assert_eq!(settings.profiles.unwrap()["mine"].spaces, Some(false), "{line}");
+            assert_eq!(
+                settings.profiles.unwrap()["mine"].spaces,
+                Some(false),
+                "{line}"
+            );
         };
-        check("decimals = 2", "2", "profiles.mine.decimals is 2, expected a whole number from 3 to 6");
-        check("center = \"radius\"", "\"radius\"", "expected one of start-to-center, center-to-start, absolute");
-        check("begin = [\"G92 X{z}\"]", "\"G92 X{z}\"", "profiles.mine.begin[0] holds {z}, expected {x}, {y} or {side}");
+        check(
+            "decimals = 2",
+            "2",
+            "profiles.mine.decimals is 2, expected a whole number from 3 to 6",
+        );
+        check(
+            "center = \"radius\"",
+            "\"radius\"",
+            "expected one of start-to-center, center-to-start, absolute",
+        );
+        check(
+            "begin = [\"G92 X{z}\"]",
+            "\"G92 X{z}\"",
+            "profiles.mine.begin[0] holds {z}, expected {x}, {y} or {side}",
+        );
         check("end = \"M02\"", "\"M02\"", "expected a list of lines");
-        check("begin = [\"G90\\nG91\"]", "\"G90\\nG91\"", "expected one line");
-        check("base = \"agie\"", "\"agie\"", "expected fast-wire, generic, robofil");
+        check(
+            "begin = [\"G90\\nG91\"]",
+            "\"G90\\nG91\"",
+            "expected one line",
+        );
+        check(
+            "base = \"agie\"",
+            "\"agie\"",
+            "expected fast-wire, generic, robofil",
+        );
         check("speed = 1", "speed", "profiles.mine.speed is not known");
-        check("[program]\nprofile = \"mina\"", "\"mina\"", "program.profile is \"mina\", expected fast-wire, generic, mine, robofil");
+        check(
+            "[program]\nprofile = \"mina\"",
+            "\"mina\"",
+            "program.profile is \"mina\", expected fast-wire, generic, mine, robofil",
+        );
     }
 }

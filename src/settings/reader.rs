@@ -2,7 +2,10 @@
 
 use super::profile::DECIMALS;
 use super::value::{Entry, Node, Value};
-use super::{PassFault, Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings, SettingsError, shipped_profiles};
+use super::{
+    PassFault, Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings,
+    SettingsError, shipped_profiles,
+};
 use crate::drawing::{Color, Role};
 use crate::finding::Rule;
 use serde::de::value::{Error, StrDeserializer};
@@ -50,14 +53,22 @@ impl Reader {
                 ),
             }
         });
-        self.errors.extend(settings.pass_errors(&|fault| place_of(root, fault)));
+        self.errors
+            .extend(settings.pass_errors(&|fault| place_of(root, fault)));
         if let Some(program) = &mut settings.program {
-            let own = settings.profiles.iter().flat_map(|profiles| profiles.keys().cloned());
+            let own = settings
+                .profiles
+                .iter()
+                .flat_map(|profiles| profiles.keys().cloned());
             let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
             names.sort_unstable();
             names.dedup();
-            if let Some(entry) = entry_of(root, "program").and_then(|entry| entry_of(&entry.node, "profile"))
-                && program.profile.as_deref().is_some_and(|profile| !names.iter().any(|name| name == profile))
+            if let Some(entry) =
+                entry_of(root, "program").and_then(|entry| entry_of(&entry.node, "profile"))
+                && program
+                    .profile
+                    .as_deref()
+                    .is_some_and(|profile| !names.iter().any(|name| name == profile))
             {
                 self.misfit::<()>("program.profile", &entry.node, &names.join(", "));
                 program.profile = None;
@@ -80,15 +91,22 @@ impl Reader {
         match &node.value {
             Value::Null => None,
             Value::List(items) if !items.is_empty() => {
-                let numbers = items.iter().enumerate().map(|(index, item)| match item.value {
-                    Value::Null => self.misfit(&format!("{key}[{index}]"), item, "a number above 0"),
-                    _ => self.number_above_zero(&format!("{key}[{index}]"), item),
-                });
+                let numbers = items
+                    .iter()
+                    .enumerate()
+                    .map(|(index, item)| match item.value {
+                        Value::Null => {
+                            self.misfit(&format!("{key}[{index}]"), item, "a number above 0")
+                        }
+                        _ => self.number_above_zero(&format!("{key}[{index}]"), item),
+                    });
                 // A list of which one pass is wrong says nothing sure about the others.
                 let numbers: Vec<Option<f64>> = numbers.collect();
                 numbers.into_iter().collect()
             }
-            Value::List(_) => self.complain(key, node, format!("{key} is empty, expected {expected}")),
+            Value::List(_) => {
+                self.complain(key, node, format!("{key} is empty, expected {expected}"))
+            }
             _ => self.misfit(key, node, expected),
         }
     }
@@ -119,7 +137,9 @@ impl Reader {
 
     /// Coarser than a tenth of a millimetre is no arc of the drawing any more, finer than a nanometre is noise.
     fn arc_fit(&mut self, key: &str, node: &Node) -> Option<f64> {
-        self.number(key, node, "a number from 0.000001 to 0.1", |number| (1e-6..=0.1).contains(&number))
+        self.number(key, node, "a number from 0.000001 to 0.1", |number| {
+            (1e-6..=0.1).contains(&number)
+        })
     }
 
     fn rules(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, RuleSeverity>> {
@@ -215,7 +235,11 @@ impl Reader {
         if shipped_profiles().any(|shipped| shipped == name) {
             return Some(name);
         }
-        self.misfit(key, node, &shipped_profiles().collect::<Vec<_>>().join(", "))
+        self.misfit(
+            key,
+            node,
+            &shipped_profiles().collect::<Vec<_>>().join(", "),
+        )
     }
 
     /// Lines of a program in which `{x}`, `{y}` and `{side}` stand for something.
@@ -225,8 +249,11 @@ impl Reader {
             Value::List(items) => items,
             _ => return self.misfit(key, node, "a list of lines such as [\"G90\"]"),
         };
-        let lines: Vec<Option<String>> =
-            items.iter().enumerate().map(|(index, item)| self.line(&format!("{key}[{index}]"), item)).collect();
+        let lines: Vec<Option<String>> = items
+            .iter()
+            .enumerate()
+            .map(|(index, item)| self.line(&format!("{key}[{index}]"), item))
+            .collect();
         lines.into_iter().collect()
     }
 
@@ -237,10 +264,16 @@ impl Reader {
         }
         let mut rest = line.as_str();
         while let Some(open) = rest.find('{') {
-            let end = rest[open..].find('}').map_or(rest.len(), |close| open + close + 1);
+            let end = rest[open..]
+                .find('}')
+                .map_or(rest.len(), |close| open + close + 1);
             let name = &rest[open..end];
             if !["{x}", "{y}", "{side}"].contains(&name) {
-                return self.complain(key, node, format!("{key} holds {name}, expected {{x}}, {{y}} or {{side}}"));
+                return self.complain(
+                    key,
+                    node,
+                    format!("{key} holds {name}, expected {{x}}, {{y}} or {{side}}"),
+                );
             }
             rest = &rest[end..];
         }
@@ -264,27 +297,51 @@ impl Reader {
     }
 
     fn whole(&mut self, key: &str, node: &Node, (least, most): (f64, f64)) -> Option<f64> {
-        self.number(key, node, &format!("a whole number from {least} to {most}"), |number| {
-            number.fract() == 0.0 && (least..=most).contains(&number)
-        })
+        self.number(
+            key,
+            node,
+            &format!("a whole number from {least} to {most}"),
+            |number| number.fract() == 0.0 && (least..=most).contains(&number),
+        )
     }
 
     /// Hands each entry with its dotted key to `each`; false when there is no table.
-    fn table(&mut self, key: &str, node: &Node, mut each: impl FnMut(&mut Reader, &str, &Entry)) -> bool {
+    fn table(
+        &mut self,
+        key: &str,
+        node: &Node,
+        mut each: impl FnMut(&mut Reader, &str, &Entry),
+    ) -> bool {
         match &node.value {
             Value::Table(entries) => {
                 for entry in entries {
-                    let dotted = if key.is_empty() { entry.key.clone() } else { format!("{key}.{}", entry.key) };
+                    let dotted = if key.is_empty() {
+                        entry.key.clone()
+                    } else {
+                        format!("{key}.{}", entry.key)
+                    };
                     each(self, &dotted, entry);
                 }
                 true
             }
             Value::Null => false,
-            _ => self.misfit::<()>(if key.is_empty() { "settings" } else { key }, node, "a table").is_some(),
+            _ => self
+                .misfit::<()>(
+                    if key.is_empty() { "settings" } else { key },
+                    node,
+                    "a table",
+                )
+                .is_some(),
         }
     }
 
-    fn number(&mut self, key: &str, node: &Node, expected: &str, fits: impl Fn(f64) -> bool) -> Option<f64> {
+    fn number(
+        &mut self,
+        key: &str,
+        node: &Node,
+        expected: &str,
+        fits: impl Fn(f64) -> bool,
+    ) -> Option<f64> {
         match node.value {
             Value::Null => None,
             Value::Number(number) if number.is_finite() && fits(number) => Some(number),
@@ -312,7 +369,10 @@ impl Reader {
             Ok(name) => Some(name),
             Err(error) => {
                 let error = error.to_string();
-                let expected = error.split_once("expected ").map_or("another word", |(_, names)| names).replace('`', "");
+                let expected = error
+                    .split_once("expected ")
+                    .map_or("another word", |(_, names)| names)
+                    .replace('`', "");
                 self.misfit(key, node, &expected)
             }
         }
@@ -321,7 +381,11 @@ impl Reader {
     fn word(&mut self, key: &str, node: &Node) -> Option<String> {
         match &node.value {
             Value::Null => None,
-            Value::Text(text) if !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric()) => Some(text.clone()),
+            Value::Text(text)
+                if !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric()) =>
+            {
+                Some(text.clone())
+            }
             _ => self.misfit(key, node, "a word of letters and digits such as \"DD\""),
         }
     }
@@ -345,7 +409,16 @@ impl Reader {
         match &node.value {
             Value::Null => return None,
             Value::List(items) => {
-                if let [Node { value: Value::Number(x), .. }, Node { value: Value::Number(y), .. }] = items.as_slice()
+                if let [
+                    Node {
+                        value: Value::Number(x),
+                        ..
+                    },
+                    Node {
+                        value: Value::Number(y),
+                        ..
+                    },
+                ] = items.as_slice()
                     && x.is_finite()
                     && y.is_finite()
                 {
@@ -358,29 +431,38 @@ impl Reader {
     }
 
     fn misfit<T>(&mut self, key: &str, node: &Node, expected: &str) -> Option<T> {
-        self.complain(key, node, format!("{key} is {}, expected {expected}", node.value.shown()))
+        self.complain(
+            key,
+            node,
+            format!("{key} is {}, expected {expected}", node.value.shown()),
+        )
     }
 
     fn complain<T>(&mut self, key: &str, node: &Node, message: String) -> Option<T> {
-        self.errors.push(SettingsError::new(key, message, node.range.clone()));
+        self.errors
+            .push(SettingsError::new(key, message, node.range.clone()));
         None
     }
 
     fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
         let message = format!("{key} is not known, expected {expected}");
-        self.errors.push(SettingsError::new(key, message, entry.key_range.clone()));
+        self.errors
+            .push(SettingsError::new(key, message, entry.key_range.clone()));
     }
 }
 
 /// The value that a fault of the passes speaks of, else what else the tree says about the passes.
 pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
-    let corrections = entry_of(root, "passes").and_then(|entry| entry_of(&entry.node, "corrections"));
+    let corrections =
+        entry_of(root, "passes").and_then(|entry| entry_of(&entry.node, "corrections"));
     let of_list = corrections.and_then(|entry| match &entry.node.value {
         Value::List(items) => items.get(fault.pass)?.range.clone(),
         _ => None,
     });
     let of_key = |key: &str| entry_of(root, key).and_then(|entry| entry.node.range.clone());
-    of_list.or_else(|| of_key("correction")).or_else(|| of_key("wireDiameter"))
+    of_list
+        .or_else(|| of_key("correction"))
+        .or_else(|| of_key("wireDiameter"))
 }
 
 fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
@@ -438,16 +520,39 @@ end = "DD"
         let (settings, errors) = from_toml(text);
         assert_eq!(errors, []);
         let program = settings.program.unwrap();
-        assert_eq!((settings.wire_diameter, settings.gap, settings.margin), (Some(0.18), Some(0.01), Some(0.0)));
-        assert_eq!((settings.side, settings.units), (Some(SideSetting::Opening), Some(UnitSetting::Inch)));
-        assert_eq!(settings.passes.unwrap().corrections, Some(vec![0.175, 0.146, 0.140]));
+        assert_eq!(
+            (settings.wire_diameter, settings.gap, settings.margin),
+            (Some(0.18), Some(0.01), Some(0.0))
+        );
+        assert_eq!(
+            (settings.side, settings.units),
+            (Some(SideSetting::Opening), Some(UnitSetting::Inch))
+        );
+        assert_eq!(
+            settings.passes.unwrap().corrections,
+            Some(vec![0.175, 0.146, 0.140])
+        );
         assert_eq!(settings.layers.unwrap()["DIE"], Role::Opening);
         assert_eq!(settings.rules.unwrap()["units"], RuleSeverity::Off);
-        assert_eq!((settings.colors.unwrap()["red"], settings.arc_fit), (Role::Punch, Some(0.002)));
-        assert_eq!((program.layout, program.corner), (Some(Layout::Checking), Some(Corner::Intersection)));
+        assert_eq!(
+            (settings.colors.unwrap()["red"], settings.arc_fit),
+            (Role::Punch, Some(0.002))
+        );
+        assert_eq!(
+            (program.layout, program.corner),
+            (Some(Layout::Checking), Some(Corner::Intersection))
+        );
         assert_eq!(program.thread, Some(PointSetting::One([115.0, -10.0])));
-        assert_eq!(program.entry, Some(PointSetting::ByHandle([("2A".to_string(), [105.0, -10.0])].into())));
-        assert_eq!((program.lead_in, program.end.as_deref()), (Some(3.0), Some("DD")));
+        assert_eq!(
+            program.entry,
+            Some(PointSetting::ByHandle(
+                [("2A".to_string(), [105.0, -10.0])].into()
+            ))
+        );
+        assert_eq!(
+            (program.lead_in, program.end.as_deref()),
+            (Some(3.0), Some("DD"))
+        );
     }
 
     #[test]
@@ -455,22 +560,64 @@ end = "DD"
         let check = |line: &str, place: &str, expected: &str| {
             let text = format!("margin = 0.5\n{line}\n[layers]\nDIE = \"punch\"\n");
             let (settings, errors) = from_toml(&text);
-            let [error] = errors.as_slice() else { panic!("{line}: {errors:?}") };
+            let [error] = errors.as_slice() else {
+                panic!("{line}: {errors:?}")
+            };
             assert!(error.message.contains(expected), "{}", error.message);
             assert_eq!(&text[error.range.clone().unwrap()], place);
             assert_eq!(settings.margin, Some(0.5), "{line}");
             assert_eq!(settings.layers.unwrap()["DIE"], Role::Punch, "{line}");
         };
-        check("correction = -1", "-1", "correction is -1, expected a number above 0");
-        check("correction = nan", "nan", "correction is NaN, expected a number above 0");
-        check("correction = \"0.1\"", "\"0.1\"", "correction is \"0.1\", expected a number above 0");
-        check("gap = -0.1", "-0.1", "gap is -0.1, expected a number of 0 or above");
-        check("side = \"left\"", "\"left\"", "side is \"left\", expected one of both, auto, opening, punch");
-        check("arc-fit = 0", "0", "arc-fit is 0, expected a number from 0.000001 to 0.1");
-        check("colors = { pink = \"punch\" }", "pink", "colors.pink is not known, expected red,");
-        check("corection = 1", "corection", "corection is not known, expected correction,");
-        check("passes = { corrections = [0.1, 0] }", "0", "passes.corrections[1] is 0, expected a number above 0");
-        check("passes = { corrections = [] }", "[]", "passes.corrections is empty");
+        check(
+            "correction = -1",
+            "-1",
+            "correction is -1, expected a number above 0",
+        );
+        check(
+            "correction = nan",
+            "nan",
+            "correction is NaN, expected a number above 0",
+        );
+        check(
+            "correction = \"0.1\"",
+            "\"0.1\"",
+            "correction is \"0.1\", expected a number above 0",
+        );
+        check(
+            "gap = -0.1",
+            "-0.1",
+            "gap is -0.1, expected a number of 0 or above",
+        );
+        check(
+            "side = \"left\"",
+            "\"left\"",
+            "side is \"left\", expected one of both, auto, opening, punch",
+        );
+        check(
+            "arc-fit = 0",
+            "0",
+            "arc-fit is 0, expected a number from 0.000001 to 0.1",
+        );
+        check(
+            "colors = { pink = \"punch\" }",
+            "pink",
+            "colors.pink is not known, expected red,",
+        );
+        check(
+            "corection = 1",
+            "corection",
+            "corection is not known, expected correction,",
+        );
+        check(
+            "passes = { corrections = [0.1, 0] }",
+            "0",
+            "passes.corrections[1] is 0, expected a number above 0",
+        );
+        check(
+            "passes = { corrections = [] }",
+            "[]",
+            "passes.corrections is empty",
+        );
         check(
             "passes = { corrections = [0.2, 0.1, 0.15] }",
             "0.15",
@@ -481,18 +628,46 @@ end = "DD"
             "0.12",
             "passes.corrections[1] is 0.12, expected at least the wire's radius 0.125",
         );
-        check("correction = 0.1\nwire-diameter = 0.25", "0.1", "correction is 0.1, expected at least the wire's radius 0.125");
-        check("rules = { small-radii = \"off\" }", "small-radii", "rules.small-radii is not known, expected small-radius");
-        check("rules = { small-radius = \"loud\" }", "\"loud\"", "rules.small-radius is \"loud\", expected one of error,");
+        check(
+            "correction = 0.1\nwire-diameter = 0.25",
+            "0.1",
+            "correction is 0.1, expected at least the wire's radius 0.125",
+        );
+        check(
+            "rules = { small-radii = \"off\" }",
+            "small-radii",
+            "rules.small-radii is not known, expected small-radius",
+        );
+        check(
+            "rules = { small-radius = \"loud\" }",
+            "\"loud\"",
+            "rules.small-radius is \"loud\", expected one of error,",
+        );
         check(
             "program = { order = \"random\" }",
             "\"random\"",
             "program.order is \"random\", expected one of as-drawn, inside-first, nearest, as-picked",
         );
-        check("program = { lead-in = 0 }", "0", "program.lead-in is 0, expected a number above 0");
-        check("program = { thread = [1] }", "[1]", "program.thread is a list, expected a point [x, y]");
-        check("program = { end = \"\" }", "\"\"", "program.end is \"\", expected a word");
-        check("program = { digits = 3 }", "3", "program.digits is 3, expected a whole number from 4 to 9");
+        check(
+            "program = { lead-in = 0 }",
+            "0",
+            "program.lead-in is 0, expected a number above 0",
+        );
+        check(
+            "program = { thread = [1] }",
+            "[1]",
+            "program.thread is a list, expected a point [x, y]",
+        );
+        check(
+            "program = { end = \"\" }",
+            "\"\"",
+            "program.end is \"\", expected a word",
+        );
+        check(
+            "program = { digits = 3 }",
+            "3",
+            "program.digits is 3, expected a whole number from 4 to 9",
+        );
         check("program = 3", "3", "program is 3, expected a table");
     }
 
@@ -506,8 +681,14 @@ end = "DD"
 
     #[test]
     fn a_file_beyond_all_measure_is_said_to_be_so_and_thousands_of_faults_are_read_in_one_pass() {
-        let (settings, errors) = from_toml(&format!("correction = 0.2\n{}", "# \n".repeat(400_000)));
-        assert!(settings == Settings::default() && errors.len() == 1 && errors[0].message.contains("expected at most"), "{errors:?}");
+        let (settings, errors) =
+            from_toml(&format!("correction = 0.2\n{}", "# \n".repeat(400_000)));
+        assert!(
+            settings == Settings::default()
+                && errors.len() == 1
+                && errors[0].message.contains("expected at most"),
+            "{errors:?}"
+        );
         let (settings, errors) = from_toml(&format!("correction = 0.2\n{}", "x\n".repeat(50_000)));
         assert_eq!((settings.correction, errors.len()), (Some(0.2), 50_000));
     }
@@ -516,16 +697,36 @@ end = "DD"
     fn json_is_taken_bare_or_as_the_section_and_null_is_not_set() {
         let check = |json: serde_json::Value, correction: Option<f64>, errors: usize| {
             let (settings, found) = from_json(&json);
-            assert_eq!((settings.correction, found.len()), (correction, errors), "{json}: {found:?}");
+            assert_eq!(
+                (settings.correction, found.len()),
+                (correction, errors),
+                "{json}: {found:?}"
+            );
         };
         check(json!(null), None, 0);
         check(json!({}), None, 0);
-        check(json!({ "correction": 0.12, "wireDiameter": null, "program": null }), Some(0.12), 0);
-        check(json!({ "wedm": { "correction": 0.12 }, "editor": { "tabSize": 2 } }), Some(0.12), 0);
+        check(
+            json!({ "correction": 0.12, "wireDiameter": null, "program": null }),
+            Some(0.12),
+            0,
+        );
+        check(
+            json!({ "wedm": { "correction": 0.12 }, "editor": { "tabSize": 2 } }),
+            Some(0.12),
+            0,
+        );
         check(json!({ "wedm": null }), None, 0);
         check(json!({ "correction": true }), None, 1);
-        check(json!({ "correction": 0.1, "wireDiameter": 0.2 }), Some(0.1), 0);
-        check(json!({ "correction": 0.1, "wireDiameter": 0.25 }), Some(0.1), 1);
+        check(
+            json!({ "correction": 0.1, "wireDiameter": 0.2 }),
+            Some(0.1),
+            0,
+        );
+        check(
+            json!({ "correction": 0.1, "wireDiameter": 0.25 }),
+            Some(0.1),
+            1,
+        );
         check(json!({ "passes": { "corrections": [0.1, 0.2] } }), None, 1);
         check(json!([]), None, 1);
         check(json!("x"), None, 1);

@@ -64,10 +64,17 @@ impl LineStarts {
     pub(super) fn begun_by(&self, offset: usize) -> usize {
         match self {
             LineStarts::Near { blocks, offsets } => {
-                let Some(block) = blocks.partition_point(|&start| start as usize <= offset).checked_sub(1) else { return 0 };
+                let Some(block) = blocks
+                    .partition_point(|&start| start as usize <= offset)
+                    .checked_sub(1)
+                else {
+                    return 0;
+                };
                 let first = block * BLOCK;
                 let of_block = &offsets[first..offsets.len().min(first + BLOCK)];
-                first + of_block.partition_point(|&far| blocks[block] as usize + usize::from(far) <= offset)
+                first
+                    + of_block
+                        .partition_point(|&far| blocks[block] as usize + usize::from(far) <= offset)
             }
             LineStarts::Far(starts) => starts.partition_point(|&start| start as usize <= offset),
         }
@@ -76,14 +83,21 @@ impl LineStarts {
     /// Puts the starts `fresh` in the place of those of some lines, and moves all behind them by `shift` (modulo 2³²).
     pub(super) fn replace(&mut self, lines: Range<usize>, fresh: &[u32], shift: u32) {
         let starts = match self {
-            LineStarts::Near { blocks, offsets } => match replace_near(blocks, offsets, lines.clone(), fresh, shift) {
-                true => return,
-                false => {
-                    let start = |line: usize| self.get(line).unwrap_or_default() as u32;
-                    let behind = (lines.end..self.len()).map(|line| start(line).wrapping_add(shift));
-                    (0..lines.start).map(start).chain(fresh.iter().copied()).chain(behind).collect()
+            LineStarts::Near { blocks, offsets } => {
+                match replace_near(blocks, offsets, lines.clone(), fresh, shift) {
+                    true => return,
+                    false => {
+                        let start = |line: usize| self.get(line).unwrap_or_default() as u32;
+                        let behind =
+                            (lines.end..self.len()).map(|line| start(line).wrapping_add(shift));
+                        (0..lines.start)
+                            .map(start)
+                            .chain(fresh.iter().copied())
+                            .chain(behind)
+                            .collect()
+                    }
                 }
-            },
+            }
             LineStarts::Far(starts) => {
                 for start in &mut starts[lines.end..] {
                     *start = start.wrapping_add(shift);
@@ -97,7 +111,13 @@ impl LineStarts {
 }
 
 /// False, with nothing changed, where a line is too far from the first of its block.
-fn replace_near(blocks: &mut Vec<u32>, offsets: &mut Vec<u16>, lines: Range<usize>, fresh: &[u32], shift: u32) -> bool {
+fn replace_near(
+    blocks: &mut Vec<u32>,
+    offsets: &mut Vec<u16>,
+    lines: Range<usize>,
+    fresh: &[u32],
+    shift: u32,
+) -> bool {
     let first = lines.start / BLOCK;
     // Where as many lines come as go, the blocks behind only move.
     let end = match fresh.len() == lines.len() {
@@ -107,14 +127,19 @@ fn replace_near(blocks: &mut Vec<u32>, offsets: &mut Vec<u16>, lines: Range<usiz
     let start = |line: usize| blocks[line / BLOCK].wrapping_add(u32::from(offsets[line]));
     let before = (first * BLOCK..lines.start).map(start);
     let behind = (lines.end..end).map(|line| start(line).wrapping_add(shift));
-    let (mut new_blocks, mut new_offsets) = (Vec::new(), Vec::with_capacity(end - first * BLOCK + fresh.len()));
+    let (mut new_blocks, mut new_offsets) = (
+        Vec::new(),
+        Vec::with_capacity(end - first * BLOCK + fresh.len()),
+    );
     let mut base = 0;
     for start in before.chain(fresh.iter().copied()).chain(behind) {
         if new_offsets.len() % BLOCK == 0 {
             new_blocks.push(start);
             base = start;
         }
-        let Ok(offset) = u16::try_from(start.wrapping_sub(base)) else { return false };
+        let Ok(offset) = u16::try_from(start.wrapping_sub(base)) else {
+            return false;
+        };
         new_offsets.push(offset);
     }
     let last = end.div_ceil(BLOCK);
@@ -154,7 +179,8 @@ fn each_line_start(bytes: &[u8], mut begins: impl FnMut(u32)) {
     let (words, rest) = bytes.as_chunks::<8>();
     for (index, word) in words.iter().enumerate() {
         let word = u64::from_le_bytes(*word);
-        let mut ends = zero_bytes(word ^ 0x0a0a_0a0a_0a0a_0a0a) | zero_bytes(word ^ 0x0d0d_0d0d_0d0d_0d0d);
+        let mut ends =
+            zero_bytes(word ^ 0x0a0a_0a0a_0a0a_0a0a) | zero_bytes(word ^ 0x0d0d_0d0d_0d0d_0d0d);
         while ends != 0 {
             end_at(index * 8 + ends.trailing_zeros() as usize / 8);
             ends &= ends - 1;

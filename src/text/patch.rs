@@ -37,7 +37,10 @@ impl Piece {
 impl Patch {
     /// Of a text of this length, nothing changed yet.
     pub fn of(old_length: usize) -> Patch {
-        Patch { pieces: vec![Piece::Old(0..old_length)], old_length }
+        Patch {
+            pieces: vec![Piece::Old(0..old_length)],
+            old_length,
+        }
     }
 
     /// Adds edits of the text as it is with all edits so far; they are sorted and disjoint. `None` when they are not, or reach past the end.
@@ -76,7 +79,10 @@ impl Patch {
         }
         let length = self.pieces.iter().map(Piece::length).sum();
         advance(length, Some(&mut pieces))?;
-        Some(Patch { pieces, old_length: self.old_length })
+        Some(Patch {
+            pieces,
+            old_length: self.old_length,
+        })
     }
 
     /// The edits of the old text that make the new one, sorted and disjoint.
@@ -85,7 +91,10 @@ impl Patch {
         let (mut from, mut text) = (0, String::new());
         let mut close = |from: usize, to: usize, text: &mut String| {
             if from < to || !text.is_empty() {
-                edits.push(TextEdit { range: from..to, text: std::mem::take(text) });
+                edits.push(TextEdit {
+                    range: from..to,
+                    text: std::mem::take(text),
+                });
             }
         };
         for piece in &self.pieces {
@@ -109,18 +118,43 @@ mod tests {
     use crate::text::edited;
 
     fn edit(range: Range<usize>, text: &str) -> TextEdit {
-        TextEdit { range, text: text.into() }
+        TextEdit {
+            range,
+            text: text.into(),
+        }
     }
 
     #[test]
     fn edits_one_after_another_are_one() {
         let old = b"0123456789";
         for (rounds, expected) in [
-            (vec![vec![edit(2..4, "ab")], vec![edit(3..3, "-")]], "01a-b456789"),
-            (vec![vec![edit(2..2, "abc"), edit(5..7, "")], vec![edit(3..9, "X")]], "01aX89"),
+            (
+                vec![vec![edit(2..4, "ab")], vec![edit(3..3, "-")]],
+                "01a-b456789",
+            ),
+            (
+                vec![
+                    vec![edit(2..2, "abc"), edit(5..7, "")],
+                    vec![edit(3..9, "X")],
+                ],
+                "01aX89",
+            ),
             (vec![vec![edit(0..10, "")], vec![edit(0..0, "new")]], "new"),
-            (vec![vec![edit(9..10, "x")], vec![edit(0..1, ""), edit(9..10, "")]], "12345678"),
-            (vec![vec![edit(1..1, "a"), edit(1..1, "b")], vec![edit(2..2, "-")], vec![edit(0..1, "")]], "a-b123456789"),
+            (
+                vec![
+                    vec![edit(9..10, "x")],
+                    vec![edit(0..1, ""), edit(9..10, "")],
+                ],
+                "12345678",
+            ),
+            (
+                vec![
+                    vec![edit(1..1, "a"), edit(1..1, "b")],
+                    vec![edit(2..2, "-")],
+                    vec![edit(0..1, "")],
+                ],
+                "a-b123456789",
+            ),
             (vec![vec![]], "0123456789"),
         ] {
             let mut patch = Patch::of(old.len());
@@ -130,14 +164,22 @@ mod tests {
                 text = edited(&text, round).unwrap();
             }
             assert_eq!(String::from_utf8(text).unwrap(), expected);
-            assert_eq!(edited(old, &patch.edits()).as_deref(), Some(expected.as_bytes()), "{:?}", patch.edits());
+            assert_eq!(
+                edited(old, &patch.edits()).as_deref(),
+                Some(expected.as_bytes()),
+                "{:?}",
+                patch.edits()
+            );
         }
     }
 
     #[test]
     fn edits_change_their_bytes_and_no_others() {
         let edits = [edit(1..2, "xyz"), edit(3..3, "-"), edit(4..5, "")];
-        assert_eq!(edited(b"ab\xffde", &edits).as_deref(), Some(&b"axyz\xff-d"[..]));
+        assert_eq!(
+            edited(b"ab\xffde", &edits).as_deref(),
+            Some(&b"axyz\xff-d"[..])
+        );
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! How near a path comes to the walls, for contours of any size.
 
-use crate::geometry::{Arc, Bounds, Line, Point, Segment, circle_circle, line_circle, line_line, reached};
+use crate::geometry::{
+    Arc, Bounds, Line, Point, Segment, circle_circle, line_circle, line_line, reached,
+};
 
 /// Walls in boxes of boxes over their order along the contour, in which neighbours lie together.
 pub(super) struct Walls {
@@ -38,7 +40,12 @@ impl Walls {
     }
 
     /// The same among those for which, with their distance, `counts` holds.
-    pub fn find_near(&self, path: &Segment, distance: f64, counts: impl Fn(usize, f64) -> bool) -> Option<usize> {
+    pub fn find_near(
+        &self,
+        path: &Segment,
+        distance: f64,
+        counts: impl Fn(usize, f64) -> bool,
+    ) -> Option<usize> {
         self.find(&path.bounds().grown(distance), |index| {
             let away = distance_between(path, &self.segments[index]);
             away < distance && counts(index, away)
@@ -47,12 +54,17 @@ impl Walls {
 
     /// The first wall found that is nearer to a point than `distance`.
     pub fn nearer(&self, point: Point, distance: f64) -> Option<usize> {
-        self.find(&Bounds::of_disc(point, distance), |index| self.segments[index].distance_to(point) < distance)
+        self.find(&Bounds::of_disc(point, distance), |index| {
+            self.segments[index].distance_to(point) < distance
+        })
     }
 
     /// The first segment with a box that touches `reach` of which `is_it` says so.
     pub fn find(&self, reach: &Bounds, mut is_it: impl FnMut(usize) -> bool) -> Option<usize> {
-        let mut waiting = vec![(self.levels.len() - 1, 0..self.levels.last().map_or(0, Vec::len))];
+        let mut waiting = vec![(
+            self.levels.len() - 1,
+            0..self.levels.last().map_or(0, Vec::len),
+        )];
         while let Some((level, range)) = waiting.pop() {
             for index in range {
                 if !self.levels[level][index].touches(reach) {
@@ -72,10 +84,16 @@ impl Walls {
 
 /// Smallest distance between two segments, 0 where they cross or touch.
 pub(super) fn distance_between(a: &Segment, b: &Segment) -> f64 {
-    let ends = a.distance_to(b.start()).min(a.distance_to(b.end())).min(b.distance_to(a.start())).min(b.distance_to(a.end()));
+    let ends = a
+        .distance_to(b.start())
+        .min(a.distance_to(b.end()))
+        .min(b.distance_to(a.start()))
+        .min(b.distance_to(a.end()));
     ends.min(match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => between_lines(a, b),
-        (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => between_line_and_arc(line, arc),
+        (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => {
+            between_line_and_arc(line, arc)
+        }
         (Segment::Arc(a), Segment::Arc(b)) => between_arcs(a, b),
     })
 }
@@ -95,21 +113,33 @@ fn between_lines(a: &Line, b: &Line) -> f64 {
 fn between_line_and_arc(line: &Line, arc: &Arc) -> f64 {
     let along = line.end - line.start;
     let crosses = |&point: &Point| within(line.share_of(point)) && within(arc.share_of(point));
-    if line_circle(line.start, along, arc.center, arc.radius).iter().any(crosses) {
+    if line_circle(line.start, along, arc.center, arc.radius)
+        .iter()
+        .any(crosses)
+    {
         return 0.0;
     }
     let share = line.share_of(arc.center);
     let foot = line.start + along * share;
-    if within(share) && within(arc.share_of(foot)) { arc.rise_of(foot).abs() } else { f64::INFINITY }
+    if within(share) && within(arc.share_of(foot)) {
+        arc.rise_of(foot).abs()
+    } else {
+        f64::INFINITY
+    }
 }
 
 fn between_arcs(a: &Arc, b: &Arc) -> f64 {
     let crosses = |&point: &Point| within(a.share_of(point)) && within(b.share_of(point));
-    if circle_circle(a.center, a.radius, b.center, b.radius).iter().any(crosses) {
+    if circle_circle(a.center, a.radius, b.center, b.radius)
+        .iter()
+        .any(crosses)
+    {
         return 0.0;
     }
     // The nearest inner points of two circles lie on the line of their centres.
-    let Some(axis) = (b.center - a.center).try_normalize(0.0) else { return f64::INFINITY };
+    let Some(axis) = (b.center - a.center).try_normalize(0.0) else {
+        return f64::INFINITY;
+    };
     let mut nearest = f64::INFINITY;
     for (on_a, on_b) in [(axis, axis), (axis, -axis), (-axis, axis), (-axis, -axis)] {
         if let (Some(p), Some(q)) = (reached(a, on_a), reached(b, on_b)) {

@@ -7,7 +7,9 @@
 use super::Source;
 use super::clearance::Walls;
 use super::offset::{Offset, Wall, normal, offset};
-use crate::geometry::{Arc, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line, turn};
+use crate::geometry::{
+    Arc, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line, turn,
+};
 use std::f64::consts::PI;
 
 /// A piece of the closed path and the wall it belongs to.
@@ -54,9 +56,18 @@ pub(super) struct Raw {
 
 impl Raw {
     pub fn new(walls: &[Wall], joining: &Joining) -> Raw {
-        let mut raw = Raw { elements: Vec::with_capacity(walls.len()), joints: Vec::with_capacity(walls.len()), tight: Vec::new() };
+        let mut raw = Raw {
+            elements: Vec::with_capacity(walls.len()),
+            joints: Vec::with_capacity(walls.len()),
+            tight: Vec::new(),
+        };
         for (index, wall) in walls.iter().enumerate() {
-            let geometry = match offset(&wall.geometry, joining.correction, joining.side, joining.tolerance) {
+            let geometry = match offset(
+                &wall.geometry,
+                joining.correction,
+                joining.side,
+                joining.tolerance,
+            ) {
                 Offset::Runs(geometry) => geometry,
                 Offset::TooTight { center } => {
                     raw.tight.push((raw.elements.len(), center));
@@ -64,7 +75,11 @@ impl Raw {
                 }
             };
             let next = &walls[(index + 1) % walls.len()].geometry;
-            let element = Element { geometry, source: wall.source, wall: index };
+            let element = Element {
+                geometry,
+                source: wall.source,
+                wall: index,
+            };
             match corner(&wall.geometry, next, joining) {
                 Way::Through(joint) => raw.push(element, joint),
                 Way::Roll(arc) => {
@@ -73,7 +88,14 @@ impl Raw {
                         other => other,
                     };
                     raw.push(element, Joint::At(arc.start));
-                    raw.push(Element { geometry: Segment::Arc(arc), source, wall: index }, Joint::At(arc.end));
+                    raw.push(
+                        Element {
+                            geometry: Segment::Arc(arc),
+                            source,
+                            wall: index,
+                        },
+                        Joint::At(arc.end),
+                    );
                 }
             }
         }
@@ -100,7 +122,9 @@ enum Way {
 }
 
 fn corner(wall: &Segment, next: &Segment, joining: &Joining) -> Way {
-    let Joining { correction, side, .. } = *joining;
+    let Joining {
+        correction, side, ..
+    } = *joining;
     let vertex = wall.end();
     let from = vertex + normal(wall, 1.0, side) * correction;
     let to = vertex + normal(next, 0.0, side) * correction;
@@ -112,12 +136,21 @@ fn corner(wall: &Segment, next: &Segment, joining: &Joining) -> Way {
     if turned * side > 0.0 && turned.abs() < PI - 1e-9 {
         return Way::Through(Joint::CrossNear(from + (to - from) * 0.5));
     }
-    Way::Roll(Arc { radius: correction, ..Arc::about(vertex, from, to, side < 0.0) })
+    Way::Roll(Arc {
+        radius: correction,
+        ..Arc::about(vertex, from, to, side < 0.0)
+    })
 }
 
 /// Lets the wire run to the tip in place of each roll about a corner, where it keeps clear of all walls on the way there and back.
 /// What the path reaches stays as it is: the tips come on top of it.
-pub(super) fn with_tips(path: Vec<Element>, walls: &[Wall], joining: &Joining, own: &Walls, clearance: f64) -> Vec<Element> {
+pub(super) fn with_tips(
+    path: Vec<Element>,
+    walls: &[Wall],
+    joining: &Joining,
+    own: &Walls,
+    clearance: f64,
+) -> Vec<Element> {
     let count = path.len();
     let mut extended = path;
     let mut gone = vec![false; count];
@@ -128,28 +161,52 @@ pub(super) fn with_tips(path: Vec<Element>, walls: &[Wall], joining: &Joining, o
         }
         let (before, after) = ((index + count - 1) % count, (index + 1) % count);
         let (wall, next) = (roll.wall, (roll.wall + 1) % walls.len());
-        let are_neighbours = |element: &Element, wall: usize| element.wall == wall && !matches!(element.source, Source::Corner { .. });
+        let are_neighbours = |element: &Element, wall: usize| {
+            element.wall == wall && !matches!(element.source, Source::Corner { .. })
+        };
         if !are_neighbours(&extended[before], wall) || !are_neighbours(&extended[after], next) {
             continue;
         }
-        let Way::Roll(whole) = corner(&walls[wall].geometry, &walls[next].geometry, joining) else { continue };
-        let is_whole =
-            (roll.geometry.start() - whole.start).norm() <= joining.touch && (roll.geometry.end() - whole.end).norm() <= joining.touch;
-        let Some(tip) = tip(&walls[wall].geometry, &walls[next].geometry, joining).filter(|_| is_whole) else { continue };
+        let Way::Roll(whole) = corner(&walls[wall].geometry, &walls[next].geometry, joining) else {
+            continue;
+        };
+        let is_whole = (roll.geometry.start() - whole.start).norm() <= joining.touch
+            && (roll.geometry.end() - whole.end).norm() <= joining.touch;
+        let Some(tip) =
+            tip(&walls[wall].geometry, &walls[next].geometry, joining).filter(|_| is_whole)
+        else {
+            continue;
+        };
         let (out, back) = (extended[before].geometry, extended[after].geometry);
-        let ways = [between(&out, roll.geometry.start(), tip), between(&back, tip, roll.geometry.end())];
-        if ways.iter().all(|way| own.too_near(way, clearance).is_none()) {
+        let ways = [
+            between(&out, roll.geometry.start(), tip),
+            between(&back, tip, roll.geometry.end()),
+        ];
+        if ways
+            .iter()
+            .all(|way| own.too_near(way, clearance).is_none())
+        {
             extended[before].geometry = between(&out, out.start(), tip);
             extended[after].geometry = between(&back, tip, back.end());
             gone[index] = true;
         }
     }
-    extended.into_iter().zip(gone).filter(|(_, gone)| !gone).map(|(element, _)| element).collect()
+    extended
+        .into_iter()
+        .zip(gone)
+        .filter(|(_, gone)| !gone)
+        .map(|(element, _)| element)
+        .collect()
 }
 
 /// Where the two offsets meet when both are extended beyond a convex corner; `None` when they do not, or too far out.
 fn tip(wall: &Segment, next: &Segment, joining: &Joining) -> Option<Point> {
-    let runs = |segment: &Segment| match offset(segment, joining.correction, joining.side, joining.tolerance) {
+    let runs = |segment: &Segment| match offset(
+        segment,
+        joining.correction,
+        joining.side,
+        joining.tolerance,
+    ) {
         Offset::Runs(geometry) if geometry.length() > 0.0 => Some(geometry),
         _ => None,
     };
@@ -169,14 +226,19 @@ fn tip(wall: &Segment, next: &Segment, joining: &Joining) -> Option<Point> {
 pub(super) fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
     let found = match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => {
-            return line_line(a.start, a.end - a.start, b.start, b.end - b.start).into_iter().collect();
+            return line_line(a.start, a.end - a.start, b.start, b.end - b.start)
+                .into_iter()
+                .collect();
         }
         (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => {
             line_circle(line.start, line.end - line.start, arc.center, arc.radius)
         }
         (Segment::Arc(a), Segment::Arc(b)) => circle_circle(a.center, a.radius, b.center, b.radius),
     };
-    found.into_iter().map(|point| nearer_to_both(a, b, point)).collect()
+    found
+        .into_iter()
+        .map(|point| nearer_to_both(a, b, point))
+        .collect()
 }
 
 /// A meeting of two carriers, one step nearer to both: about a centre that is far away, rounding shows.
@@ -186,7 +248,12 @@ fn nearer_to_both(a: &Segment, b: &Segment, point: Point) -> Point {
             let normal = left_normal(line.direction());
             (normal.dot(&(point - line.start)), normal)
         }
-        Segment::Arc(arc) => (arc.rise_of(point), (point - arc.center).try_normalize(0.0).unwrap_or_else(Vector::zeros)),
+        Segment::Arc(arc) => (
+            arc.rise_of(point),
+            (point - arc.center)
+                .try_normalize(0.0)
+                .unwrap_or_else(Vector::zeros),
+        ),
     };
     let ((from_a, normal_a), (from_b, normal_b)) = (off(a), off(b));
     let between = cross(normal_a, normal_b);
@@ -217,7 +284,9 @@ impl Ring<'_> {
             elements: &raw.elements,
             joints: raw.joints.clone(),
             tight: &raw.tight,
-            before: (0..count).map(|index| (index + count - 1) % count).collect(),
+            before: (0..count)
+                .map(|index| (index + count - 1) % count)
+                .collect(),
             after: (0..count).map(|index| (index + 1) % count).collect(),
             alive: vec![true; count],
             count,
@@ -267,17 +336,24 @@ impl Ring<'_> {
             Joint::CrossNear(near) => near,
         };
         let next = self.after[index];
-        let (a, b) = (&self.elements[index].geometry, &self.elements[next].geometry);
+        let (a, b) = (
+            &self.elements[index].geometry,
+            &self.elements[next].geometry,
+        );
         let shorter = if a.length() < b.length() { index } else { next };
         let rank = |point: &Point| {
-            let beside = [a, b].iter().any(|segment| !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point)));
+            let beside = [a, b]
+                .iter()
+                .any(|segment| !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point)));
             (beside, (point - near).norm())
         };
         let best = meetings(a, b).into_iter().min_by(|p, q| {
             let ((p_beside, p_away), (q_beside, q_away)) = (rank(p), rank(q));
             p_beside.cmp(&q_beside).then(p_away.total_cmp(&q_away))
         });
-        let point = best.filter(|point| point.x.is_finite() && point.y.is_finite()).ok_or(shorter)?;
+        let point = best
+            .filter(|point| point.x.is_finite() && point.y.is_finite())
+            .ok_or(shorter)?;
         self.joints[index] = Joint::At(point);
         Ok(point)
     }
@@ -298,7 +374,13 @@ impl Ring<'_> {
             let element = self.elements[index];
             let geometry = between(&element.geometry, start, end);
             if geometry.length() > 1e-9 {
-                path.push((index, Element { geometry, ..element }));
+                path.push((
+                    index,
+                    Element {
+                        geometry,
+                        ..element
+                    },
+                ));
             } else if let Some((_, last)) = path.last_mut() {
                 // A point of the path: what follows begins where it stands, so nothing is left between.
                 close_up(last, end);
@@ -308,7 +390,11 @@ impl Ring<'_> {
                 break;
             }
         }
-        if let (Some(head), Some((_, last))) = (path.first().map(|(_, first): &(usize, Element)| first.geometry.start()), path.last_mut()) {
+        if let (Some(head), Some((_, last))) = (
+            path.first()
+                .map(|(_, first): &(usize, Element)| first.geometry.start()),
+            path.last_mut(),
+        ) {
             close_up(last, head);
         }
         (path.len() >= 2).then_some(path)
@@ -329,7 +415,13 @@ pub(super) fn between(segment: &Segment, start: Point, end: Point) -> Segment {
         Segment::Line(_) => Segment::line(start, end),
         Segment::Arc(arc) => {
             let (from, to) = (arc.share_of(start), arc.share_of(end));
-            Segment::Arc(Arc { start_angle: arc.start_angle + arc.sweep * from, sweep: arc.sweep * (to - from), start, end, ..*arc })
+            Segment::Arc(Arc {
+                start_angle: arc.start_angle + arc.sweep * from,
+                sweep: arc.sweep * (to - from),
+                start,
+                end,
+                ..*arc
+            })
         }
     }
 }

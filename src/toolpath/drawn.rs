@@ -23,35 +23,70 @@ pub(super) fn one_path(
             PointSetting::ByHandle(_) => return None,
         }
     }
-    let is_chosen = |id| chosen.iter().any(|&index| outlines[index].contour.pieces.iter().any(|piece| piece.entity == id));
+    let is_chosen = |id| {
+        chosen.iter().any(|&index| {
+            outlines[index]
+                .contour
+                .pieces
+                .iter()
+                .any(|piece| piece.entity == id)
+        })
+    };
     let mut segments: Vec<PathSegment> = Vec::new();
     let mut here = asked.first().copied();
-    for (entity, geometry) in drawing.entities().filter(|(id, _)| is_chosen(*id)).map(|(id, entity)| (id, &entity.geometry)) {
-        let pieces: Vec<(usize, Segment)> = geometry.segments_of(drawing.flat()).enumerate().collect();
+    for (entity, geometry) in drawing
+        .entities()
+        .filter(|(id, _)| is_chosen(*id))
+        .map(|(id, entity)| (id, &entity.geometry))
+    {
+        let pieces: Vec<(usize, Segment)> =
+            geometry.segments_of(drawing.flat()).enumerate().collect();
         let (first, last) = (pieces.first()?.1.start(), pieces.last()?.1.end());
         let meets = |point: Point| here.is_none_or(|here| (point - here).norm() <= join);
         let pieces = match geometry {
             _ if meets(first) && !is_circle(geometry) => pieces,
-            _ if meets(last) && !is_circle(geometry) => pieces.into_iter().rev().map(|(index, piece)| (index, piece.reversed())).collect(),
+            _ if meets(last) && !is_circle(geometry) => pieces
+                .into_iter()
+                .rev()
+                .map(|(index, piece)| (index, piece.reversed()))
+                .collect(),
             Geometry::Circle { .. } | Geometry::Arc { .. } => {
-                let Segment::Arc(circle) = pieces.first()?.1 else { return None };
+                let Segment::Arc(circle) = pieces.first()?.1 else {
+                    return None;
+                };
                 let begin = here.unwrap_or(circle.start);
                 if !circle.is_full_turn() || circle.distance_to(begin) > join {
                     return None;
                 }
-                Vec::from([(0, Segment::Arc(Arc::about(circle.center, begin, begin, direction != Direction::Cw)))])
+                Vec::from([(
+                    0,
+                    Segment::Arc(Arc::about(
+                        circle.center,
+                        begin,
+                        begin,
+                        direction != Direction::Cw,
+                    )),
+                )])
             }
             _ => return None,
         };
         here = pieces.last().map(|(_, piece)| piece.end());
-        segments
-            .extend(pieces.into_iter().map(|(segment, geometry)| PathSegment { geometry, source: Source::Segment { entity, segment } }));
+        segments.extend(pieces.into_iter().map(|(segment, geometry)| PathSegment {
+            geometry,
+            source: Source::Segment { entity, segment },
+        }));
     }
     let begin = segments.first()?.geometry.start();
     if asked.iter().any(|point| (point - begin).norm() > join) {
         return None;
     }
-    Some(WirePath { outline: *chosen.first()?, correction: 0.0, thread_hole: begin, side: None, segments })
+    Some(WirePath {
+        outline: *chosen.first()?,
+        correction: 0.0,
+        thread_hole: begin,
+        side: None,
+        segments,
+    })
 }
 
 fn is_circle(geometry: &Geometry) -> bool {

@@ -15,7 +15,10 @@ use std::f64::consts::{PI, TAU};
 const C: f64 = 0.1;
 
 fn distance(segments: &[Segment], point: Point) -> f64 {
-    segments.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min)
+    segments
+        .iter()
+        .map(|segment| segment.distance_to(point))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Points on the normals of the contour and round its corners, towards the wire, at the correction.
@@ -29,18 +32,29 @@ fn candidates(walls: &[Segment], side: f64) -> Vec<Point> {
             wall.point_at(share) + left_normal(wall.tangent_at(share)) * (side * C)
         }));
         let next = &walls[(index + 1) % walls.len()];
-        let (from, to) = (left_normal(wall.end_tangent()) * side, left_normal(next.start_tangent()) * side);
+        let (from, to) = (
+            left_normal(wall.end_tangent()) * side,
+            left_normal(next.start_tangent()) * side,
+        );
         let turned = crate::geometry::turn(from, to);
         if turned * side < 0.0 {
             let begin = from.y.atan2(from.x);
-            points.extend((1..20).map(|step| wall.end() + direction(begin + turned * f64::from(step) / 20.0) * C));
+            points.extend(
+                (1..20).map(|step| {
+                    wall.end() + direction(begin + turned * f64::from(step) / 20.0) * C
+                }),
+            );
         }
     }
     points
 }
 
 fn walls_of(drawing: &Drawing, outline: &Outline) -> Vec<Segment> {
-    outline.contour.segments(drawing).map(|segment| segment.geometry).collect()
+    outline
+        .contour
+        .segments(drawing)
+        .map(|segment| segment.geometry)
+        .collect()
 }
 
 fn without_leads(path: &WirePath) -> Vec<Segment> {
@@ -57,8 +71,13 @@ fn wrong(outline: &[[f64; 3]], role: Role, settings: &Effective) -> Option<Strin
     let walls = walls_of(&drawing, &outlines[0]);
     let side = outlines[0].wire_side()?.sign();
     let is_inside = |point: Point| winding(&drawing, &outlines[0].contour, point) != 0;
-    let is_valid = |&point: &Point| distance(&walls, point) >= C - 1e-10 && is_inside(point) == (role == Role::Opening);
-    let valid: Vec<Point> = candidates(&walls, side).into_iter().filter(is_valid).collect();
+    let is_valid = |&point: &Point| {
+        distance(&walls, point) >= C - 1e-10 && is_inside(point) == (role == Role::Opening)
+    };
+    let valid: Vec<Point> = candidates(&walls, side)
+        .into_iter()
+        .filter(is_valid)
+        .collect();
     match plan(&drawing, &outlines, settings, None) {
         Ok(paths) => {
             let path = without_leads(&paths[0]);
@@ -90,7 +109,10 @@ fn wrong(outline: &[[f64; 3]], role: Role, settings: &Effective) -> Option<Strin
             match rules[..] {
                 [Rule::LostPocket] if loops.len() != 1 => None,
                 [Rule::OffsetCollapse] if valid.is_empty() || loops.is_empty() => None,
-                _ => Some(format!("refused: {found:?}, the other library has {} loops", loops.len())),
+                _ => Some(format!(
+                    "refused: {found:?}, the other library has {} loops",
+                    loops.len()
+                )),
             }
         }
         Err(refusal) => Some(format!("{refusal:?}")),
@@ -99,7 +121,12 @@ fn wrong(outline: &[[f64; 3]], role: Role, settings: &Effective) -> Option<Strin
 
 /// Threaded on the path, so that leads have no say.
 fn unled(outline: &[[f64; 3]], direction: Direction) -> Effective {
-    Effective { lead_in: 0.0, thread: at(outline[0][0], outline[0][1]), direction, ..defaults() }
+    Effective {
+        lead_in: 0.0,
+        thread: at(outline[0][0], outline[0][1]),
+        direction,
+        ..defaults()
+    }
 }
 
 /// True where no two segments meet but neighbours in their joint.
@@ -108,39 +135,68 @@ fn is_simple(outline: &[[f64; 3]]) -> bool {
     let walls = walls_of(&drawing, &outlines[0]);
     let count = walls.len();
     let apart = |a: usize, b: usize| {
-        let joint = |one: &Segment, other: &Segment| (one.end() == other.start()).then(|| one.end());
+        let joint =
+            |one: &Segment, other: &Segment| (one.end() == other.start()).then(|| one.end());
         let joints = [joint(&walls[a], &walls[b]), joint(&walls[b], &walls[a])];
-        let is_joint = |point: Point| joints.iter().flatten().any(|joint| (joint - point).norm() < 1e-7);
+        let is_joint = |point: Point| {
+            joints
+                .iter()
+                .flatten()
+                .any(|joint| (joint - point).norm() < 1e-7)
+        };
         let near = |point: Point, on: &Segment| on.distance_to(point) < 1e-4 && !is_joint(point);
-        !meetings(&walls[a], &walls[b]).into_iter().any(|point| !is_joint(point))
-            && ![walls[a].start(), walls[a].end()].into_iter().any(|point| near(point, &walls[b]))
-            && ![walls[b].start(), walls[b].end()].into_iter().any(|point| near(point, &walls[a]))
+        !meetings(&walls[a], &walls[b])
+            .into_iter()
+            .any(|point| !is_joint(point))
+            && ![walls[a].start(), walls[a].end()]
+                .into_iter()
+                .any(|point| near(point, &walls[b]))
+            && ![walls[b].start(), walls[b].end()]
+                .into_iter()
+                .any(|point| near(point, &walls[a]))
     };
-    walls.iter().all(|wall| wall.length() > 1e-4) && (0..count).all(|a| (a + 1..count).all(|b| apart(a, b)))
+    walls.iter().all(|wall| wall.length() > 1e-4)
+        && (0..count).all(|a| (a + 1..count).all(|b| apart(a, b)))
 }
 
 /// An outline about the origin, into which a hook goes behind one of its corners: back, forth, and on.
 fn hooked() -> impl Strategy<Value = Vec<[f64; 3]>> {
-    let corner = (1.0_f64..6.0, prop_oneof![4 => Just(0.0), 1 => -0.4_f64..0.4]);
+    let corner = (
+        1.0_f64..6.0,
+        prop_oneof![4 => Just(0.0), 1 => -0.4_f64..0.4],
+    );
     let size = || prop_oneof![-0.01_f64..0.01, -0.3_f64..0.3];
-    let hook = prop::collection::vec((size(), size(), prop_oneof![4 => Just(0.0), 1 => -0.9_f64..0.9]), 1..4);
-    (prop::collection::vec(corner, 3..8), 0.0..TAU, any::<prop::sample::Index>(), hook).prop_map(|(corners, turned, where_, hook)| {
-        let count = corners.len();
-        let mut outline: Vec<[f64; 3]> = corners
-            .iter()
-            .enumerate()
-            .map(|(index, &(radius, bow))| {
-                let point = direction(turned + TAU * index as f64 / count as f64) * radius;
-                [point.x, point.y, bow]
-            })
-            .collect();
-        let behind = where_.index(count);
-        let [x, y, _] = outline[behind];
-        for (step, (dx, dy, bow)) in hook.into_iter().enumerate() {
-            outline.insert(behind + 1 + step, [x + dx, y + dy, bow]);
-        }
-        outline
-    })
+    let hook = prop::collection::vec(
+        (
+            size(),
+            size(),
+            prop_oneof![4 => Just(0.0), 1 => -0.9_f64..0.9],
+        ),
+        1..4,
+    );
+    (
+        prop::collection::vec(corner, 3..8),
+        0.0..TAU,
+        any::<prop::sample::Index>(),
+        hook,
+    )
+        .prop_map(|(corners, turned, where_, hook)| {
+            let count = corners.len();
+            let mut outline: Vec<[f64; 3]> = corners
+                .iter()
+                .enumerate()
+                .map(|(index, &(radius, bow))| {
+                    let point = direction(turned + TAU * index as f64 / count as f64) * radius;
+                    [point.x, point.y, bow]
+                })
+                .collect();
+            let behind = where_.index(count);
+            let [x, y, _] = outline[behind];
+            for (step, (dx, dy, bow)) in hook.into_iter().enumerate() {
+                outline.insert(behind + 1 + step, [x + dx, y + dy, bow]);
+            }
+            outline
+        })
 }
 
 proptest! {
@@ -216,16 +272,48 @@ proptest! {
 /// Outlines that once had a wrong path or none.
 #[test]
 fn what_went_wrong_once() {
-    let noise: &[[f64; 3]] = &[[106.243, 92.283, 0.0], [62.711, 118.832, 1.1e-16], [58.897, 102.747, 0.0], [7.195, 78.15, 0.0]];
-    let spike: &[[f64; 3]] =
-        &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.974, -0.002, 0.0], [1.222, -0.007, 0.0], [1.06, -2.0, 0.0], [0.0, -3.0, 0.0]];
-    let notch: &[[f64; 3]] =
-        &[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 5.0, 0.0], [5.05, 5.0, 0.0], [5.0, 5.5, 0.0], [4.95, 5.0, 0.0], [0.0, 5.0, 0.0]];
-    let bowl: &[[f64; 3]] = &[[100.0, 40.0, 0.0], [0.0, 40.0, 1.0], [0.0, -40.0, 0.0], [0.0, -50.0, 0.0], [100.0, -50.0, 0.0]];
-    for (outline, role) in [(noise, Role::Opening), (spike, Role::Punch), (notch, Role::Opening), (bowl, Role::Punch)] {
+    let noise: &[[f64; 3]] = &[
+        [106.243, 92.283, 0.0],
+        [62.711, 118.832, 1.1e-16],
+        [58.897, 102.747, 0.0],
+        [7.195, 78.15, 0.0],
+    ];
+    let spike: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.974, -0.002, 0.0],
+        [1.222, -0.007, 0.0],
+        [1.06, -2.0, 0.0],
+        [0.0, -3.0, 0.0],
+    ];
+    let notch: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [10.0, 0.0, 0.0],
+        [10.0, 5.0, 0.0],
+        [5.05, 5.0, 0.0],
+        [5.0, 5.5, 0.0],
+        [4.95, 5.0, 0.0],
+        [0.0, 5.0, 0.0],
+    ];
+    let bowl: &[[f64; 3]] = &[
+        [100.0, 40.0, 0.0],
+        [0.0, 40.0, 1.0],
+        [0.0, -40.0, 0.0],
+        [0.0, -50.0, 0.0],
+        [100.0, -50.0, 0.0],
+    ];
+    for (outline, role) in [
+        (noise, Role::Opening),
+        (spike, Role::Punch),
+        (notch, Role::Opening),
+        (bowl, Role::Punch),
+    ] {
         for direction in [Direction::AsDrawn, Direction::Ccw, Direction::Cw] {
             for corner in [Corner::Arc, Corner::Intersection] {
-                let settings = Effective { corner, ..unled(outline, direction) };
+                let settings = Effective {
+                    corner,
+                    ..unled(outline, direction)
+                };
                 assert_eq!(wrong(outline, role, &settings), None, "{outline:?}");
             }
         }
@@ -239,10 +327,18 @@ fn arcs_that_are_nearly_flat_are_offset_to_the_nanometre() {
         for power in -6..0 {
             let bulge = 2.0 * 1.01 * 10.0_f64.powi(power) / length;
             for bulge in [bulge, -bulge] {
-                let outline =
-                    &[[0.0, 0.0, bulge], [length, 0.1, 0.0], [0.9 * length, 0.7 * length, bulge], [0.1 * length, 0.6 * length, 0.0]];
+                let outline = &[
+                    [0.0, 0.0, bulge],
+                    [length, 0.1, 0.0],
+                    [0.9 * length, 0.7 * length, bulge],
+                    [0.1 * length, 0.6 * length, 0.0],
+                ];
                 for role in [Role::Opening, Role::Punch] {
-                    assert_eq!(wrong(outline, role, &unled(outline, Direction::AsDrawn)), None, "{outline:?} {role:?}");
+                    assert_eq!(
+                        wrong(outline, role, &unled(outline, Direction::AsDrawn)),
+                        None,
+                        "{outline:?} {role:?}"
+                    );
                 }
             }
         }
@@ -252,13 +348,27 @@ fn arcs_that_are_nearly_flat_are_offset_to_the_nanometre() {
 /// What counts as flat is a millionth of a millimetre, in every unit.
 #[test]
 fn flat_is_told_in_millimetres() {
-    for (stated, assumed, mm) in [(Some(25.4), 1.0, 25.4), (None, 25.4, 25.4), (None, 1.0, 1.0), (Some(1.0), 25.4, 1.0)] {
+    for (stated, assumed, mm) in [
+        (Some(25.4), 1.0, 25.4),
+        (None, 25.4, 25.4),
+        (None, 1.0, 1.0),
+        (Some(1.0), 25.4, 1.0),
+    ] {
         for (rise_mm, is_arc) in [(0.9e-6, false), (1.1e-6, true)] {
             let mut drawing = Drawing::new(stated.map(|mm| Unit { mm }));
             drawing.assume_unit(Unit { mm: assumed });
             let (length, rise) = (10.0, rise_mm / mm);
-            let vertices = vec![crate::drawing::Vertex::new(0.0, 0.0, 2.0 * rise / length), crate::drawing::Vertex::new(length, 0.0, 0.0)];
-            let polyline = drawing.push(super::tests::entity("A", crate::drawing::Geometry::Polyline { closed: false, vertices }));
+            let vertices = vec![
+                crate::drawing::Vertex::new(0.0, 0.0, 2.0 * rise / length),
+                crate::drawing::Vertex::new(length, 0.0, 0.0),
+            ];
+            let polyline = drawing.push(super::tests::entity(
+                "A",
+                crate::drawing::Geometry::Polyline {
+                    closed: false,
+                    vertices,
+                },
+            ));
             let (radius, half) = (length * length / (8.0 * rise), 4.0 * rise / length);
             let geometry = crate::drawing::Geometry::Arc {
                 center: Point::new(0.0, radius),
@@ -279,7 +389,12 @@ fn flat_is_told_in_millimetres() {
 #[test]
 fn where_the_wire_can_only_stand_it_is_threaded() {
     let side = 2.0 * C;
-    let square: &[[f64; 3]] = &[[3.0, 0.0, 0.0], [3.0 + side, 0.0, 0.0], [3.0 + side, side, 0.0], [3.0, side, 0.0]];
+    let square: &[[f64; 3]] = &[
+        [3.0, 0.0, 0.0],
+        [3.0 + side, 0.0, 0.0],
+        [3.0 + side, side, 0.0],
+        [3.0, side, 0.0],
+    ];
     let circle: &[[f64; 3]] = &[[3.0, C, 1.0], [3.0 + side, C, 1.0]];
     let hexagon: Vec<[f64; 3]> = (0..6)
         .map(|step| {
@@ -291,26 +406,56 @@ fn where_the_wire_can_only_stand_it_is_threaded() {
         let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
         let paths = plan(&drawing, &outlines, &defaults(), None).expect("a path");
         assert!(paths[0].segments.is_empty(), "{}", shown(&paths[0]));
-        assert!((paths[0].thread_hole - Point::new(3.0 + C, C)).norm() < 1e-6, "{paths:?}");
+        assert!(
+            (paths[0].thread_hole - Point::new(3.0 + C, C)).norm() < 1e-6,
+            "{paths:?}"
+        );
         let program = crate::program::three_b::write(&paths, 1.0, &defaults()).expect("a program");
         assert_eq!((program.blocks, program.text.as_str()), (0, "DD\n"));
-        let elsewhere = Effective { thread: at(3.05, 0.05), ..defaults() };
-        assert!(matches!(plan(&drawing, &outlines, &elsewhere, None), Err(Refusal::Findings(found)) if found[0].rule == Rule::LeadIn));
+        let elsewhere = Effective {
+            thread: at(3.05, 0.05),
+            ..defaults()
+        };
+        assert!(
+            matches!(plan(&drawing, &outlines, &elsewhere, None), Err(Refusal::Findings(found)) if found[0].rule == Rule::LeadIn)
+        );
     }
 }
 
 /// A slot that is just as wide as the wire, alone: out and back once.
 #[test]
 fn a_slot_of_the_wire_alone_is_cut_out_and_back() {
-    let slot: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [8.0, 2.0 * C, 0.0], [0.0, 2.0 * C, 0.0]];
-    let round: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [8.0, 0.0, 1.0], [8.0, 2.0 * C, 0.0], [0.0, 2.0 * C, 1.0]];
+    let slot: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [8.0, 0.0, 0.0],
+        [8.0, 2.0 * C, 0.0],
+        [0.0, 2.0 * C, 0.0],
+    ];
+    let round: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [8.0, 0.0, 1.0],
+        [8.0, 2.0 * C, 0.0],
+        [0.0, 2.0 * C, 1.0],
+    ];
     for (outline, from, to) in [(slot, C, 8.0 - C), (round, 0.0, 8.0)] {
         let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
-        let path = plan(&drawing, &outlines, &defaults(), None).expect("a path").remove(0);
+        let path = plan(&drawing, &outlines, &defaults(), None)
+            .expect("a path")
+            .remove(0);
         let pieces: Vec<PathSegment> = path.segments.clone();
         let length: f64 = pieces.iter().map(|piece| piece.geometry.length()).sum();
-        assert!((length - 2.0 * (to - from)).abs() < 1e-6, "{}", shown(&path));
-        assert!(pieces.iter().all(|piece| (piece.geometry.end().y - C).abs() < 1e-9), "{}", shown(&path));
+        assert!(
+            (length - 2.0 * (to - from)).abs() < 1e-6,
+            "{}",
+            shown(&path)
+        );
+        assert!(
+            pieces
+                .iter()
+                .all(|piece| (piece.geometry.end().y - C).abs() < 1e-9),
+            "{}",
+            shown(&path)
+        );
         assert!(crate::program::three_b::write(&[path], 1.0, &defaults()).is_ok());
     }
 }
@@ -322,20 +467,36 @@ fn a_crumb_in_a_corner_leaves_a_path() {
         for step in 0..24 {
             let way = direction(TAU * (f64::from(step) + 0.37) / 24.0) * size;
             for bulge in [0.0, 0.7, -0.7] {
-                let outline = [[0.0, 0.0, 0.1], [10.0, 4.0, bulge], [10.0 + way.x, 4.0 + way.y, 0.1], [0.0, 8.0, 0.0]];
+                let outline = [
+                    [0.0, 0.0, 0.1],
+                    [10.0, 4.0, bulge],
+                    [10.0 + way.x, 4.0 + way.y, 0.1],
+                    [0.0, 8.0, 0.0],
+                ];
                 for role in [Role::Opening, Role::Punch] {
                     let settings = unled(&outline, Direction::AsDrawn);
                     let (drawing, outlines) = drawing(&[(&outline, Some(role))]);
                     let plain = [outline[0], outline[2], outline[3]];
                     let judge = super::tests::drawing(&[(&plain, Some(role))]);
-                    let expected = without_leads(&plan(&judge.0, &judge.1, &settings, None).expect("a path")[0]);
+                    let expected = without_leads(
+                        &plan(&judge.0, &judge.1, &settings, None).expect("a path")[0],
+                    );
                     let path = match plan(&drawing, &outlines, &settings, None) {
                         Ok(paths) => without_leads(&paths[0]),
                         Err(refusal) => panic!("{size} {step} {bulge} {role:?}: {refusal:?}"),
                     };
-                    let furthest = samples(&path, 0.5).into_iter().map(|point| distance(&expected, point)).fold(0.0, f64::max);
-                    let missing = samples(&expected, 0.5).into_iter().map(|point| distance(&path, point)).fold(0.0, f64::max);
-                    assert!(furthest.max(missing) < 2e-4, "{size} {step} {bulge} {role:?}: {furthest} {missing}");
+                    let furthest = samples(&path, 0.5)
+                        .into_iter()
+                        .map(|point| distance(&expected, point))
+                        .fold(0.0, f64::max);
+                    let missing = samples(&expected, 0.5)
+                        .into_iter()
+                        .map(|point| distance(&path, point))
+                        .fold(0.0, f64::max);
+                    assert!(
+                        furthest.max(missing) < 2e-4,
+                        "{size} {step} {bulge} {role:?}: {furthest} {missing}"
+                    );
                 }
             }
         }
@@ -347,27 +508,54 @@ fn a_crumb_in_a_corner_leaves_a_path() {
 fn what_has_no_path_is_found_before_one_is_asked_for() {
     let side = 2.0 * C;
     let hole: &[[f64; 3]] = &[[3.0, C, 1.0], [3.0 + side, C, 1.0]];
-    let slot: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [8.0, side, 0.0], [0.0, side, 0.0]];
+    let slot: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [8.0, 0.0, 0.0],
+        [8.0, side, 0.0],
+        [0.0, side, 0.0],
+    ];
     let triangle: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [0.32, 0.0, 0.0], [0.16, 0.277, 0.0]];
-    for (outline, expected) in
-        [(hole, vec![(Rule::OffsetCollapse, Severity::Warning)]), (slot, vec![]), (triangle, vec![(Rule::OffsetCollapse, Severity::Error)])]
-    {
+    for (outline, expected) in [
+        (hole, vec![(Rule::OffsetCollapse, Severity::Warning)]),
+        (slot, vec![]),
+        (triangle, vec![(Rule::OffsetCollapse, Severity::Error)]),
+    ] {
         let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
-        let settings = Effective { side: SideSetting::Opening, ..defaults() };
-        let mut analysis = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(settings.clone()));
+        let settings = Effective {
+            side: SideSetting::Opening,
+            ..defaults()
+        };
+        let mut analysis =
+            crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(settings.clone()));
         let (findings, count) = analysis.findings(&drawing, usize::MAX);
         assert_eq!(findings.len(), count);
-        let told = findings.iter().filter(|finding| ![Rule::SharpCorner, Rule::SmallRadius].contains(&finding.rule));
-        assert_eq!(told.map(|finding| (finding.rule, finding.severity)).collect::<Vec<_>>(), expected);
+        let told = findings
+            .iter()
+            .filter(|finding| ![Rule::SharpCorner, Rule::SmallRadius].contains(&finding.rule));
+        assert_eq!(
+            told.map(|finding| (finding.rule, finding.severity))
+                .collect::<Vec<_>>(),
+            expected
+        );
         let refused = plan(&drawing, &outlines, &settings, None).is_err();
-        assert_eq!(refused, expected.iter().any(|(_, severity)| *severity == Severity::Error));
+        assert_eq!(
+            refused,
+            expected
+                .iter()
+                .any(|(_, severity)| *severity == Severity::Error)
+        );
     }
 }
 
 /// What has no path is an error at its place.
 #[test]
 fn a_refusal_for_the_geometry_is_an_error_at_its_place() {
-    let square: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0], [0.0, 10.0, 0.0]];
+    let square: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [10.0, 0.0, 0.0],
+        [10.0, 10.0, 0.0],
+        [0.0, 10.0, 0.0],
+    ];
     let bottle: &[[f64; 3]] = &[
         [0.0, 0.0, 0.0],
         [10.0, 0.0, 0.0],
@@ -382,10 +570,17 @@ fn a_refusal_for_the_geometry_is_an_error_at_its_place() {
         [4.95, 5.0, 0.0],
         [0.0, 5.0, 0.0],
     ];
-    for (outline, correction, rule) in [(square, 5.5, Rule::OffsetCollapse), (bottle, 0.1, Rule::LostPocket)] {
+    for (outline, correction, rule) in [
+        (square, 5.5, Rule::OffsetCollapse),
+        (bottle, 0.1, Rule::LostPocket),
+    ] {
         let (drawing, outlines) = drawing(&[(outline, Some(Role::Opening))]);
         for compensation in [Compensation::Path, Compensation::Controller] {
-            let settings = Effective { correction, compensation, ..defaults() };
+            let settings = Effective {
+                correction,
+                compensation,
+                ..defaults()
+            };
             match plan(&drawing, &outlines, &settings, None) {
                 Err(Refusal::Findings(found)) => {
                     assert_eq!(found[0].rule, rule);
@@ -415,7 +610,10 @@ fn a_tip_that_would_come_near_a_wall_is_rolled_about() {
         [-3.0, 0.0, 0.0],
     ];
     for corner in [Corner::Arc, Corner::Intersection] {
-        let settings = Effective { corner, ..unled(outline, Direction::AsDrawn) };
+        let settings = Effective {
+            corner,
+            ..unled(outline, Direction::AsDrawn)
+        };
         assert_eq!(wrong(outline, Role::Opening, &settings), None);
     }
 }

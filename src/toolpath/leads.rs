@@ -23,27 +23,55 @@ pub(super) struct Wanted {
 }
 
 /// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
-pub(super) fn wanted(drawing: &Drawing, outlines: &[Outline], chosen: &[usize], settings: &Effective) -> Result<Vec<Wanted>, Refusal> {
-    let threads = points(drawing, outlines, chosen, settings.thread.as_ref(), "thread hole")?;
+pub(super) fn wanted(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    chosen: &[usize],
+    settings: &Effective,
+) -> Result<Vec<Wanted>, Refusal> {
+    let threads = points(
+        drawing,
+        outlines,
+        chosen,
+        settings.thread.as_ref(),
+        "thread hole",
+    )?;
     let entries = points(drawing, outlines, chosen, settings.entry.as_ref(), "entry")?;
     let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
-    let wanted = chosen.iter().zip(threads.into_iter().zip(entries)).map(|(&index, (thread, entry))| {
-        let mark = own_mark(&marks, index);
-        let is_entry = |mark: &&Mark| means_entry(drawing, &outlines[index], mark, settings);
-        let beside = mark.filter(is_entry).map(|mark| mark.at);
-        Wanted { thread: thread.or(if beside.is_some() { None } else { mark.map(|mark| mark.at) }), entry, beside }
-    });
+    let wanted =
+        chosen
+            .iter()
+            .zip(threads.into_iter().zip(entries))
+            .map(|(&index, (thread, entry))| {
+                let mark = own_mark(&marks, index);
+                let is_entry =
+                    |mark: &&Mark| means_entry(drawing, &outlines[index], mark, settings);
+                let beside = mark.filter(is_entry).map(|mark| mark.at);
+                Wanted {
+                    thread: thread.or(if beside.is_some() {
+                        None
+                    } else {
+                        mark.map(|mark| mark.at)
+                    }),
+                    entry,
+                    beside,
+                }
+            });
     Ok(wanted.collect())
 }
 
 /// A mark within the correction of its contour, or on the part's side of it, means the entry: no wire is threaded there. Where the side
 /// is not known, or the contour is the wire's own path, it is the thread hole.
 fn means_entry(drawing: &Drawing, outline: &Outline, mark: &Mark, settings: &Effective) -> bool {
-    if settings.compensation == Compensation::None || !outline.contour.closed || !matches!(outline.role, Role::Opening | Role::Punch) {
+    if settings.compensation == Compensation::None
+        || !outline.contour.closed
+        || !matches!(outline.role, Role::Opening | Role::Punch)
+    {
         return false;
     }
     let is_inside = winding(drawing, &outline.contour, mark.at) != 0;
-    mark.distance * settings.unit_of(drawing).mm <= settings.correction || is_inside != (outline.role == Role::Opening)
+    mark.distance * settings.unit_of(drawing).mm <= settings.correction
+        || is_inside != (outline.role == Role::Opening)
 }
 
 /// The mark of one outline: of several the nearest.
@@ -96,7 +124,9 @@ pub(super) struct Mark {
 
 /// Every text "O", with the contour that it marks; `None` where there are more than `most`.
 pub(super) fn marks(drawing: &Drawing, outlines: &[Outline], most: usize) -> Option<Vec<Mark>> {
-    let seen = drawing.entities().filter(|(id, _)| drawing.visibility(*id).is_seen());
+    let seen = drawing
+        .entities()
+        .filter(|(id, _)| drawing.visibility(*id).is_seen());
     let texts = seen.filter_map(|(_, entity)| match &entity.geometry {
         Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
         _ => None,
@@ -106,10 +136,23 @@ pub(super) fn marks(drawing: &Drawing, outlines: &[Outline], most: usize) -> Opt
         return None;
     }
     let marks = texts.into_iter().filter_map(|at| {
-        let distance =
-            |outline: &Outline| outline.contour.segments(drawing).map(|s| s.geometry.distance_to(at)).fold(f64::INFINITY, f64::min);
-        let nearest = outlines.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map(|(outline, distance)| Mark { at, outline, distance })
+        let distance = |outline: &Outline| {
+            outline
+                .contour
+                .segments(drawing)
+                .map(|s| s.geometry.distance_to(at))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let nearest = outlines
+            .iter()
+            .map(distance)
+            .enumerate()
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map(|(outline, distance)| Mark {
+            at,
+            outline,
+            distance,
+        })
     });
     Some(marks.collect())
 }
@@ -136,9 +179,18 @@ pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, 
         };
         let at = segment.point_at(share);
         let distance = (at - point).norm();
-        let better = best.is_none_or(|(entry, least)| distance < least - tie || (distance <= least + tie && at.x > entry.point.x + tie));
+        let better = best.is_none_or(|(entry, least)| {
+            distance < least - tie || (distance <= least + tie && at.x > entry.point.x + tie)
+        });
         if better {
-            best = Some((Entry { wall, share, point: at }, distance));
+            best = Some((
+                Entry {
+                    wall,
+                    share,
+                    point: at,
+                },
+                distance,
+            ));
         }
     }
     best
@@ -147,16 +199,26 @@ pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, 
 /// The middle of the longest line, else the +X-most point of the longest arc. The first drawn one where several are as long.
 pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
     let rank = |wall: &Wall| match wall.source {
-        Source::Segment { entity, segment } | Source::Corner { entity, segment } => (entity, segment),
+        Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
+            (entity, segment)
+        }
         Source::LeadIn | Source::LeadOut => (crate::drawing::EntityId(u32::MAX), 0),
     };
     let longest = |arcs: bool| {
         let mut best: Option<usize> = None;
-        for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.geometry.as_arc().is_some() == arcs) {
+        for (index, wall) in walls
+            .iter()
+            .enumerate()
+            .filter(|(_, wall)| wall.geometry.as_arc().is_some() == arcs)
+        {
             let better = best.is_none_or(|best| {
                 let (length, least) = (wall.geometry.length(), walls[best].geometry.length());
                 let equal = (length - least).abs() <= 1e-9 * least;
-                if equal { rank(wall) < rank(&walls[best]) } else { length > least }
+                if equal {
+                    rank(wall) < rank(&walls[best])
+                } else {
+                    length > least
+                }
             });
             if better {
                 best = Some(index);
@@ -167,7 +229,11 @@ pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
     let wall = longest(false).or_else(|| longest(true))?;
     let segment = &walls[wall].geometry;
     let share = segment.as_arc().map_or(0.5, furthest_x);
-    Some(Entry { wall, share, point: segment.point_at(share) })
+    Some(Entry {
+        wall,
+        share,
+        point: segment.point_at(share),
+    })
 }
 
 /// Share of an arc's point with the largest x.
@@ -181,15 +247,28 @@ fn furthest_x(arc: &Arc) -> f64 {
 
 /// The element of a closed path and the point on it that belong to an entry. Where the entry's own offset is cut off or left out, the
 /// nearest point that remains of it, or the point that stands for it.
-pub(super) fn path_point(path: &[Element], walls: &[Wall], entry: &Entry, correction: f64, side: f64) -> Option<(usize, Point)> {
+pub(super) fn path_point(
+    path: &[Element],
+    walls: &[Wall],
+    entry: &Entry,
+    correction: f64,
+    side: f64,
+) -> Option<(usize, Point)> {
     let wall = &walls.get(entry.wall)?.geometry;
     let wanted = entry.point + normal(wall, entry.share, side) * correction;
-    let own = |element: &Element| element.wall == entry.wall && !matches!(element.source, Source::Corner { .. });
+    let own = |element: &Element| {
+        element.wall == entry.wall && !matches!(element.source, Source::Corner { .. })
+    };
     let away = |index: &usize| path[*index].geometry.distance_to(wanted);
-    let own = (0..path.len()).filter(|&index| own(&path[index])).min_by(|a, b| away(a).total_cmp(&away(b)));
+    let own = (0..path.len())
+        .filter(|&index| own(&path[index]))
+        .min_by(|a, b| away(a).total_cmp(&away(b)));
     let Some(index) = own else {
         // Elements stand in the order of their walls.
-        let index = path.iter().position(|element| element.wall > entry.wall).unwrap_or(0);
+        let index = path
+            .iter()
+            .position(|element| element.wall > entry.wall)
+            .unwrap_or(0);
         return Some((index, path.get(index)?.geometry.start()));
     };
     let element = &path[index].geometry;
@@ -205,10 +284,18 @@ pub(super) fn path_point(path: &[Element], walls: &[Wall], entry: &Entry, correc
 /// The centre of walls that are one circle.
 pub(super) fn circle_center(walls: &[Wall], tolerance: f64) -> Option<Point> {
     let first = *walls.first()?.geometry.as_arc()?;
-    let same = |arc: &&Arc| (arc.center - first.center).norm() <= tolerance && (arc.radius - first.radius).abs() <= tolerance;
-    let arcs: Vec<&Arc> = walls.iter().map_while(|wall| wall.geometry.as_arc()).filter(same).collect();
+    let same = |arc: &&Arc| {
+        (arc.center - first.center).norm() <= tolerance
+            && (arc.radius - first.radius).abs() <= tolerance
+    };
+    let arcs: Vec<&Arc> = walls
+        .iter()
+        .map_while(|wall| wall.geometry.as_arc())
+        .filter(same)
+        .collect();
     let sweep: f64 = arcs.iter().map(|arc| arc.sweep).sum();
-    (arcs.len() == walls.len() && (sweep.abs() - TAU).abs() * first.radius <= tolerance).then_some(first.center)
+    (arcs.len() == walls.len() && (sweep.abs() - TAU).abs() * first.radius <= tolerance)
+        .then_some(first.center)
 }
 
 /// The walls of all contours.
@@ -227,7 +314,10 @@ impl Contours {
                 of.push((index, segment.entity, segment.segment));
             }
         }
-        Contours { walls: Walls::new(walls), of }
+        Contours {
+            walls: Walls::new(walls),
+            of,
+        }
     }
 
     /// The outline that a wall is of.
@@ -255,7 +345,10 @@ impl Kerfs {
             pieces.extend(path.iter().map(|element| element.geometry));
             of.extend(path.iter().map(|element| (outline, element.source)));
         }
-        Kerfs { paths: Walls::new(pieces), of }
+        Kerfs {
+            paths: Walls::new(pieces),
+            of,
+        }
     }
 }
 
@@ -291,24 +384,46 @@ impl Surroundings<'_> {
             return Some(Obstacle::Own(wall));
         }
         let is_other = |wall: usize| self.contours.outline_of(wall) != self.outline;
-        if let Some(wall) = self.contours.walls.find_near(lead, self.clearance, |wall, _| is_other(wall)) {
+        if let Some(wall) = self
+            .contours
+            .walls
+            .find_near(lead, self.clearance, |wall, _| is_other(wall))
+        {
             return Some(Obstacle::Contour(wall));
         }
         // Two cuts are as wide as two corrections each. Where the paths themselves run nearer to each other, the lead may as well.
         let rounding = super::ROUNDING / self.unit_mm;
         let Kerfs { paths, of } = self.kerfs;
-        let counts =
-            |piece: usize, distance: f64| of[piece].0 != self.outline && distance < paths.segment(piece).distance_to(begin) - rounding;
-        paths.find_near(lead, 2.0 * self.clearance, counts).map(Obstacle::Kerf)
+        let counts = |piece: usize, distance: f64| {
+            of[piece].0 != self.outline
+                && distance < paths.segment(piece).distance_to(begin) - rounding
+        };
+        paths
+            .find_near(lead, 2.0 * self.clearance, counts)
+            .map(Obstacle::Kerf)
     }
 
     /// Where an obstacle stands in the drawing, and what a lead does there.
-    fn told(&self, obstacle: &Obstacle, walls: &[Wall], correction: f64) -> (Option<Place>, String) {
-        let named = |outline: usize| self.outlines.get(outline).map_or("?", |outline| name(self.drawing, outline));
+    fn told(
+        &self,
+        obstacle: &Obstacle,
+        walls: &[Wall],
+        correction: f64,
+    ) -> (Option<Place>, String) {
+        let named = |outline: usize| {
+            self.outlines
+                .get(outline)
+                .map_or("?", |outline| name(self.drawing, outline))
+        };
         match *obstacle {
             Obstacle::Own(wall) => {
                 let place = walls.get(wall).and_then(|wall| place_of(wall.source));
-                (place, format!("crosses the contour or comes nearer to it than the correction {correction:.3} mm"))
+                (
+                    place,
+                    format!(
+                        "crosses the contour or comes nearer to it than the correction {correction:.3} mm"
+                    ),
+                )
             }
             Obstacle::Contour(wall) => (
                 Some(self.contours.place_of(wall)),
@@ -319,7 +434,10 @@ impl Surroundings<'_> {
             ),
             Obstacle::Kerf(piece) => {
                 let (outline, source) = self.kerfs.of[piece];
-                (place_of(source), format!("runs into the cut along contour {}", named(outline)))
+                (
+                    place_of(source),
+                    format!("runs into the cut along contour {}", named(outline)),
+                )
             }
         }
     }
@@ -327,16 +445,29 @@ impl Surroundings<'_> {
 
 pub(super) fn place_of(source: Source) -> Option<Place> {
     match source {
-        Source::Segment { entity, segment } | Source::Corner { entity, segment } => Some(Place::Segment { entity, segment }),
+        Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
+            Some(Place::Segment { entity, segment })
+        }
         Source::LeadIn | Source::LeadOut => None,
     }
 }
 
 /// A finding `lead-in` at a place of the contour that is led to.
-pub(super) fn fault(severity: Severity, source: Option<Source>, sentence: String, other: Option<Place>) -> Finding {
+pub(super) fn fault(
+    severity: Severity,
+    source: Option<Source>,
+    sentence: String,
+    other: Option<Place>,
+) -> Finding {
     let place = source.and_then(place_of).unwrap_or(Place::Document);
     let related = other.filter(|other| *other != place).into_iter().collect();
-    Finding { rule: Rule::LeadIn, severity, place, detail: Detail::LeadIn(sentence), related }
+    Finding {
+        rule: Rule::LeadIn,
+        severity,
+        place,
+        detail: Detail::LeadIn(sentence),
+        related,
+    }
 }
 
 /// The thread hole for a lead to `begin`, the point of the path that belongs to `entry`. `begin` itself where there is no lead.
@@ -352,12 +483,15 @@ pub(super) fn thread_hole(
     settings: &Effective,
     surroundings: &Surroundings<'_>,
 ) -> Result<Point, Finding> {
-    let Surroundings { unit_mm, severity, .. } = *surroundings;
+    let Surroundings {
+        unit_mm, severity, ..
+    } = *surroundings;
     let source = walls.get(entry.wall).map(|wall| wall.source);
     let correction = settings.correction;
     if let Some(thread) = wanted.thread {
         let join = settings.tolerances.join / unit_mm;
-        let on_entry = (thread - entry.point).norm() <= join || (thread - begin).norm() <= 1e-6 / unit_mm;
+        let on_entry =
+            (thread - entry.point).norm() <= join || (thread - begin).norm() <= 1e-6 / unit_mm;
         if on_entry {
             return Ok(begin);
         }
@@ -377,19 +511,27 @@ pub(super) fn thread_hole(
         if (center - begin).norm() <= 1e-6 / unit_mm {
             return Ok(begin);
         }
-        if surroundings.obstacle(&Segment::line(center, begin), begin).is_none() {
+        if surroundings
+            .obstacle(&Segment::line(center, begin), begin)
+            .is_none()
+        {
             return Ok(center);
         }
     }
     let to_path = begin - entry.point;
     let nearest = to_path.norm();
-    let Some(way) = to_path.try_normalize(0.0) else { return Ok(begin) };
+    let Some(way) = to_path.try_normalize(0.0) else {
+        return Ok(begin);
+    };
     // Halved down to the path; then what reaches beyond the path is halved.
     let least = nearest + 1e-6 / unit_mm;
     let full = Some(settings.lead_in / unit_mm).filter(|length| length.is_finite());
-    let halved = std::iter::successors(full, |length| Some(length / 2.0)).take_while(|&length| length > least);
+    let halved = std::iter::successors(full, |length| Some(length / 2.0))
+        .take_while(|&length| length > least);
     let shortest = halved.clone().last().unwrap_or(nearest);
-    let beyond = (1..=HALVED_BEYOND).map(|times| nearest + (shortest - nearest) / f64::from(1 << times)).filter(|&length| length > least);
+    let beyond = (1..=HALVED_BEYOND)
+        .map(|times| nearest + (shortest - nearest) / f64::from(1 << times))
+        .filter(|&length| length > least);
     let mut last = None;
     for length in halved.chain(beyond) {
         let thread = entry.point + way * length;
@@ -399,8 +541,14 @@ pub(super) fn thread_hole(
         }
     }
     // What is in the way of the shortest one.
-    let (place, does) = last.map(|obstacle| surroundings.told(&obstacle, walls, correction)).unwrap_or_default();
-    let why = if does.is_empty() { does } else { format!(" (it {does})") };
+    let (place, does) = last
+        .map(|obstacle| surroundings.told(&obstacle, walls, correction))
+        .unwrap_or_default();
+    let why = if does.is_empty() {
+        does
+    } else {
+        format!(" (it {does})")
+    };
     let sentence = format!(
         "no lead-in from {:.3} mm down to the correction {correction:.3} mm fits at ({:.3}, {:.3}){why}: give a thread hole or another entry",
         settings.lead_in, entry.point.x, entry.point.y
@@ -409,7 +557,12 @@ pub(super) fn thread_hole(
 }
 
 /// The refusal of an entry that does not lie on the contour.
-pub(super) fn off_contour(drawing: &Drawing, outline: &Outline, entry: Point, distance_mm: f64) -> Refusal {
+pub(super) fn off_contour(
+    drawing: &Drawing,
+    outline: &Outline,
+    entry: Point,
+    distance_mm: f64,
+) -> Refusal {
     let handle = name(drawing, outline);
     Refusal::Sentence(format!(
         "the entry ({}, {}) lies {distance_mm:.3} mm from contour {handle}, expected a point on it",

@@ -36,9 +36,19 @@ pub(super) enum Found {
 const STEP: usize = 256;
 
 pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
-    let mut nodes = Nodes { cell: 8.0 * proof.rounding, near: 0.2 * proof.rounding, points: Vec::new(), cells: FxHashMap::default() };
+    let mut nodes = Nodes {
+        cell: 8.0 * proof.rounding,
+        near: 0.2 * proof.rounding,
+        points: Vec::new(),
+        cells: FxHashMap::default(),
+    };
     let mut stretches: Vec<Stretch> = Vec::new();
-    let clear = |point: Point| proof.own.nearer(point, proof.correction - proof.rounding).is_none();
+    let clear = |point: Point| {
+        proof
+            .own
+            .nearer(point, proof.correction - proof.rounding)
+            .is_none()
+    };
     let mut stand = None;
     for (raw, element) in proof.raw.elements.iter().enumerate() {
         if raw % STEP == 0 && !goes_on() {
@@ -49,19 +59,31 @@ pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
         let mut last = nodes.at(geometry.start());
         let mut share = 0.0;
         for &cut in &cuts[1..] {
-            let node = nodes.at(if cut == 1.0 { geometry.end() } else { geometry.point_at(cut) });
+            let node = nodes.at(if cut == 1.0 {
+                geometry.end()
+            } else {
+                geometry.point_at(cut)
+            });
             // Both ends of a full turn are one node.
             let runs = node != last || (cut - share) * geometry.length() > 8.0 * proof.rounding;
             if runs {
                 if clear(geometry.point_at((share + cut) / 2.0)) {
-                    stretches.push(Stretch { raw, from: last, to: node, is_alive: true });
+                    stretches.push(Stretch {
+                        raw,
+                        from: last,
+                        to: node,
+                        is_alive: true,
+                    });
                 }
                 share = cut;
             }
             last = node;
         }
         if stand.is_none() && stretches.is_empty() {
-            stand = cuts.iter().map(|&cut| geometry.point_at(cut)).find(|&point| clear(point));
+            stand = cuts
+                .iter()
+                .map(|&cut| geometry.point_at(cut))
+                .find(|&point| clear(point));
         }
     }
     prune(&mut stretches, nodes.points.len());
@@ -83,7 +105,9 @@ fn prune(stretches: &mut [Stretch], nodes: usize) {
         at[stretch.from].push(index as u32);
         at[stretch.to].push(index as u32);
     }
-    let mut waiting: Vec<usize> = (0..nodes).filter(|&node| (coming[node] == 0) != (going[node] == 0)).collect();
+    let mut waiting: Vec<usize> = (0..nodes)
+        .filter(|&node| (coming[node] == 0) != (going[node] == 0))
+        .collect();
     while let Some(node) = waiting.pop() {
         if coming[node] > 0 && going[node] > 0 {
             continue;
@@ -93,7 +117,11 @@ fn prune(stretches: &mut [Stretch], nodes: usize) {
             if std::mem::replace(&mut stretch.is_alive, false) {
                 going[stretch.from] -= 1;
                 coming[stretch.to] -= 1;
-                waiting.extend([stretch.from, stretch.to].into_iter().filter(|&other| other != node));
+                waiting.extend(
+                    [stretch.from, stretch.to]
+                        .into_iter()
+                        .filter(|&other| other != node),
+                );
             }
         }
     }
@@ -102,10 +130,15 @@ fn prune(stretches: &mut [Stretch], nodes: usize) {
 /// The stretches one after another: each leads on to the next one in the order of the contour that begins where it ends, so that
 /// ways that touch are one. Where it does not come out, the raw element.
 fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops, usize> {
-    let alive: Vec<usize> = (0..stretches.len()).filter(|&index| stretches[index].is_alive).collect();
+    let alive: Vec<usize> = (0..stretches.len())
+        .filter(|&index| stretches[index].is_alive)
+        .collect();
     let mut beginning: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
     for &index in &alive {
-        beginning.entry(stretches[index].from).or_default().push(index);
+        beginning
+            .entry(stretches[index].from)
+            .or_default()
+            .push(index);
     }
     let mut is_done = vec![false; stretches.len()];
     let mut loops = Loops::new();
@@ -120,9 +153,17 @@ fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops
                 return Err(stretches[here].raw);
             }
             let Stretch { raw, from, to, .. } = stretches[here];
-            append(proof, &mut pieces, raw, nodes.points[from], nodes.points[to]);
-            let Some(next) = beginning.get(&to).and_then(|list| list.get(list.partition_point(|&other| other <= here)).or(list.first()))
-            else {
+            append(
+                proof,
+                &mut pieces,
+                raw,
+                nodes.points[from],
+                nodes.points[to],
+            );
+            let Some(next) = beginning.get(&to).and_then(|list| {
+                list.get(list.partition_point(|&other| other <= here))
+                    .or(list.first())
+            }) else {
                 return Err(raw);
             };
             here = *next;
@@ -154,7 +195,13 @@ fn append(proof: &Proof, pieces: &mut Vec<(usize, Element)>, raw: usize, start: 
         Segment::Arc(arc) if arc.is_full_turn() && start == end => element.geometry,
         whole => between(&whole, start, end),
     };
-    pieces.push((raw, Element { geometry, ..element }));
+    pieces.push((
+        raw,
+        Element {
+            geometry,
+            ..element
+        },
+    ));
 }
 
 /// Points that are told apart only when they are further from each other than rounding.
@@ -167,18 +214,29 @@ struct Nodes {
 
 impl Nodes {
     fn at(&mut self, point: Point) -> usize {
-        let place = |offset: f64| (((point.x + offset) / self.cell).floor() as i64, ((point.y + offset) / self.cell).floor() as i64);
+        let place = |offset: f64| {
+            (
+                ((point.x + offset) / self.cell).floor() as i64,
+                ((point.y + offset) / self.cell).floor() as i64,
+            )
+        };
         let (low, high) = (place(-self.near), place(self.near));
         for x in low.0..=high.0 {
             for y in low.1..=high.1 {
                 let known = self.cells.get(&(x, y)).into_iter().flatten();
-                if let Some(&node) = known.into_iter().find(|&&node| (self.points[node] - point).norm() <= self.near) {
+                if let Some(&node) = known
+                    .into_iter()
+                    .find(|&&node| (self.points[node] - point).norm() <= self.near)
+                {
                     return node;
                 }
             }
         }
         self.points.push(point);
-        self.cells.entry(place(0.0)).or_default().push(self.points.len() - 1);
+        self.cells
+            .entry(place(0.0))
+            .or_default()
+            .push(self.points.len() - 1);
         self.points.len() - 1
     }
 }

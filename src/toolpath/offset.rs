@@ -12,20 +12,38 @@ pub(super) struct Wall {
 }
 
 /// The walls of a contour. Gaps within the join tolerance are closed half way by both neighbours, and what has no length is left out.
-pub(super) fn walls(segments: impl IntoIterator<Item = ContourSegment>, closed: bool, zero_length: f64) -> Vec<Wall> {
+pub(super) fn walls(
+    segments: impl IntoIterator<Item = ContourSegment>,
+    closed: bool,
+    zero_length: f64,
+) -> Vec<Wall> {
     let mut walls: Vec<Wall> = segments
         .into_iter()
         .filter(|segment| segment.geometry.length() > zero_length)
-        .map(|segment| Wall { geometry: segment.geometry, source: Source::Segment { entity: segment.entity, segment: segment.segment } })
+        .map(|segment| Wall {
+            geometry: segment.geometry,
+            source: Source::Segment {
+                entity: segment.entity,
+                segment: segment.segment,
+            },
+        })
         .collect();
     let count = walls.len();
     if count < 2 {
         if let (true, Some(wall)) = (closed, walls.first_mut())
-            && wall.geometry.as_arc().is_some_and(|arc| !arc.is_full_turn())
+            && wall
+                .geometry
+                .as_arc()
+                .is_some_and(|arc| !arc.is_full_turn())
         {
             // One arc that comes back to its start within the join tolerance is a circle.
             if let Segment::Arc(arc) = wall.geometry {
-                wall.geometry = Segment::Arc(Arc::about(arc.center, arc.start, arc.start, arc.sweep > 0.0));
+                wall.geometry = Segment::Arc(Arc::about(
+                    arc.center,
+                    arc.start,
+                    arc.start,
+                    arc.sweep > 0.0,
+                ));
             }
         }
         return walls;
@@ -35,8 +53,13 @@ pub(super) fn walls(segments: impl IntoIterator<Item = ContourSegment>, closed: 
         let (end, start) = (walls[index].geometry.end(), walls[next].geometry.start());
         if end != start {
             let middle = end + (start - end) * 0.5;
-            walls[index].geometry = with_ends(&walls[index].geometry, walls[index].geometry.start(), middle);
-            walls[next].geometry = with_ends(&walls[next].geometry, middle, walls[next].geometry.end());
+            walls[index].geometry = with_ends(
+                &walls[index].geometry,
+                walls[index].geometry.start(),
+                middle,
+            );
+            walls[next].geometry =
+                with_ends(&walls[next].geometry, middle, walls[next].geometry.end());
         }
     }
     walls
@@ -46,7 +69,10 @@ pub(super) fn walls(segments: impl IntoIterator<Item = ContourSegment>, closed: 
 fn with_ends(segment: &Segment, start: Point, end: Point) -> Segment {
     match segment {
         Segment::Line(_) => Segment::line(start, end),
-        Segment::Arc(arc) if (start - arc.start).norm().max((end - arc.end).norm()) <= 1e-9 * arc.radius.max(1.0) => {
+        Segment::Arc(arc)
+            if (start - arc.start).norm().max((end - arc.end).norm())
+                <= 1e-9 * arc.radius.max(1.0) =>
+        {
             Segment::Arc(Arc { start, end, ..*arc })
         }
         Segment::Arc(arc) => Segment::from_bulge(start, end, arc.bulge()),
@@ -75,17 +101,31 @@ pub(super) fn offset(wall: &Segment, correction: f64, side: f64, tolerance: f64)
             Offset::Runs(Segment::line(start + shift, end + shift))
         }
         Segment::Arc(arc) => {
-            let shift = if arc.sweep * side > 0.0 { -correction } else { correction };
+            let shift = if arc.sweep * side > 0.0 {
+                -correction
+            } else {
+                correction
+            };
             let radius = arc.radius + shift;
             if radius < -tolerance {
                 return Offset::TooTight { center: arc.center };
             }
             if radius <= tolerance {
-                return Offset::Runs(Segment::Arc(Arc { radius: 0.0, start: arc.center, end: arc.center, ..*arc }));
+                return Offset::Runs(Segment::Arc(Arc {
+                    radius: 0.0,
+                    start: arc.center,
+                    end: arc.center,
+                    ..*arc
+                }));
             }
             // Not by the share of the two radii: about a centre that is far away they differ by rounding alone.
             let out = |point: Point| point + (point - arc.center) * (shift / arc.radius);
-            Offset::Runs(Segment::Arc(Arc { radius, start: out(arc.start), end: out(arc.end), ..*arc }))
+            Offset::Runs(Segment::Arc(Arc {
+                radius,
+                start: out(arc.start),
+                end: out(arc.end),
+                ..*arc
+            }))
         }
     }
 }
@@ -98,8 +138,14 @@ mod tests {
         match (offset(&wall, 0.1, side, 1e-6), expected) {
             (Offset::TooTight { .. }, None) => {}
             (Offset::Runs(segment), Some((radius, start))) => {
-                assert!((segment.as_arc().map_or(0.0, |arc| arc.radius) - radius).abs() < 1e-12, "{segment:?}");
-                assert!((segment.start() - Point::from(start)).norm() < 1e-12, "{segment:?}");
+                assert!(
+                    (segment.as_arc().map_or(0.0, |arc| arc.radius) - radius).abs() < 1e-12,
+                    "{segment:?}"
+                );
+                assert!(
+                    (segment.start() - Point::from(start)).norm() < 1e-12,
+                    "{segment:?}"
+                );
             }
             (got, expected) => panic!("{got:?}, expected {expected:?}"),
         }
@@ -107,7 +153,9 @@ mod tests {
 
     #[test]
     fn arcs_shrink_on_the_side_of_their_centre() {
-        let arc = |radius: f64, sweep: f64| Segment::Arc(Arc::from_center(Point::origin(), radius, 0.0, sweep));
+        let arc = |radius: f64, sweep: f64| {
+            Segment::Arc(Arc::from_center(Point::origin(), radius, 0.0, sweep))
+        };
         check(arc(2.0, 1.0), 1.0, Some((1.9, [1.9, 0.0])));
         check(arc(2.0, 1.0), -1.0, Some((2.1, [2.1, 0.0])));
         check(arc(2.0, -1.0), 1.0, Some((2.1, [2.1, 0.0])));
@@ -115,7 +163,15 @@ mod tests {
         check(arc(0.1, 1.0), 1.0, Some((0.0, [0.0, 0.0])));
         check(arc(0.1 - 5e-7, 1.0), 1.0, Some((0.0, [0.0, 0.0])));
         check(arc(0.09, 1.0), 1.0, None);
-        check(Segment::line(Point::origin(), Point::new(3.0, 0.0)), 1.0, Some((0.0, [0.0, 0.1])));
-        check(Segment::line(Point::origin(), Point::new(3.0, 0.0)), -1.0, Some((0.0, [0.0, -0.1])));
+        check(
+            Segment::line(Point::origin(), Point::new(3.0, 0.0)),
+            1.0,
+            Some((0.0, [0.0, 0.1])),
+        );
+        check(
+            Segment::line(Point::origin(), Point::new(3.0, 0.0)),
+            -1.0,
+            Some((0.0, [0.0, -0.1])),
+        );
     }
 }

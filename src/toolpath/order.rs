@@ -12,17 +12,36 @@ use std::collections::hash_map::Entry;
 
 /// The handle of a contour's first entity, which names the contour to the user.
 pub(super) fn name<'a>(drawing: &'a Drawing, outline: &Outline) -> &'a str {
-    outline.contour.pieces.first().and_then(|piece| drawing.get(piece.entity)).map_or("?", |entity| &entity.handle)
+    outline
+        .contour
+        .pieces
+        .first()
+        .and_then(|piece| drawing.get(piece.entity))
+        .map_or("?", |entity| &entity.handle)
 }
 
 /// The outline that holds the entity with `handle`.
-pub(super) fn outline_of(drawing: &Drawing, outlines: &[Outline], handle: &str) -> Result<usize, Refusal> {
+pub(super) fn outline_of(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    handle: &str,
+) -> Result<usize, Refusal> {
     let Some(id) = drawing.find(handle) else {
-        return Err(Refusal::Sentence(format!("there is no entity with the handle {handle}")));
+        return Err(Refusal::Sentence(format!(
+            "there is no entity with the handle {handle}"
+        )));
     };
-    let holds = |outline: &Outline| outline.contour.pieces.iter().any(|piece| piece.entity == id);
+    let holds = |outline: &Outline| {
+        outline
+            .contour
+            .pieces
+            .iter()
+            .any(|piece| piece.entity == id)
+    };
     let found = outlines.iter().position(holds);
-    found.ok_or_else(|| Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut")))
+    found.ok_or_else(|| {
+        Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut"))
+    })
 }
 
 /// What the selection says of one contour.
@@ -53,7 +72,10 @@ pub(super) fn chosen(
 ) -> Result<Chosen, Refusal> {
     let mut chosen: Vec<usize> = match handles {
         None => (0..outlines.len()).collect(),
-        Some(handles) => handles.iter().map(|handle| outline_of(drawing, outlines, handle)).collect::<Result<_, _>>()?,
+        Some(handles) => handles
+            .iter()
+            .map(|handle| outline_of(drawing, outlines, handle))
+            .collect::<Result<_, _>>()?,
     };
     let mut known = FxHashSet::default();
     chosen.retain(|&index| known.insert(index));
@@ -67,8 +89,15 @@ pub(super) fn chosen(
         Order::InsideFirst => nested.inside_first(),
     };
     let outlines_in_order = places.into_iter().map(|place| chosen[place]).collect();
-    let picks = if order == Order::AsPicked { picks(drawing, outlines, handles.unwrap_or_default()) } else { FxHashMap::default() };
-    Ok(Chosen { outlines: outlines_in_order, picks })
+    let picks = if order == Order::AsPicked {
+        picks(drawing, outlines, handles.unwrap_or_default())
+    } else {
+        FxHashMap::default()
+    };
+    Ok(Chosen {
+        outlines: outlines_in_order,
+        picks,
+    })
 }
 
 /// What the handles say of contours of more than one entity: the cut begins with the first, and goes on to the second the shorter way.
@@ -76,19 +105,43 @@ fn picks(drawing: &Drawing, outlines: &[Outline], handles: &[String]) -> FxHashM
     let mut picks: FxHashMap<usize, Pick> = FxHashMap::default();
     let mut first_places: FxHashMap<usize, usize> = FxHashMap::default();
     for handle in handles {
-        let (Some(id), Ok(index)) = (drawing.find(handle), outline_of(drawing, outlines, handle)) else { continue };
+        let (Some(id), Ok(index)) = (drawing.find(handle), outline_of(drawing, outlines, handle))
+        else {
+            continue;
+        };
         let contour = &outlines[index].contour;
         let count = contour.pieces.len();
-        let Some(place) = contour.pieces.iter().position(|piece| piece.entity == id).filter(|_| count > 1) else { continue };
+        let Some(place) = contour
+            .pieces
+            .iter()
+            .position(|piece| piece.entity == id)
+            .filter(|_| count > 1)
+        else {
+            continue;
+        };
         match first_places.entry(index) {
             Entry::Vacant(entry) => {
                 entry.insert(place);
-                picks.insert(index, Pick { first: id, turned: None });
+                picks.insert(
+                    index,
+                    Pick {
+                        first: id,
+                        turned: None,
+                    },
+                );
             }
             Entry::Occupied(entry) => {
-                let Some(pick) = picks.get_mut(&index).filter(|pick| pick.turned.is_none() && pick.first != id) else { continue };
+                let Some(pick) = picks
+                    .get_mut(&index)
+                    .filter(|pick| pick.turned.is_none() && pick.first != id)
+                else {
+                    continue;
+                };
                 let first = *entry.get();
-                let (onward, back) = ((place + count - first) % count, (first + count - place) % count);
+                let (onward, back) = (
+                    (place + count - first) % count,
+                    (first + count - place) % count,
+                );
                 pick.turned = match (contour.closed, onward.cmp(&back)) {
                     (false, _) => Some(place < first),
                     (true, Ordering::Less) => Some(false),
@@ -109,12 +162,19 @@ struct Nesting {
 
 impl Nesting {
     fn new(drawing: &Drawing, outlines: &[Outline], chosen: &[usize]) -> Nesting {
-        let boxes: Vec<Bounds> = chosen.iter().map(|&index| outlines[index].contour.bounds(drawing)).collect();
-        let mut by_left: Vec<usize> = (0..chosen.len()).filter(|&place| outlines[chosen[place]].contour.closed).collect();
+        let boxes: Vec<Bounds> = chosen
+            .iter()
+            .map(|&index| outlines[index].contour.bounds(drawing))
+            .collect();
+        let mut by_left: Vec<usize> = (0..chosen.len())
+            .filter(|&place| outlines[chosen[place]].contour.closed)
+            .collect();
         by_left.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
         let mut around = vec![Vec::new(); chosen.len()];
         for &inner in &by_left {
-            let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else { continue };
+            let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else {
+                continue;
+            };
             let point = first.geometry.point_at(0.5);
             let reach = by_left.partition_point(|&other| boxes[other].min.x <= boxes[inner].min.x);
             for &outer in &by_left[..reach] {
@@ -157,7 +217,12 @@ impl Nesting {
     /// other, the innermost first; which outermost comes first stays as it was.
     fn inside_first(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.around.len()).collect();
-        if self.around.iter().enumerate().all(|(inner, around)| around.iter().all(|&outer| outer > inner)) {
+        if self
+            .around
+            .iter()
+            .enumerate()
+            .all(|(inner, around)| around.iter().all(|&outer| outer > inner))
+        {
             return order;
         }
         let outermost = |place: usize| self.around[place].first().copied().unwrap_or(place);
@@ -165,24 +230,49 @@ impl Nesting {
         for place in 0..self.around.len() {
             group[outermost(place)] = group[outermost(place)].min(place);
         }
-        order.sort_by_key(|&place| (group[outermost(place)], std::cmp::Reverse(self.around[place].len()), place));
+        order.sort_by_key(|&place| {
+            (
+                group[outermost(place)],
+                std::cmp::Reverse(self.around[place].len()),
+                place,
+            )
+        });
         order
     }
 }
 
 /// Brings paths into an order in which each is followed by the one that begins nearest to where it ends, of those within which nothing
 /// is left to cut. The first one that may be cut begins.
-pub(super) fn by_nearest(drawing: &Drawing, outlines: &[Outline], paths: Vec<WirePath>) -> Vec<WirePath> {
+pub(super) fn by_nearest(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    paths: Vec<WirePath>,
+) -> Vec<WirePath> {
     let chosen: Vec<usize> = paths.iter().map(|path| path.outline).collect();
     let nesting = Nesting::new(drawing, outlines, &chosen);
     let mut within = vec![0_usize; paths.len()];
-    nesting.around.iter().flatten().for_each(|&outer| within[outer] += 1);
-    let begin_of = |path: &WirePath| path.segments.first().map_or(path.thread_hole, |piece| piece.geometry.start());
-    let end_of = |path: &WirePath| path.segments.last().map_or(path.thread_hole, |piece| piece.geometry.end());
+    nesting
+        .around
+        .iter()
+        .flatten()
+        .for_each(|&outer| within[outer] += 1);
+    let begin_of = |path: &WirePath| {
+        path.segments
+            .first()
+            .map_or(path.thread_hole, |piece| piece.geometry.start())
+    };
+    let end_of = |path: &WirePath| {
+        path.segments
+            .last()
+            .map_or(path.thread_hole, |piece| piece.geometry.end())
+    };
     let begins: Vec<Point> = paths.iter().map(begin_of).collect();
     // What may be cut, from left to right.
     let key = |place: usize| (OrderedX(begins[place].x), place);
-    let mut free: BTreeSet<(OrderedX, usize)> = (0..paths.len()).filter(|&place| within[place] == 0).map(key).collect();
+    let mut free: BTreeSet<(OrderedX, usize)> = (0..paths.len())
+        .filter(|&place| within[place] == 0)
+        .map(key)
+        .collect();
     let mut order = Vec::with_capacity(paths.len());
     let mut next = free.iter().map(|(_, place)| *place).min();
     while let Some(place) = next {
@@ -197,11 +287,17 @@ pub(super) fn by_nearest(drawing: &Drawing, outlines: &[Outline], paths: Vec<Wir
         let here = end_of(&paths[place]);
         let mut best: Option<(f64, usize)> = None;
         let middle = (OrderedX(here.x), 0);
-        let (mut left, mut right) = (free.range(..middle).rev().peekable(), free.range(middle..).peekable());
+        let (mut left, mut right) = (
+            free.range(..middle).rev().peekable(),
+            free.range(middle..).peekable(),
+        );
         // Both ways from here, until what comes is further off by its x alone.
         loop {
             let reach = best.map_or(f64::INFINITY, |(distance, _)| distance);
-            let nearer = |at: Option<&&(OrderedX, usize)>| at.map(|(x, _)| (x.0 - here.x).abs()).filter(|away| *away <= reach);
+            let nearer = |at: Option<&&(OrderedX, usize)>| {
+                at.map(|(x, _)| (x.0 - here.x).abs())
+                    .filter(|away| *away <= reach)
+            };
             let found = match (nearer(left.peek()), nearer(right.peek())) {
                 (None, None) => break,
                 (Some(a), Some(b)) if a <= b => left.next(),
@@ -210,14 +306,23 @@ pub(super) fn by_nearest(drawing: &Drawing, outlines: &[Outline], paths: Vec<Wir
             };
             let Some(&(_, other)) = found else { break };
             let candidate = ((begins[other] - here).norm(), other);
-            if best.is_none_or(|best| candidate.0.total_cmp(&best.0).then(candidate.1.cmp(&best.1)).is_lt()) {
+            if best.is_none_or(|best| {
+                candidate
+                    .0
+                    .total_cmp(&best.0)
+                    .then(candidate.1.cmp(&best.1))
+                    .is_lt()
+            }) {
                 best = Some(candidate);
             }
         }
         next = best.map(|(_, other)| other);
     }
     let mut paths: Vec<Option<WirePath>> = paths.into_iter().map(Some).collect();
-    order.into_iter().filter_map(|place| paths[place].take()).collect()
+    order
+        .into_iter()
+        .filter_map(|place| paths[place].take())
+        .collect()
 }
 
 /// A coordinate that can be sorted by.
@@ -240,22 +345,41 @@ impl Ord for OrderedX {
 
 /// The contour in the direction of the cut, and whether that is against its own: as the selection says, else as the setting does. An
 /// open contour is cut as drawn.
-pub(super) fn directed(outline: &Outline, direction: Direction, picked: Option<bool>) -> (Contour, bool) {
+pub(super) fn directed(
+    outline: &Outline,
+    direction: Direction,
+    picked: Option<bool>,
+) -> (Contour, bool) {
     let turn = match (picked, direction) {
         (Some(turned), _) => turned,
         (None, Direction::AsDrawn) => false,
         (None, Direction::Ccw) => outline.contour.closed && outline.twice_area < 0.0,
         (None, Direction::Cw) => outline.contour.closed && outline.twice_area > 0.0,
     };
-    (if turn { outline.contour.reversed() } else { outline.contour.clone() }, turn)
+    (
+        if turn {
+            outline.contour.reversed()
+        } else {
+            outline.contour.clone()
+        },
+        turn,
+    )
 }
 
 /// A closed path turned round so that it begins and ends in `point` of element `index`, which is split there.
 pub(super) fn begin_at(path: Vec<Element>, index: usize, point: Point) -> Vec<Element> {
-    let Some(&element) = path.get(index) else { return path };
+    let Some(&element) = path.get(index) else {
+        return path;
+    };
     if let (1, Segment::Arc(arc)) = (path.len(), element.geometry) {
-        let turned = Arc { radius: arc.radius, ..Arc::about(arc.center, point, point, arc.sweep > 0.0) };
-        return vec![Element { geometry: Segment::Arc(turned), ..element }];
+        let turned = Arc {
+            radius: arc.radius,
+            ..Arc::about(arc.center, point, point, arc.sweep > 0.0)
+        };
+        return vec![Element {
+            geometry: Segment::Arc(turned),
+            ..element
+        }];
     }
     let share = element.geometry.share_of(point);
     let length = element.geometry.length();
@@ -269,7 +393,10 @@ pub(super) fn begin_at(path: Vec<Element>, index: usize, point: Point) -> Vec<El
     turned.extend_from_slice(&path[..first]);
     if split {
         turned[0].geometry = between(&element.geometry, point, element.geometry.end());
-        turned.push(Element { geometry: between(&element.geometry, element.geometry.start(), point), ..element });
+        turned.push(Element {
+            geometry: between(&element.geometry, element.geometry.start(), point),
+            ..element
+        });
     }
     turned
 }
@@ -286,12 +413,28 @@ mod tests {
     fn check(circles: &[(f64, f64)], expected: &[usize]) {
         let mut drawing = Drawing::new(None);
         for &(x, radius) in circles {
-            let geometry = Geometry::Circle { center: Point::new(x, 0.0), radius };
-            drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::Circle, geometry });
+            let geometry = Geometry::Circle {
+                center: Point::new(x, 0.0),
+                radius,
+            };
+            drawing.push(Entity {
+                handle: "A".into(),
+                layer: "0".into(),
+                role: None,
+                kind: crate::drawing::Kind::Circle,
+                geometry,
+            });
         }
-        let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
-        let ordered = |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
-        assert_eq!(ordered(Order::InsideFirst), Ok(expected.to_vec()), "{circles:?}");
+        let outlines = Analysis::new(&drawing, Shared::new(Effective::default()))
+            .outlines(&drawing)
+            .clone();
+        let ordered =
+            |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
+        assert_eq!(
+            ordered(Order::InsideFirst),
+            Ok(expected.to_vec()),
+            "{circles:?}"
+        );
         // In every order the inner ones come first.
         for order in [Order::AsDrawn, Order::AsPicked, Order::Nearest] {
             let found = ordered(order).unwrap();
@@ -299,7 +442,10 @@ mod tests {
             for (inner, &(x, radius)) in circles.iter().enumerate() {
                 for (outer, &(x1, radius1)) in circles.iter().enumerate() {
                     let holds = (x - x1).abs() + radius < radius1;
-                    assert!(!holds || at(inner) < at(outer), "{order:?} {circles:?}: {found:?}");
+                    assert!(
+                        !holds || at(inner) < at(outer),
+                        "{order:?} {circles:?}: {found:?}"
+                    );
                 }
             }
         }
@@ -307,14 +453,32 @@ mod tests {
 
     #[test]
     fn as_drawn_only_what_has_to_is_moved() {
-        let circles = [(1.0, 0.5), (21.0, 0.5), (0.0, 5.0), (-1.0, 0.5), (20.0, 5.0)];
+        let circles = [
+            (1.0, 0.5),
+            (21.0, 0.5),
+            (0.0, 5.0),
+            (-1.0, 0.5),
+            (20.0, 5.0),
+        ];
         let mut drawing = Drawing::new(None);
         for &(x, radius) in &circles {
-            let geometry = Geometry::Circle { center: Point::new(x, 0.0), radius };
-            drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::Circle, geometry });
+            let geometry = Geometry::Circle {
+                center: Point::new(x, 0.0),
+                radius,
+            };
+            drawing.push(Entity {
+                handle: "A".into(),
+                layer: "0".into(),
+                role: None,
+                kind: crate::drawing::Kind::Circle,
+                geometry,
+            });
         }
-        let outlines = Analysis::new(&drawing, Shared::new(Effective::default())).outlines(&drawing).clone();
-        let ordered = |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
+        let outlines = Analysis::new(&drawing, Shared::new(Effective::default()))
+            .outlines(&drawing)
+            .clone();
+        let ordered =
+            |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
         assert_eq!(ordered(Order::AsDrawn), Ok(vec![0, 1, 3, 2, 4]));
         assert_eq!(ordered(Order::InsideFirst), Ok(vec![0, 3, 2, 1, 4]));
     }
@@ -325,8 +489,14 @@ mod tests {
         check(&[(0.0, 5.0), (2.0, 1.0), (-2.0, 1.0)], &[1, 2, 0]);
         check(&[(2.0, 1.0), (0.0, 5.0), (-2.0, 1.0)], &[0, 2, 1]);
         // A second part and its hole stay where they are.
-        check(&[(0.0, 5.0), (20.0, 5.0), (20.0, 1.0), (0.0, 1.0)], &[3, 0, 2, 1]);
+        check(
+            &[(0.0, 5.0), (20.0, 5.0), (20.0, 1.0), (0.0, 1.0)],
+            &[3, 0, 2, 1],
+        );
         // A punch in a hole of a punch.
-        check(&[(0.0, 9.0), (0.0, 6.0), (0.0, 3.0), (1.0, 1.0)], &[3, 2, 1, 0]);
+        check(
+            &[(0.0, 9.0), (0.0, 6.0), (0.0, 3.0), (1.0, 1.0)],
+            &[3, 2, 1, 0],
+        );
     }
 }

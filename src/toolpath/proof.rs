@@ -40,8 +40,15 @@ impl Proof<'_> {
 
     /// True where the wire runs inside of the contour.
     pub fn is_inside(&self) -> bool {
-        let origin = self.walls.first().map_or_else(Point::origin, |wall| wall.geometry.start());
-        let twice_area: f64 = self.walls.iter().map(|wall| wall.geometry.twice_area(origin)).sum();
+        let origin = self
+            .walls
+            .first()
+            .map_or_else(Point::origin, |wall| wall.geometry.start());
+        let twice_area: f64 = self
+            .walls
+            .iter()
+            .map(|wall| wall.geometry.twice_area(origin))
+            .sum();
         twice_area * self.side > 0.0
     }
 
@@ -54,7 +61,10 @@ impl Proof<'_> {
             }
             let own = &self.walls[element.wall].geometry;
             let is_off = |point: Point| own.distance_to(point) > self.correction + self.rounding;
-            if [0.0, 0.5, 1.0].iter().any(|&share| is_off(geometry.point_at(share))) {
+            if [0.0, 0.5, 1.0]
+                .iter()
+                .any(|&share| is_off(geometry.point_at(share)))
+            {
                 return Err(Unproved { wall: element.wall });
             }
         }
@@ -63,7 +73,11 @@ impl Proof<'_> {
 
     /// Nothing that was cut off is a place of the path: what is left out of the raw elements `range` is too near to some wall.
     /// `by_raw` are all pieces of the path in the order of the raw elements.
-    pub fn nothing_is_missing(&self, by_raw: &[(usize, Element)], range: std::ops::Range<usize>) -> Result<(), Unproved> {
+    pub fn nothing_is_missing(
+        &self,
+        by_raw: &[(usize, Element)],
+        range: std::ops::Range<usize>,
+    ) -> Result<(), Unproved> {
         let mut next = by_raw.partition_point(|(raw, _)| *raw < range.start);
         for index in range {
             let element = &self.raw.elements[index];
@@ -72,7 +86,12 @@ impl Proof<'_> {
             while by_raw.get(next).is_some_and(|(raw, _)| *raw == index) {
                 next += 1;
             }
-            let beside = [first.checked_sub(1).unwrap_or(by_raw.len().saturating_sub(1)), next % by_raw.len().max(1)];
+            let beside = [
+                first
+                    .checked_sub(1)
+                    .unwrap_or(by_raw.len().saturating_sub(1)),
+                next % by_raw.len().max(1),
+            ];
             let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
             let mut done = 0.0;
             let shares = |piece: &(usize, Element)| {
@@ -84,7 +103,9 @@ impl Proof<'_> {
                 }
             };
             for (from, to) in by_raw[first..next].iter().map(shares).chain([(1.0, 1.0)]) {
-                if (from - done) * length > 2.0 * self.rounding && self.is_missing(index, done, from, beside, &by_raw[first..next]) {
+                if (from - done) * length > 2.0 * self.rounding
+                    && self.is_missing(index, done, from, beside, &by_raw[first..next])
+                {
                     return Err(Unproved { wall: element.wall });
                 }
                 done = to;
@@ -94,7 +115,14 @@ impl Proof<'_> {
     }
 
     /// True when a stretch of a raw element has places of the path in it that lie beside what is there of the path.
-    fn is_missing(&self, index: usize, from: f64, to: f64, beside: [Option<&Element>; 2], same: &[(usize, Element)]) -> bool {
+    fn is_missing(
+        &self,
+        index: usize,
+        from: f64,
+        to: f64,
+        beside: [Option<&Element>; 2],
+        same: &[(usize, Element)],
+    ) -> bool {
         let stretch = self.raw.elements[index].geometry.part(from, to);
         // Most is cut off at a corner, by the wall that comes next.
         let takes_all = |element: &&Element| {
@@ -105,7 +133,10 @@ impl Proof<'_> {
             return false;
         }
         let is_there = |point: Point| {
-            let of_path = beside.into_iter().flatten().chain(same.iter().map(|(_, element)| element));
+            let of_path = beside
+                .into_iter()
+                .flatten()
+                .chain(same.iter().map(|(_, element)| element));
             let mut distances = of_path.map(|element| element.geometry.distance_to(point));
             distances.any(|distance| distance <= 2.0 * self.rounding)
         };
@@ -136,13 +167,25 @@ impl Proof<'_> {
             if other == index || segment.length() == 0.0 {
                 return false;
             }
-            let crossings = meetings(stretch, segment).into_iter().filter(|&point| is_on(segment, point));
-            let ends = [segment.start(), segment.end()].into_iter().filter(|&end| stretch.distance_to(end) <= slack);
+            let crossings = meetings(stretch, segment)
+                .into_iter()
+                .filter(|&point| is_on(segment, point));
+            let ends = [segment.start(), segment.end()]
+                .into_iter()
+                .filter(|&end| stretch.distance_to(end) <= slack);
             let points = crossings.chain(ends).filter(|&point| is_on(stretch, point));
             cuts.extend(points.map(|point| stretch.share_of(point).clamp(0.0, 1.0)));
             false
         };
-        let near_raw = self.near_raw.get_or_init(|| Walls::new(self.raw.elements.iter().map(|element| element.geometry).collect()));
+        let near_raw = self.near_raw.get_or_init(|| {
+            Walls::new(
+                self.raw
+                    .elements
+                    .iter()
+                    .map(|element| element.geometry)
+                    .collect(),
+            )
+        });
         if length > 0.0 {
             near_raw.find(&stretch.bounds().grown(slack), &mut cut_by);
         }

@@ -12,18 +12,36 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 pub(super) fn entity(handle: &str, geometry: Geometry) -> Entity {
-    Entity { handle: handle.into(), layer: "0".into(), role: None, kind: crate::drawing::Kind::LightPolyline, geometry }
+    Entity {
+        handle: handle.into(),
+        layer: "0".into(),
+        role: None,
+        kind: crate::drawing::Kind::LightPolyline,
+        geometry,
+    }
 }
 
 /// A drawing of polylines `[x, y, bulge]`, closed but where the role is none, with handles 2A, 2B, ….
 pub(super) fn drawing(polylines: &[(&[[f64; 3]], Option<Role>)]) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-    let outlines = polylines.iter().enumerate().map(|(index, (vertices, role))| {
-        let vertices = vertices.iter().map(|&[x, y, bulge]| Vertex::new(x, y, bulge)).collect();
-        let handle = format!("{:X}", 42 + index);
-        let id = drawing.push(entity(&handle, Geometry::Polyline { closed: role.is_some(), vertices }));
-        outline(&drawing, [(id, false)], *role)
-    });
+    let outlines = polylines
+        .iter()
+        .enumerate()
+        .map(|(index, (vertices, role))| {
+            let vertices = vertices
+                .iter()
+                .map(|&[x, y, bulge]| Vertex::new(x, y, bulge))
+                .collect();
+            let handle = format!("{:X}", 42 + index);
+            let id = drawing.push(entity(
+                &handle,
+                Geometry::Polyline {
+                    closed: role.is_some(),
+                    vertices,
+                },
+            ));
+            outline(&drawing, [(id, false)], *role)
+        });
     let outlines = outlines.collect();
     (drawing, outlines)
 }
@@ -34,11 +52,24 @@ pub(super) fn outline(
     role: Option<Role>,
 ) -> Outline {
     let contour = Contour::new(drawing, entities, role.is_some());
-    let twice_area = if role.is_some() { contour.twice_area(drawing) } else { 0.0 };
-    Outline { contour, role: role.unwrap_or(Role::Both), twice_area }
+    let twice_area = if role.is_some() {
+        contour.twice_area(drawing)
+    } else {
+        0.0
+    };
+    Outline {
+        contour,
+        role: role.unwrap_or(Role::Both),
+        twice_area,
+    }
 }
 
-const SQUARE: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0], [0.0, 10.0, 0.0]];
+const SQUARE: &[[f64; 3]] = &[
+    [0.0, 0.0, 0.0],
+    [10.0, 0.0, 0.0],
+    [10.0, 10.0, 0.0],
+    [0.0, 10.0, 0.0],
+];
 
 pub(super) fn at(x: f64, y: f64) -> Option<PointSetting> {
     Some(PointSetting::One([x, y]))
@@ -47,8 +78,19 @@ pub(super) fn at(x: f64, y: f64) -> Option<PointSetting> {
 /// Contours come as they are drawn, or as they are selected; what lies within another before it.
 #[test]
 fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
-    let square = |x: f64, y: f64, side: f64| [[x, y, 0.0], [x + side, y, 0.0], [x + side, y + side, 0.0], [x, y + side, 0.0]];
-    let (plate, left, right) = (square(0.0, 0.0, 40.0), square(5.0, 5.0, 5.0), square(20.0, 5.0, 5.0));
+    let square = |x: f64, y: f64, side: f64| {
+        [
+            [x, y, 0.0],
+            [x + side, y, 0.0],
+            [x + side, y + side, 0.0],
+            [x, y + side, 0.0],
+        ]
+    };
+    let (plate, left, right) = (
+        square(0.0, 0.0, 40.0),
+        square(5.0, 5.0, 5.0),
+        square(20.0, 5.0, 5.0),
+    );
     let opening = Some(Role::Opening);
     let (drawing, outlines) = drawing(&[(&plate, opening), (&left, opening), (&right, opening)]);
     for (handles, expected) in [
@@ -58,15 +100,26 @@ fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
         (Some(vec!["2C", "2A", "2B"]), vec![2, 1, 0]),
         (Some(vec!["2A", "2C"]), vec![2, 0]),
     ] {
-        let handles = handles.map(|handles| handles.into_iter().map(String::from).collect::<Vec<_>>());
-        let chosen = super::order::chosen(&drawing, &outlines, handles.as_deref(), Default::default(), 1e-9).map(|chosen| chosen.outlines);
+        let handles =
+            handles.map(|handles| handles.into_iter().map(String::from).collect::<Vec<_>>());
+        let chosen = super::order::chosen(
+            &drawing,
+            &outlines,
+            handles.as_deref(),
+            Default::default(),
+            1e-9,
+        )
+        .map(|chosen| chosen.outlines);
         assert_eq!(chosen, Ok(expected), "{handles:?}");
     }
 }
 
 /// Each piece as `kind x y` of its end, in mm to the µm.
 pub(super) fn shown(path: &WirePath) -> String {
-    let start = path.segments.first().map_or(path.thread_hole, |segment| segment.geometry.start());
+    let start = path
+        .segments
+        .first()
+        .map_or(path.thread_hole, |segment| segment.geometry.start());
     let mut text = format!("{:.3} {:.3}", start.x + 0.0, start.y + 0.0);
     for PathSegment { geometry, source } in &path.segments {
         let kind = match (source, geometry) {
@@ -91,11 +144,17 @@ fn check(polyline: &[[f64; 3]], role: Option<Role>, settings: Effective, expecte
 
 fn check_refused(polyline: &[[f64; 3]], role: Option<Role>, settings: Effective, expected: &str) {
     let (drawing, outlines) = drawing(&[(polyline, role)]);
-    assert_eq!(plan(&drawing, &outlines, &settings, None), Err(Refusal::Sentence(expected.into())));
+    assert_eq!(
+        plan(&drawing, &outlines, &settings, None),
+        Err(Refusal::Sentence(expected.into()))
+    );
 }
 
 pub(super) fn defaults() -> Effective {
-    Effective { correction: 0.1, ..Effective::default() }
+    Effective {
+        correction: 0.1,
+        ..Effective::default()
+    }
 }
 
 #[test]
@@ -109,13 +168,20 @@ fn an_opening_is_cut_inside_and_a_punch_outside() {
     check(
         SQUARE,
         Some(Role::Punch),
-        Effective { corner: Corner::Intersection, direction: Direction::Cw, ..defaults() },
+        Effective {
+            corner: Corner::Intersection,
+            direction: Direction::Cw,
+            ..defaults()
+        },
         "5.000 -3.000 in 5.000 -0.100 line -0.100 -0.100 line -0.100 10.100 line 10.100 10.100 line 10.100 -0.100 line 5.000 -0.100 out 5.000 -3.000",
     );
     check(
         SQUARE,
         Some(Role::Punch),
-        Effective { thread: at(-4.0, 5.0), ..defaults() },
+        Effective {
+            thread: at(-4.0, 5.0),
+            ..defaults()
+        },
         "-4.000 5.000 in -0.100 5.000 line -0.100 0.000 corner 0.000 -0.100 line 10.000 -0.100 corner 10.100 0.000 line 10.100 10.000 \
          corner 10.000 10.100 line 0.000 10.100 corner -0.100 10.000 line -0.100 5.000 out -4.000 5.000",
     );
@@ -125,7 +191,10 @@ fn an_opening_is_cut_inside_and_a_punch_outside() {
 fn a_sharp_tip_is_rolled_about() {
     let wedge: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 0.5, 0.0]];
     let (drawing, outlines) = drawing(&[(wedge, Some(Role::Punch))]);
-    let settings = Effective { corner: Corner::Intersection, ..defaults() };
+    let settings = Effective {
+        corner: Corner::Intersection,
+        ..defaults()
+    };
     let corners = plan(&drawing, &outlines, &settings, None).expect("a path")[0]
         .segments
         .iter()
@@ -138,19 +207,37 @@ fn a_sharp_tip_is_rolled_about() {
 #[test]
 fn an_arc_of_the_correction_is_left_out() {
     let quarter = (PI / 8.0).tan();
-    let fillet: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [9.9, 0.0, quarter], [10.0, 0.1, 0.0], [10.0, 10.0, 0.0], [0.0, 10.0, 0.0]];
+    let fillet: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [9.9, 0.0, quarter],
+        [10.0, 0.1, 0.0],
+        [10.0, 10.0, 0.0],
+        [0.0, 10.0, 0.0],
+    ];
     check(
         fillet,
         Some(Role::Opening),
-        Effective { entry: at(0.0, 5.0), ..defaults() },
+        Effective {
+            entry: at(0.0, 5.0),
+            ..defaults()
+        },
         "3.000 5.000 in 0.100 5.000 line 0.100 0.100 line 9.900 0.100 line 9.900 9.900 line 0.100 9.900 line 0.100 5.000 out 3.000 5.000",
     );
     // Tighter than the correction: the neighbours are cut with each other and the wire stays clear of the part.
-    let tight: &[[f64; 3]] = &[[0.0, 0.0, 0.0], [9.95, 0.0, quarter], [10.0, 0.05, 0.0], [10.0, 10.0, 0.0], [0.0, 10.0, 0.0]];
+    let tight: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [9.95, 0.0, quarter],
+        [10.0, 0.05, 0.0],
+        [10.0, 10.0, 0.0],
+        [0.0, 10.0, 0.0],
+    ];
     check(
         tight,
         Some(Role::Opening),
-        Effective { entry: at(0.0, 5.0), ..defaults() },
+        Effective {
+            entry: at(0.0, 5.0),
+            ..defaults()
+        },
         "3.000 5.000 in 0.100 5.000 line 0.100 0.100 line 9.900 0.100 line 9.900 9.900 line 0.100 9.900 line 0.100 5.000 out 3.000 5.000",
     );
 }
@@ -159,14 +246,18 @@ fn an_arc_of_the_correction_is_left_out() {
 fn chords_tighter_than_the_correction_are_used_up() {
     let mut outline = vec![[0.0, 0.0, 0.0], [9.95, 0.0, 0.0]];
     outline.extend((1..9).map(|step| {
-        let end = Point::new(9.95, 0.05) + direction(-PI / 2.0 + PI / 2.0 * f64::from(step) / 9.0) * 0.05;
+        let end =
+            Point::new(9.95, 0.05) + direction(-PI / 2.0 + PI / 2.0 * f64::from(step) / 9.0) * 0.05;
         [end.x, end.y, 0.0]
     }));
     outline.extend([[10.0, 0.05, 0.0], [10.0, 10.0, 0.0], [0.0, 10.0, 0.0]]);
     check(
         &outline,
         Some(Role::Opening),
-        Effective { entry: at(0.0, 5.0), ..defaults() },
+        Effective {
+            entry: at(0.0, 5.0),
+            ..defaults()
+        },
         "3.000 5.000 in 0.100 5.000 line 0.100 0.100 line 9.900 0.100 line 9.900 9.900 line 0.100 9.900 line 0.100 5.000 out 3.000 5.000",
     );
 }
@@ -174,16 +265,42 @@ fn chords_tighter_than_the_correction_are_used_up() {
 #[test]
 fn a_circle_is_cut_from_the_side_of_its_thread_hole() {
     let mut drawing = Drawing::new(Some(Unit::INCH));
-    let id = drawing.push(entity("2A", Geometry::Circle { center: Point::new(1.0, 2.0), radius: 0.5 }));
+    let id = drawing.push(entity(
+        "2A",
+        Geometry::Circle {
+            center: Point::new(1.0, 2.0),
+            radius: 0.5,
+        },
+    ));
     let outline = outline(&drawing, [(id, false)], Some(Role::Opening));
     for (thread, direction, expected) in [
-        (at(1.0, 2.0), Direction::Ccw, "1.000 2.000 in 1.400 2.000 ccw 1.400 2.000 out 1.000 2.000"),
-        (at(1.0, 2.2), Direction::Cw, "1.000 2.200 in 1.000 2.400 cw 1.000 2.400 out 1.000 2.200"),
+        (
+            at(1.0, 2.0),
+            Direction::Ccw,
+            "1.000 2.000 in 1.400 2.000 ccw 1.400 2.000 out 1.000 2.000",
+        ),
+        (
+            at(1.0, 2.2),
+            Direction::Cw,
+            "1.000 2.200 in 1.000 2.400 cw 1.000 2.400 out 1.000 2.200",
+        ),
         // An inch of lead would end in the far side, half an inch does not.
-        (None, Direction::Ccw, "1.000 2.000 in 1.400 2.000 ccw 1.400 2.000 out 1.000 2.000"),
+        (
+            None,
+            Direction::Ccw,
+            "1.000 2.000 in 1.400 2.000 ccw 1.400 2.000 out 1.000 2.000",
+        ),
     ] {
-        let settings = Effective { correction: 2.54, thread, direction, lead_in: 25.4, ..Effective::default() };
-        let path = plan(&drawing, std::slice::from_ref(&outline), &settings, None).expect("a path").remove(0);
+        let settings = Effective {
+            correction: 2.54,
+            thread,
+            direction,
+            lead_in: 25.4,
+            ..Effective::default()
+        };
+        let path = plan(&drawing, std::slice::from_ref(&outline), &settings, None)
+            .expect("a path")
+            .remove(0);
         assert!((path.correction - 0.1).abs() < 1e-12);
         assert_eq!(shown(&path), expected);
     }
@@ -192,8 +309,15 @@ fn a_circle_is_cut_from_the_side_of_its_thread_hole() {
 #[test]
 fn a_mark_is_the_thread_hole_of_the_nearest_contour() {
     let far: Vec<[f64; 3]> = SQUARE.iter().map(|[x, y, b]| [x + 50.0, *y, *b]).collect();
-    let (mut drawing, outlines) = drawing(&[(SQUARE, Some(Role::Opening)), (&far, Some(Role::Opening))]);
-    drawing.push(entity("M", Geometry::Text { at: Point::new(57.0, 4.0), text: "O".into() }));
+    let (mut drawing, outlines) =
+        drawing(&[(SQUARE, Some(Role::Opening)), (&far, Some(Role::Opening))]);
+    drawing.push(entity(
+        "M",
+        Geometry::Text {
+            at: Point::new(57.0, 4.0),
+            text: "O".into(),
+        },
+    ));
     let paths = plan(&drawing, &outlines, &defaults(), None).expect("paths");
     assert_eq!(paths[1].thread_hole, Point::new(57.0, 4.0));
     assert_eq!(paths[1].segments[0].geometry.end(), Point::new(59.9, 4.0));
@@ -205,24 +329,63 @@ fn a_mark_is_the_thread_hole_of_the_nearest_contour() {
 #[test]
 fn what_lies_within_a_contour_is_cut_before_it() {
     let square = |x: f64, y: f64, size: f64| -> Vec<[f64; 3]> {
-        SQUARE.iter().map(|c| [x + c[0] / 10.0 * size, y + c[1] / 10.0 * size, 0.0]).collect()
+        SQUARE
+            .iter()
+            .map(|c| [x + c[0] / 10.0 * size, y + c[1] / 10.0 * size, 0.0])
+            .collect()
     };
     let check = |squares: &[[f64; 3]], expected: &[usize]| {
-        let corners: Vec<_> = squares.iter().map(|&[x, y, size]| square(x, y, size)).collect();
-        let outlines: Vec<_> = corners.iter().map(|corners| (&corners[..], Some(Role::Opening))).collect();
+        let corners: Vec<_> = squares
+            .iter()
+            .map(|&[x, y, size]| square(x, y, size))
+            .collect();
+        let outlines: Vec<_> = corners
+            .iter()
+            .map(|corners| (&corners[..], Some(Role::Opening)))
+            .collect();
         let (drawing, outlines) = drawing(&outlines);
-        let paths = plan(&drawing, &outlines, &Effective { lead_in: 1.0, ..defaults() }, None).expect("paths");
-        assert_eq!(paths.iter().map(|path| path.outline).collect::<Vec<_>>(), expected);
+        let paths = plan(
+            &drawing,
+            &outlines,
+            &Effective {
+                lead_in: 1.0,
+                ..defaults()
+            },
+            None,
+        )
+        .expect("paths");
+        assert_eq!(
+            paths.iter().map(|path| path.outline).collect::<Vec<_>>(),
+            expected
+        );
     };
-    check(&[[0.0, 0.0, 50.0], [10.0, 10.0, 5.0], [30.0, 30.0, 5.0]], &[1, 2, 0]);
-    check(&[[10.0, 10.0, 5.0], [0.0, 0.0, 50.0], [80.0, 0.0, 5.0]], &[0, 1, 2]);
-    check(&[[80.0, 0.0, 5.0], [0.0, 0.0, 50.0], [10.0, 10.0, 20.0], [15.0, 15.0, 5.0]], &[0, 3, 2, 1]);
+    check(
+        &[[0.0, 0.0, 50.0], [10.0, 10.0, 5.0], [30.0, 30.0, 5.0]],
+        &[1, 2, 0],
+    );
+    check(
+        &[[10.0, 10.0, 5.0], [0.0, 0.0, 50.0], [80.0, 0.0, 5.0]],
+        &[0, 1, 2],
+    );
+    check(
+        &[
+            [80.0, 0.0, 5.0],
+            [0.0, 0.0, 50.0],
+            [10.0, 10.0, 20.0],
+            [15.0, 15.0, 5.0],
+        ],
+        &[0, 3, 2, 1],
+    );
 }
 
 #[test]
 fn a_thread_hole_on_the_entry_has_no_lead() {
     for thread in [at(5.0, 0.0), at(5.0, 0.1)] {
-        let settings = Effective { thread, entry: at(5.0, 0.0), ..defaults() };
+        let settings = Effective {
+            thread,
+            entry: at(5.0, 0.0),
+            ..defaults()
+        };
         check(
             SQUARE,
             Some(Role::Opening),
@@ -237,7 +400,11 @@ fn an_entry_in_a_corner_begins_where_the_path_turns() {
     check(
         SQUARE,
         Some(Role::Opening),
-        Effective { thread: at(3.0, 3.0), entry: at(0.0, 0.0), ..defaults() },
+        Effective {
+            thread: at(3.0, 3.0),
+            entry: at(0.0, 0.0),
+            ..defaults()
+        },
         "3.000 3.000 in 0.100 0.100 line 9.900 0.100 line 9.900 9.900 line 0.100 9.900 line 0.100 0.100 out 3.000 3.000",
     );
 }
@@ -248,19 +415,38 @@ fn a_lead_that_would_cut_the_part_is_a_finding() {
         (Role::Punch, at(5.0, 5.0), 3.0, "crosses the contour"),
         (Role::Opening, at(0.05, 5.0), 3.0, "crosses the contour"),
         (Role::Opening, None, 0.05, "no lead-in from 0.050 mm down"),
-        (Role::Opening, None, f64::INFINITY, "no lead-in from inf mm down"),
+        (
+            Role::Opening,
+            None,
+            f64::INFINITY,
+            "no lead-in from inf mm down",
+        ),
     ];
     for (role, thread, lead_in, sentence) in cases {
         let (drawing, outlines) = drawing(&[(SQUARE, Some(role))]);
-        let settings = Effective { thread, lead_in, entry: at(5.0, 0.0), ..defaults() };
+        let settings = Effective {
+            thread,
+            lead_in,
+            entry: at(5.0, 0.0),
+            ..defaults()
+        };
         match plan(&drawing, &outlines, &settings, None) {
             Err(Refusal::Findings(found)) => {
                 assert_eq!(found.len(), 1);
                 assert_eq!(
                     (found[0].rule, &found[0].place),
-                    (Rule::LeadIn, &Place::Segment { entity: crate::drawing::EntityId(0), segment: 0 })
+                    (
+                        Rule::LeadIn,
+                        &Place::Segment {
+                            entity: crate::drawing::EntityId(0),
+                            segment: 0
+                        }
+                    )
                 );
-                assert!(matches!(&found[0].detail, Detail::LeadIn(text) if text.contains(sentence)), "{found:?}");
+                assert!(
+                    matches!(&found[0].detail, Detail::LeadIn(text) if text.contains(sentence)),
+                    "{found:?}"
+                );
             }
             other => panic!("{role:?} {thread:?}: {other:?}", thread = settings.thread),
         }
@@ -269,7 +455,12 @@ fn a_lead_that_would_cut_the_part_is_a_finding() {
 
 #[test]
 fn what_cannot_be_planned_is_refused_in_a_sentence() {
-    check_refused(SQUARE, Some(Role::Both), defaults(), "side of contour 2A is not known: say opening or punch");
+    check_refused(
+        SQUARE,
+        Some(Role::Both),
+        defaults(),
+        "side of contour 2A is not known: say opening or punch",
+    );
     check_refused(
         SQUARE,
         None,
@@ -279,27 +470,49 @@ fn what_cannot_be_planned_is_refused_in_a_sentence() {
     check_refused(
         SQUARE,
         Some(Role::Opening),
-        Effective { entry: at(5.0, 0.02), ..defaults() },
+        Effective {
+            entry: at(5.0, 0.02),
+            ..defaults()
+        },
         "the entry (5, 0.02) lies 0.020 mm from contour 2A, expected a point on it",
     );
     check_refused(
         SQUARE,
         None,
-        Effective { compensation: Compensation::None, entry: at(5.0, 0.0), ..defaults() },
+        Effective {
+            compensation: Compensation::None,
+            entry: at(5.0, 0.0),
+            ..defaults()
+        },
         "contour 2A is open and cannot be entered at (5, 0), expected one of its ends",
     );
     let table = BTreeMap::from([("77".to_string(), [0.0, 0.0])]);
     check_refused(
         SQUARE,
         Some(Role::Opening),
-        Effective { thread: Some(PointSetting::ByHandle(table)), ..defaults() },
+        Effective {
+            thread: Some(PointSetting::ByHandle(table)),
+            ..defaults()
+        },
         "there is no entity with the handle 77",
     );
-    check_refused(&[], Some(Role::Opening), defaults(), "there is no contour to cut");
-    let (drawing, outlines) = drawing(&[(SQUARE, Some(Role::Opening)), (SQUARE, Some(Role::Opening))]);
-    let settings = Effective { thread: at(5.0, 5.0), ..defaults() };
+    check_refused(
+        &[],
+        Some(Role::Opening),
+        defaults(),
+        "there is no contour to cut",
+    );
+    let (drawing, outlines) =
+        drawing(&[(SQUARE, Some(Role::Opening)), (SQUARE, Some(Role::Opening))]);
+    let settings = Effective {
+        thread: at(5.0, 5.0),
+        ..defaults()
+    };
     let sentence = "one thread hole is given for 2 contours: choose one contour by its handle, or give a table by handle";
-    assert_eq!(plan(&drawing, &outlines, &settings, None), Err(Refusal::Sentence(sentence.into())));
+    assert_eq!(
+        plan(&drawing, &outlines, &settings, None),
+        Err(Refusal::Sentence(sentence.into()))
+    );
     assert!(plan(&drawing, &outlines, &settings, Some(&["2A".to_string()])).is_ok());
 }
 
@@ -318,39 +531,77 @@ fn a_slot_narrower_than_the_wire_is_left_out_and_an_error() {
         ];
         let (drawing, outlines) = drawing(&[(keyhole, Some(Role::Opening))]);
         for direction in [Direction::Ccw, Direction::Cw] {
-            let settings = Effective { direction, ..defaults() };
-            let path = plan(&drawing, &outlines, &settings, None).expect("a path").remove(0);
-            let furthest = path.segments.iter().map(|piece| piece.geometry.end().x).fold(0.0, f64::max);
+            let settings = Effective {
+                direction,
+                ..defaults()
+            };
+            let path = plan(&drawing, &outlines, &settings, None)
+                .expect("a path")
+                .remove(0);
+            let furthest = path
+                .segments
+                .iter()
+                .map(|piece| piece.geometry.end().x)
+                .fold(0.0, f64::max);
             assert_eq!(furthest > 19.0, fits, "{width}");
         }
-        let settings = Effective { side: SideSetting::Opening, ..defaults() };
-        let (findings, _) = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(settings)).findings(&drawing, usize::MAX);
-        let told = findings.iter().any(|finding| finding.rule == Rule::NarrowSlot && finding.severity == Severity::Error);
+        let settings = Effective {
+            side: SideSetting::Opening,
+            ..defaults()
+        };
+        let (findings, _) = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(settings))
+            .findings(&drawing, usize::MAX);
+        let told = findings
+            .iter()
+            .any(|finding| finding.rule == Rule::NarrowSlot && finding.severity == Severity::Error);
         assert_eq!(told, !fits, "{width} {findings:?}");
     }
 }
 
 #[test]
 fn without_compensation_the_contour_is_the_path() {
-    let none = || Effective { compensation: Compensation::None, ..defaults() };
-    check(SQUARE, Some(Role::Both), none(), "0.000 0.000 line 10.000 0.000 line 10.000 10.000 line 0.000 10.000 line 0.000 0.000");
-    check(SQUARE, None, none(), "0.000 0.000 line 10.000 0.000 line 10.000 10.000 line 0.000 10.000");
+    let none = || Effective {
+        compensation: Compensation::None,
+        ..defaults()
+    };
+    check(
+        SQUARE,
+        Some(Role::Both),
+        none(),
+        "0.000 0.000 line 10.000 0.000 line 10.000 10.000 line 0.000 10.000 line 0.000 0.000",
+    );
     check(
         SQUARE,
         None,
-        Effective { entry: at(0.0, 10.0), direction: Direction::Cw, ..none() },
+        none(),
+        "0.000 0.000 line 10.000 0.000 line 10.000 10.000 line 0.000 10.000",
+    );
+    check(
+        SQUARE,
+        None,
+        Effective {
+            entry: at(0.0, 10.0),
+            direction: Direction::Cw,
+            ..none()
+        },
         "0.000 10.000 line 10.000 10.000 line 10.000 0.000 line 0.000 0.000",
     );
     check(
         SQUARE,
         None,
-        Effective { thread: at(-1.0, 0.0), ..none() },
+        Effective {
+            thread: at(-1.0, 0.0),
+            ..none()
+        },
         "-1.000 0.000 in 0.000 0.000 line 10.000 0.000 line 10.000 10.000 line 0.000 10.000",
     );
     check(
         SQUARE,
         Some(Role::Both),
-        Effective { thread: at(12.0, 5.0), ..none() },
+        Effective {
+            thread: at(12.0, 5.0),
+            ..none()
+        },
         "12.000 5.000 in 10.000 5.000 line 10.000 10.000 line 0.000 10.000 line 0.000 0.000 line 10.000 0.000 line 10.000 5.000 out 12.000 5.000",
     );
 }
@@ -358,11 +609,36 @@ fn without_compensation_the_contour_is_the_path() {
 #[test]
 fn gaps_within_the_join_tolerance_are_closed_half_way() {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-    let sides = [[0.0, 0.0, 10.0, 0.0], [10.004, 0.0, 10.0, 10.0], [10.0, 10.0, 0.0, 10.0], [0.0, 10.0, 0.0, 0.0]];
-    let lines = sides
-        .map(|[x1, y1, x2, y2]| (drawing.push(entity("L", Geometry::Line { start: Point::new(x1, y1), end: Point::new(x2, y2) })), false));
+    let sides = [
+        [0.0, 0.0, 10.0, 0.0],
+        [10.004, 0.0, 10.0, 10.0],
+        [10.0, 10.0, 0.0, 10.0],
+        [0.0, 10.0, 0.0, 0.0],
+    ];
+    let lines = sides.map(|[x1, y1, x2, y2]| {
+        (
+            drawing.push(entity(
+                "L",
+                Geometry::Line {
+                    start: Point::new(x1, y1),
+                    end: Point::new(x2, y2),
+                },
+            )),
+            false,
+        )
+    });
     let outline = outline(&drawing, lines, Some(Role::Opening));
-    let path = plan(&drawing, &[outline], &Effective { entry: at(0.0, 5.0), ..defaults() }, None).expect("a path").remove(0);
+    let path = plan(
+        &drawing,
+        &[outline],
+        &Effective {
+            entry: at(0.0, 5.0),
+            ..defaults()
+        },
+        None,
+    )
+    .expect("a path")
+    .remove(0);
     assert_eq!(
         shown(&path),
         "3.000 5.000 in 0.100 5.000 line 0.100 0.100 line 9.902 0.100 line 9.900 9.900 line 0.100 9.900 line 0.100 5.000 out 3.000 5.000"
@@ -373,16 +649,25 @@ fn gaps_within_the_join_tolerance_are_closed_half_way() {
 fn random_outline() -> impl Strategy<Value = Vec<[f64; 3]>> {
     let corner = (
         2.0_f64..12.0,
-        prop_oneof![Just(0.0), 0.01_f64..0.0999, 0.1001_f64..0.12, 0.1001_f64..3.0],
+        prop_oneof![
+            Just(0.0),
+            0.01_f64..0.0999,
+            0.1001_f64..0.12,
+            0.1001_f64..3.0
+        ],
         prop_oneof![3 => Just(0.0), 1 => -0.5_f64..0.5],
     );
     (prop::collection::vec(corner, 3..14), 0.0_f64..TAU).prop_map(|(corners, turned)| {
         let count = corners.len();
-        let point =
-            |index: usize| Point::origin() + direction(turned + TAU * (index % count) as f64 / count as f64) * corners[index % count].0;
+        let point = |index: usize| {
+            Point::origin()
+                + direction(turned + TAU * (index % count) as f64 / count as f64)
+                    * corners[index % count].0
+        };
         let mut outline = Vec::new();
         for (index, &(_, radius, bow)) in corners.iter().enumerate() {
-            let (before, vertex, after) = (point(index + count - 1), point(index), point(index + 1));
+            let (before, vertex, after) =
+                (point(index + count - 1), point(index), point(index + 1));
             let (arriving, leaving) = ((vertex - before).normalize(), (after - vertex).normalize());
             let turned = crate::geometry::turn(arriving, leaving);
             let back = radius * (turned.abs() / 2.0).tan();
@@ -405,20 +690,29 @@ pub(super) fn samples(segments: &[Segment], step: f64) -> Vec<Point> {
     let each = |segment: &Segment| {
         let count = (segment.length() / step).ceil().max(1.0) as usize;
         let segment = *segment;
-        (0..count).map(move |index| segment.point_at(index as f64 / count as f64)).collect::<Vec<_>>()
+        (0..count)
+            .map(move |index| segment.point_at(index as f64 / count as f64))
+            .collect::<Vec<_>>()
     };
     segments.iter().flat_map(each).collect()
 }
 
 fn furthest(points: &[Point], segments: &[Segment]) -> f64 {
-    let away = |point: &Point| segments.iter().map(|segment| segment.distance_to(*point)).fold(f64::INFINITY, f64::min);
+    let away = |point: &Point| {
+        segments
+            .iter()
+            .map(|segment| segment.distance_to(*point))
+            .fold(f64::INFINITY, f64::min)
+    };
     points.iter().map(away).fold(0.0, f64::max)
 }
 
 /// What the other library offsets; `None` where the outline crosses itself.
 pub(super) fn judged(outline: &[[f64; 3]], offset: f64) -> Option<Vec<Vec<Segment>>> {
     let mut polyline = Polyline::new_closed();
-    outline.iter().for_each(|&[x, y, bulge]| polyline.add(x, y, bulge));
+    outline
+        .iter()
+        .for_each(|&[x, y, bulge]| polyline.add(x, y, bulge));
     let index = polyline.create_approx_aabb_index();
     if !all_self_intersects_as_basic(&polyline, &index, false, 1e-7).is_empty() {
         return None;
@@ -426,11 +720,22 @@ pub(super) fn judged(outline: &[[f64; 3]], offset: f64) -> Option<Vec<Vec<Segmen
     let segments = |pline: &Polyline| {
         let vertices: Vec<PlineVertex> = pline.iter_vertexes().collect();
         let next = |index: usize| vertices[(index + 1) % vertices.len()];
-        let segment =
-            |(index, v): (usize, &PlineVertex)| Segment::from_bulge([v.x, v.y].into(), [next(index).x, next(index).y].into(), v.bulge);
+        let segment = |(index, v): (usize, &PlineVertex)| {
+            Segment::from_bulge(
+                [v.x, v.y].into(),
+                [next(index).x, next(index).y].into(),
+                v.bulge,
+            )
+        };
         vertices.iter().enumerate().map(segment).collect()
     };
-    Some(polyline.parallel_offset(offset).iter().map(segments).collect())
+    Some(
+        polyline
+            .parallel_offset(offset)
+            .iter()
+            .map(segments)
+            .collect(),
+    )
 }
 
 proptest! {
@@ -507,7 +812,10 @@ fn a_path_that_nobody_wants_any_more_is_given_up() {
 fn circles(count: usize) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(None);
     for number in 0..count {
-        let geometry = Geometry::Circle { center: Point::new(number as f64 * 10.0, 0.0), radius: 3.0 };
+        let geometry = Geometry::Circle {
+            center: Point::new(number as f64 * 10.0, 0.0),
+            radius: 3.0,
+        };
         drawing.push(Entity {
             handle: format!("{number}").into(),
             layer: "0".into(),
@@ -516,6 +824,8 @@ fn circles(count: usize) -> (Drawing, Vec<Outline>) {
             geometry,
         });
     }
-    let outlines = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(defaults())).outlines(&drawing).to_vec();
+    let outlines = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(defaults()))
+        .outlines(&drawing)
+        .to_vec();
     (drawing, outlines)
 }

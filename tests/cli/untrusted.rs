@@ -10,7 +10,11 @@ const EVIL_FILE: &str = "p\u{1b}[31m\u{202e}q\u{9b}8m\u{7}";
 /// Like what a terminal would get: with colours.
 fn run_in_colour(desk: &Desk, arguments: &[&str]) -> Ended {
     let mut command = Command::new(env!("CARGO_BIN_EXE_wedm"));
-    let command = command.args(arguments).current_dir(desk.path(".")).env("CLICOLOR_FORCE", "1").env_remove("NO_COLOR");
+    let command = command
+        .args(arguments)
+        .current_dir(desk.path("."))
+        .env("CLICOLOR_FORCE", "1")
+        .env_remove("NO_COLOR");
     Ended::of(command.stdin(std::process::Stdio::null()).output().unwrap())
 }
 
@@ -20,9 +24,17 @@ fn without_colours(text: &str) -> String {
     let mut rest = text;
     while let Some((before, behind)) = rest.split_once("\u{1b}[") {
         plain += before;
-        let end = behind.find(|character: char| !character.is_ascii_digit() && character != ';').unwrap_or(behind.len());
-        assert!(behind[end..].starts_with('m'), "an escape that is no colour in {text:?}");
-        assert!(!["8", "28"].contains(&&behind[..end]), "hidden text in {text:?}");
+        let end = behind
+            .find(|character: char| !character.is_ascii_digit() && character != ';')
+            .unwrap_or(behind.len());
+        assert!(
+            behind[end..].starts_with('m'),
+            "an escape that is no colour in {text:?}"
+        );
+        assert!(
+            !["8", "28"].contains(&&behind[..end]),
+            "hidden text in {text:?}"
+        );
         rest = &behind[end + 1..];
     }
     plain + rest
@@ -49,9 +61,18 @@ fn no_name_steers_the_terminal() {
     let desk = Desk::new();
     let (dxf, program) = (format!("{EVIL_FILE}.dxf"), format!("{EVIL_FILE}.3b"));
     desk.write(&dxf, evil_drawing());
-    desk.write(&program, format!("B1000B0B1000GXL1\nB1000{EVIL}\n; {EVIL}\nDD\n"));
-    desk.write(&format!("{EVIL_FILE}.toml"), format!("side = \"{EVIL_FILE}\"\n\"{EVIL_FILE}\" = 1\n"));
-    let (toml, missing) = (format!("{EVIL_FILE}.toml"), format!("{EVIL_FILE}-missing.dxf"));
+    desk.write(
+        &program,
+        format!("B1000B0B1000GXL1\nB1000{EVIL}\n; {EVIL}\nDD\n"),
+    );
+    desk.write(
+        &format!("{EVIL_FILE}.toml"),
+        format!("side = \"{EVIL_FILE}\"\n\"{EVIL_FILE}\" = 1\n"),
+    );
+    let (toml, missing) = (
+        format!("{EVIL_FILE}.toml"),
+        format!("{EVIL_FILE}-missing.dxf"),
+    );
     let cases: &[&[&str]] = &[
         &["check", &dxf],
         &["check", &dxf, &program, "."],
@@ -65,9 +86,29 @@ fn no_name_steers_the_terminal() {
         &["contours", &dxf],
         &["contours", "--output", "json", &dxf],
         &["generate", &dxf],
-        &["generate", &dxf, "--force", "--side", "opening", "-o", &format!("{EVIL_FILE}.out")],
-        &["generate", &dxf, "--force", "--side", "opening", "--handle", EVIL],
-        &["generate", &dxf, "--profile", EVIL_FILE, "--format", "iso", "--force", "--side", "punch"],
+        &[
+            "generate",
+            &dxf,
+            "--force",
+            "--side",
+            "opening",
+            "-o",
+            &format!("{EVIL_FILE}.out"),
+        ],
+        &[
+            "generate", &dxf, "--force", "--side", "opening", "--handle", EVIL,
+        ],
+        &[
+            "generate",
+            &dxf,
+            "--profile",
+            EVIL_FILE,
+            "--format",
+            "iso",
+            "--force",
+            "--side",
+            "punch",
+        ],
         &["fix", &dxf, "--diff"],
         &["fix", &dxf, "-o", &format!("{EVIL_FILE}.fixed.dxf")],
         &["fix", &dxf, "-o", &dxf],
@@ -78,14 +119,23 @@ fn no_name_steers_the_terminal() {
         &["format", &program, "--in-place"],
         &["convert", &program, "--format", EVIL_FILE],
         &["convert", &program, "-o", &format!("{EVIL_FILE}.iso")],
-        &["convert", &program, "--force", "-o", &format!("{EVIL_FILE}.new.iso")],
+        &[
+            "convert",
+            &program,
+            "--force",
+            "-o",
+            &format!("{EVIL_FILE}.new.iso"),
+        ],
         &["simulate", &program],
         &["simulate", "--output", "json", &program],
         &[EVIL_FILE],
     ];
     for arguments in cases {
         let ended = run_in_colour(&desk, arguments);
-        assert!(matches!(ended.code, Some(0..=2)), "{arguments:?}: {ended:?}");
+        assert!(
+            matches!(ended.code, Some(0..=2)),
+            "{arguments:?}: {ended:?}"
+        );
         for text in [&ended.stdout, &ended.stderr] {
             let plain = without_colours(text);
             assert!(!plain.contains(is_hidden), "{arguments:?}: {plain:?}");
@@ -94,7 +144,14 @@ fn no_name_steers_the_terminal() {
     // What is said in JSON is the name itself.
     let ended = run_in_colour(&desk, &["check", "--output", "json", &dxf]);
     assert_eq!(ended.json()["diagnostics"][0]["path"], dxf.as_str());
-    assert!(ended.json()["diagnostics"].as_array().unwrap().iter().any(|row| row["data"]["handle"] == format!("2A{EVIL}")), "{ended:?}");
+    assert!(
+        ended.json()["diagnostics"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|row| row["data"]["handle"] == format!("2A{EVIL}")),
+        "{ended:?}"
+    );
 }
 
 /// Errors are passed over with `--force`; whatever comes of them is no fault of the program.
@@ -118,8 +175,13 @@ fn what_is_forced_is_never_an_internal_error() {
         );
         for side in ["opening", "punch"] {
             for format in ["3b", "4b", "iso"] {
-                let ended = desk.run(&format!("generate d{index}.dxf --force --side {side} --format {format}"));
-                assert!(!ended.stderr.contains("internal") && matches!(ended.code, Some(0 | 1)), "{index} {side} {format}: {ended:?}");
+                let ended = desk.run(&format!(
+                    "generate d{index}.dxf --force --side {side} --format {format}"
+                ));
+                assert!(
+                    !ended.stderr.contains("internal") && matches!(ended.code, Some(0 | 1)),
+                    "{index} {side} {format}: {ended:?}"
+                );
             }
         }
     }
@@ -135,7 +197,10 @@ fn what_is_forced_is_never_an_internal_error() {
         desk.write(&format!("p{index}.3b"), text);
         for format in ["dxf", "3b", "4b", "iso"] {
             let ended = desk.run(&format!("convert p{index}.3b --force --format {format}"));
-            assert!(!ended.stderr.contains("internal") && matches!(ended.code, Some(0 | 1)), "{index} {format}: {ended:?}");
+            assert!(
+                !ended.stderr.contains("internal") && matches!(ended.code, Some(0 | 1)),
+                "{index} {format}: {ended:?}"
+            );
         }
     }
     let iso = [
@@ -147,7 +212,10 @@ fn what_is_forced_is_never_an_internal_error() {
         desk.write(&format!("i{index}.iso"), text);
         for format in ["dxf", "3b", "4b", "iso"] {
             let ended = desk.run(&format!("convert i{index}.iso --force --format {format}"));
-            assert!(!ended.stderr.contains("internal") && matches!(ended.code, Some(0 | 1)), "{index} {format}: {ended:?}");
+            assert!(
+                !ended.stderr.contains("internal") && matches!(ended.code, Some(0 | 1)),
+                "{index} {format}: {ended:?}"
+            );
         }
     }
 }
@@ -158,7 +226,13 @@ mod unix {
     use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 
     fn make_pipe(desk: &Desk, name: &str) {
-        assert!(std::process::Command::new("mkfifo").arg(desk.path(name)).status().unwrap().success());
+        assert!(
+            std::process::Command::new("mkfifo")
+                .arg(desk.path(name))
+                .status()
+                .unwrap()
+                .success()
+        );
     }
 
     #[test]
@@ -172,12 +246,32 @@ mod unix {
         symlink("/dev/zero", desk.path("zero.3b")).unwrap();
         std::fs::create_dir(desk.path("parts/folder.dxf")).unwrap();
         check(&desk, "check parts", 0, &["1 file checked"]);
-        check(&desk, "format parts --in-place --layout aligned", 0, &["!1 program formatted"]);
+        check(
+            &desk,
+            "format parts --in-place --layout aligned",
+            0,
+            &["!1 program formatted"],
+        );
         for name in ["pipe.3b", "zero.3b"] {
-            check(&desk, &format!("format {name} --in-place"), 2, &["!it is no regular file"]);
-            check(&desk, &format!("fix {name} --in-place"), 2, &["!it is no regular file"]);
+            check(
+                &desk,
+                &format!("format {name} --in-place"),
+                2,
+                &["!it is no regular file"],
+            );
+            check(
+                &desk,
+                &format!("fix {name} --in-place"),
+                2,
+                &["!it is no regular file"],
+            );
         }
-        check(&desk, "fix pipe.dxf --in-place", 2, &["!it is no regular file"]);
+        check(
+            &desk,
+            "fix pipe.dxf --in-place",
+            2,
+            &["!it is no regular file"],
+        );
     }
 
     #[test]
@@ -186,8 +280,18 @@ mod unix {
         symlink("/dev/zero", desk.path("zero.dxf")).unwrap();
         symlink("/dev/null", desk.path("null.3b")).unwrap();
         symlink("/dev/zero", desk.path("zero.toml")).unwrap();
-        check(&desk, "check zero.dxf", 2, &["!zero.dxf: it holds more than 268435456 bytes"]);
-        check(&desk, "check clean.dxf --config zero.toml", 2, &["!zero.toml: it holds more than"]);
+        check(
+            &desk,
+            "check zero.dxf",
+            2,
+            &["!zero.dxf: it holds more than 268435456 bytes"],
+        );
+        check(
+            &desk,
+            "check clean.dxf --config zero.toml",
+            2,
+            &["!zero.toml: it holds more than"],
+        );
         check(&desk, "check null.3b", 0, &[]);
         make_pipe(&desk, "pipe.dxf");
         let (from, to) = (desk.path("tight.dxf"), desk.path("pipe.dxf"));
@@ -205,7 +309,12 @@ mod unix {
         let is_given = std::os::unix::fs::chown(&path, Some(12_345), Some(54_321)).is_ok();
         std::fs::hard_link(&path, desk.path("second.dxf")).unwrap();
         let before = desk.read("tight.dxf");
-        check(&desk, "fix tight.dxf --in-place", 0, &["!note: tight.dxf had 1 name besides (hard links)"]);
+        check(
+            &desk,
+            "fix tight.dxf --in-place",
+            0,
+            &["!note: tight.dxf had 1 name besides (hard links)"],
+        );
         assert_ne!(desk.read("tight.dxf"), before);
         assert_eq!(desk.read("second.dxf"), before);
         let metadata = std::fs::metadata(&path).unwrap();
@@ -213,7 +322,15 @@ mod unix {
         if is_given {
             assert_eq!((metadata.uid(), metadata.gid()), (12_345, 54_321));
         }
-        let left: Vec<_> = std::fs::read_dir(desk.path(".")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-        assert!(!left.iter().any(|name| name.to_string_lossy().starts_with(".wedm")), "{left:?}");
+        let left: Vec<_> = std::fs::read_dir(desk.path("."))
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name())
+            .collect();
+        assert!(
+            !left
+                .iter()
+                .any(|name| name.to_string_lossy().starts_with(".wedm")),
+            "{left:?}"
+        );
     }
 }

@@ -4,7 +4,10 @@ pub struct Chance(u64);
 
 impl Chance {
     pub fn of_seed(seed: u64) -> Chance {
-        Chance(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x1234_5678_9abc_def1))
+        Chance(
+            seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)
+                .wrapping_add(0x1234_5678_9abc_def1),
+        )
     }
 
     fn next(&mut self) -> u64 {

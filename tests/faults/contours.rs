@@ -43,11 +43,25 @@ pub fn program(group: Group, chance: &mut Chance) -> Option<String> {
     }
     let count = if chance.one_in(4) { 2 } else { 1 };
     let is_offset_by_control = group == Group::Iso && chance.one_in(3);
-    let paths: Vec<WirePath> = (0..count).map(|nth| path(nth, is_offset_by_control, chance)).collect();
+    let paths: Vec<WirePath> = (0..count)
+        .map(|nth| path(nth, is_offset_by_control, chance))
+        .collect();
     let (format, settings) = match group {
-        Group::Compact => (Format::ThreeB, "[program]\nlayout = \"compact\"\n".to_owned()),
-        Group::Checking => (Format::ThreeB, "[program]\nlayout = \"checking\"\n".to_owned()),
-        Group::Iso => (Format::Iso, format!("[program]\nprofile = \"{}\"\n", chance.of(&["generic", "robofil", "fast-wire"]))),
+        Group::Compact => (
+            Format::ThreeB,
+            "[program]\nlayout = \"compact\"\n".to_owned(),
+        ),
+        Group::Checking => (
+            Format::ThreeB,
+            "[program]\nlayout = \"checking\"\n".to_owned(),
+        ),
+        Group::Iso => (
+            Format::Iso,
+            format!(
+                "[program]\nprofile = \"{}\"\n",
+                chance.of(&["generic", "robofil", "fast-wire"])
+            ),
+        ),
     };
     let (settings, errors) = from_toml(&settings);
     assert_eq!(errors, []);
@@ -57,8 +71,15 @@ pub fn program(group: Group, chance: &mut Chance) -> Option<String> {
 
 /// One of the programs that people published.
 fn published(chance: &mut Chance) -> String {
-    let name = chance.of(&["comb", "hole", "plate_with_three_arcs", "table_of_a_book", "named_segments"]);
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/programs/right/{name}.3b"));
+    let name = chance.of(&[
+        "comb",
+        "hole",
+        "plate_with_three_arcs",
+        "table_of_a_book",
+        "named_segments",
+    ]);
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/programs/right/{name}.3b"));
     std::fs::read_to_string(path).expect("a published program")
 }
 
@@ -66,11 +87,18 @@ fn published(chance: &mut Chance) -> String {
 fn path(nth: usize, is_offset_by_control: bool, chance: &mut Chance) -> WirePath {
     let mut contour = contour(chance);
     let shift = Vector::new(120.0 * nth as f64, 0.0);
-    contour.iter_mut().for_each(|segment| *segment = segment.moved(shift));
+    contour
+        .iter_mut()
+        .for_each(|segment| *segment = segment.moved(shift));
     // It begins in the middle of its longest line, else at the end of its longest piece.
     let longest = |lines_alone: bool| {
-        let found = contour.iter().enumerate().filter(|(_, segment)| !lines_alone || segment.as_arc().is_none());
-        found.max_by(|(_, a), (_, b)| a.length().total_cmp(&b.length())).map(|(index, _)| index)
+        let found = contour
+            .iter()
+            .enumerate()
+            .filter(|(_, segment)| !lines_alone || segment.as_arc().is_none());
+        found
+            .max_by(|(_, a), (_, b)| a.length().total_cmp(&b.length()))
+            .map(|(index, _)| index)
     };
     let (line, piece) = (longest(true), longest(false));
     match line {
@@ -84,18 +112,33 @@ fn path(nth: usize, is_offset_by_control: bool, chance: &mut Chance) -> WirePath
         None => contour.rotate_left(piece.unwrap_or(0)),
     }
     let entry = contour[0].start();
-    let source = Source::Segment { entity: EntityId(0), segment: 0 };
+    let source = Source::Segment {
+        entity: EntityId(0),
+        segment: 0,
+    };
     let piece = |geometry: Segment, source: Source| PathSegment { geometry, source };
-    let mut segments: Vec<PathSegment> = contour.iter().map(|&geometry| piece(geometry, source)).collect();
+    let mut segments: Vec<PathSegment> = contour
+        .iter()
+        .map(|&geometry| piece(geometry, source))
+        .collect();
     let mut thread_hole = entry;
     if is_offset_by_control || !chance.one_in(8) {
         let length = chance.of(&[1.0, 2.0, 3.0, 5.0]);
-        thread_hole = rounded(entry + left_normal(contour[0].start_tangent()) * length, 0.001);
+        thread_hole = rounded(
+            entry + left_normal(contour[0].start_tangent()) * length,
+            0.001,
+        );
         segments.insert(0, piece(Segment::line(thread_hole, entry), Source::LeadIn));
         segments.push(piece(Segment::line(entry, thread_hole), Source::LeadOut));
     }
     let side = is_offset_by_control.then_some(wedm::finding::Side::Left);
-    WirePath { outline: 0, correction: 0.0, thread_hole, side, segments }
+    WirePath {
+        outline: 0,
+        correction: 0.0,
+        thread_hole,
+        side,
+        segments,
+    }
 }
 
 fn contour(chance: &mut Chance) -> Vec<Segment> {
@@ -116,13 +159,27 @@ fn contour(chance: &mut Chance) -> Vec<Segment> {
         // A circle, whole or of two halves.
         2 => {
             let r = chance.length(2.0, 25.0);
-            let halves = vec![Segment::from_bulge(at(r, 0.0), at(-r, 0.0), 1.0), Segment::from_bulge(at(-r, 0.0), at(r, 0.0), 1.0)];
+            let halves = vec![
+                Segment::from_bulge(at(r, 0.0), at(-r, 0.0), 1.0),
+                Segment::from_bulge(at(-r, 0.0), at(r, 0.0), 1.0),
+            ];
             let whole = wedm::geometry::Arc::about(at(0.0, 0.0), at(r, 0.0), at(r, 0.0), true);
-            return if chance.one_in(2) { vec![Segment::Arc(whole)] } else { halves };
+            return if chance.one_in(2) {
+                vec![Segment::Arc(whole)]
+            } else {
+                halves
+            };
         }
         3 => {
             let (u, v) = (chance.length(2.0, w - 3.0), chance.length(2.0, h - 3.0));
-            vec![at(0.0, 0.0), at(w, 0.0), at(w, v), at(u, v), at(u, h), at(0.0, h)]
+            vec![
+                at(0.0, 0.0),
+                at(w, 0.0),
+                at(w, v),
+                at(u, v),
+                at(u, h),
+                at(0.0, h),
+            ]
         }
         // Steps along a side.
         4 => {
@@ -132,7 +189,12 @@ fn contour(chance: &mut Chance) -> Vec<Segment> {
             for tooth in (0..teeth).rev() {
                 let x = pitch * (2 * tooth) as f64;
                 let depth = chance.length(2.0, 7.0);
-                corners.extend([at(x + 2.0 * pitch, 10.0), at(x + pitch, 10.0), at(x + pitch, 10.0 + depth), at(x, 10.0 + depth)]);
+                corners.extend([
+                    at(x + 2.0 * pitch, 10.0),
+                    at(x + pitch, 10.0),
+                    at(x + pitch, 10.0 + depth),
+                    at(x, 10.0 + depth),
+                ]);
             }
             corners
         }
@@ -146,7 +208,9 @@ fn contour(chance: &mut Chance) -> Vec<Segment> {
                 Point::new(radius * angle.cos(), radius * angle.sin())
             };
             let grid = chance.of(&[0.001, 0.01, 0.5]);
-            (0..count).map(|index| rounded(corner(index, chance.length(8.0, 40.0)), grid)).collect()
+            (0..count)
+                .map(|index| rounded(corner(index, chance.length(8.0, 40.0)), grid))
+                .collect()
         }
     };
     filleted(&corners, chance)
@@ -159,11 +223,24 @@ fn gear(chance: &mut Chance) -> Vec<Segment> {
         let angle = share / teeth as f64 * TAU;
         Point::new(radius * angle.cos(), radius * angle.sin())
     };
-    let about = |from: Point, to: Point| Segment::Arc(wedm::geometry::Arc::about(Point::origin(), from, to, true));
+    let about = |from: Point, to: Point| {
+        Segment::Arc(wedm::geometry::Arc::about(Point::origin(), from, to, true))
+    };
     let tooth = |tooth: usize| {
         let t = tooth as f64;
-        let nodes = [at(t, inner), at(t + 0.35, inner), at(t + 0.45, outer), at(t + 0.85, outer), at(t + 1.0, inner)];
-        [about(nodes[0], nodes[1]), Segment::line(nodes[1], nodes[2]), about(nodes[2], nodes[3]), Segment::line(nodes[3], nodes[4])]
+        let nodes = [
+            at(t, inner),
+            at(t + 0.35, inner),
+            at(t + 0.45, outer),
+            at(t + 0.85, outer),
+            at(t + 1.0, inner),
+        ];
+        [
+            about(nodes[0], nodes[1]),
+            Segment::line(nodes[1], nodes[2]),
+            about(nodes[2], nodes[3]),
+            Segment::line(nodes[3], nodes[4]),
+        ]
     };
     (0..teeth).flat_map(tooth).collect()
 }
@@ -176,15 +253,25 @@ fn filleted(corners: &[Point], chance: &mut Chance) -> Vec<Segment> {
     // Where each corner begins and ends, and its bulge.
     let rounds: Vec<(Point, Point, f64)> = (0..count)
         .map(|index| {
-            let (before, own, behind) = (corners[(index + count - 1) % count], corners[index], corners[(index + 1) % count]);
+            let (before, own, behind) = (
+                corners[(index + count - 1) % count],
+                corners[index],
+                corners[(index + 1) % count],
+            );
             let (from, to) = (own - before, behind - own);
             let turned = turn(from, to);
             let cut = radius * (turned / 2.0).tan().abs();
-            let is_round = chance.share() < share && turned.abs() > 0.2 && cut < 0.4 * from.norm().min(to.norm());
+            let is_round = chance.share() < share
+                && turned.abs() > 0.2
+                && cut < 0.4 * from.norm().min(to.norm());
             if !is_round {
                 return (own, own, 0.0);
             }
-            (own - from.normalize() * cut, own + to.normalize() * cut, (turned / 4.0).tan())
+            (
+                own - from.normalize() * cut,
+                own + to.normalize() * cut,
+                (turned / 4.0).tan(),
+            )
         })
         .collect();
     let mut segments = Vec::new();
@@ -199,5 +286,8 @@ fn filleted(corners: &[Point], chance: &mut Chance) -> Vec<Segment> {
 }
 
 fn rounded(point: Point, grid: f64) -> Point {
-    Point::new((point.x / grid).round() * grid, (point.y / grid).round() * grid)
+    Point::new(
+        (point.x / grid).round() * grid,
+        (point.y / grid).round() * grid,
+    )
 }

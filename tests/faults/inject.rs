@@ -22,7 +22,12 @@ pub fn kinds(group: Group) -> Vec<&'static str> {
     };
     let mut kinds = Vec::new();
     for number in numbers {
-        for how in ["digit wrong", "digit lost", "digit doubled", "digits exchanged"] {
+        for how in [
+            "digit wrong",
+            "digit lost",
+            "digit doubled",
+            "digits exchanged",
+        ] {
             kinds.push(named(number, how));
         }
     }
@@ -71,13 +76,44 @@ const ISO: [&str; 13] = [
 
 fn named(number: &str, how: &str) -> &'static str {
     const ALL: [[&str; 4]; 4] = [
-        ["X: digit wrong", "X: digit lost", "X: digit doubled", "X: digits exchanged"],
-        ["Y: digit wrong", "Y: digit lost", "Y: digit doubled", "Y: digits exchanged"],
-        ["I: digit wrong", "I: digit lost", "I: digit doubled", "I: digits exchanged"],
-        ["J: digit wrong", "J: digit lost", "J: digit doubled", "J: digits exchanged"],
+        [
+            "X: digit wrong",
+            "X: digit lost",
+            "X: digit doubled",
+            "X: digits exchanged",
+        ],
+        [
+            "Y: digit wrong",
+            "Y: digit lost",
+            "Y: digit doubled",
+            "Y: digits exchanged",
+        ],
+        [
+            "I: digit wrong",
+            "I: digit lost",
+            "I: digit doubled",
+            "I: digits exchanged",
+        ],
+        [
+            "J: digit wrong",
+            "J: digit lost",
+            "J: digit doubled",
+            "J: digits exchanged",
+        ],
     ];
-    let row = ["X", "Y", "I", "J"].iter().position(|name| *name == number).expect("a number");
-    let column = ["digit wrong", "digit lost", "digit doubled", "digits exchanged"].iter().position(|name| *name == how).expect("a way");
+    let row = ["X", "Y", "I", "J"]
+        .iter()
+        .position(|name| *name == number)
+        .expect("a number");
+    let column = [
+        "digit wrong",
+        "digit lost",
+        "digit doubled",
+        "digits exchanged",
+    ]
+    .iter()
+    .position(|name| *name == how)
+    .expect("a way");
     ALL[row][column]
 }
 
@@ -88,30 +124,48 @@ pub fn inject(group: Group, kind: &'static str, text: &str, chance: &mut Chance)
         Group::Iso => is_move(line),
         Group::Compact | Group::Checking => block_of(line).is_some(),
     };
-    let blocks: Vec<usize> = (0..lines.len()).filter(|&line| is_block(lines[line])).collect();
+    let blocks: Vec<usize> = (0..lines.len())
+        .filter(|&line| is_block(lines[line]))
+        .collect();
     let joined = |lines: Vec<&str>| lines.concat();
     match kind {
         "block lost" => {
             let line = chance.of(&blocks);
             let mut kept = lines.clone();
             kept.remove(line);
-            return Some(Faulty { kind, text: joined(kept), lines: vec![line.saturating_sub(1), line] });
+            return Some(Faulty {
+                kind,
+                text: joined(kept),
+                lines: vec![line.saturating_sub(1), line],
+            });
         }
         "block twice" => {
             let line = chance.of(&blocks);
             let mut more = lines.clone();
             more.insert(line, lines[line]);
-            return Some(Faulty { kind, text: joined(more), lines: vec![line, line + 1] });
+            return Some(Faulty {
+                kind,
+                text: joined(more),
+                lines: vec![line, line + 1],
+            });
         }
         "blocks exchanged" => {
-            let pairs: Vec<usize> = blocks.windows(2).filter(|pair| pair[0] + 1 == pair[1]).map(|pair| pair[0]).collect();
+            let pairs: Vec<usize> = blocks
+                .windows(2)
+                .filter(|pair| pair[0] + 1 == pair[1])
+                .map(|pair| pair[0])
+                .collect();
             if pairs.is_empty() {
                 return None;
             }
             let line = chance.of(&pairs);
             let mut other = lines.clone();
             other.swap(line, line + 1);
-            return Some(Faulty { kind, text: joined(other), lines: vec![line, line + 1] });
+            return Some(Faulty {
+                kind,
+                text: joined(other),
+                lines: vec![line, line + 1],
+            });
         }
         _ => {}
     }
@@ -125,7 +179,11 @@ pub fn inject(group: Group, kind: &'static str, text: &str, chance: &mut Chance)
         if let Some(changed) = changed.filter(|changed| changed != lines[line]) {
             let mut with: Vec<&str> = lines.clone();
             with[line] = &changed;
-            return Some(Faulty { kind, text: with.concat(), lines: vec![line] });
+            return Some(Faulty {
+                kind,
+                text: with.concat(),
+                lines: vec![line],
+            });
         }
     }
     None
@@ -147,7 +205,12 @@ fn with(line: &str, range: Range<usize>, text: &str) -> String {
 
 /// A number with one of its digits damaged; `None` where it has none that can be.
 fn damaged(number: &str, how: &str, chance: &mut Chance) -> Option<String> {
-    let digits: Vec<usize> = number.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit()).map(|(at, _)| at).collect();
+    let digits: Vec<usize> = number
+        .bytes()
+        .enumerate()
+        .filter(|(_, byte)| byte.is_ascii_digit())
+        .map(|(at, _)| at)
+        .collect();
     if digits.is_empty() {
         return None;
     }
@@ -181,7 +244,11 @@ fn in_block(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
     };
     if let Some((name, how)) = kind.split_once(": ") {
         let range = number(name);
-        return Some(with(line, range.clone(), &damaged(of(&range), how, chance)?));
+        return Some(with(
+            line,
+            range.clone(),
+            &damaged(of(&range), how, chance)?,
+        ));
     }
     let any = number(chance.of(&["X", "Y", "J"]));
     let motion = of(&fields.motion).to_owned();
@@ -190,11 +257,20 @@ fn in_block(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
     let j: f64 = of(&fields.j).parse().ok()?;
     let changed = match kind {
         "X and Y exchanged" => {
-            let swapped = format!("{}{}{}", of(&fields.y), &line[fields.x.end..fields.y.start], of(&fields.x));
+            let swapped = format!(
+                "{}{}{}",
+                of(&fields.y),
+                &line[fields.x.end..fields.y.start],
+                of(&fields.x)
+            );
             with(line, fields.x.start..fields.y.end, &swapped)
         }
         "G wrong" => {
-            let other = if of(&fields.axis).ends_with(['X', 'x']) { "GY" } else { "GX" };
+            let other = if of(&fields.axis).ends_with(['X', 'x']) {
+                "GY"
+            } else {
+                "GX"
+            };
             with(line, fields.axis.clone(), other)
         }
         "G lost" => {
@@ -202,22 +278,44 @@ fn in_block(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
             let gone = chance.of(&[(start, start + 1), (end - 1, end), (start, end)]);
             with(line, gone.0..gone.1, "")
         }
-        "Z wrong" => with(line, fields.motion.end - 1..fields.motion.end, &format!("{}", (quadrant + chance.below(3)) % 4 + 1)),
+        "Z wrong" => with(
+            line,
+            fields.motion.end - 1..fields.motion.end,
+            &format!("{}", (quadrant + chance.below(3)) % 4 + 1),
+        ),
         "Z lost" => {
-            let gone = if chance.one_in(2) { fields.motion.start } else { fields.motion.end - 1 };
+            let gone = if chance.one_in(2) {
+                fields.motion.start
+            } else {
+                fields.motion.end - 1
+            };
             with(line, gone..fields.motion.end, "")
         }
-        "R lost" if name.ends_with('R') => with(line, fields.motion.start + 1..fields.motion.start + 2, ""),
-        "NR for SR" if name.ends_with('R') => {
-            with(line, fields.motion.start..fields.motion.start + 1, if name.starts_with('N') { "S" } else { "N" })
+        "R lost" if name.ends_with('R') => {
+            with(line, fields.motion.start + 1..fields.motion.start + 2, "")
         }
-        "line for an arc" if name.ends_with('R') => with(line, fields.motion.clone(), &format!("L{quadrant}")),
-        "line for an arc" => with(line, fields.motion.clone(), &format!("{}{quadrant}", chance.of(&["NR", "SR"]))),
+        "NR for SR" if name.ends_with('R') => with(
+            line,
+            fields.motion.start..fields.motion.start + 1,
+            if name.starts_with('N') { "S" } else { "N" },
+        ),
+        "line for an arc" if name.ends_with('R') => {
+            with(line, fields.motion.clone(), &format!("L{quadrant}"))
+        }
+        "line for an arc" => with(
+            line,
+            fields.motion.clone(),
+            &format!("{}{quadrant}", chance.of(&["NR", "SR"])),
+        ),
         "J off by 5 to 50 um" => {
             let off = (5.0 + chance.share() * 45.0).round() * chance.of(&[-1.0, 1.0]);
             with(line, fields.j.clone(), &format!("{}", (j + off).max(1.0)))
         }
-        "J off by 10 %" => with(line, fields.j.clone(), &format!("{}", (j * chance.of(&[0.9, 1.1])).round())),
+        "J off by 10 %" => with(
+            line,
+            fields.j.clone(),
+            &format!("{}", (j * chance.of(&[0.9, 1.1])).round()),
+        ),
         "sign" if !any.is_empty() => with(line, any.start..any.start, "-"),
         "point" if any.len() > 1 => {
             let at = any.start + 1 + chance.below(any.len() - 1);
@@ -228,8 +326,15 @@ fn in_block(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
             with(line, at..at, ",")
         }
         "O for 0" => {
-            let zeros: Vec<usize> = any.clone().filter(|at| line.as_bytes()[*at] == b'0').collect();
-            let at = if zeros.is_empty() { return None } else { chance.of(&zeros) };
+            let zeros: Vec<usize> = any
+                .clone()
+                .filter(|at| line.as_bytes()[*at] == b'0')
+                .collect();
+            let at = if zeros.is_empty() {
+                return None;
+            } else {
+                chance.of(&zeros)
+            };
             with(line, at..at + 1, "O")
         }
         "B lost" => {
@@ -260,8 +365,12 @@ fn words(line: &str) -> Vec<(char, Range<usize>)> {
             b';' => break,
             letter if letter.is_ascii_alphabetic() => {
                 let start = at + 1;
-                let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+');
-                let length = bytes[start..].iter().take_while(|byte| is_part(byte)).count();
+                let is_part =
+                    |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+');
+                let length = bytes[start..]
+                    .iter()
+                    .take_while(|byte| is_part(byte))
+                    .count();
                 words.push((letter as char, start..start + length));
                 at = start + length;
             }
@@ -275,36 +384,71 @@ fn words(line: &str) -> Vec<(char, Range<usize>)> {
 fn is_move(line: &str) -> bool {
     let words = words(line);
     let has = |letters: &[char]| words.iter().any(|(letter, _)| letters.contains(letter));
-    let is_setting = words.iter().any(|(letter, number)| *letter == 'G' && line[number.clone()].trim_start_matches('0') == "92");
+    let is_setting = words.iter().any(|(letter, number)| {
+        *letter == 'G' && line[number.clone()].trim_start_matches('0') == "92"
+    });
     has(&['X', 'Y', 'I', 'J']) && !is_setting
 }
 
 /// An ISO line with a fault.
 fn in_words(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
     let words = words(line);
-    let word = |letter: char| words.iter().find(|(own, _)| *own == letter).map(|(_, number)| number.clone());
+    let word = |letter: char| {
+        words
+            .iter()
+            .find(|(own, _)| *own == letter)
+            .map(|(_, number)| number.clone())
+    };
     if let Some((name, how)) = kind.split_once(": ") {
         let range = word(name.chars().next()?)?;
-        return Some(with(line, range.clone(), &damaged(&line[range], how, chance)?));
+        return Some(with(
+            line,
+            range.clone(),
+            &damaged(&line[range], how, chance)?,
+        ));
     }
-    let coordinates: Vec<&(char, Range<usize>)> = words.iter().filter(|(letter, _)| "XYIJ".contains(*letter)).collect();
-    let any = if coordinates.is_empty() { return None } else { chance.of(&coordinates) };
+    let coordinates: Vec<&(char, Range<usize>)> = words
+        .iter()
+        .filter(|(letter, _)| "XYIJ".contains(*letter))
+        .collect();
+    let any = if coordinates.is_empty() {
+        return None;
+    } else {
+        chance.of(&coordinates)
+    };
     let any_range = any.1.clone();
     let swapped = |one: Range<usize>, other: Range<usize>| {
-        let (one, other) = if one.start < other.start { (one, other) } else { (other, one) };
-        let text = format!("{}{}{}", &line[other.clone()], &line[one.end..other.start], &line[one.clone()]);
+        let (one, other) = if one.start < other.start {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let text = format!(
+            "{}{}{}",
+            &line[other.clone()],
+            &line[one.end..other.start],
+            &line[one.clone()]
+        );
         with(line, one.start..other.end, &text)
     };
-    let motion = words
-        .iter()
-        .find(|(letter, number)| *letter == 'G' && matches!(line[number.clone()].trim_start_matches('0'), "" | "1" | "2" | "3"));
+    let motion = words.iter().find(|(letter, number)| {
+        *letter == 'G'
+            && matches!(
+                line[number.clone()].trim_start_matches('0'),
+                "" | "1" | "2" | "3"
+            )
+    });
     let is_arc = word('I').is_some() || word('J').is_some();
     let changed = match kind {
         "X and Y exchanged" => swapped(word('X')?, word('Y')?),
         "I and J exchanged" => swapped(word('I')?, word('J')?),
         "G wrong" if is_arc => {
             let number = motion?.1.clone();
-            let other = if line[number.clone()].ends_with('2') { "03" } else { "02" };
+            let other = if line[number.clone()].ends_with('2') {
+                "03"
+            } else {
+                "02"
+            };
             with(line, number, other)
         }
         "G lost" => {
@@ -327,7 +471,9 @@ fn in_words(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
         }
         "sign" => {
             let text = &line[any_range.clone()];
-            let other = text.strip_prefix('-').map_or_else(|| format!("-{text}"), str::to_owned);
+            let other = text
+                .strip_prefix('-')
+                .map_or_else(|| format!("-{text}"), str::to_owned);
             with(line, any_range, &other)
         }
         "point" => {
@@ -335,7 +481,9 @@ fn in_words(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
             // Lost where it has one, else put in somewhere.
             let other = match text.find('.') {
                 Some(_) => text.replace('.', ""),
-                None if text.len() > 2 => format!("{}.{}", &text[..text.len() - 1], &text[text.len() - 1..]),
+                None if text.len() > 2 => {
+                    format!("{}.{}", &text[..text.len() - 1], &text[text.len() - 1..])
+                }
                 None => return None,
             };
             with(line, any_range, &other)
@@ -346,8 +494,15 @@ fn in_words(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
             with(line, any_range.clone(), &text.replace('.', ","))
         }
         "O for 0" => {
-            let zeros: Vec<usize> = any_range.clone().filter(|at| line.as_bytes()[*at] == b'0').collect();
-            let at = if zeros.is_empty() { return None } else { chance.of(&zeros) };
+            let zeros: Vec<usize> = any_range
+                .clone()
+                .filter(|at| line.as_bytes()[*at] == b'0')
+                .collect();
+            let at = if zeros.is_empty() {
+                return None;
+            } else {
+                chance.of(&zeros)
+            };
             with(line, at..at + 1, "O")
         }
         "letter lost" => with(line, any_range.start - 1..any_range.start, ""),

@@ -38,7 +38,14 @@ pub struct Verdict {
 
 pub fn read(group: Group, text: &str) -> Document {
     let settings = Arc::new(Effective::default());
-    Document::new(Source::Program(program::Document::read(group.language(), text.as_bytes().to_vec(), &settings)), settings)
+    Document::new(
+        Source::Program(program::Document::read(
+            group.language(),
+            text.as_bytes().to_vec(),
+            &settings,
+        )),
+        settings,
+    )
 }
 
 /// What is said of a program, hints left out.
@@ -61,18 +68,28 @@ struct Act {
 
 /// Where the machine goes.
 fn acts(document: &Document) -> Vec<Act> {
-    let Some(program) = document.program() else { return Vec::new() };
+    let Some(program) = document.program() else {
+        return Vec::new();
+    };
     let sides = program.sides();
     let steps = program.trace().steps;
     let act = |(index, step): (usize, &program::trace::Step)| {
         let by = step.meant();
         let bend = match &step.ideal {
-            Some(segment @ Segment::Arc(arc)) => Some([0.25, 0.5, 0.75].map(|share| segment.point_at(share) - arc.start)),
+            Some(segment @ Segment::Arc(arc)) => {
+                Some([0.25, 0.5, 0.75].map(|share| segment.point_at(share) - arc.start))
+            }
             _ => None,
         };
         let is_still = by.norm() < 1e-6 && bend.is_none();
         let side = sides.get(index).copied().flatten();
-        (step.moves() && !is_still).then(|| Act { contour: step.contour, is_rapid: step.kind == Kind::Rapid, side, by, bend })
+        (step.moves() && !is_still).then(|| Act {
+            contour: step.contour,
+            is_rapid: step.kind == Kind::Rapid,
+            side,
+            by,
+            bend,
+        })
     };
     steps.iter().enumerate().filter_map(act).collect()
 }
@@ -88,7 +105,9 @@ fn is_same(one: &[Act], other: &[Act]) -> bool {
             (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| is_near(*a, b)),
             _ => false,
         };
-        (a.contour, a.is_rapid, a.side) == (b.contour, b.is_rapid, b.side) && is_near(a.by, b.by) && bends
+        (a.contour, a.is_rapid, a.side) == (b.contour, b.is_rapid, b.side)
+            && is_near(a.by, b.by)
+            && bends
     };
     one.len() == other.len() && one.iter().zip(other).all(same)
 }
@@ -116,17 +135,28 @@ pub fn judge(group: Group, sound: &str, faulty: &Faulty) -> Option<Verdict> {
         Place::Text { range } => Some(text.line_of(range.start)),
         _ => None,
     };
-    let right_line = findings.iter().filter_map(line_of).any(|line| faulty.lines.contains(&line));
-    let first = findings.iter().find_map(|finding| document.fixes(finding).into_iter().next());
+    let right_line = findings
+        .iter()
+        .filter_map(line_of)
+        .any(|line| faulty.lines.contains(&line));
+    let first = findings
+        .iter()
+        .find_map(|finding| document.fixes(finding).into_iter().next());
     let first_text = first.as_ref().and_then(|fix| match &fix.edit {
         Edit::Text(edits) => with(&document, edits),
         Edit::Drawing(_) => None,
     });
-    let first_fix = first_text.as_ref().is_some_and(|text| is_same(&meant, &acts(&read(group, text))));
+    let first_fix = first_text
+        .as_ref()
+        .is_some_and(|text| is_same(&meant, &acts(&read(group, text))));
     let mut present = document.clone();
     for _ in 0..ROUNDS {
-        let Some(edits) = present.fix_all_in_text() else { break };
-        let Some(text) = with(&present, &edits) else { break };
+        let Some(edits) = present.fix_all_in_text() else {
+            break;
+        };
+        let Some(text) = with(&present, &edits) else {
+            break;
+        };
         present = read(group, &text);
     }
     let left = acts(&present);
@@ -140,7 +170,12 @@ pub fn judge(group: Group, sound: &str, faulty: &Faulty) -> Option<Verdict> {
         Outcome::Wrong
     };
     let said = |finding: &Finding| {
-        format!("{}: {}: {}", line_of(finding).map_or(0, |line| line + 1), finding.rule.name(), wedm::message::en::sentence(finding, 1.0))
+        format!(
+            "{}: {}: {}",
+            line_of(finding).map_or(0, |line| line + 1),
+            finding.rule.name(),
+            wedm::message::en::sentence(finding, 1.0)
+        )
     };
     let left = present.text()?.as_str_lossy().into_owned();
     Some(Verdict {

@@ -24,7 +24,9 @@ const CHECKED: &str = "; Start Point = 0.000 , 0.000\n\
 const HALVES: &str = "B8000B0B8000GXL1\nB8000B0B16000GYNR1\nB8000B0B16000GYNR3\nDD\n";
 
 fn after(document: &Document, edit: &Edit) -> String {
-    let Edit::Text(edits) = edit else { panic!("a fix of a program edits its text") };
+    let Edit::Text(edits) = edit else {
+        panic!("a fix of a program edits its text")
+    };
     String::from_utf8(edited(document.text().unwrap().bytes(), edits).unwrap()).unwrap()
 }
 
@@ -32,7 +34,9 @@ fn fixed(text: &str) -> String {
     let mut text = text.to_owned();
     for _ in 0..ROUNDS {
         let document = read(Group::Compact, &text);
-        let Some(edit) = document.fix_all() else { break };
+        let Some(edit) = document.fix_all() else {
+            break;
+        };
         text = after(&document, &edit);
     }
     text
@@ -46,19 +50,35 @@ fn with(program: &str, found: &str, other: &str) -> String {
 
 /// Spaces in columns do not count.
 fn tight(text: &str) -> String {
-    text.lines().map(|line| line.split_whitespace().collect::<String>() + "\n").collect()
+    text.lines()
+        .map(|line| line.split_whitespace().collect::<String>() + "\n")
+        .collect()
 }
 
 #[track_caller]
 fn check(program: &str, found: &str, other: &str) {
     let faulty = with(program, found, other);
-    assert!(!findings(&mut read(Group::Compact, &faulty)).is_empty(), "nothing is said of\n{faulty}");
+    assert!(
+        !findings(&mut read(Group::Compact, &faulty)).is_empty(),
+        "nothing is said of\n{faulty}"
+    );
     let document = read(Group::Compact, &faulty);
     let offered = |finding: &wedm::finding::Finding| {
-        document.fixes(finding).into_iter().map(|fix| format!("{:?} {:?}", finding.rule, fix)).collect::<Vec<_>>()
+        document
+            .fixes(finding)
+            .into_iter()
+            .map(|fix| format!("{:?} {:?}", finding.rule, fix))
+            .collect::<Vec<_>>()
     };
-    let fixes: Vec<_> = findings(&mut document.clone()).iter().flat_map(offered).collect();
-    assert_eq!(tight(&fixed(&faulty)), tight(program), "of\n{faulty}{fixes:#?}");
+    let fixes: Vec<_> = findings(&mut document.clone())
+        .iter()
+        .flat_map(offered)
+        .collect();
+    assert_eq!(
+        tight(&fixed(&faulty)),
+        tight(program),
+        "of\n{faulty}{fixes:#?}"
+    );
 }
 
 #[track_caller]
@@ -73,19 +93,38 @@ fn check_first(program: &str, found: &str, other: &str) {
     check_untouched(program, found, other);
     let faulty = with(program, found, other);
     let mut document = read(Group::Compact, &faulty);
-    let first = findings(&mut document).iter().find_map(|finding| document.fixes(finding).into_iter().next());
+    let first = findings(&mut document)
+        .iter()
+        .find_map(|finding| document.fixes(finding).into_iter().next());
     let first = first.unwrap_or_else(|| panic!("no fix for\n{faulty}"));
     assert!(!first.preferred, "{first:?}");
-    assert_eq!(tight(&after(&document, &first.edit)), tight(program), "by {:?}", first.kind);
+    assert_eq!(
+        tight(&after(&document, &first.edit)),
+        tight(program),
+        "by {:?}",
+        first.kind
+    );
 }
 
 #[test]
 fn a_block_twice_goes_and_becomes_no_full_circle() {
-    check(PLATE, "B0B6000B6000GYL2\n", "B0B6000B6000GYL2\nB0B6000B6000GYL2\n");
-    check(PLATE, "B0B2000B2000GYNR4\n", "B0B2000B2000GYNR4\nB0B2000B2000GYNR4\n");
+    check(
+        PLATE,
+        "B0B6000B6000GYL2\n",
+        "B0B6000B6000GYL2\nB0B6000B6000GYL2\n",
+    );
+    check(
+        PLATE,
+        "B0B2000B2000GYNR4\n",
+        "B0B2000B2000GYNR4\nB0B2000B2000GYNR4\n",
+    );
     let line = "N    5: B  10000 B      0 B  10000 GX L3  ;      0.000 ,     11.000\n";
     check(CHECKED, line, &line.repeat(2));
-    check_untouched(HALVES, "B8000B0B16000GYNR1\n", "B8000B0B16000GYNR1\nB8000B0B16000GYNR1\n");
+    check_untouched(
+        HALVES,
+        "B8000B0B16000GYNR1\n",
+        "B8000B0B16000GYNR1\nB8000B0B16000GYNR1\n",
+    );
 }
 
 #[test]
@@ -115,14 +154,18 @@ fn a_lost_block_is_put_in_only_by_hand() {
 #[test]
 fn x_and_y_exchanged_are_exchanged_again() {
     for program in [PLATE, HALVES] {
-        let exchanged =
-            if program == PLATE { ("B0B2000B2000GYNR4", "B2000B0B2000GYNR4") } else { ("B8000B0B8000GXL1", "B0B8000B8000GXL1") };
+        let exchanged = if program == PLATE {
+            ("B0B2000B2000GYNR4", "B2000B0B2000GYNR4")
+        } else {
+            ("B8000B0B8000GXL1", "B0B8000B8000GXL1")
+        };
         let faulty = with(program, exchanged.0, exchanged.1);
         let left = fixed(&faulty);
         assert!(left == program || left == faulty, "{left}");
     }
     check(PLATE, "B0B2000B2000GYNR4", "B2000B0B2000GYNR4");
-    let skew = "B5000B3000B5000GXL1\nB5000B3000B5000GXL2\nB5000B3000B5000GXL3\nB5000B3000B5000GXL4\nDD\n";
+    let skew =
+        "B5000B3000B5000GXL1\nB5000B3000B5000GXL2\nB5000B3000B5000GXL3\nB5000B3000B5000GXL4\nDD\n";
     check(skew, "B5000B3000B5000GXL1", "B3000B5000B5000GXL1");
 }
 
@@ -166,10 +209,19 @@ fn one_digit_of_one_number_is_put_right() {
 fn a_line_that_closes_is_offered_and_not_preferred() {
     let open = "B0B90000B90000GYL2\nB50000B0B50000GXL1\nB20000B70000B70000GYL1\nDD\n";
     let mut document = read(Group::Compact, open);
-    let fixes: Vec<_> = findings(&mut document).iter().flat_map(|finding| document.fixes(finding)).collect();
-    let draws = |kind: &FixKind| matches!(kind, FixKind::Close { .. } | FixKind::InsertBlock { .. });
+    let fixes: Vec<_> = findings(&mut document)
+        .iter()
+        .flat_map(|finding| document.fixes(finding))
+        .collect();
+    let draws =
+        |kind: &FixKind| matches!(kind, FixKind::Close { .. } | FixKind::InsertBlock { .. });
     assert!(fixes.iter().any(|fix| draws(&fix.kind)), "{fixes:?}");
-    assert!(fixes.iter().all(|fix| !draws(&fix.kind) || !fix.preferred && !fix.in_fix_all), "{fixes:?}");
+    assert!(
+        fixes
+            .iter()
+            .all(|fix| !draws(&fix.kind) || !fix.preferred && !fix.in_fix_all),
+        "{fixes:?}"
+    );
     assert_eq!(fixed(open), open);
 }
 
@@ -177,6 +229,9 @@ fn a_line_that_closes_is_offered_and_not_preferred() {
 fn coordinates_are_replaced_whole() {
     let text = "; Start Point = 0 , 0\nB9900B0B9900GXL1 ; 1e9 , 0.000\nB9900B0B39600GYNR1 ; 9.900 , 0.000\nB9900B0B9900GXL3 ; 0 , 0\nDD\n";
     let fixed = fixed(text);
-    assert!(findings(&mut read(Group::Compact, &fixed)).is_empty(), "{fixed}");
+    assert!(
+        findings(&mut read(Group::Compact, &fixed)).is_empty(),
+        "{fixed}"
+    );
     assert!(!fixed.contains('e'), "{fixed}");
 }

@@ -21,7 +21,9 @@ type Feature = Vec<(f64, f64, f64)>;
 
 /// The corner at `at`, between the ways to `before` and `behind`, cut off by so much of each.
 fn chamfer(at: Point, before: Point, behind: Point, legs: [f64; 2]) -> Vec<Point> {
-    [(before, legs[0]), (behind, legs[1])].map(|(to, leg)| at + (to - at).normalize() * leg).to_vec()
+    [(before, legs[0]), (behind, legs[1])]
+        .map(|(to, leg)| at + (to - at).normalize() * leg)
+        .to_vec()
 }
 
 /// The corner rounded with R, as so many chords between points of the arc.
@@ -29,28 +31,58 @@ fn chorded(at: Point, before: Point, behind: Point, radius: f64, chords: usize) 
     let (to_before, to_behind) = ((before - at).normalize(), (behind - at).normalize());
     let half = to_before.dot(&to_behind).clamp(-1.0, 1.0).acos() / 2.0;
     let center = at + (to_before + to_behind).normalize() * (radius / half.sin());
-    let (from, to) = (at + to_before * (radius / half.tan()) - center, at + to_behind * (radius / half.tan()) - center);
+    let (from, to) = (
+        at + to_before * (radius / half.tan()) - center,
+        at + to_behind * (radius / half.tan()) - center,
+    );
     let swept = turn(from, to);
     let angle = from.y.atan2(from.x);
-    (0..=chords).map(|k| center + direction(angle + swept * k as f64 / chords as f64) * radius).collect()
+    (0..=chords)
+        .map(|k| center + direction(angle + swept * k as f64 / chords as f64) * radius)
+        .collect()
 }
 
 /// A feature of one of several kinds; the numbers lie between 0 and 1.
 fn feature(kind: usize, n: [f64; 6]) -> Feature {
     let between = |low: f64, high: f64, at: usize| low + (high - low) * n[at];
-    let plain = |points: &[Point]| points.iter().map(|point| (point.x, point.y, 0.0)).collect::<Feature>();
+    let plain = |points: &[Point]| {
+        points
+            .iter()
+            .map(|point| (point.x, point.y, 0.0))
+            .collect::<Feature>()
+    };
     // A wide pocket of which the two inner corners are what is looked at.
     let slant = between(-0.3, 0.3, 0);
-    let pocket = [(0.5, 0.0), (0.5 + slant, 1.0), (-0.5 - slant, 1.0), (-0.5, 0.0)].map(|(x, y)| Point::new(x, y));
+    let pocket = [
+        (0.5, 0.0),
+        (0.5 + slant, 1.0),
+        (-0.5 - slant, 1.0),
+        (-0.5, 0.0),
+    ]
+    .map(|(x, y)| Point::new(x, y));
     let corners = |round: &dyn Fn(Point, Point, Point, usize) -> Vec<Point>| {
-        let inner = [1, 2].map(|at| round(pocket[at], pocket[at - 1], pocket[at + 1], at)).concat();
+        let inner = [1, 2]
+            .map(|at| round(pocket[at], pocket[at - 1], pocket[at + 1], at))
+            .concat();
         plain(&[&pocket[..1], &inner[..], &pocket[3..]].concat())
     };
     match kind {
         // Slots that taper, with straight or bent walls, and one corner of the end a little higher.
         0 | 1 => {
-            let (mouth, end, length) = (between(0.21, 0.5, 0), between(0.02, 0.19, 1), between(0.4, 3.0, 2));
-            let (shift, rise, bend) = (between(-0.1, 0.1, 3), between(-0.1, 0.1, 4), if kind == 1 { between(-0.03, 0.03, 5) } else { 0.0 });
+            let (mouth, end, length) = (
+                between(0.21, 0.5, 0),
+                between(0.02, 0.19, 1),
+                between(0.4, 3.0, 2),
+            );
+            let (shift, rise, bend) = (
+                between(-0.1, 0.1, 3),
+                between(-0.1, 0.1, 4),
+                if kind == 1 {
+                    between(-0.03, 0.03, 5)
+                } else {
+                    0.0
+                },
+            );
             vec![
                 (mouth / 2.0, 0.0, bend),
                 (shift + end / 2.0, length, 0.0),
@@ -59,26 +91,52 @@ fn feature(kind: usize, n: [f64; 6]) -> Feature {
             ]
         }
         2 => corners(&|at, before, behind, which| {
-            chamfer(at, before, behind, [between(0.005, 0.15, which), between(0.005, 0.15, which + 2)])
+            chamfer(
+                at,
+                before,
+                behind,
+                [between(0.005, 0.15, which), between(0.005, 0.15, which + 2)],
+            )
         }),
-        3 => {
-            corners(&|at, before, behind, which| chorded(at, before, behind, between(0.02, 0.2, which), 2 + (n[which + 2] * 9.0) as usize))
-        }
+        3 => corners(&|at, before, behind, which| {
+            chorded(
+                at,
+                before,
+                behind,
+                between(0.02, 0.2, which),
+                2 + (n[which + 2] * 9.0) as usize,
+            )
+        }),
         // Notches, pointed or with a flat ground.
         4 => {
-            let (mouth, depth, ground) = (between(0.02, 0.5, 0), between(0.05, 1.0, 1), between(-0.1, 0.1, 2).max(0.0));
+            let (mouth, depth, ground) = (
+                between(0.02, 0.5, 0),
+                between(0.05, 1.0, 1),
+                between(-0.1, 0.1, 2).max(0.0),
+            );
             // Hardly slanted: the nearest that is cut lies on this side of its walls.
             let shift = between(-0.3, 0.3, 3) * mouth;
-            let mut points = vec![Point::new(mouth / 2.0, 0.0), Point::new(shift + ground.min(mouth) / 2.0, depth)];
-            points.extend((ground > 0.0).then(|| Point::new(shift - ground.min(mouth) / 2.0, depth)));
+            let mut points = vec![
+                Point::new(mouth / 2.0, 0.0),
+                Point::new(shift + ground.min(mouth) / 2.0, depth),
+            ];
+            points
+                .extend((ground > 0.0).then(|| Point::new(shift - ground.min(mouth) / 2.0, depth)));
             points.push(Point::new(-mouth / 2.0, 0.0));
             plain(&points)
         }
         // Both inner corners as chains of short segments that turn as they like.
         _ => corners(&|at, before, behind, which| {
-            let mut points = chamfer(at, before, behind, [between(0.02, 0.15, which), between(0.02, 0.15, which + 1)]);
+            let mut points = chamfer(
+                at,
+                before,
+                behind,
+                [between(0.02, 0.15, which), between(0.02, 0.15, which + 1)],
+            );
             let (from, to) = (points[0], points[1]);
-            let bulge = |share: f64, by: f64| from + (to - from) * share + (at - (from + (to - from) * 0.5)) * by;
+            let bulge = |share: f64, by: f64| {
+                from + (to - from) * share + (at - (from + (to - from) * 0.5)) * by
+            };
             let more = [
                 bulge(between(0.2, 0.45, which + 2), between(0.0, 0.7, which + 1)),
                 bulge(between(0.55, 0.8, which), between(0.0, 0.7, which + 3)),
@@ -97,26 +155,49 @@ fn outline(feature: &Feature, role: Role) -> Vec<Vertex> {
         [(-4.0, 0.0), (-4.0, 7.0), (4.0, 7.0), (4.0, 0.0)]
     };
     let rest = around.into_iter().map(|(x, y)| (x, y, 0.0));
-    feature.iter().copied().chain(rest).map(|(x, y, bulge)| Vertex::new(x, y, bulge)).collect()
+    feature
+        .iter()
+        .copied()
+        .chain(rest)
+        .map(|(x, y, bulge)| Vertex::new(x, y, bulge))
+        .collect()
 }
 
 /// The same contour turned, mirrored, begun elsewhere, and the other way round.
-fn moved(vertices: &[Vertex], angle: f64, mirrored: bool, begin: usize, reversed: bool) -> Vec<Vertex> {
+fn moved(
+    vertices: &[Vertex],
+    angle: f64,
+    mirrored: bool,
+    begin: usize,
+    reversed: bool,
+) -> Vec<Vertex> {
     let (sine, cosine) = angle.sin_cos();
     let place = |vertex: &Vertex| {
-        let x = if mirrored { -vertex.point.x } else { vertex.point.x };
+        let x = if mirrored {
+            -vertex.point.x
+        } else {
+            vertex.point.x
+        };
         Vertex::new(
             x * cosine - vertex.point.y * sine,
             x * sine + vertex.point.y * cosine,
-            if mirrored { -vertex.bulge } else { vertex.bulge },
+            if mirrored {
+                -vertex.bulge
+            } else {
+                vertex.bulge
+            },
         )
     };
     let mut moved: Vec<Vertex> = vertices.iter().map(place).collect();
     let count = moved.len();
     moved.rotate_left(begin % count);
     if reversed {
-        moved =
-            (0..count).map(|at| Vertex { point: moved[count - 1 - at].point, bulge: -moved[(2 * count - 2 - at) % count].bulge }).collect();
+        moved = (0..count)
+            .map(|at| Vertex {
+                point: moved[count - 1 - at].point,
+                bulge: -moved[(2 * count - 2 - at) % count].bulge,
+            })
+            .collect();
     }
     moved
 }
@@ -131,32 +212,64 @@ struct Opening {
 
 impl Opening {
     fn new(vertices: &[Vertex], role: Role) -> Opening {
-        let segments: Vec<Segment> = Geometry::Polyline { closed: true, vertices: vertices.to_vec() }.segments().collect();
-        let area: f64 = segments.iter().map(|segment| segment.twice_area(Point::origin())).sum();
-        let side = if (area > 0.0) == (role == Role::Opening) { 1.0 } else { -1.0 };
+        let segments: Vec<Segment> = Geometry::Polyline {
+            closed: true,
+            vertices: vertices.to_vec(),
+        }
+        .segments()
+        .collect();
+        let area: f64 = segments
+            .iter()
+            .map(|segment| segment.twice_area(Point::origin()))
+            .sum();
+        let side = if (area > 0.0) == (role == Role::Opening) {
+            1.0
+        } else {
+            -1.0
+        };
         let mut centers = Vec::new();
         for (at, segment) in segments.iter().enumerate() {
             let samples = (segment.length() / SPACING).ceil() as usize;
             centers.extend(
                 (0..=samples)
                     .map(|k| k as f64 / samples as f64)
-                    .map(|share| segment.point_at(share) + left_normal(segment.tangent_at(share)) * (side * CORRECTION)),
+                    .map(|share| {
+                        segment.point_at(share)
+                            + left_normal(segment.tangent_at(share)) * (side * CORRECTION)
+                    }),
             );
             let next = &segments[(at + 1) % segments.len()];
-            let (from, to) = (left_normal(segment.end_tangent()) * side, left_normal(next.start_tangent()) * side);
+            let (from, to) = (
+                left_normal(segment.end_tangent()) * side,
+                left_normal(next.start_tangent()) * side,
+            );
             let turned = turn(from, to);
             if turned * side < 0.0 {
                 let steps = (turned.abs() * CORRECTION / SPACING).ceil() as usize;
                 let angle = from.y.atan2(from.x);
-                centers.extend((0..=steps).map(|k| segment.end() + direction(angle + turned * k as f64 / steps as f64) * CORRECTION));
+                centers.extend((0..=steps).map(|k| {
+                    segment.end() + direction(angle + turned * k as f64 / steps as f64) * CORRECTION
+                }));
             }
         }
-        centers.retain(|&center| segments.iter().all(|segment| segment.distance_to(center) >= CORRECTION - 1e-7));
-        Opening { segments, side, centers }
+        centers.retain(|&center| {
+            segments
+                .iter()
+                .all(|segment| segment.distance_to(center) >= CORRECTION - 1e-7)
+        });
+        Opening {
+            segments,
+            side,
+            centers,
+        }
     }
 
     fn depth(&self, point: Point) -> f64 {
-        self.centers.iter().map(|center| (point - center).norm()).fold(f64::INFINITY, f64::min) - CORRECTION
+        self.centers
+            .iter()
+            .map(|center| (point - center).norm())
+            .fold(f64::INFINITY, f64::min)
+            - CORRECTION
     }
 
     /// The turn towards the wire in the vertex where a segment starts.
@@ -178,20 +291,39 @@ impl Opening {
 
 fn found(vertices: &[Vertex], role: Role) -> Vec<Finding> {
     let mut drawing = Drawing::new(None);
-    let geometry = Geometry::Polyline { closed: true, vertices: vertices.to_vec() };
-    drawing.push(Entity { handle: "A".into(), layer: "0".into(), role: Some(role), kind: wedm::drawing::Kind::LightPolyline, geometry });
-    let settings = Arc::new(Effective::of(&Settings { correction: Some(CORRECTION), ..Settings::default() }));
-    Analysis::new(&drawing, settings).findings(&drawing, usize::MAX).0
+    let geometry = Geometry::Polyline {
+        closed: true,
+        vertices: vertices.to_vec(),
+    };
+    drawing.push(Entity {
+        handle: "A".into(),
+        layer: "0".into(),
+        role: Some(role),
+        kind: wedm::drawing::Kind::LightPolyline,
+        geometry,
+    });
+    let settings = Arc::new(Effective::of(&Settings {
+        correction: Some(CORRECTION),
+        ..Settings::default()
+    }));
+    Analysis::new(&drawing, settings)
+        .findings(&drawing, usize::MAX)
+        .0
 }
 
 fn count(findings: &[Finding], rule: Rule) -> usize {
-    findings.iter().filter(|finding| finding.rule == rule).count()
+    findings
+        .iter()
+        .filter(|finding| finding.rule == rule)
+        .count()
 }
 
 /// What is told of dead ends: the segment, the farthest point, its depth.
 fn dead_ends(findings: &[Finding]) -> Vec<(usize, Point, f64)> {
     let told = |finding: &Finding| match (&finding.place, &finding.detail) {
-        (Place::Segment { segment, .. }, Detail::DeadEnd { near, uncut }) => Some((*segment, *near, *uncut)),
+        (Place::Segment { segment, .. }, Detail::DeadEnd { near, uncut }) => {
+            Some((*segment, *near, *uncut))
+        }
         _ => None,
     };
     findings.iter().filter_map(told).collect()
@@ -200,23 +332,39 @@ fn dead_ends(findings: &[Finding]) -> Vec<(usize, Point, f64)> {
 fn check(vertices: &[Vertex], role: Role) -> Result<(), TestCaseError> {
     let findings = found(vertices, role);
     let opening = Opening::new(vertices, role);
-    let others = [Rule::NarrowSlot, Rule::SmallRadius, Rule::SelfIntersection, Rule::OffsetCollapse].map(|rule| count(&findings, rule));
+    let others = [
+        Rule::NarrowSlot,
+        Rule::SmallRadius,
+        Rule::SelfIntersection,
+        Rule::OffsetCollapse,
+    ]
+    .map(|rule| count(&findings, rule));
     let ends = dead_ends(&findings);
     for &(_, near, uncut) in &ends {
         let depth = opening.depth(near);
-        prop_assert!((depth - uncut).abs() < OFF, "{uncut} is told at {near}, which is {depth} deep: {findings:#?}");
+        prop_assert!(
+            (depth - uncut).abs() < OFF,
+            "{uncut} is told at {near}, which is {depth} deep: {findings:#?}"
+        );
     }
     if others.iter().any(|&count| count > 0) {
         return Ok(());
     }
     // Whatever is deeper than a corner is told, with its depth.
-    let corners: Vec<usize> = (0..opening.segments.len()).filter(|&index| opening.turn(index) > 0.02).collect();
+    let corners: Vec<usize> = (0..opening.segments.len())
+        .filter(|&index| opening.turn(index) > 0.02)
+        .collect();
     for &index in &corners {
         let (beyond, at) = (opening.beyond(index), opening.segments[index].start());
         if beyond > OFF {
             let depth = opening.depth(at);
-            let told = ends.iter().any(|(_, near, uncut)| *uncut > depth - OFF && (near - at).norm() < uncut + 1.0);
-            prop_assert!(told, "{at} is {depth} deep, {beyond} more than a corner: {findings:#?}");
+            let told = ends
+                .iter()
+                .any(|(_, near, uncut)| *uncut > depth - OFF && (near - at).norm() < uncut + 1.0);
+            prop_assert!(
+                told,
+                "{at} is {depth} deep, {beyond} more than a corner: {findings:#?}"
+            );
         }
     }
     // And nothing else is, but a notch that the wire does not come into.
@@ -225,16 +373,25 @@ fn check(vertices: &[Vertex], role: Role) -> Result<(), TestCaseError> {
     prop_assert!(ends.is_empty() || is_deep || is_pointed, "{ends:?}");
     // The figure of each corner is true.
     for finding in &findings {
-        if let (Place::Segment { segment, .. }, Detail::SharpCorner { uncut, .. }) = (&finding.place, &finding.detail) {
+        if let (Place::Segment { segment, .. }, Detail::SharpCorner { uncut, .. }) =
+            (&finding.place, &finding.detail)
+        {
             let at = vertices[*segment].point;
-            prop_assert!((opening.depth(at) - uncut).abs() < OFF, "{uncut} is told of the corner at {at}, {} is left", opening.depth(at));
+            prop_assert!(
+                (opening.depth(at) - uncut).abs() < OFF,
+                "{uncut} is told of the corner at {at}, {} is left",
+                opening.depth(at)
+            );
         }
     }
     Ok(())
 }
 
 fn cases(usual: u32) -> u32 {
-    std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok()).unwrap_or(usual)
+    std::env::var("PROPTEST_CASES")
+        .ok()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(usual)
 }
 
 proptest! {
@@ -258,28 +415,111 @@ proptest! {
 /// Figures that were told by a corner of theirs alone: the outline, how deep it is where it is deepest beyond the corner, and the segment.
 #[test]
 fn what_was_told_as_a_corner_is_told_with_its_depth() {
-    let ring = |points: &[[f64; 2]]| points.iter().map(|&[x, y]| Vertex::new(x, y, 0.0)).collect::<Vec<_>>();
-    let fillet: Vec<[f64; 2]> =
-        (0..=8).map(|k| f64::from(k) * PI / 16.0).map(|angle| [0.08 - 0.08 * angle.cos(), 0.08 - 0.08 * angle.sin()]).collect();
+    let ring = |points: &[[f64; 2]]| {
+        points
+            .iter()
+            .map(|&[x, y]| Vertex::new(x, y, 0.0))
+            .collect::<Vec<_>>()
+    };
+    let fillet: Vec<[f64; 2]> = (0..=8)
+        .map(|k| f64::from(k) * PI / 16.0)
+        .map(|angle| [0.08 - 0.08 * angle.cos(), 0.08 - 0.08 * angle.sin()])
+        .collect();
     let slot = |width: f64| {
-        ring(&[[0., 0.], [10., 0.], [10., 5.], [5.15, 5.], [5. + width / 2., 8.], [5. - width / 2., 8.], [4.85, 5.], [0., 5.]])
+        ring(&[
+            [0., 0.],
+            [10., 0.],
+            [10., 5.],
+            [5.15, 5.],
+            [5. + width / 2., 8.],
+            [5. - width / 2., 8.],
+            [4.85, 5.],
+            [0., 5.],
+        ])
     };
     for (name, vertices, expected) in [
         ("a slot that tapers", slot(0.15), Some((4, 0.904))),
-        ("a slot as wide at its end as the wire needs", slot(0.2), None),
-        ("a chamfer", ring(&[[0.03, 0.], [10., 0.], [10., 5.], [0., 5.], [0., 0.03]]), Some((4, 0.022))),
-        ("a chamfer that the wire comes to", ring(&[[0.06, 0.], [10., 0.], [10., 5.], [0., 5.], [0., 0.06]]), None),
-        ("a fillet as chords", ring(&[&fillet[..], &[[10., 0.], [10., 5.], [0., 5.]]].concat()), Some((3, 0.008))),
-        ("a notch", ring(&[[0., 0.], [10., 0.], [10., 5.], [5.05, 5.], [5., 5.5], [4.95, 5.], [0., 5.]]), Some((3, 0.487))),
-        ("a notch that the wire comes into", ring(&[[0., 0.], [10., 0.], [10., 5.], [5.5, 5.], [5., 10.], [4.5, 5.], [0., 5.]]), None),
-        ("a step", ring(&[[0., 0.], [10., 0.], [10., 5.], [5., 5.], [5., 5.03], [0., 5.03]]), None),
-        ("a square", ring(&[[0., 0.], [10., 0.], [10., 5.], [0., 5.]]), None),
+        (
+            "a slot as wide at its end as the wire needs",
+            slot(0.2),
+            None,
+        ),
+        (
+            "a chamfer",
+            ring(&[[0.03, 0.], [10., 0.], [10., 5.], [0., 5.], [0., 0.03]]),
+            Some((4, 0.022)),
+        ),
+        (
+            "a chamfer that the wire comes to",
+            ring(&[[0.06, 0.], [10., 0.], [10., 5.], [0., 5.], [0., 0.06]]),
+            None,
+        ),
+        (
+            "a fillet as chords",
+            ring(&[&fillet[..], &[[10., 0.], [10., 5.], [0., 5.]]].concat()),
+            Some((3, 0.008)),
+        ),
+        (
+            "a notch",
+            ring(&[
+                [0., 0.],
+                [10., 0.],
+                [10., 5.],
+                [5.05, 5.],
+                [5., 5.5],
+                [4.95, 5.],
+                [0., 5.],
+            ]),
+            Some((3, 0.487)),
+        ),
+        (
+            "a notch that the wire comes into",
+            ring(&[
+                [0., 0.],
+                [10., 0.],
+                [10., 5.],
+                [5.5, 5.],
+                [5., 10.],
+                [4.5, 5.],
+                [0., 5.],
+            ]),
+            None,
+        ),
+        (
+            "a step",
+            ring(&[
+                [0., 0.],
+                [10., 0.],
+                [10., 5.],
+                [5., 5.],
+                [5., 5.03],
+                [0., 5.03],
+            ]),
+            None,
+        ),
+        (
+            "a square",
+            ring(&[[0., 0.], [10., 0.], [10., 5.], [0., 5.]]),
+            None,
+        ),
     ] {
         for role in [Role::Opening, Role::Both] {
             let findings = found(&vertices, role);
-            let told: Vec<(usize, f64)> = dead_ends(&findings).iter().map(|end| (end.0, (end.2 * 1e3).round() / 1e3)).collect();
-            assert_eq!(told, Vec::from_iter(expected), "{name} as {role:?}: {findings:#?}");
-            assert!(findings.iter().all(|finding| finding.rule != Rule::LostPocket || finding.severity == Severity::Error));
+            let told: Vec<(usize, f64)> = dead_ends(&findings)
+                .iter()
+                .map(|end| (end.0, (end.2 * 1e3).round() / 1e3))
+                .collect();
+            assert_eq!(
+                told,
+                Vec::from_iter(expected),
+                "{name} as {role:?}: {findings:#?}"
+            );
+            assert!(
+                findings
+                    .iter()
+                    .all(|finding| finding.rule != Rule::LostPocket
+                        || finding.severity == Severity::Error)
+            );
         }
         assert_eq!(dead_ends(&found(&vertices, Role::Punch)), [], "{name}");
     }
@@ -288,16 +528,39 @@ fn what_was_told_as_a_corner_is_told_with_its_depth() {
 /// A fillet of many chords about the wire and beyond is followed, and so are the chords of a curve beside a corner.
 #[test]
 fn chords_of_an_arc_that_the_wire_follows_are_no_dead_ends() {
-    let place = |center: [f64; 2], radius: f64, angle: f64| Point::from(center) + Vector::new(angle.cos(), angle.sin()) * radius;
+    let place = |center: [f64; 2], radius: f64, angle: f64| {
+        Point::from(center) + Vector::new(angle.cos(), angle.sin()) * radius
+    };
     for (radius, chords) in [(0.105, 8), (0.105, 40), (0.5, 8), (0.5, 100), (3.0, 400)] {
-        let fillet = (0..=chords).map(|k| place([radius, radius], radius, PI + PI / 2.0 * f64::from(k) / f64::from(chords)));
-        let points: Vec<Point> = fillet.chain([(9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(|(x, y)| Point::new(x, y))).collect();
-        let vertices: Vec<Vertex> = points.iter().map(|&point| Vertex { point, bulge: 0.0 }).collect();
+        let fillet = (0..=chords).map(|k| {
+            place(
+                [radius, radius],
+                radius,
+                PI + PI / 2.0 * f64::from(k) / f64::from(chords),
+            )
+        });
+        let points: Vec<Point> = fillet
+            .chain([(9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(|(x, y)| Point::new(x, y)))
+            .collect();
+        let vertices: Vec<Vertex> = points
+            .iter()
+            .map(|&point| Vertex { point, bulge: 0.0 })
+            .collect();
         let findings = found(&vertices, Role::Opening);
         assert_eq!(dead_ends(&findings), [], "R {radius} in {chords} chords");
         // A half round, with a sharp corner at both its ends.
-        let half = (0..=chords).map(|k| place([0.0, 0.0], radius.max(0.5), PI * f64::from(k) / f64::from(chords)));
+        let half = (0..=chords).map(|k| {
+            place(
+                [0.0, 0.0],
+                radius.max(0.5),
+                PI * f64::from(k) / f64::from(chords),
+            )
+        });
         let vertices: Vec<Vertex> = half.map(|point| Vertex { point, bulge: 0.0 }).collect();
-        assert_eq!(dead_ends(&found(&vertices, Role::Opening)), [], "half round in {chords} chords");
+        assert_eq!(
+            dead_ends(&found(&vertices, Role::Opening)),
+            [],
+            "half round in {chords} chords"
+        );
     }
 }

@@ -14,24 +14,48 @@ use wedm::settings::{Effective, Settings};
 
 fn drawing_of(vertices: &[Vertex], role: Role) -> Drawing {
     let mut drawing = Drawing::new(None);
-    let geometry = Geometry::Polyline { closed: true, vertices: vertices.to_vec() };
+    let geometry = Geometry::Polyline {
+        closed: true,
+        vertices: vertices.to_vec(),
+    };
     let role = (role != Role::Both).then_some(role);
-    drawing.push(Entity { handle: "2A".into(), layer: "0".into(), role, kind: wedm::drawing::Kind::LightPolyline, geometry });
+    drawing.push(Entity {
+        handle: "2A".into(),
+        layer: "0".into(),
+        role,
+        kind: wedm::drawing::Kind::LightPolyline,
+        geometry,
+    });
     drawing
 }
 
 fn findings(drawing: &Drawing, correction: f64) -> Vec<Finding> {
-    let settings = Arc::new(Effective::of(&Settings { correction: Some(correction), ..Settings::default() }));
-    Analysis::new(drawing, settings).findings(drawing, usize::MAX).0
+    let settings = Arc::new(Effective::of(&Settings {
+        correction: Some(correction),
+        ..Settings::default()
+    }));
+    Analysis::new(drawing, settings)
+        .findings(drawing, usize::MAX)
+        .0
 }
 
 /// The outline for the judge, which takes no arc beyond a half turn: those are cut in two.
 fn pline(vertices: &[Vertex]) -> Polyline<f64> {
     let mut outline = Polyline::new_closed();
     for (k, vertex) in vertices.iter().enumerate() {
-        let whole = Segment::from_bulge(vertex.point, vertices[(k + 1) % vertices.len()].point, vertex.bulge);
-        let parts = if vertex.bulge.abs() > 0.9 { vec![whole.part(0.0, 0.5), whole.part(0.5, 1.0)] } else { vec![whole] };
-        parts.iter().for_each(|part| outline.add(part.start().x, part.start().y, part.bulge()));
+        let whole = Segment::from_bulge(
+            vertex.point,
+            vertices[(k + 1) % vertices.len()].point,
+            vertex.bulge,
+        );
+        let parts = if vertex.bulge.abs() > 0.9 {
+            vec![whole.part(0.0, 0.5), whole.part(0.5, 1.0)]
+        } else {
+            vec![whole]
+        };
+        parts
+            .iter()
+            .for_each(|part| outline.add(part.start().x, part.start().y, part.bulge()));
     }
     outline
 }
@@ -39,8 +63,11 @@ fn pline(vertices: &[Vertex]) -> Polyline<f64> {
 /// Points where the offset library sees the outline meet itself.
 fn judged(vertices: &[Vertex]) -> Vec<Point> {
     let outline = pline(vertices);
-    let found = all_self_intersects_as_basic(&outline, &outline.create_approx_aabb_index(), false, 1e-7);
-    let basic = found.iter().map(|PlineBasicIntersect { point, .. }| Point::new(point.x, point.y));
+    let found =
+        all_self_intersects_as_basic(&outline, &outline.create_approx_aabb_index(), false, 1e-7);
+    let basic = found
+        .iter()
+        .map(|PlineBasicIntersect { point, .. }| Point::new(point.x, point.y));
     basic.collect()
 }
 

@@ -14,13 +14,24 @@ fn on_line(line: u64) -> Value {
     json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": 0 } })
 }
 
-fn actions(client: &mut Client, uri: &str, range: Value, diagnostics: &[Value], only: Option<&str>) -> Vec<Value> {
+fn actions(
+    client: &mut Client,
+    uri: &str,
+    range: Value,
+    diagnostics: &[Value],
+    only: Option<&str>,
+) -> Vec<Value> {
     let mut context = json!({ "diagnostics": diagnostics });
     if let Some(only) = only {
         context["only"] = json!([only]);
     }
     let params = json!({ "textDocument": { "uri": uri }, "range": range, "context": context });
-    client.request("textDocument/codeAction", params).unwrap().as_array().cloned().unwrap()
+    client
+        .request("textDocument/codeAction", params)
+        .unwrap()
+        .as_array()
+        .cloned()
+        .unwrap()
 }
 
 fn argument(action: &Value) -> Value {
@@ -30,7 +41,15 @@ fn argument(action: &Value) -> Value {
 
 /// Handles that the edits of quick fixes touch.
 fn touched(actions: &[Value]) -> Vec<String> {
-    let mut handles: Vec<String> = actions.iter().map(|action| argument(action)["changes"][0]["handle"].as_str().unwrap().into()).collect();
+    let mut handles: Vec<String> = actions
+        .iter()
+        .map(|action| {
+            argument(action)["changes"][0]["handle"]
+                .as_str()
+                .unwrap()
+                .into()
+        })
+        .collect();
     handles.dedup();
     handles
 }
@@ -39,10 +58,26 @@ fn touched(actions: &[Value]) -> Vec<String> {
 fn a_fix_of_a_drawing_makes_it_clean() {
     let mut client = Client::start();
     let found = client.open_drawing(CAD, json!([tight_plate("2A")]));
-    let offered = actions(&mut client, CAD, found[0]["range"].clone(), &found, Some("quickfix"));
-    let preferred: Vec<bool> = offered.iter().map(|action| action["isPreferred"] == true).collect();
+    let offered = actions(
+        &mut client,
+        CAD,
+        found[0]["range"].clone(),
+        &found,
+        Some("quickfix"),
+    );
+    let preferred: Vec<bool> = offered
+        .iter()
+        .map(|action| action["isPreferred"] == true)
+        .collect();
     assert_eq!(preferred, [true, false]);
-    assert!(offered[1]["title"].as_str().unwrap().starts_with("Keep the end points"), "{}", offered[1]["title"]);
+    assert!(
+        offered[1]["title"]
+            .as_str()
+            .unwrap()
+            .starts_with("Keep the end points"),
+        "{}",
+        offered[1]["title"]
+    );
     assert_eq!(offered[0]["kind"], "quickfix");
     assert_eq!(offered[0]["diagnostics"][0]["data"], found[0]["data"]);
     let edit = argument(&offered[0]);
@@ -58,14 +93,27 @@ fn diagnostics_choose_by_handle_and_segment_else_the_range_does() {
     let mut client = Client::start();
     let apart = |handle: &str, by: f64| {
         let mut plate = tight_plate(handle);
-        plate["vertices"].as_array_mut().unwrap().iter_mut().for_each(|vertex| vertex[0] = json!(vertex[0].as_f64().unwrap() + by));
+        plate["vertices"]
+            .as_array_mut()
+            .unwrap()
+            .iter_mut()
+            .for_each(|vertex| vertex[0] = json!(vertex[0].as_f64().unwrap() + by));
         plate
     };
     let found = client.open_drawing(CAD, json!([apart("A", 0.0), apart("B", 20.0)]));
     assert_eq!(found.len(), 2);
     // Both lie on line 2.
     let mut check = |range: Value, diagnostics: &[Value], expected: &[&str]| {
-        assert_eq!(touched(&actions(&mut client, CAD, range, diagnostics, Some("quickfix"))), expected);
+        assert_eq!(
+            touched(&actions(
+                &mut client,
+                CAD,
+                range,
+                diagnostics,
+                Some("quickfix")
+            )),
+            expected
+        );
     };
     check(on_line(2), &found[1..], &["B"]);
     check(on_line(2), &found, &["A", "B"]);
@@ -87,7 +135,10 @@ fn only_what_is_asked_for_is_offered() {
     client.open_drawing(CAD, json!([tight_plate("2A")]));
     let mut check = |only: Option<&str>, expected: &[&str]| {
         let offered = actions(&mut client, CAD, everywhere(), &[], only);
-        let kinds: Vec<&str> = offered.iter().filter_map(|action| action["kind"].as_str()).collect();
+        let kinds: Vec<&str> = offered
+            .iter()
+            .filter_map(|action| action["kind"].as_str())
+            .collect();
         assert_eq!(kinds, expected, "{only:?}");
     };
     check(None, &["quickfix", "quickfix", "source.fixAll.wedm"]);
@@ -100,20 +151,37 @@ fn only_what_is_asked_for_is_offered() {
     check(Some("refactor"), &[]);
     // For a light bulb: editors ask at every step of the cursor.
     let context = json!({ "diagnostics": [], "triggerKind": 2 });
-    let params = json!({ "textDocument": { "uri": CAD }, "range": everywhere(), "context": context });
+    let params =
+        json!({ "textDocument": { "uri": CAD }, "range": everywhere(), "context": context });
     let offered = client.request("textDocument/codeAction", params).unwrap();
-    let kinds: Vec<&str> = offered.as_array().unwrap().iter().filter_map(|action| action["kind"].as_str()).collect();
+    let kinds: Vec<&str> = offered
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|action| action["kind"].as_str())
+        .collect();
     assert_eq!(kinds, ["quickfix", "quickfix"]);
     client.shut_down();
 }
 
 /// Applies LSP text edits to a text of ASCII characters.
 fn applied(text: &str, edits: &[Value]) -> String {
-    let starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-    let offset = |position: &Value| starts[position["line"].as_u64().unwrap() as usize] + position["character"].as_u64().unwrap() as usize;
+    let starts: Vec<usize> = std::iter::once(0)
+        .chain(text.match_indices('\n').map(|(at, _)| at + 1))
+        .collect();
+    let offset = |position: &Value| {
+        starts[position["line"].as_u64().unwrap() as usize]
+            + position["character"].as_u64().unwrap() as usize
+    };
     let mut edits: Vec<(usize, usize, &str)> = edits
         .iter()
-        .map(|edit| (offset(&edit["range"]["start"]), offset(&edit["range"]["end"]), edit["newText"].as_str().unwrap()))
+        .map(|edit| {
+            (
+                offset(&edit["range"]["start"]),
+                offset(&edit["range"]["end"]),
+                edit["newText"].as_str().unwrap(),
+            )
+        })
         .collect();
     edits.sort();
     let mut result = text.to_owned();
@@ -128,13 +196,27 @@ fn a_fix_of_dxf_text_is_versioned_and_touches_numbers_alone() {
     let mut client = Client::start();
     let text = dxf_of(&[("2A", &TIGHT)]);
     let found = client.open_text(DXF, "dxf", &text);
-    let offered = actions(&mut client, DXF, found[0]["range"].clone(), &found, Some("quickfix"));
+    let offered = actions(
+        &mut client,
+        DXF,
+        found[0]["range"].clone(),
+        &found,
+        Some("quickfix"),
+    );
     let change = &offered[0]["edit"]["documentChanges"][0];
     assert_eq!(change["textDocument"], json!({ "uri": DXF, "version": 1 }));
     let fixed = applied(&text, change["edits"].as_array().unwrap());
     assert_eq!(fixed.lines().count(), text.lines().count());
-    let differing = fixed.lines().zip(text.lines()).filter(|(new, old)| new != old);
-    assert!(differing.clone().count() > 0 && differing.clone().all(|(new, _)| new.trim().parse::<f64>().is_ok()));
+    let differing = fixed
+        .lines()
+        .zip(text.lines())
+        .filter(|(new, old)| new != old);
+    assert!(
+        differing.clone().count() > 0
+            && differing
+                .clone()
+                .all(|(new, _)| new.trim().parse::<f64>().is_ok())
+    );
     client.notify("textDocument/didChange", json!({ "textDocument": { "uri": DXF, "version": 2 }, "contentChanges": [{ "text": fixed }] }));
     assert_eq!(client.diagnostics(DXF, 2).len(), 0);
     client.shut_down();
@@ -145,10 +227,17 @@ fn the_actions_of_dxf_text_answer_on_any_tag_of_the_segment() {
     let mut client = Client::start();
     let text = dxf_of(&[("2A", &TIGHT)]);
     client.open_text(DXF, "dxf", &text);
-    let bulge = text.lines().position(|line| line == "0.41421356237309503").unwrap() as u64;
+    let bulge = text
+        .lines()
+        .position(|line| line == "0.41421356237309503")
+        .unwrap() as u64;
     // The vertex before it begins four lines above: 10, x, 20, y, 42, bulge.
     for line in bulge - 4..=bulge {
-        assert_eq!(actions(&mut client, DXF, on_line(line), &[], Some("quickfix")).len(), 2, "line {line}");
+        assert_eq!(
+            actions(&mut client, DXF, on_line(line), &[], Some("quickfix")).len(),
+            2,
+            "line {line}"
+        );
     }
     assert!(actions(&mut client, DXF, on_line(0), &[], Some("quickfix")).is_empty());
     client.shut_down();
@@ -173,31 +262,67 @@ fn fix_all_goes_on_until_nothing_safe_is_left() {
         line("A", [0.0, 9.95, 0.0, 0.05]),
         arc("B", 0.05, 0.05, 180.0)
     ]);
-    let texts: Vec<String> = entities.as_array().unwrap().iter().map(dxf_entity).collect();
-    let text =
-        format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n", texts.concat());
+    let texts: Vec<String> = entities
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(dxf_entity)
+        .collect();
+    let text = format!(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n",
+        texts.concat()
+    );
     let mut client = Client::start();
     let found = client.open_text(DXF, "dxf", &text);
-    let rules =
-        |found: &[Value]| found.iter().map(|each| each["code"].as_str().unwrap().to_owned()).collect::<std::collections::BTreeSet<_>>();
+    let rules = |found: &[Value]| {
+        found
+            .iter()
+            .map(|each| each["code"].as_str().unwrap().to_owned())
+            .collect::<std::collections::BTreeSet<_>>()
+    };
     let all = ["duplicate-entity", "gap", "short-segment", "small-radius"];
-    assert!(all.iter().all(|rule| rules(&found).contains(*rule)), "{:?}", rules(&found));
+    assert!(
+        all.iter().all(|rule| rules(&found).contains(*rule)),
+        "{:?}",
+        rules(&found)
+    );
     let offered = actions(&mut client, DXF, everywhere(), &[], Some("source.fixAll"));
-    let mut edits = offered[0]["edit"]["documentChanges"][0]["edits"].as_array().unwrap().clone();
+    let mut edits = offered[0]["edit"]["documentChanges"][0]["edits"]
+        .as_array()
+        .unwrap()
+        .clone();
     // From the back, so that what lies before stays where it is.
     edits.reverse();
-    let changes: Vec<Value> = edits.iter().map(|edit| json!({ "range": edit["range"], "text": edit["newText"] })).collect();
-    client.notify("textDocument/didChange", json!({ "textDocument": { "uri": DXF, "version": 2 }, "contentChanges": changes }));
+    let changes: Vec<Value> = edits
+        .iter()
+        .map(|edit| json!({ "range": edit["range"], "text": edit["newText"] }))
+        .collect();
+    client.notify(
+        "textDocument/didChange",
+        json!({ "textDocument": { "uri": DXF, "version": 2 }, "contentChanges": changes }),
+    );
     let found = client.diagnostics(DXF, 2);
-    assert!(all.iter().all(|rule| !rules(&found).contains(*rule)), "{:?}", rules(&found));
+    assert!(
+        all.iter().all(|rule| !rules(&found).contains(*rule)),
+        "{:?}",
+        rules(&found)
+    );
     assert!(actions(&mut client, DXF, everywhere(), &[], Some("source.fixAll")).is_empty());
 
     let found = client.open_drawing(CAD, entities);
-    assert!(all.iter().all(|rule| rules(&found).contains(*rule)), "{:?}", rules(&found));
+    assert!(
+        all.iter().all(|rule| rules(&found).contains(*rule)),
+        "{:?}",
+        rules(&found)
+    );
     let offered = actions(&mut client, CAD, everywhere(), &[], Some("source.fixAll"));
     client.change_drawing(CAD, 2, argument(&offered[0])["changes"].clone());
     let found = client.diagnostics(CAD, 2);
-    assert!(all.iter().all(|rule| !rules(&found).contains(*rule)), "{:?}", rules(&found));
+    assert!(
+        all.iter().all(|rule| !rules(&found).contains(*rule)),
+        "{:?}",
+        rules(&found)
+    );
     assert!(actions(&mut client, CAD, everywhere(), &[], Some("source.fixAll")).is_empty());
     client.shut_down();
 }
@@ -206,12 +331,28 @@ fn fix_all_goes_on_until_nothing_safe_is_left() {
 fn dxf_entity(entity: &Value) -> String {
     let kind = entity["type"].as_str().unwrap().to_uppercase();
     let number = |key: &str| entity[key].to_string();
-    let point = |key: &str, code: u8| format!("{code}\n{}\n{}\n{}\n", entity[key][0], code + 10, entity[key][1]);
+    let point = |key: &str, code: u8| {
+        format!(
+            "{code}\n{}\n{}\n{}\n",
+            entity[key][0],
+            code + 10,
+            entity[key][1]
+        )
+    };
     let rest = match kind.as_str() {
         "LINE" => point("start", 10) + &point("end", 11),
-        _ => format!("{}40\n{}\n50\n{}\n51\n{}\n", point("center", 10), number("radius"), number("startAngle"), number("endAngle")),
+        _ => format!(
+            "{}40\n{}\n50\n{}\n51\n{}\n",
+            point("center", 10),
+            number("radius"),
+            number("startAngle"),
+            number("endAngle")
+        ),
     };
-    format!("0\n{kind}\n5\n{}\n8\n0\n{rest}", entity["handle"].as_str().unwrap())
+    format!(
+        "0\n{kind}\n5\n{}\n8\n0\n{rest}",
+        entity["handle"].as_str().unwrap()
+    )
 }
 
 #[test]
@@ -221,7 +362,12 @@ fn a_client_without_document_changes_gets_plain_ones() {
     let mut client = Client::start_with(without, json!({}));
     client.open_text(DXF, "dxf", &dxf_of(&[("2A", &TIGHT)]));
     let offered = actions(&mut client, DXF, everywhere(), &[], Some("source.fixAll"));
-    assert!(!offered[0]["edit"]["changes"][DXF].as_array().unwrap().is_empty());
+    assert!(
+        !offered[0]["edit"]["changes"][DXF]
+            .as_array()
+            .unwrap()
+            .is_empty()
+    );
     assert!(offered[0]["edit"].get("documentChanges").is_none());
     client.shut_down();
 }
@@ -237,7 +383,11 @@ fn the_command_goes_to_the_client_and_back() {
     let asked = client.asked("wedm/applyDrawingEdit");
     assert_eq!(asked.params, json!({ "edit": edit }));
     // The server serves others while the client thinks.
-    assert!(client.request("wedm/inspect", json!({ "uri": CAD })).is_ok());
+    assert!(
+        client
+            .request("wedm/inspect", json!({ "uri": CAD }))
+            .is_ok()
+    );
     client.change_drawing(CAD, 2, asked.params["edit"]["changes"].clone());
     client.respond(&asked, json!({ "applied": true }));
     assert_eq!(client.answer(id).unwrap(), json!({ "applied": true }));
@@ -255,7 +405,10 @@ fn a_command_that_cannot_be_run_is_refused() {
     let edit = |uri: &str| json!({ "uri": uri, "version": 1, "changes": [] });
     let mut check = |command: &str, arguments: Value, code: i64| {
         assert_eq!(
-            client.code("workspace/executeCommand", json!({ "command": command, "arguments": arguments })),
+            client.code(
+                "workspace/executeCommand",
+                json!({ "command": command, "arguments": arguments })
+            ),
             code,
             "{command} {arguments}"
         );
@@ -263,14 +416,28 @@ fn a_command_that_cannot_be_run_is_refused() {
     check("wedm.other", json!([]), -32602);
     check("wedm.applyDrawingEdit", json!([]), -32602);
     check("wedm.applyDrawingEdit", json!([{}]), -32602);
-    check("wedm.applyDrawingEdit", json!([edit(CAD), edit(CAD)]), -32602);
-    check("wedm.applyDrawingEdit", json!([edit("cad:///none")]), -32602);
+    check(
+        "wedm.applyDrawingEdit",
+        json!([edit(CAD), edit(CAD)]),
+        -32602,
+    );
+    check(
+        "wedm.applyDrawingEdit",
+        json!([edit("cad:///none")]),
+        -32602,
+    );
     check("wedm.applyDrawingEdit", json!([edit(DXF)]), -32602);
     client.shut_down();
 
     let mut client = Client::start_with(json!({}), json!({}));
     client.open_drawing(CAD, json!([tight_plate("2A")]));
-    assert_eq!(client.code("workspace/executeCommand", json!({ "command": "wedm.applyDrawingEdit", "arguments": [edit(CAD)] })), -32803);
+    assert_eq!(
+        client.code(
+            "workspace/executeCommand",
+            json!({ "command": "wedm.applyDrawingEdit", "arguments": [edit(CAD)] })
+        ),
+        -32803
+    );
     client.shut_down();
 }
 
@@ -280,7 +447,8 @@ fn looking_for_fixes_reports_progress_where_a_token_is_given() {
     client.open_drawing(CAD, json!([tight_plate("2A")]));
     let params = json!({ "textDocument": { "uri": CAD }, "range": everywhere(), "context": { "diagnostics": [] }, "workDoneToken": "t" });
     client.request("textDocument/codeAction", params).unwrap();
-    let kinds = [client.told("$/progress"), client.told("$/progress")].map(|told| told["value"]["kind"].clone());
+    let kinds = [client.told("$/progress"), client.told("$/progress")]
+        .map(|told| told["value"]["kind"].clone());
     assert_eq!(kinds, ["begin", "end"]);
     client.shut_down();
 }

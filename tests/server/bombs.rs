@@ -6,7 +6,13 @@ use std::time::{Duration, Instant};
 
 /// Circles about one point, which come near each other everywhere.
 fn circles(count: usize) -> String {
-    let circle = |number: usize| format!("0\nCIRCLE\n10\n{}\n20\n0\n40\n{}\n", 1e-4 * number as f64, 1.0 + 0.01 * number as f64);
+    let circle = |number: usize| {
+        format!(
+            "0\nCIRCLE\n10\n{}\n20\n0\n40\n{}\n",
+            1e-4 * number as f64,
+            1.0 + 0.01 * number as f64
+        )
+    };
     let circles: String = (0..count).map(circle).collect();
     // A text as long as this is handed to a worker, whatever it holds.
     let comments = "999\n\n".repeat(5_000);
@@ -15,15 +21,25 @@ fn circles(count: usize) -> String {
 
 /// A block in rows and columns of a block in rows and columns.
 fn nested_arrays(side: usize) -> String {
-    let insert = |name: &str, step: usize| format!("0\nINSERT\n2\n{name}\n10\n0\n20\n0\n70\n{side}\n71\n{side}\n44\n{step}\n45\n{step}\n");
-    let block = |name: &str, holds: &str| format!("0\nBLOCK\n2\n{name}\n10\n0\n20\n0\n{holds}0\nENDBLK\n");
+    let insert = |name: &str, step: usize| {
+        format!(
+            "0\nINSERT\n2\n{name}\n10\n0\n20\n0\n70\n{side}\n71\n{side}\n44\n{step}\n45\n{step}\n"
+        )
+    };
+    let block =
+        |name: &str, holds: &str| format!("0\nBLOCK\n2\n{name}\n10\n0\n20\n0\n{holds}0\nENDBLK\n");
     let blocks = block("A", "0\nCIRCLE\n10\n0\n20\n0\n40\n0.4\n") + &block("B", &insert("A", 1));
-    format!("0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n", insert("B", 1000))
+    format!(
+        "0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n",
+        insert("B", 1000)
+    )
 }
 
 /// A subprogram of many small moves, called as often as a word can say.
 fn calls(moves: usize) -> String {
-    let body: String = (0..moves).map(|number| format!("G01X{}.Y{}.\n", number * 7 % 13, number * 5 % 11)).collect();
+    let body: String = (0..moves)
+        .map(|number| format!("G01X{}.Y{}.\n", number * 7 % 13, number * 5 % 11))
+        .collect();
     format!("G91\nM98P100L9999\nM02\nO100\n{body}M99\n")
 }
 
@@ -37,11 +53,20 @@ fn edits_beside(uri: &str, language: &str, bomb: &str) -> Vec<Value> {
     let other = "file:///plate.dxf";
     let text = format!("999\n\n{}", dxf_of(&[("2A", &TIGHT)]));
     assert_eq!(small(&client.open_text(other, "dxf", &text)), 1);
-    let is_told = |client: &Client| client.seen.iter().any(|message| message["params"]["uri"] == uri);
+    let is_told = |client: &Client| {
+        client
+            .seen
+            .iter()
+            .any(|message| message["params"]["uri"] == uri)
+    };
     let mut beside = 0;
     for round in 0..3 {
         // Three times the same: however fast one of them is, the edits come while another is judged.
-        let name = if round == 0 { uri.into() } else { format!("{uri}.{round}") };
+        let name = if round == 0 {
+            uri.into()
+        } else {
+            format!("{uri}.{round}")
+        };
         open(&mut client, &name, language, bomb);
     }
     for version in 2..12 {
@@ -60,7 +85,10 @@ fn edits_beside(uri: &str, language: &str, bomb: &str) -> Vec<Value> {
     let actions = json!({ "textDocument": { "uri": uri }, "range": { "start": { "line": 0, "character": 0 }, "end": { "line": 0, "character": 0 } },
         "context": { "diagnostics": [], "only": ["quickfix"] } });
     let asked = client.ask("textDocument/codeAction", actions);
-    client.notify("textDocument/didClose", json!({ "textDocument": { "uri": uri } }));
+    client.notify(
+        "textDocument/didClose",
+        json!({ "textDocument": { "uri": uri } }),
+    );
     open(&mut client, uri, language, "");
     let told = client.diagnostics(uri, 1);
     assert!(client.answer(asked).is_ok());
@@ -71,12 +99,16 @@ fn edits_beside(uri: &str, language: &str, bomb: &str) -> Vec<Value> {
 
 #[test]
 fn an_edit_is_answered_while_circles_about_one_point_are_compared() {
-    assert!(codes(&edits_beside("file:///circles.dxf", "dxf", &circles(200))).contains(&"narrow-slot"));
+    assert!(
+        codes(&edits_beside("file:///circles.dxf", "dxf", &circles(200))).contains(&"narrow-slot")
+    );
 }
 
 #[test]
 fn an_edit_is_answered_while_subprograms_are_followed() {
-    assert!(codes(&edits_beside("file:///calls.nc", "wire-iso", &calls(40))).contains(&"not-judged"));
+    assert!(
+        codes(&edits_beside("file:///calls.nc", "wire-iso", &calls(40))).contains(&"not-judged")
+    );
 }
 
 #[test]
@@ -84,10 +116,19 @@ fn arrays_in_each_other_are_not_drawn_and_that_is_an_error() {
     let mut client = Client::start();
     let uri = "file:///arrays.dxf";
     let told = client.open_text(uri, "dxf", &nested_arrays(30));
-    let finding = told.iter().find(|finding| finding["code"] == "not-judged").expect("it is said");
-    assert_eq!((&finding["severity"], &finding["data"]["count"]), (&json!(1), &json!(900)));
+    let finding = told
+        .iter()
+        .find(|finding| finding["code"] == "not-judged")
+        .expect("it is said");
+    assert_eq!(
+        (&finding["severity"], &finding["data"]["count"]),
+        (&json!(1), &json!(900))
+    );
     // A program would lack what is not drawn.
-    assert_eq!(client.code("wedm/generate", json!({ "uri": uri, "format": "3b" })), -32803);
+    assert_eq!(
+        client.code("wedm/generate", json!({ "uri": uri, "format": "3b" })),
+        -32803
+    );
     let told = client.open_text("file:///few.dxf", "dxf", &nested_arrays(5));
     assert!(!codes(&told).contains(&"not-judged"), "{told:?}");
     client.shut_down();
@@ -108,6 +149,10 @@ fn a_burst_of_changes_of_what_takes_long_is_judged_in_one() {
     }
     let began = Instant::now();
     assert!(codes(&client.diagnostics(uri, 101)).contains(&"narrow-slot"));
-    assert!(began.elapsed() < one * 30, "a hundred changes took {:?}, one look {one:?}", began.elapsed());
+    assert!(
+        began.elapsed() < one * 30,
+        "a hundred changes took {:?}, one look {one:?}",
+        began.elapsed()
+    );
     client.shut_down();
 }

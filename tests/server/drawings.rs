@@ -10,11 +10,20 @@ fn a_splice_brings_the_diagnostics_of_its_version() {
     let mut client = Client::start();
     let found = client.open_drawing(URI, json!([tight_plate("2A"), wide_plate("2B")]));
     assert_eq!(codes(&found), ["small-radius"]);
-    assert_eq!(found[0]["range"]["start"], json!({ "line": 2, "character": 0 }));
+    assert_eq!(
+        found[0]["range"]["start"],
+        json!({ "line": 2, "character": 0 })
+    );
     assert_eq!(found[0]["source"], "wedm");
     let data = &found[0]["data"];
-    assert_eq!((&data["handle"], &data["segment"], &data["required"]), (&json!("2A"), &json!(2), &json!(0.1)));
-    assert!((data["radius"].as_f64().unwrap() - 0.05).abs() < 1e-9, "{data}");
+    assert_eq!(
+        (&data["handle"], &data["segment"], &data["required"]),
+        (&json!("2A"), &json!(2), &json!(0.1))
+    );
+    assert!(
+        (data["radius"].as_f64().unwrap() - 0.05).abs() < 1e-9,
+        "{data}"
+    );
     let splice = |x: f64| json!([{ "handle": "2A", "vertices": { "start": 2, "deleteCount": 2, "insert": [[10, 10.0 - x, 0.41421356237309503], [10.0 - x, 10]] } }]);
     client.change_drawing(URI, 2, splice(0.5));
     assert_eq!(client.diagnostics(URI, 2).len(), 0);
@@ -22,13 +31,27 @@ fn a_splice_brings_the_diagnostics_of_its_version() {
     assert_eq!(client.diagnostics(URI, 3).len(), 1);
     client.change_drawing(URI, 4, json!([{ "handle": "2A", "entity": null }]));
     assert_eq!(client.diagnostics(URI, 4).len(), 0);
-    client.change_drawing(URI, 9, json!([{ "handle": "2A", "entity": tight_plate("2A"), "before": "2B" }]));
+    client.change_drawing(
+        URI,
+        9,
+        json!([{ "handle": "2A", "entity": tight_plate("2A"), "before": "2B" }]),
+    );
     assert_eq!(client.diagnostics(URI, 9).len(), 1);
-    let list = client.request("wedm/inspect", json!({ "uri": URI })).unwrap();
-    let handles: Vec<&str> = list["entities"].as_array().unwrap().iter().filter_map(|entity| entity["handle"].as_str()).collect();
+    let list = client
+        .request("wedm/inspect", json!({ "uri": URI }))
+        .unwrap();
+    let handles: Vec<&str> = list["entities"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|entity| entity["handle"].as_str())
+        .collect();
     assert_eq!(handles, ["2A", "2B"]);
     client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }));
-    assert_eq!(client.published(URI), json!({ "uri": URI, "diagnostics": [] }));
+    assert_eq!(
+        client.published(URI),
+        json!({ "uri": URI, "diagnostics": [] })
+    );
     assert_eq!(client.code("wedm/inspect", json!({ "uri": URI })), -32602);
     client.shut_down();
 }
@@ -47,7 +70,9 @@ fn an_empty_change_and_an_unchanged_version_are_published_too() {
 fn a_change_that_cannot_apply_changes_nothing_and_asks_for_the_drawing() {
     let mut client = Client::start();
     client.open_drawing(URI, json!([tight_plate("2A"), { "handle": "L", "type": "line", "start": [50, 0], "end": [60, 0] }]));
-    let before = client.request("wedm/inspect", json!({ "uri": URI })).unwrap();
+    let before = client
+        .request("wedm/inspect", json!({ "uri": URI }))
+        .unwrap();
     let mut check = |version: i64, changes: Value, reason: &str| {
         client.change_drawing(URI, version, changes);
         client.logged(reason);
@@ -55,24 +80,66 @@ fn a_change_that_cannot_apply_changes_nothing_and_asks_for_the_drawing() {
         assert_eq!(asked.params, json!({ "uri": URI }));
         client.respond(&asked, Value::Null);
         client.logged("was not sent again");
-        assert_eq!(client.request("wedm/inspect", json!({ "uri": URI })).unwrap(), before, "{reason}");
+        assert_eq!(
+            client
+                .request("wedm/inspect", json!({ "uri": URI }))
+                .unwrap(),
+            before,
+            "{reason}"
+        );
     };
     let splice = |start: Value, count: Value, insert: Value| json!({ "handle": "2A", "vertices": { "start": start, "deleteCount": count, "insert": insert } });
     let good = splice(json!(0), json!(1), json!([[0, 0.5]]));
-    check(2, json!([splice(json!(6), json!(0), json!([]))]), "vertices 6 + 0 are out of range");
-    check(2, json!([splice(json!(u64::MAX), json!(u64::MAX), json!([]))]), "out of range");
-    check(2, json!([splice(json!(-1), json!(1), json!([]))]), "does not apply");
-    check(2, json!([good, splice(json!(0), json!(9), json!([]))]), "change 1: vertices 0 + 9 are out of range");
+    check(
+        2,
+        json!([splice(json!(6), json!(0), json!([]))]),
+        "vertices 6 + 0 are out of range",
+    );
+    check(
+        2,
+        json!([splice(json!(u64::MAX), json!(u64::MAX), json!([]))]),
+        "out of range",
+    );
+    check(
+        2,
+        json!([splice(json!(-1), json!(1), json!([]))]),
+        "does not apply",
+    );
+    check(
+        2,
+        json!([good, splice(json!(0), json!(9), json!([]))]),
+        "change 1: vertices 0 + 9 are out of range",
+    );
     check(
         2,
         json!([good, { "handle": "nobody", "vertices": { "start": 0, "deleteCount": 0, "insert": [] } }]),
         "there is no entity nobody",
     );
-    check(2, json!([good, { "handle": "nobody", "entity": null }]), "there is no entity nobody to delete");
-    check(2, json!([{ "handle": "L", "vertices": { "start": 0, "deleteCount": 1, "insert": [] } }]), "entity L is not a polyline");
-    check(2, json!([splice(json!(0), json!(1), json!([[null, 0]]))]), "vertex 0 to insert in 2A is not of finite numbers");
-    check(2, json!([splice(json!(0), json!(1), json!([["NaN", 0]]))]), "vertex 0 to insert in 2A is not of finite numbers");
-    check(2, json!([{ "handle": "L", "entity": { "handle": "L", "type": "circle", "center": [0, 0], "radius": -1 } }]), "radius is -1");
+    check(
+        2,
+        json!([good, { "handle": "nobody", "entity": null }]),
+        "there is no entity nobody to delete",
+    );
+    check(
+        2,
+        json!([{ "handle": "L", "vertices": { "start": 0, "deleteCount": 1, "insert": [] } }]),
+        "entity L is not a polyline",
+    );
+    check(
+        2,
+        json!([splice(json!(0), json!(1), json!([[null, 0]]))]),
+        "vertex 0 to insert in 2A is not of finite numbers",
+    );
+    check(
+        2,
+        json!([splice(json!(0), json!(1), json!([["NaN", 0]]))]),
+        "vertex 0 to insert in 2A is not of finite numbers",
+    );
+    check(
+        2,
+        json!([{ "handle": "L", "entity": { "handle": "L", "type": "circle", "center": [0, 0], "radius": -1 } }]),
+        "radius is -1",
+    );
     check(2, json!([{ "handle": "L" }]), "neither or both");
     check(1, json!([good]), "version 1 is not newer than 1");
     check(0, json!([good]), "version 0 is not newer than 1");
@@ -100,14 +167,28 @@ fn numbers_that_overflow_are_refused_like_any_that_are_none() {
 fn an_unsound_drawing_is_not_opened_and_asked_for_again() {
     let mut client = Client::start();
     let mut check = |uri: &str, entities: Value, reason: &str| {
-        client.notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": uri, "version": 1, "entities": entities } }));
+        client.notify(
+            "wedm/didOpenDrawing",
+            json!({ "drawing": { "uri": uri, "version": 1, "entities": entities } }),
+        );
         client.logged(reason);
         let asked = client.asked("wedm/resendDrawing");
-        assert_eq!(client.code("wedm/inspect", json!({ "uri": uri })), -32602, "{reason}");
-        client.respond(&asked, json!({ "drawing": { "uri": uri, "version": 7, "entities": [tight_plate("2A")] } }));
+        assert_eq!(
+            client.code("wedm/inspect", json!({ "uri": uri })),
+            -32602,
+            "{reason}"
+        );
+        client.respond(
+            &asked,
+            json!({ "drawing": { "uri": uri, "version": 7, "entities": [tight_plate("2A")] } }),
+        );
         assert_eq!(client.diagnostics(uri, 7).len(), 1);
     };
-    check("cad:///doubled", json!([tight_plate("2A"), wide_plate("2A")]), "handle 2A stands twice");
+    check(
+        "cad:///doubled",
+        json!([tight_plate("2A"), wide_plate("2A")]),
+        "handle 2A stands twice",
+    );
     check(
         "cad:///null",
         json!([{ "handle": "1", "type": "line", "start": [0, null], "end": [1, 1] }]),
@@ -118,8 +199,16 @@ fn an_unsound_drawing_is_not_opened_and_asked_for_again() {
         json!([{ "handle": "1", "type": "line", "start": [0, 0], "end": ["NaN", 1] }]),
         "entity 1: end is not two finite numbers",
     );
-    check("cad:///radius", json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": 0 }]), "entity 1: radius is 0");
-    check("cad:///type", json!([{ "handle": "1", "type": "spline" }]), "type is \"spline\"");
+    check(
+        "cad:///radius",
+        json!([{ "handle": "1", "type": "circle", "center": [0, 0], "radius": 0 }]),
+        "entity 1: radius is 0",
+    );
+    check(
+        "cad:///type",
+        json!([{ "handle": "1", "type": "spline" }]),
+        "type is \"spline\"",
+    );
     check("cad:///list", json!({}), "is not sound");
     client.shut_down();
 }
@@ -145,15 +234,25 @@ fn a_drawing_is_asked_for_once_at_a_time_and_only_where_that_was_declared() {
     client.open_drawing(URI, json!([tight_plate("2A")]));
     (0..20).for_each(|_| client.change_drawing(URI, 0, json!([])));
     let asked = client.asked("wedm/resendDrawing");
-    let again = client.settle().iter().filter(|message| message["method"] == "wedm/resendDrawing").count();
+    let again = client
+        .settle()
+        .iter()
+        .filter(|message| message["method"] == "wedm/resendDrawing")
+        .count();
     assert_eq!(again, 0);
-    client.respond(&asked, json!({ "drawing": { "uri": URI, "version": 3, "entities": [] } }));
+    client.respond(
+        &asked,
+        json!({ "drawing": { "uri": URI, "version": 3, "entities": [] } }),
+    );
     assert_eq!(client.diagnostics(URI, 3).len(), 0);
     client.change_drawing(URI, 0, json!([]));
     let asked = client.asked("wedm/resendDrawing");
     // Closed while the answer is on its way: it stays closed.
     client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }));
-    client.respond(&asked, json!({ "drawing": { "uri": URI, "version": 9, "entities": [] } }));
+    client.respond(
+        &asked,
+        json!({ "drawing": { "uri": URI, "version": 9, "entities": [] } }),
+    );
     assert_eq!(client.code("wedm/inspect", json!({ "uri": URI })), -32602);
     client.shut_down();
 
@@ -163,14 +262,22 @@ fn a_drawing_is_asked_for_once_at_a_time_and_only_where_that_was_declared() {
     client.open_drawing(URI, json!([]));
     client.change_drawing(URI, 0, json!([]));
     client.logged("version 0 is not newer");
-    assert!(client.settle().iter().all(|message| message["method"] != "wedm/resendDrawing"));
+    assert!(
+        client
+            .settle()
+            .iter()
+            .all(|message| message["method"] != "wedm/resendDrawing")
+    );
     client.shut_down();
 }
 
 #[test]
 fn opening_what_is_open_replaces_it_and_says_so() {
     let mut client = Client::start();
-    assert_eq!(client.open_drawing(URI, json!([tight_plate("2A")])).len(), 1);
+    assert_eq!(
+        client.open_drawing(URI, json!([tight_plate("2A")])).len(),
+        1
+    );
     assert_eq!(client.open_drawing(URI, json!([])).len(), 0);
     client.logged("was open already");
     // A text and a drawing with one name are one document.
@@ -185,12 +292,18 @@ fn opening_what_is_open_replaces_it_and_says_so() {
 fn each_opening_and_each_closing_is_published() {
     let mut client = Client::start();
     for round in 1..=50 {
-        client.notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": URI, "version": round, "entities": [tight_plate("2A")] } }));
+        client.notify(
+            "wedm/didOpenDrawing",
+            json!({ "drawing": { "uri": URI, "version": round, "entities": [tight_plate("2A")] } }),
+        );
         client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }));
     }
     for round in 1..=50 {
         assert_eq!(client.published(URI)["version"], round);
-        assert_eq!(client.published(URI), json!({ "uri": URI, "diagnostics": [] }));
+        assert_eq!(
+            client.published(URI),
+            json!({ "uri": URI, "diagnostics": [] })
+        );
     }
     client.shut_down();
 }
@@ -209,13 +322,31 @@ fn a_publish_holds_five_hundred_findings_and_the_count_of_the_others() {
         .collect();
     let found = client.open_drawing(URI, json!(plates));
     assert_eq!(found.len(), 501);
-    assert!(found[..500].iter().all(|finding| finding["code"] == "small-radius"));
+    assert!(
+        found[..500]
+            .iter()
+            .all(|finding| finding["code"] == "small-radius")
+    );
     let more = &found[500];
-    assert_eq!((&more["code"], &more["severity"], &more["data"]["count"]), (&json!("more"), &json!(3), &json!(700)));
+    assert_eq!(
+        (&more["code"], &more["severity"], &more["data"]["count"]),
+        (&json!("more"), &json!(3), &json!(700))
+    );
     assert_eq!(more["range"]["start"], json!({ "line": 0, "character": 0 }));
-    let list = client.request("wedm/inspect", json!({ "uri": URI })).unwrap();
-    let faulty = list["entities"].as_array().unwrap().iter().flat_map(|entity| entity["segments"].as_array().unwrap());
-    assert_eq!(faulty.filter(|segment| segment["verdict"] == "small-radius").count(), 1200);
+    let list = client
+        .request("wedm/inspect", json!({ "uri": URI }))
+        .unwrap();
+    let faulty = list["entities"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|entity| entity["segments"].as_array().unwrap());
+    assert_eq!(
+        faulty
+            .filter(|segment| segment["verdict"] == "small-radius")
+            .count(),
+        1200
+    );
     client.shut_down();
 }
 
@@ -231,7 +362,11 @@ fn inches_and_roles_are_heeded() {
         let entities = json!([square("1", radius, role)]);
         client
             .notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": URI, "version": version, "units": "inch", "entities": entities } }));
-        assert_eq!(small(&client.diagnostics(URI, version)), expected, "{radius} {role}");
+        assert_eq!(
+            small(&client.diagnostics(URI, version)),
+            expected,
+            "{radius} {role}"
+        );
     };
     check(1, 0.005, "both", 0);
     check(2, 0.003, "both", 1);
@@ -248,13 +383,19 @@ fn the_other_segment_is_told_to_clients_that_show_it() {
     ]);
     let crossing = |client: &mut Client| {
         let found = client.open_drawing(URI, lines.clone());
-        let crossing = found.iter().find(|finding| finding["code"] == "self-intersection").cloned();
+        let crossing = found
+            .iter()
+            .find(|finding| finding["code"] == "self-intersection")
+            .cloned();
         crossing.unwrap_or_else(|| panic!("{found:?}"))
     };
     let mut client = Client::start();
     let found = crossing(&mut client);
     assert_eq!(found["relatedInformation"], Value::Null);
-    assert_eq!(found["data"]["related"], json!([{ "handle": "L1", "segment": 2 }]));
+    assert_eq!(
+        found["data"]["related"],
+        json!([{ "handle": "L1", "segment": 2 }])
+    );
     client.shut_down();
     let mut able = capabilities();
     able["textDocument"] = json!({ "publishDiagnostics": { "relatedInformation": true } });

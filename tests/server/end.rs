@@ -59,7 +59,9 @@ fn a_server_that_was_never_spoken_to_ends_as_well() {
 fn requests_before_the_end_of_stdin_are_answered() {
     let mut client = Client::start();
     client.open_drawing("cad:///1", json!([tight_plate("2A")]));
-    let ids: Vec<i64> = (0..50).map(|_| client.ask("wedm/inspect", json!({ "uri": "cad:///1" }))).collect();
+    let ids: Vec<i64> = (0..50)
+        .map(|_| client.ask("wedm/inspect", json!({ "uri": "cad:///1" })))
+        .collect();
     client.close_stdin();
     for id in ids {
         assert!(client.answer(id).is_ok());
@@ -79,10 +81,17 @@ fn a_client_that_has_gone_without_reading_ends_the_server() {
 #[cfg(unix)]
 #[test]
 fn the_death_of_the_clients_process_ends_the_server() {
-    let mut editor = std::process::Command::new("sleep").arg("60").spawn().unwrap();
+    let mut editor = std::process::Command::new("sleep")
+        .arg("60")
+        .spawn()
+        .unwrap();
     let mut client = Client::raw();
     client.shake_hands(json!({ "processId": editor.id(), "capabilities": capabilities() }));
-    assert!(client.request("wedm/inspect", json!({ "uri": "cad:///1" })).is_err());
+    assert!(
+        client
+            .request("wedm/inspect", json!({ "uri": "cad:///1" }))
+            .is_err()
+    );
     editor.kill().unwrap();
     // Nobody has asked for its exit code yet: a zombie is dead as well.
     let (code, time) = client.end();

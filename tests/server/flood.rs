@@ -6,8 +6,16 @@ use serde_json::{Value, json};
 #[cfg(target_os = "linux")]
 fn resident_mib(client: &Client) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).unwrap();
-    let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap();
-    line.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() / 1024
+    let line = status
+        .lines()
+        .find(|line| line.starts_with("VmRSS:"))
+        .unwrap();
+    line.split_whitespace()
+        .nth(1)
+        .unwrap()
+        .parse::<u64>()
+        .unwrap()
+        / 1024
 }
 
 /// A drawing whose findings fill a publish.
@@ -19,7 +27,9 @@ fn many_faults() -> Value {
             .as_array_mut()
             .unwrap()
             .iter_mut()
-            .for_each(|vertex| vertex[0] = json!(vertex[0].as_f64().unwrap() + 20.0 * f64::from(index)));
+            .for_each(|vertex| {
+                vertex[0] = json!(vertex[0].as_f64().unwrap() + 20.0 * f64::from(index))
+            });
         plate
     };
     json!((0..600).map(plate).collect::<Vec<_>>())
@@ -32,7 +42,10 @@ fn flood_unread(message: fn(i64) -> Value, count: i64) -> u64 {
     let mut client = Client::silent();
     client.send(&json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": { "capabilities": capabilities() } }));
     client.notify("initialized", json!({}));
-    client.notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": "cad:///1", "version": 1, "entities": many_faults() } }));
+    client.notify(
+        "wedm/didOpenDrawing",
+        json!({ "drawing": { "uri": "cad:///1", "version": 1, "entities": many_faults() } }),
+    );
     let sent = AtomicI64::new(0);
     let mut peak = 0;
     let mut pipe = client.take_stdin();

@@ -7,7 +7,8 @@ const URI: &str = "file:///plate.dxf";
 
 fn start() -> Client {
     let mut all = capabilities();
-    all["textDocument"] = json!({ "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } });
+    all["textDocument"] =
+        json!({ "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } });
     Client::start_with(all, json!({}))
 }
 
@@ -21,13 +22,19 @@ fn document() -> Value {
 
 /// Zero-based number of the first line that is `wanted`.
 fn line_of(text: &str, wanted: &str) -> u64 {
-    text.lines().position(|line| line == wanted).unwrap_or_else(|| panic!("there is a line {wanted}")) as u64
+    text.lines()
+        .position(|line| line == wanted)
+        .unwrap_or_else(|| panic!("there is a line {wanted}")) as u64
 }
 
 /// Names of a symbol and of those in it, indented by depth.
 fn names(symbols: &Value, depth: usize, list: &mut Vec<String>) {
     for symbol in symbols.as_array().into_iter().flatten() {
-        list.push(format!("{}{}", "  ".repeat(depth), symbol["name"].as_str().unwrap_or_default()));
+        list.push(format!(
+            "{}{}",
+            "  ".repeat(depth),
+            symbol["name"].as_str().unwrap_or_default()
+        ));
         names(&symbol["children"], depth + 1, list);
     }
 }
@@ -40,11 +47,34 @@ fn hover_symbols_and_folds_of_a_plate() {
     let bulge = line_of(&text, "0.41421356237309503");
     let hover = client.request("textDocument/hover", at(bulge, 3)).unwrap();
     let said = hover["contents"]["value"].as_str().unwrap();
-    assert!(said.contains("bulge") && said.contains("90°") && said.contains("radius 0.05 mm") && said.contains("(9.95, 9.95)"), "{said}");
+    assert!(
+        said.contains("bulge")
+            && said.contains("90°")
+            && said.contains("radius 0.05 mm")
+            && said.contains("(9.95, 9.95)"),
+        "{said}"
+    );
     let mut list = Vec::new();
-    names(&client.request("textDocument/documentSymbol", document()).unwrap(), 0, &mut list);
-    assert_eq!(list, ["HEADER", "ENTITIES", "  Contours", "    contour 1", "  LWPOLYLINE 2A"]);
-    let folds = client.request("textDocument/foldingRange", document()).unwrap();
+    names(
+        &client
+            .request("textDocument/documentSymbol", document())
+            .unwrap(),
+        0,
+        &mut list,
+    );
+    assert_eq!(
+        list,
+        [
+            "HEADER",
+            "ENTITIES",
+            "  Contours",
+            "    contour 1",
+            "  LWPOLYLINE 2A"
+        ]
+    );
+    let folds = client
+        .request("textDocument/foldingRange", document())
+        .unwrap();
     assert_eq!(folds.as_array().unwrap().len(), 3, "{folds}");
     client.shut_down();
 }
@@ -65,18 +95,23 @@ fn what_can_be_asked_is_declared() {
         "inlayHint",
         "semanticTokens",
     ] {
-        assert!(!result["capabilities"][format!("{provider}Provider")].is_null(), "{provider}");
+        assert!(
+            !result["capabilities"][format!("{provider}Provider")].is_null(),
+            "{provider}"
+        );
     }
     client.shut_down();
 }
 
 /// Every request of an editor, at a line; the answers by method.
 fn ask_all(client: &mut Client, line: u64) -> Vec<(&'static str, Value)> {
-    let lines = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 100, "character": 0 } });
+    let lines =
+        json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 100, "character": 0 } });
     let in_range = json!({ "textDocument": { "uri": URI }, "range": lines });
     let mut references = at(line, 0);
     references["context"] = json!({ "includeDeclaration": true });
-    let places = json!({ "textDocument": { "uri": URI }, "positions": [{ "line": line, "character": 0 }] });
+    let places =
+        json!({ "textDocument": { "uri": URI }, "positions": [{ "line": line, "character": 0 }] });
     let all = [
         ("textDocument/hover", at(line, 0)),
         ("textDocument/completion", at(line, 0)),
@@ -91,12 +126,23 @@ fn ask_all(client: &mut Client, line: u64) -> Vec<(&'static str, Value)> {
         ("textDocument/semanticTokens/range", in_range),
     ];
     all.into_iter()
-        .map(|(method, params)| (method, client.request(method, params).unwrap_or_else(|error| panic!("{method}: {error}"))))
+        .map(|(method, params)| {
+            (
+                method,
+                client
+                    .request(method, params)
+                    .unwrap_or_else(|error| panic!("{method}: {error}")),
+            )
+        })
         .collect()
 }
 
 fn answer(answers: &[(&str, Value)], method: &str) -> Value {
-    answers.iter().find(|(name, _)| name.ends_with(method)).map(|(_, answer)| answer.clone()).unwrap_or_default()
+    answers
+        .iter()
+        .find(|(name, _)| name.ends_with(method))
+        .map(|(_, answer)| answer.clone())
+        .unwrap_or_default()
 }
 
 #[test]
@@ -106,23 +152,57 @@ fn one_round_of_each_and_again_after_an_edit() {
     client.open_text(URI, "dxf", &text);
     let handle = line_of(&text, "2A");
     let answers = ask_all(&mut client, handle);
-    assert!(answers.iter().all(|(name, answer)| !answer.is_null() || name.ends_with("completion")), "{answers:?}");
+    assert!(
+        answers
+            .iter()
+            .all(|(name, answer)| !answer.is_null() || name.ends_with("completion")),
+        "{answers:?}"
+    );
     let place = json!({ "start": { "line": handle, "character": 0 }, "end": { "line": handle, "character": 2 } });
-    assert_eq!(answer(&answers, "definition"), json!([{ "uri": URI, "range": place }]));
+    assert_eq!(
+        answer(&answers, "definition"),
+        json!([{ "uri": URI, "range": place }])
+    );
     assert_eq!(answer(&answers, "selectionRange")[0]["range"], place);
     let hints = answer(&answers, "inlayHint");
-    assert!(hints.as_array().is_some_and(|hints| hints.iter().any(|hint| hint["label"] == "R 0.05 mm, 90°")), "{hints}");
-    let (full, range) = (answer(&answers, "semanticTokens/full"), answer(&answers, "semanticTokens/range"));
+    assert!(
+        hints
+            .as_array()
+            .is_some_and(|hints| hints.iter().any(|hint| hint["label"] == "R 0.05 mm, 90°")),
+        "{hints}"
+    );
+    let (full, range) = (
+        answer(&answers, "semanticTokens/full"),
+        answer(&answers, "semanticTokens/range"),
+    );
     assert_eq!(full["data"], range["data"]);
-    assert_eq!(full["data"].as_array().map(Vec::len), Some(5 * text.lines().count()));
+    assert_eq!(
+        full["data"].as_array().map(Vec::len),
+        Some(5 * text.lines().count())
+    );
     // Two lines before everything, and everything is two lines further down.
-    let top = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 0, "character": 0 } });
+    let top =
+        json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 0, "character": 0 } });
     let changes = json!([{ "range": top, "text": "999\n\u{fc}\n" }]);
-    client.notify("textDocument/didChange", json!({ "textDocument": { "uri": URI, "version": 2 }, "contentChanges": changes }));
+    client.notify(
+        "textDocument/didChange",
+        json!({ "textDocument": { "uri": URI, "version": 2 }, "contentChanges": changes }),
+    );
     let answers = ask_all(&mut client, handle + 2);
-    assert_eq!(answer(&answers, "definition")[0]["range"]["start"]["line"], handle + 2);
-    assert_eq!(answer(&answers, "semanticTokens/full")["data"].as_array().map(Vec::len), Some(5 * (text.lines().count() + 2)));
-    assert_eq!(answer(&answers, "documentSymbol")[0]["range"]["start"]["line"], 2);
+    assert_eq!(
+        answer(&answers, "definition")[0]["range"]["start"]["line"],
+        handle + 2
+    );
+    assert_eq!(
+        answer(&answers, "semanticTokens/full")["data"]
+            .as_array()
+            .map(Vec::len),
+        Some(5 * (text.lines().count() + 2))
+    );
+    assert_eq!(
+        answer(&answers, "documentSymbol")[0]["range"]["start"]["line"],
+        2
+    );
     client.shut_down();
 }
 
@@ -130,15 +210,25 @@ fn one_round_of_each_and_again_after_an_edit() {
 fn odd_texts_are_answered_too() {
     let text = dxf_of(&[("2A", &TIGHT)]);
     let damaged = text.replacen("10\n", "", 1) + "junk";
-    for text in ["", "\n", &damaged, &text.replace('\n', "\r\n"), &text[..text.len() / 2], "0\nEOF"] {
+    for text in [
+        "",
+        "\n",
+        &damaged,
+        &text.replace('\n', "\r\n"),
+        &text[..text.len() / 2],
+        "0\nEOF",
+    ] {
         let mut client = start();
         client.open_text(URI, "dxf", text);
         for line in [0, 1, 15, 22, 9_999] {
             ask_all(&mut client, line);
         }
-        assert!(
-            client.settle().iter().all(|message| !message["params"]["message"].as_str().unwrap_or_default().contains("internal error"))
-        );
+        assert!(client.settle().iter().all(|message| {
+            !message["params"]["message"]
+                .as_str()
+                .unwrap_or_default()
+                .contains("internal error")
+        }));
         client.shut_down();
     }
 }
@@ -148,7 +238,10 @@ fn what_is_neither_dxf_nor_program_is_answered_with_nothing() {
     let mut client = start();
     client.open_drawing(URI, json!([tight_plate("2A")]));
     let answers = ask_all(&mut client, 0);
-    assert!(answers.iter().all(|(_, answer)| answer.is_null()), "{answers:?}");
+    assert!(
+        answers.iter().all(|(_, answer)| answer.is_null()),
+        "{answers:?}"
+    );
     client.shut_down();
 }
 
@@ -156,27 +249,49 @@ fn what_is_neither_dxf_nor_program_is_answered_with_nothing() {
 fn symbols_are_a_list_for_clients_that_know_no_trees() {
     let mut client = Client::start();
     client.open_text(URI, "dxf", &dxf_of(&[("2A", &TIGHT)]));
-    let symbols = client.request("textDocument/documentSymbol", document()).unwrap();
-    let last = symbols.as_array().and_then(|list| list.last()).cloned().unwrap_or_default();
-    assert_eq!((&last["name"], &last["containerName"]), (&json!("LWPOLYLINE 2A"), &json!("ENTITIES")));
+    let symbols = client
+        .request("textDocument/documentSymbol", document())
+        .unwrap();
+    let last = symbols
+        .as_array()
+        .and_then(|list| list.last())
+        .cloned()
+        .unwrap_or_default();
+    assert_eq!(
+        (&last["name"], &last["containerName"]),
+        (&json!("LWPOLYLINE 2A"), &json!("ENTITIES"))
+    );
     client.shut_down();
 }
 
 #[test]
 fn five_megabytes_are_answered_and_a_text_that_moved_on_is_not() {
     let handles: Vec<String> = (0..36_000).map(|i| format!("{i:X}")).collect();
-    let text = dxf_of(&handles.iter().map(|handle| (handle.as_str(), &TIGHT[..])).collect::<Vec<_>>());
+    let text = dxf_of(
+        &handles
+            .iter()
+            .map(|handle| (handle.as_str(), &TIGHT[..]))
+            .collect::<Vec<_>>(),
+    );
     let mut client = start();
     client.open_text(URI, "dxf", &text);
     let began = std::time::Instant::now();
     for (method, answer) in ask_all(&mut client, line_of(&text, "2A")) {
-        println!("{} bytes of text, {method}: {} bytes", text.len(), answer.to_string().len());
+        println!(
+            "{} bytes of text, {method}: {} bytes",
+            text.len(),
+            answer.to_string().len()
+        );
     }
     println!("all of them took {:?}", began.elapsed());
     let id = client.ask("textDocument/documentSymbol", document());
-    let top = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 0, "character": 0 } });
+    let top =
+        json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 0, "character": 0 } });
     let changes = json!([{ "range": top, "text": "999\nx\n" }]);
-    client.notify("textDocument/didChange", json!({ "textDocument": { "uri": URI, "version": 2 }, "contentChanges": changes }));
+    client.notify(
+        "textDocument/didChange",
+        json!({ "textDocument": { "uri": URI, "version": 2 }, "contentChanges": changes }),
+    );
     assert_eq!(client.answer(id).unwrap_err()["code"], -32801);
     client.shut_down();
 }

@@ -19,17 +19,25 @@ fn with(key: &str, value: Value) -> Value {
 /// The correction that the fault of [`tight_plate`] is held against.
 fn required(client: &mut Client, uri: &str, version: i64) -> Value {
     let found = client.diagnostics(uri, version);
-    found.first().map_or(Value::Null, |found| found["data"]["required"].clone())
+    found
+        .first()
+        .map_or(Value::Null, |found| found["data"]["required"].clone())
 }
 
 fn open(client: &mut Client, uri: &str) {
-    client.notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": uri, "version": 1, "entities": [tight_plate("2A")] } }));
+    client.notify(
+        "wedm/didOpenDrawing",
+        json!({ "drawing": { "uri": uri, "version": 1, "entities": [tight_plate("2A")] } }),
+    );
 }
 
 #[test]
 fn initialization_options_hold_bare_or_as_a_section() {
-    for options in [json!({ "correction": 0.07 }), json!({ "wedm": { "correction": 0.07 } }), json!({ "wireDiameter": 0.12, "gap": 0.01 })]
-    {
+    for options in [
+        json!({ "correction": 0.07 }),
+        json!({ "wedm": { "correction": 0.07 } }),
+        json!({ "wireDiameter": 0.12, "gap": 0.01 }),
+    ] {
         let mut client = Client::start_with(capabilities(), options);
         open(&mut client, URI);
         let correction = required(&mut client, URI, 1).as_f64().unwrap();
@@ -44,28 +52,43 @@ fn settings_that_are_pushed_change_the_diagnostics() {
     open(&mut client, URI);
     assert_eq!(required(&mut client, URI, 1), 0.1);
     let mut check = |settings: Value, expected: Value| {
-        client.notify("workspace/didChangeConfiguration", json!({ "settings": settings }));
+        client.notify(
+            "workspace/didChangeConfiguration",
+            json!({ "settings": settings }),
+        );
         assert_eq!(required(&mut client, URI, 1), expected, "{settings}");
     };
     check(json!({ "wedm": { "correction": 0.2 } }), json!(0.2));
     check(json!({ "correction": 0.3 }), json!(0.3));
     check(json!({ "wedm": { "correction": 0.04 } }), Value::Null);
-    check(json!({ "wedm": { "rules": { "small-radius": "hint" } } }), json!(0.1));
-    check(json!({ "wedm": { "rules": { "small-radius": "off" } } }), Value::Null);
+    check(
+        json!({ "wedm": { "rules": { "small-radius": "hint" } } }),
+        json!(0.1),
+    );
+    check(
+        json!({ "wedm": { "rules": { "small-radius": "off" } } }),
+        Value::Null,
+    );
     check(json!({ "wedm": {} }), json!(0.1));
     client.shut_down();
 }
 
 #[test]
 fn settings_are_asked_for_at_the_start_and_after_each_change() {
-    let mut client = Client::start_with(with("configuration", json!(true)), json!({ "correction": 0.2 }));
+    let mut client = Client::start_with(
+        with("configuration", json!(true)),
+        json!({ "correction": 0.2 }),
+    );
     let asked = client.asked("workspace/configuration");
     assert_eq!(asked.params, json!({ "items": [{ "section": "wedm" }] }));
     open(&mut client, URI);
     assert_eq!(required(&mut client, URI, 1), 0.2);
     client.respond(&asked, json!([{ "correction": 0.3, "wireDiameter": null }]));
     assert_eq!(required(&mut client, URI, 1), 0.3);
-    client.notify("workspace/didChangeConfiguration", json!({ "settings": null }));
+    client.notify(
+        "workspace/didChangeConfiguration",
+        json!({ "settings": null }),
+    );
     let asked = client.asked("workspace/configuration");
     client.respond(&asked, json!([null]));
     assert_eq!(required(&mut client, URI, 1), 0.2);
@@ -74,11 +97,23 @@ fn settings_are_asked_for_at_the_start_and_after_each_change() {
 
 #[test]
 fn misfits_are_shown_by_name_and_the_other_keys_hold() {
-    let mut client = Client::start_with(capabilities(), json!({ "correction": 0.2, "side": "left", "wiredia": 1 }));
+    let mut client = Client::start_with(
+        capabilities(),
+        json!({ "correction": 0.2, "side": "left", "wiredia": 1 }),
+    );
     let first = client.told("window/showMessage")["message"].clone();
     let second = client.told("window/showMessage")["message"].clone();
-    assert!(first.as_str().unwrap().contains("initializationOptions: side is \"left\""), "{first}");
-    assert!(second.as_str().unwrap().contains("wiredia is not known"), "{second}");
+    assert!(
+        first
+            .as_str()
+            .unwrap()
+            .contains("initializationOptions: side is \"left\""),
+        "{first}"
+    );
+    assert!(
+        second.as_str().unwrap().contains("wiredia is not known"),
+        "{second}"
+    );
     open(&mut client, URI);
     assert_eq!(required(&mut client, URI, 1), 0.2);
     client.shut_down();
@@ -91,10 +126,16 @@ fn the_file_upwards_wins_and_is_read_again_when_it_changes() {
     std::fs::create_dir_all(&deep).unwrap();
     let (file, uri) = (folder.path().join("wedm.toml"), uri_of(&deep.join("x.dxf")));
     std::fs::write(&file, "correction = 0.2\n").unwrap();
-    let watched = with("didChangeWatchedFiles", json!({ "dynamicRegistration": true }));
+    let watched = with(
+        "didChangeWatchedFiles",
+        json!({ "dynamicRegistration": true }),
+    );
     let mut client = Client::start_with(watched, json!({ "correction": 0.3 }));
     let registered = client.asked("client/registerCapability");
-    assert_eq!(registered.params["registrations"][0]["registerOptions"]["watchers"][0]["globPattern"], "**/wedm.toml");
+    assert_eq!(
+        registered.params["registrations"][0]["registerOptions"]["watchers"][0]["globPattern"],
+        "**/wedm.toml"
+    );
     client.respond(&registered, Value::Null);
     open(&mut client, &uri);
     assert_eq!(required(&mut client, &uri, 1), 0.2);
@@ -103,7 +144,10 @@ fn the_file_upwards_wins_and_is_read_again_when_it_changes() {
             Some(text) => std::fs::write(&file, text).unwrap(),
             None => std::fs::remove_file(&file).unwrap(),
         }
-        client.notify("workspace/didChangeWatchedFiles", json!({ "changes": [{ "uri": uri_of(&file), "type": 2 }] }));
+        client.notify(
+            "workspace/didChangeWatchedFiles",
+            json!({ "changes": [{ "uri": uri_of(&file), "type": 2 }] }),
+        );
         assert_eq!(required(&mut client, &uri, 1), expected, "{text:?}");
     };
     check(Some("correction = 0.4\n"), 0.4);
@@ -118,7 +162,9 @@ fn a_drawing_without_a_file_takes_the_file_of_the_folder() {
     std::fs::write(folder.path().join("wedm.toml"), "correction = 0.2\n").unwrap();
     let mut client = Client::raw();
     let folders = json!([{ "uri": uri_of(folder.path()), "name": "w" }]);
-    client.shake_hands(json!({ "processId": null, "capabilities": capabilities(), "workspaceFolders": folders }));
+    client.shake_hands(
+        json!({ "processId": null, "capabilities": capabilities(), "workspaceFolders": folders }),
+    );
     open(&mut client, URI);
     assert_eq!(required(&mut client, URI, 1), 0.2);
     client.shut_down();
@@ -133,12 +179,24 @@ fn errors_of_the_file_are_shown_in_it_on_disk_and_open() {
     let mut client = Client::start();
     open(&mut client, &uri);
     let shown = client.published(&file_uri);
-    assert_eq!(shown["diagnostics"][0]["range"]["start"], json!({ "line": 1, "character": 13 }));
-    assert!(shown["diagnostics"][0]["message"].as_str().unwrap().contains("correction is -2"), "{shown}");
+    assert_eq!(
+        shown["diagnostics"][0]["range"]["start"],
+        json!({ "line": 1, "character": 13 })
+    );
+    assert!(
+        shown["diagnostics"][0]["message"]
+            .as_str()
+            .unwrap()
+            .contains("correction is -2"),
+        "{shown}"
+    );
     assert_eq!(required(&mut client, &uri, 1), 0.1);
     // Open in the editor: its text counts, saved or not.
     let found = client.open_text(&file_uri, "toml", "correction = 0.2\nside = 3\n");
-    assert!(found[0]["message"].as_str().unwrap().contains("side is 3"), "{found:?}");
+    assert!(
+        found[0]["message"].as_str().unwrap().contains("side is 3"),
+        "{found:?}"
+    );
     assert_eq!(required(&mut client, &uri, 1), 0.2);
     client.notify(
         "textDocument/didChange",
@@ -147,9 +205,18 @@ fn errors_of_the_file_are_shown_in_it_on_disk_and_open() {
     assert_eq!(client.diagnostics(&file_uri, 2).len(), 0);
     assert_eq!(required(&mut client, &uri, 1), 0.3);
     // Closed unsaved: the disk counts again, and its error is shown again.
-    client.notify("textDocument/didClose", json!({ "textDocument": { "uri": file_uri } }));
+    client.notify(
+        "textDocument/didClose",
+        json!({ "textDocument": { "uri": file_uri } }),
+    );
     assert_eq!(client.published(&file_uri)["diagnostics"], json!([]));
-    assert_eq!(client.published(&file_uri)["diagnostics"].as_array().unwrap().len(), 1);
+    assert_eq!(
+        client.published(&file_uri)["diagnostics"]
+            .as_array()
+            .unwrap()
+            .len(),
+        1
+    );
     assert_eq!(required(&mut client, &uri, 1), 0.1);
     // Repaired on disk.
     std::fs::write(&file, "correction = 0.4\n").unwrap();

@@ -6,7 +6,10 @@ use serde_json::{Value, json};
 const URI: &str = "file:///plate.dxf";
 
 fn change(client: &mut Client, version: i64, changes: Value) {
-    client.notify("textDocument/didChange", json!({ "textDocument": { "uri": URI, "version": version }, "contentChanges": changes }));
+    client.notify(
+        "textDocument/didChange",
+        json!({ "textDocument": { "uri": URI, "version": version }, "contentChanges": changes }),
+    );
 }
 
 fn replace(from: (u64, u64), to: (u64, u64), text: &str) -> Value {
@@ -25,16 +28,35 @@ fn a_fault_in_dxf_text_is_shown_at_its_number_and_goes_with_it() {
     let line = line_of(&text, "0.41421356237309503");
     let found = client.open_text(URI, "dxf", &text);
     assert_eq!(codes(&found), ["small-radius"]);
-    assert_eq!(found[0]["range"], json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": 19 } }));
-    assert_eq!((&found[0]["data"]["handle"], &found[0]["data"]["segment"]), (&json!("2A"), &json!(2)));
+    assert_eq!(
+        found[0]["range"],
+        json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": 19 } })
+    );
+    assert_eq!(
+        (&found[0]["data"]["handle"], &found[0]["data"]["segment"]),
+        (&json!("2A"), &json!(2))
+    );
     // 9.95 → 9.5, twice: the radius grows to 0.5.
     let first = line_of(&text, "9.95");
-    change(&mut client, 2, json!([replace((first, 3), (first, 4), ""), replace((line + 2, 3), (line + 2, 4), "")]));
+    change(
+        &mut client,
+        2,
+        json!([
+            replace((first, 3), (first, 4), ""),
+            replace((line + 2, 3), (line + 2, 4), "")
+        ]),
+    );
     assert_eq!(client.diagnostics(URI, 2).len(), 0);
     change(&mut client, 3, json!([{ "text": text }]));
     assert_eq!(small(&client.diagnostics(URI, 3)), 1);
-    client.notify("textDocument/didClose", json!({ "textDocument": { "uri": URI } }));
-    assert_eq!(client.published(URI), json!({ "uri": URI, "diagnostics": [] }));
+    client.notify(
+        "textDocument/didClose",
+        json!({ "textDocument": { "uri": URI } }),
+    );
+    assert_eq!(
+        client.published(URI),
+        json!({ "uri": URI, "diagnostics": [] })
+    );
     client.shut_down();
 }
 
@@ -51,11 +73,19 @@ fn ranges_outside_the_text_are_clamped() {
         (5, replace((1, 5), (0, 0), "")),
     ] {
         change(&mut client, version, json!([edit]));
-        assert_eq!(small(&client.diagnostics(URI, version)), 1, "version {version}");
+        assert_eq!(
+            small(&client.diagnostics(URI, version)),
+            1,
+            "version {version}"
+        );
     }
     change(&mut client, 6, json!([replace((0, 0), (far, far), "")]));
     assert_eq!(small(&client.diagnostics(URI, 6)), 0);
-    change(&mut client, 7, json!([replace((far, far), (far, far), &text)]));
+    change(
+        &mut client,
+        7,
+        json!([replace((far, far), (far, far), &text)]),
+    );
     assert_eq!(small(&client.diagnostics(URI, 7)), 1);
     client.shut_down();
 }
@@ -84,9 +114,17 @@ fn what_is_not_open_is_not_changed_and_not_closed() {
     let mut client = Client::start();
     change(&mut client, 2, json!([{ "text": "" }]));
     client.logged("was changed without being open");
-    client.notify("textDocument/didClose", json!({ "textDocument": { "uri": URI } }));
+    client.notify(
+        "textDocument/didClose",
+        json!({ "textDocument": { "uri": URI } }),
+    );
     client.logged("was closed without being open");
-    assert!(client.settle().iter().all(|message| message["method"] != "textDocument/publishDiagnostics"));
+    assert!(
+        client
+            .settle()
+            .iter()
+            .all(|message| message["method"] != "textDocument/publishDiagnostics")
+    );
     client.shut_down();
 }
 
@@ -95,19 +133,33 @@ fn an_older_version_is_applied_in_order_and_logged_and_never_published_as_older(
     let mut client = Client::start();
     let text = dxf_of(&[("2A", &TIGHT)]);
     client.open_text(URI, "dxf", &text);
-    change(&mut client, 10, json!([replace((0, 0), (0, 0), "999\nnine\n")]));
+    change(
+        &mut client,
+        10,
+        json!([replace((0, 0), (0, 0), "999\nnine\n")]),
+    );
     assert_eq!(small(&client.diagnostics(URI, 10)), 1);
     change(&mut client, 4, json!([{ "text": "0\nEOF\n" }]));
     client.logged("older than 10");
     assert_eq!(client.published(URI)["version"], 10);
-    assert!(client.request("wedm/inspect", json!({ "uri": URI })).unwrap()["entities"].as_array().unwrap().is_empty());
+    assert!(
+        client
+            .request("wedm/inspect", json!({ "uri": URI }))
+            .unwrap()["entities"]
+            .as_array()
+            .unwrap()
+            .is_empty()
+    );
     client.shut_down();
 }
 
 #[test]
 fn opening_a_text_twice_replaces_it_and_says_so() {
     let mut client = Client::start();
-    assert_eq!(small(&client.open_text(URI, "dxf", &dxf_of(&[("2A", &TIGHT)]))), 1);
+    assert_eq!(
+        small(&client.open_text(URI, "dxf", &dxf_of(&[("2A", &TIGHT)]))),
+        1
+    );
     assert_eq!(small(&client.open_text(URI, "dxf", "0\nEOF\n")), 0);
     client.logged("was open already");
     client.shut_down();
@@ -117,18 +169,41 @@ fn opening_a_text_twice_replaces_it_and_says_so() {
 fn a_text_is_known_by_language_or_name_and_any_text_may_be_opened() {
     let mut client = Client::start();
     let text = dxf_of(&[("2A", &TIGHT)]);
-    assert_eq!(small(&client.open_text("file:///a.DXF", "plaintext", &text)), 1);
+    assert_eq!(
+        small(&client.open_text("file:///a.DXF", "plaintext", &text)),
+        1
+    );
     assert_eq!(small(&client.open_text("untitled:1", "dxf", &text)), 1);
-    assert_eq!(client.open_text("file:///readme.md", "markdown", &text).len(), 0);
+    assert_eq!(
+        client
+            .open_text("file:///readme.md", "markdown", &text)
+            .len(),
+        0
+    );
     assert!(!client.open_text("file:///a.3b", "3b", "B1B2\n").is_empty());
-    assert_eq!(client.code("wedm/generate", json!({ "uri": "file:///a.3b", "format": "3b" })), -32803);
+    assert_eq!(
+        client.code(
+            "wedm/generate",
+            json!({ "uri": "file:///a.3b", "format": "3b" })
+        ),
+        -32803
+    );
     client.shut_down();
 }
 
 #[test]
 fn a_file_that_is_not_what_it_claims_to_be_gets_one_diagnostic() {
     let mut client = Client::start();
-    for (index, text) in ["", "\u{0}\u{1}\u{2}binary", "AC1032\u{0}\u{0}", "{\"json\": true}", &"0".repeat(1_000_000)].iter().enumerate() {
+    for (index, text) in [
+        "",
+        "\u{0}\u{1}\u{2}binary",
+        "AC1032\u{0}\u{0}",
+        "{\"json\": true}",
+        &"0".repeat(1_000_000),
+    ]
+    .iter()
+    .enumerate()
+    {
         let found = client.open_text(&format!("file:///{index}.dxf"), "dxf", text);
         assert!(found.len() <= 2, "{text:.20}: {found:?}");
     }

@@ -7,7 +7,12 @@ use serde_json::{Value, json};
 fn valid_requests_between_broken_frames_are_all_answered_and_an_open_drawing_stays() {
     const COUNT: usize = 400;
     let mut client = Client::start();
-    assert_eq!(client.open_drawing("cad:///kept", json!([tight_plate("2A")])).len(), 1);
+    assert_eq!(
+        client
+            .open_drawing("cad:///kept", json!([tight_plate("2A")]))
+            .len(),
+        1
+    );
     let broken: [&[u8]; 10] = [
         b"Content-Length: 7\r\n\r\n{\"a\": 1",
         b"Content-Length: abc\r\n\r\n{}",
@@ -27,7 +32,10 @@ fn valid_requests_between_broken_frames_are_all_answered_and_an_open_drawing_sta
     }
     ids.push(client.ask("wedm/inspect", json!({ "uri": "cad:///kept" })));
     for id in ids {
-        assert_eq!(client.answer(id).unwrap()["entities"][0]["segments"][2]["verdict"], "small-radius");
+        assert_eq!(
+            client.answer(id).unwrap()["entities"][0]["segments"][2]["verdict"],
+            "small-radius"
+        );
     }
     let errors: Vec<i64> = client
         .settle()
@@ -46,32 +54,73 @@ fn a_message_that_is_none_is_answered_with_its_fault() {
         let mut client = Client::start();
         client.send_bytes(&frame(body));
         let answer = client.wait_for(body, |message| message.get("error").is_some());
-        assert_eq!((&answer["id"], &answer["error"]["code"]), (&id, &json!(code)), "{body}");
+        assert_eq!(
+            (&answer["id"], &answer["error"]["code"]),
+            (&id, &json!(code)),
+            "{body}"
+        );
         client.shut_down();
     };
     check("", Value::Null, -32700);
     check("{", Value::Null, -32700);
     check("nonsense", Value::Null, -32700);
-    check(r#"{"jsonrpc":"2.0","id":1,"method":"wedm/inspect","params":{"uri":NaN}}"#, Value::Null, -32700);
+    check(
+        r#"{"jsonrpc":"2.0","id":1,"method":"wedm/inspect","params":{"uri":NaN}}"#,
+        Value::Null,
+        -32700,
+    );
     check(&"[".repeat(100_000), Value::Null, -32700);
     check("[]", Value::Null, -32600);
-    check(r#"[{"jsonrpc":"2.0","id":1,"method":"shutdown"}]"#, Value::Null, -32600);
+    check(
+        r#"[{"jsonrpc":"2.0","id":1,"method":"shutdown"}]"#,
+        Value::Null,
+        -32600,
+    );
     check("42", Value::Null, -32600);
     check(r#"{"jsonrpc":"2.0"}"#, Value::Null, -32600);
     check(r#"{"jsonrpc":"2.0","id":4711}"#, Value::Null, -32600);
-    check(r#"{"jsonrpc":"1.0","id":4711,"method":"wedm/inspect"}"#, json!(4711), -32600);
-    check(r#"{"jsonrpc":"2.0","id":{},"method":"wedm/inspect"}"#, Value::Null, -32600);
-    check(r#"{"jsonrpc":"2.0","id":4711,"method":7}"#, json!(4711), -32600);
-    check(r#"{"jsonrpc":"2.0","id":4711,"method":"wedm/inspect"}"#, json!(4711), -32602);
-    check(r#"{"jsonrpc":"2.0","id":4711,"method":"wedm/inspect","params":"x"}"#, json!(4711), -32602);
-    check(r#"{"jsonrpc":"2.0","id":4711,"method":"wedm/didOpenDrawing","params":{}}"#, json!(4711), -32600);
+    check(
+        r#"{"jsonrpc":"1.0","id":4711,"method":"wedm/inspect"}"#,
+        json!(4711),
+        -32600,
+    );
+    check(
+        r#"{"jsonrpc":"2.0","id":{},"method":"wedm/inspect"}"#,
+        Value::Null,
+        -32600,
+    );
+    check(
+        r#"{"jsonrpc":"2.0","id":4711,"method":7}"#,
+        json!(4711),
+        -32600,
+    );
+    check(
+        r#"{"jsonrpc":"2.0","id":4711,"method":"wedm/inspect"}"#,
+        json!(4711),
+        -32602,
+    );
+    check(
+        r#"{"jsonrpc":"2.0","id":4711,"method":"wedm/inspect","params":"x"}"#,
+        json!(4711),
+        -32602,
+    );
+    check(
+        r#"{"jsonrpc":"2.0","id":4711,"method":"wedm/didOpenDrawing","params":{}}"#,
+        json!(4711),
+        -32600,
+    );
 }
 
 #[test]
 fn ids_of_every_kind_are_given_back() {
     let mut client = Client::start();
     client.open_drawing("cad:///1", json!([tight_plate("2A")]));
-    for id in [json!("a string"), json!(-5), json!(9_007_199_254_740_993_i64), json!(0)] {
+    for id in [
+        json!("a string"),
+        json!(-5),
+        json!(9_007_199_254_740_993_i64),
+        json!(0),
+    ] {
         client.send(&json!({ "jsonrpc": "2.0", "id": id, "method": "wedm/inspect", "params": { "uri": "cad:///1" } }));
         let answer = client.wait_for("an answer", |message| message["id"] == id);
         assert!(answer["result"].is_object(), "{answer}");
@@ -90,7 +139,10 @@ fn answers_to_nothing_are_logged() {
 #[test]
 fn notifications_with_broken_params_are_said_to_be_ignored() {
     let mut client = Client::start();
-    client.notify("textDocument/didChange", json!({ "textDocument": { "uri": "file:///a.dxf" } }));
+    client.notify(
+        "textDocument/didChange",
+        json!({ "textDocument": { "uri": "file:///a.dxf" } }),
+    );
     client.logged("textDocument/didChange was ignored");
     client.notify("wedm/didOpenDrawing", json!({ "drawing": [] }));
     client.logged("wedm/didOpenDrawing was ignored");
@@ -112,9 +164,18 @@ fn a_header_at_fault_is_said_once_and_the_message_behind_it_is_answered() {
     ] {
         let mut client = Client::start();
         client.send_bytes(bad.as_bytes());
-        assert_eq!(client.code("wedm/inspect", json!({ "uri": "none:" })), -32602, "{bad:?}");
-        let is_error = |message: &&Value| message["id"].is_null() && message["error"]["code"] == -32700;
-        assert_eq!(client.settle().iter().filter(is_error).count(), 1, "{bad:?}");
+        assert_eq!(
+            client.code("wedm/inspect", json!({ "uri": "none:" })),
+            -32602,
+            "{bad:?}"
+        );
+        let is_error =
+            |message: &&Value| message["id"].is_null() && message["error"]["code"] == -32700;
+        assert_eq!(
+            client.settle().iter().filter(is_error).count(),
+            1,
+            "{bad:?}"
+        );
         client.shut_down();
     }
 }
@@ -123,7 +184,11 @@ fn a_header_at_fault_is_said_once_and_the_message_behind_it_is_answered() {
 fn requests_that_may_be_ignored_are_answered_all_the_same() {
     let mut client = Client::start();
     for method in ["$/nothing", "$/setTrace", "$/cancelRequest", "$/"] {
-        assert_eq!(client.code(method, json!({ "id": 7, "value": "off" })), -32601, "{method}");
+        assert_eq!(
+            client.code(method, json!({ "id": 7, "value": "off" })),
+            -32601,
+            "{method}"
+        );
         client.notify(method, json!({ "id": 7, "value": "off" }));
     }
     assert_eq!(client.settle(), [] as [Value; 0]);
@@ -136,12 +201,28 @@ fn a_body_whose_values_would_fill_the_memory_is_refused() {
     let mut client = Client::start();
     client.send_bytes(&frame(&format!("[{}[]]", "[],".repeat(6_000_000))));
     let answer = client.wait_for("a refusal", |message| message.get("error").is_some());
-    assert_eq!((&answer["id"], &answer["error"]["code"]), (&Value::Null, &json!(-32600)), "{answer}");
+    assert_eq!(
+        (&answer["id"], &answer["error"]["code"]),
+        (&Value::Null, &json!(-32600)),
+        "{answer}"
+    );
     #[cfg(target_os = "linux")]
     {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).unwrap();
-        let peak = status.lines().find(|line| line.starts_with("VmHWM:")).unwrap();
-        assert!(peak.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() < 100 * 1024, "{peak}");
+        let status =
+            std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).unwrap();
+        let peak = status
+            .lines()
+            .find(|line| line.starts_with("VmHWM:"))
+            .unwrap();
+        assert!(
+            peak.split_whitespace()
+                .nth(1)
+                .unwrap()
+                .parse::<u64>()
+                .unwrap()
+                < 100 * 1024,
+            "{peak}"
+        );
     }
     client.shut_down();
 }
@@ -151,7 +232,11 @@ fn a_body_whose_values_would_fill_the_memory_is_refused() {
 fn the_shipped_server_has_no_hidden_methods() {
     let mut client = Client::start();
     for method in ["wedm/test/panic", "wedm/test/ask"] {
-        assert_eq!(client.code(method, json!({ "site": "handler" })), -32601, "{method}");
+        assert_eq!(
+            client.code(method, json!({ "site": "handler" })),
+            -32601,
+            "{method}"
+        );
     }
     client.shut_down();
 }

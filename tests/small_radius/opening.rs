@@ -15,13 +15,18 @@ const CORRECTION: f64 = 0.2;
 pub fn crosses_itself(vertices: &[Vertex]) -> bool {
     let outline = pline(vertices);
     let index = outline.create_approx_aabb_index();
-    let found = cavalier_contours::polyline::internal::pline_intersects::all_self_intersects_as_basic(&outline, &index, false, 1e-7);
+    let found =
+        cavalier_contours::polyline::internal::pline_intersects::all_self_intersects_as_basic(
+            &outline, &index, false, 1e-7,
+        );
     !found.is_empty()
 }
 
 fn pline(vertices: &[Vertex]) -> Polyline<f64> {
     let mut outline = Polyline::new_closed();
-    vertices.iter().for_each(|vertex| outline.add(vertex.point.x, vertex.point.y, vertex.bulge));
+    vertices
+        .iter()
+        .for_each(|vertex| outline.add(vertex.point.x, vertex.point.y, vertex.bulge));
     outline
 }
 
@@ -29,47 +34,96 @@ fn pline(vertices: &[Vertex]) -> Polyline<f64> {
 fn opening(vertices: &[Vertex], side: Side, radius: f64) -> Vec<Segment> {
     let inward = radius * side.sign();
     let shrunk = pline(vertices).parallel_offset(inward);
-    let opened = shrunk.iter().flat_map(|outline| outline.parallel_offset(-inward));
+    let opened = shrunk
+        .iter()
+        .flat_map(|outline| outline.parallel_offset(-inward));
     let segments = |outline: Polyline<f64>| {
-        let vertices: Vec<Vertex> = outline.iter_vertexes().map(|v| Vertex::new(v.x, v.y, v.bulge)).collect();
-        Geometry::Polyline { closed: true, vertices }.segments().collect::<Vec<_>>()
+        let vertices: Vec<Vertex> = outline
+            .iter_vertexes()
+            .map(|v| Vertex::new(v.x, v.y, v.bulge))
+            .collect();
+        Geometry::Polyline {
+            closed: true,
+            vertices,
+        }
+        .segments()
+        .collect::<Vec<_>>()
     };
     opened.flat_map(segments).collect()
 }
 
 fn distance(segments: &[Segment], point: Point) -> f64 {
-    segments.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min)
+    segments
+        .iter()
+        .map(|segment| segment.distance_to(point))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// The outline as a chain of LINE and ARC entities, every second one turned about where it may be.
 fn as_chain(vertices: &[Vertex]) -> Drawing {
     let mut drawing = Drawing::new(None);
-    let outline = Geometry::Polyline { closed: true, vertices: vertices.to_vec() };
+    let outline = Geometry::Polyline {
+        closed: true,
+        vertices: vertices.to_vec(),
+    };
     for (i, segment) in outline.segments().enumerate() {
         let (kind, geometry) = match segment {
-            Segment::Line(line) if i % 2 == 0 => (wedm::drawing::Kind::Line, Geometry::Line { start: line.start, end: line.end }),
-            Segment::Line(line) => (wedm::drawing::Kind::Line, Geometry::Line { start: line.end, end: line.start }),
+            Segment::Line(line) if i % 2 == 0 => (
+                wedm::drawing::Kind::Line,
+                Geometry::Line {
+                    start: line.start,
+                    end: line.end,
+                },
+            ),
+            Segment::Line(line) => (
+                wedm::drawing::Kind::Line,
+                Geometry::Line {
+                    start: line.end,
+                    end: line.start,
+                },
+            ),
             Segment::Arc(arc) => {
                 let (from, to) = if arc.sweep > 0.0 {
                     (arc.start_angle, arc.start_angle + arc.sweep)
                 } else {
                     (arc.start_angle + arc.sweep, arc.start_angle)
                 };
-                (wedm::drawing::Kind::Arc, Geometry::Arc { center: arc.center, radius: arc.radius, start_angle: from, end_angle: to })
+                (
+                    wedm::drawing::Kind::Arc,
+                    Geometry::Arc {
+                        center: arc.center,
+                        radius: arc.radius,
+                        start_angle: from,
+                        end_angle: to,
+                    },
+                )
             }
         };
-        drawing.push(Entity { handle: format!("{i}").into(), layer: "0".into(), role: None, kind, geometry });
+        drawing.push(Entity {
+            handle: format!("{i}").into(),
+            layer: "0".into(),
+            role: None,
+            kind,
+            geometry,
+        });
     }
     drawing
 }
 
 /// Errors and warnings.
 fn grave(findings: &[Finding]) -> usize {
-    findings.iter().filter(|finding| finding.severity <= Severity::Warning).count()
+    findings
+        .iter()
+        .filter(|finding| finding.severity <= Severity::Warning)
+        .count()
 }
 
 /// Applies the preferred fix of the first finding that has one and holds the new outline against the opening.
-fn check(vertices: &[Vertex], drawing: Drawing, side_setting: wedm::settings::SideSetting) -> Result<bool, TestCaseError> {
+fn check(
+    vertices: &[Vertex],
+    drawing: Drawing,
+    side_setting: wedm::settings::SideSetting,
+) -> Result<bool, TestCaseError> {
     let mut settings = (*settings(CORRECTION)).clone();
     settings.side = side_setting;
     let settings = std::sync::Arc::new(settings);
@@ -77,25 +131,52 @@ fn check(vertices: &[Vertex], drawing: Drawing, side_setting: wedm::settings::Si
     let (findings, _) = analysis.findings(&drawing, usize::MAX);
     let before = faults(&drawing, &settings).len();
     let old = all_segments(&drawing);
-    let outline = Geometry::Polyline { closed: true, vertices: vertices.to_vec() };
+    let outline = Geometry::Polyline {
+        closed: true,
+        vertices: vertices.to_vec(),
+    };
     let mut fixed_any = false;
     for finding in &findings {
-        let Detail::SmallRadius(numbers) = &finding.detail else { continue };
-        let preferred = analysis.fixes(&drawing, finding).into_iter().find(|fix| fix.preferred);
-        prop_assert_eq!(preferred.is_none(), numbers.no_fix.is_some(), "the finding says whether there is a fix");
+        let Detail::SmallRadius(numbers) = &finding.detail else {
+            continue;
+        };
+        let preferred = analysis
+            .fixes(&drawing, finding)
+            .into_iter()
+            .find(|fix| fix.preferred);
+        prop_assert_eq!(
+            preferred.is_none(),
+            numbers.no_fix.is_some(),
+            "the finding says whether there is a fix"
+        );
         let Some(fix) = preferred else { continue };
         fixed_any = true;
         let mut fixed = drawing.clone();
         prop_assert!(fixed.apply(&fix.edit).is_ok());
         let after = faults(&fixed, &settings).len();
         // Nor is it paid for with a fault of another rule, but for a kink of the opening that nearly is tangent, a hint.
-        let others = Analysis::new(&fixed, settings.clone()).findings(&fixed, usize::MAX).0;
-        prop_assert!(grave(&others) < grave(&findings), "{findings:#?} before, {others:#?} after");
+        let others = Analysis::new(&fixed, settings.clone())
+            .findings(&fixed, usize::MAX)
+            .0;
+        prop_assert!(
+            grave(&others) < grave(&findings),
+            "{findings:#?} before, {others:#?} after"
+        );
         prop_assert!(after < before, "{before} faults before, {after} after");
         // The arc's own centre tells on which side of the outline the wire runs here.
-        let along = outline.segments().find(|segment| segment.as_arc().is_some_and(|arc| (arc.center - numbers.center).norm() < 1e-6));
-        let Some(Segment::Arc(arc)) = along else { return Err(TestCaseError::fail("the fault is on the outline")) };
-        let side = if arc.sweep > 0.0 { Side::Left } else { Side::Right };
+        let along = outline.segments().find(|segment| {
+            segment
+                .as_arc()
+                .is_some_and(|arc| (arc.center - numbers.center).norm() < 1e-6)
+        });
+        let Some(Segment::Arc(arc)) = along else {
+            return Err(TestCaseError::fail("the fault is on the outline"));
+        };
+        let side = if arc.sweep > 0.0 {
+            Side::Left
+        } else {
+            Side::Right
+        };
         let opened = opening(vertices, side, CORRECTION);
         if opened.is_empty() {
             // An outline with room for the disc that the fix found has an opening: here the judge itself has lost it.
@@ -118,7 +199,10 @@ fn check(vertices: &[Vertex], drawing: Drawing, side_setting: wedm::settings::Si
             for k in 0..=16 {
                 let point = segment.point_at(k as f64 / 16.0);
                 let gone = distance(&new, point);
-                prop_assert!(gone < 2e-5 || distance(&opened, point) > 1e-9, "{point} of the old outline is gone");
+                prop_assert!(
+                    gone < 2e-5 || distance(&opened, point) > 1e-9,
+                    "{point} of the old outline is gone"
+                );
             }
         }
     }

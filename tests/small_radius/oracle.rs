@@ -30,7 +30,10 @@ struct Violation {
 
 /// The folder with the oracles, where this machine has one.
 fn oracle(name: &str) -> Option<Oracle> {
-    let folder = std::env::var_os("WEDM_SHARED").map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared"), PathBuf::from);
+    let folder = std::env::var_os("WEDM_SHARED").map_or_else(
+        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared"),
+        PathBuf::from,
+    );
     let text = std::fs::read_to_string(folder.join("oracles").join(name)).ok()?;
     Some(serde_json::from_str(&text).expect("the oracle is JSON of the form above"))
 }
@@ -43,12 +46,19 @@ fn faults_and_corrected_outlines_of_the_oracle() {
     };
     let mut wrong = Vec::new();
     for case in &oracle.cases {
-        let role = if case.role == "die" { Role::Opening } else { Role::Punch };
+        let role = if case.role == "die" {
+            Role::Opening
+        } else {
+            Role::Punch
+        };
         let settings = settings(case.correction);
         let mut drawing = drawing_of(polyline(&case.vertices, case.closed), role);
         let found = faults(&drawing, &settings);
         let same = found.len() == case.violations.len()
-            && found.iter().zip(&case.violations).all(|(f, v)| f.0 == v.segment && (f.1 - v.radius).abs() < 1e-9);
+            && found
+                .iter()
+                .zip(&case.violations)
+                .all(|(f, v)| f.0 == v.segment && (f.1 - v.radius).abs() < 1e-9);
         if !same {
             wrong.push(format!("{}: found {found:?}", case.id));
         }

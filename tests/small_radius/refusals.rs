@@ -15,17 +15,29 @@ use wedm::settings::{Effective, Settings};
 const CORRECTION: f64 = 0.2;
 
 fn settings() -> Arc<Effective> {
-    Arc::new(Effective::of(&Settings { correction: Some(CORRECTION), ..Settings::default() }))
+    Arc::new(Effective::of(&Settings {
+        correction: Some(CORRECTION),
+        ..Settings::default()
+    }))
 }
 
 fn outline(vertices: &[Vertex], role: Role) -> Drawing {
-    drawing_of(Geometry::Polyline { closed: true, vertices: vertices.to_vec() }, role)
+    drawing_of(
+        Geometry::Polyline {
+            closed: true,
+            vertices: vertices.to_vec(),
+        },
+        role,
+    )
 }
 
 /// Errors and warnings.
 fn grave(drawing: &Drawing) -> usize {
     let (findings, _) = Analysis::new(drawing, settings()).findings(drawing, usize::MAX);
-    findings.iter().filter(|finding| finding.severity <= Severity::Warning).count()
+    findings
+        .iter()
+        .filter(|finding| finding.severity <= Severity::Warning)
+        .count()
 }
 
 /// How many arcs at fault have no preferred fix; the reasons of those that say one.
@@ -34,8 +46,13 @@ fn refused(drawing: &Drawing) -> (usize, Vec<NoFix>) {
     let (findings, _) = analysis.findings(drawing, usize::MAX);
     let (mut refused, mut reasons) = (0, Vec::new());
     for finding in &findings {
-        let Detail::SmallRadius(numbers) = &finding.detail else { continue };
-        let preferred = analysis.fixes(drawing, finding).into_iter().find(|fix| fix.preferred);
+        let Detail::SmallRadius(numbers) = &finding.detail else {
+            continue;
+        };
+        let preferred = analysis
+            .fixes(drawing, finding)
+            .into_iter()
+            .find(|fix| fix.preferred);
         refused += usize::from(preferred.is_none());
         reasons.extend(numbers.no_fix);
         if let Some(fix) = preferred {
@@ -59,8 +76,14 @@ fn split(vertices: &[Vertex], share: f64, decimals: i32) -> Vec<Vertex> {
                 let middle = arc.point_at(share);
                 let middle = wedm::geometry::Point::new(round(middle.x), round(middle.y));
                 let bulge = |share: f64| (arc.sweep * share / 4.0).tan();
-                more.push(Vertex { bulge: bulge(share), ..vertex });
-                more.push(Vertex { point: middle, bulge: bulge(1.0 - share) });
+                more.push(Vertex {
+                    bulge: bulge(share),
+                    ..vertex
+                });
+                more.push(Vertex {
+                    point: middle,
+                    bulge: bulge(1.0 - share),
+                });
             }
             _ => more.push(vertex),
         }
@@ -69,14 +92,24 @@ fn split(vertices: &[Vertex], share: f64, decimals: i32) -> Vec<Vertex> {
 }
 
 fn stars_of_fillets() -> impl Strategy<Value = Star> {
-    (proptest::collection::vec((0.6..1.4f64, 3.0..6.0f64, 0.03..0.12f64), 4..8), any::<bool>()).prop_map(|(corners, clockwise)| {
-        let corner = |(step, radius, length)| (step, radius, 0.0, Corner::Fillet { length });
-        Star { corners: corners.into_iter().map(corner).collect(), clockwise }
-    })
+    (
+        proptest::collection::vec((0.6..1.4f64, 3.0..6.0f64, 0.03..0.12f64), 4..8),
+        any::<bool>(),
+    )
+        .prop_map(|(corners, clockwise)| {
+            let corner = |(step, radius, length)| (step, radius, 0.0, Corner::Fillet { length });
+            Star {
+                corners: corners.into_iter().map(corner).collect(),
+                clockwise,
+            }
+        })
 }
 
 fn cases(usual: u32) -> u32 {
-    std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok()).unwrap_or(usual)
+    std::env::var("PROPTEST_CASES")
+        .ok()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(usual)
 }
 
 proptest! {
@@ -120,10 +153,17 @@ fn a_wall_that_is_all_but_used_up_is_swallowed() {
             (12.0, 10.0, 0.0),
             (0.0, 10.0, 0.0),
         ];
-        let vertices: Vec<Vertex> = vertices.iter().map(|&(x, y, bulge)| Vertex::new(x, y, bulge)).collect();
+        let vertices: Vec<Vertex> = vertices
+            .iter()
+            .map(|&(x, y, bulge)| Vertex::new(x, y, bulge))
+            .collect();
         for role in [Role::Opening, Role::Both] {
             let (refused, reasons) = refused(&outline(&vertices, role));
-            assert_eq!((refused, reasons), (0, vec![]), "{left} of the wall would be left");
+            assert_eq!(
+                (refused, reasons),
+                (0, vec![]),
+                "{left} of the wall would be left"
+            );
         }
     }
 }

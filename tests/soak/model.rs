@@ -71,14 +71,31 @@ const TYPED: [&str; 24] = [
 
 impl Model {
     pub fn text(uri: &str, language: &str, text: &str) -> Model {
-        let text = text.replace('\r', "").chars().filter(char::is_ascii).collect();
-        let content = Content::Text { language: language.into(), text };
-        Model { uri: uri.into(), version: 1, first: content.clone(), content }
+        let text = text
+            .replace('\r', "")
+            .chars()
+            .filter(char::is_ascii)
+            .collect();
+        let content = Content::Text {
+            language: language.into(),
+            text,
+        };
+        Model {
+            uri: uri.into(),
+            version: 1,
+            first: content.clone(),
+            content,
+        }
     }
 
     pub fn drawing(uri: &str, entities: Vec<Value>) -> Model {
         let content = Content::Drawing(entities);
-        Model { uri: uri.into(), version: 1, first: content.clone(), content }
+        Model {
+            uri: uri.into(),
+            version: 1,
+            first: content.clone(),
+            content,
+        }
     }
 
     pub fn uri(&self) -> &str {
@@ -111,8 +128,14 @@ impl Model {
 
     pub fn closing(&self) -> (&'static str, Value) {
         match self.content {
-            Content::Text { .. } => ("textDocument/didClose", json!({ "textDocument": { "uri": self.uri } })),
-            Content::Drawing(_) => ("wedm/didCloseDrawing", json!({ "drawing": { "uri": self.uri } })),
+            Content::Text { .. } => (
+                "textDocument/didClose",
+                json!({ "textDocument": { "uri": self.uri } }),
+            ),
+            Content::Drawing(_) => (
+                "wedm/didCloseDrawing",
+                json!({ "drawing": { "uri": self.uri } }),
+            ),
         }
     }
 
@@ -136,9 +159,10 @@ impl Model {
                 "textDocument/didChange",
                 json!({ "textDocument": { "uri": self.uri, "version": self.version }, "contentChanges": changes }),
             ),
-            Content::Drawing(_) => {
-                ("wedm/didChangeDrawing", json!({ "drawing": { "uri": self.uri, "version": self.version }, "changes": changes }))
-            }
+            Content::Drawing(_) => (
+                "wedm/didChangeDrawing",
+                json!({ "drawing": { "uri": self.uri, "version": self.version }, "changes": changes }),
+            ),
         }
     }
 
@@ -146,23 +170,39 @@ impl Model {
     pub fn changes_of(&self, action: &Value, version: i64) -> Option<Value> {
         if !self.is_text() {
             let argument = action["command"]["arguments"].get(0)?;
-            return (argument["uri"] == self.uri && argument["version"] == version).then(|| argument["changes"].clone());
+            return (argument["uri"] == self.uri && argument["version"] == version)
+                .then(|| argument["changes"].clone());
         }
         let of_document = action["edit"]["documentChanges"].get(0)?;
-        if of_document["textDocument"]["uri"] != self.uri || of_document["textDocument"]["version"] != version {
+        if of_document["textDocument"]["uri"] != self.uri
+            || of_document["textDocument"]["version"] != version
+        {
             return None;
         }
         let mut edits = of_document["edits"].as_array()?.clone();
         // From the last to the first, so that none moves another. Of two at one place the later one is made first.
-        let place = |edit: &Value| (edit["range"]["start"]["line"].as_u64(), edit["range"]["start"]["character"].as_u64());
+        let place = |edit: &Value| {
+            (
+                edit["range"]["start"]["line"].as_u64(),
+                edit["range"]["start"]["character"].as_u64(),
+            )
+        };
         edits.sort_by_key(|edit| place(edit));
         edits.reverse();
-        Some(edits.into_iter().map(|edit| json!({ "range": edit["range"], "text": edit["newText"] })).collect())
+        Some(
+            edits
+                .into_iter()
+                .map(|edit| json!({ "range": edit["range"], "text": edit["newText"] }))
+                .collect(),
+        )
     }
 
     /// Brings the model back to how it began.
     pub fn restored(&self) -> Value {
-        let first = Model { content: self.first.clone(), ..self.clone() };
+        let first = Model {
+            content: self.first.clone(),
+            ..self.clone()
+        };
         first.restoring(self)
     }
 
@@ -171,8 +211,12 @@ impl Model {
         match (&self.content, &other.content) {
             (Content::Text { text, .. }, _) => json!([{ "text": text }]),
             (Content::Drawing(entities), Content::Drawing(others)) => {
-                let gone = others.iter().map(|entity| json!({ "handle": entity["handle"], "entity": null }));
-                let put = entities.iter().map(|entity| json!({ "handle": entity["handle"], "entity": entity }));
+                let gone = others
+                    .iter()
+                    .map(|entity| json!({ "handle": entity["handle"], "entity": null }));
+                let put = entities
+                    .iter()
+                    .map(|entity| json!({ "handle": entity["handle"], "entity": entity }));
                 gone.chain(put).collect()
             }
             (Content::Drawing(_), Content::Text { .. }) => unreachable!("a drawing stays one"),
@@ -198,7 +242,10 @@ impl Model {
 }
 
 fn change_of_text(text: &str, random: &mut Random) -> Value {
-    let lines: Vec<&str> = lines(text).into_iter().map(|(start, length)| &text[start..start + length]).collect();
+    let lines: Vec<&str> = lines(text)
+        .into_iter()
+        .map(|(start, length)| &text[start..start + length])
+        .collect();
     let at = random.below(lines.len());
     let at_line = |line: usize, character: usize| json!({ "line": line, "character": character });
     let (line, length) = (lines[at], lines[at].len());
@@ -207,13 +254,30 @@ fn change_of_text(text: &str, random: &mut Random) -> Value {
     match random.below(10) {
         // Another digit for one that stands.
         0..=3 => {
-            let digits: Vec<usize> = line.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit()).map(|(index, _)| index).collect();
+            let digits: Vec<usize> = line
+                .bytes()
+                .enumerate()
+                .filter(|(_, byte)| byte.is_ascii_digit())
+                .map(|(index, _)| index)
+                .collect();
             let place = digits.get(random.below(digits.len())).copied().unwrap_or(0);
             let end = (place + usize::from(!digits.is_empty())).min(length);
-            change(at_line(at, place), at_line(at, end), random.below(10).to_string())
+            change(
+                at_line(at, place),
+                at_line(at, end),
+                random.below(10).to_string(),
+            )
         }
-        4..=6 => change(at_line(at, place), at_line(at, place), TYPED[random.below(TYPED.len())].into()),
-        7 => change(at_line(at, place), at_line(at, (place + 1 + random.below(2)).min(length)), String::new()),
+        4..=6 => change(
+            at_line(at, place),
+            at_line(at, place),
+            TYPED[random.below(TYPED.len())].into(),
+        ),
+        7 => change(
+            at_line(at, place),
+            at_line(at, (place + 1 + random.below(2)).min(length)),
+            String::new(),
+        ),
         // A line twice, or gone.
         8 => change(at_line(at, 0), at_line(at, 0), format!("{line}\n")),
         _ => change(at_line(at, 0), at_line(at + 1, 0), String::new()),
@@ -226,13 +290,21 @@ fn change_of_drawing(entities: &[Value], random: &mut Random) -> Value {
     }
     let entity = &entities[random.below(entities.len())];
     let handle = &entity["handle"];
-    let shift = |random: &mut Random| (random.below(41) as f64 - 20.0) * [0.001, 0.05, 1.0][random.below(3)];
+    let shift = |random: &mut Random| {
+        (random.below(41) as f64 - 20.0) * [0.001, 0.05, 1.0][random.below(3)]
+    };
     match (random.below(8), entity["vertices"].as_array()) {
         (0..=4, Some(vertices)) if !vertices.is_empty() => {
             let at = random.below(vertices.len());
-            let number = |vertex: &Value, index: usize| vertex.get(index).and_then(Value::as_f64).unwrap_or(0.0);
+            let number = |vertex: &Value, index: usize| {
+                vertex.get(index).and_then(Value::as_f64).unwrap_or(0.0)
+            };
             let own = &vertices[at];
-            let moved = json!([number(own, 0) + shift(random), number(own, 1) + shift(random), number(own, 2)]);
+            let moved = json!([
+                number(own, 0) + shift(random),
+                number(own, 1) + shift(random),
+                number(own, 2)
+            ]);
             let bent = json!([number(own, 0), number(own, 1), shift(random)]);
             let (count, insert) = match random.below(6) {
                 0 => (1, json!([])),
@@ -245,7 +317,9 @@ fn change_of_drawing(entities: &[Value], random: &mut Random) -> Value {
         (5, _) if entities.len() > 1 => json!([{ "handle": handle, "entity": null }]),
         (6, _) if entities.len() < 8 => {
             let mut copy = entity.clone();
-            let name = (0..).map(|number| format!("C{number}")).find(|name| entities.iter().all(|other| other["handle"] != **name));
+            let name = (0..)
+                .map(|number| format!("C{number}"))
+                .find(|name| entities.iter().all(|other| other["handle"] != **name));
             copy["handle"] = json!(name);
             json!([{ "handle": name, "entity": copy, "before": handle }])
         }
@@ -265,12 +339,23 @@ fn change_of_drawing(entities: &[Value], random: &mut Random) -> Value {
 }
 
 fn change_entity(entities: &mut Vec<Value>, change: &Value) {
-    let at = entities.iter().position(|entity| entity["handle"] == change["handle"]);
+    let at = entities
+        .iter()
+        .position(|entity| entity["handle"] == change["handle"]);
     if let Some(splice) = change.get("vertices") {
-        let vertices = entities[at.expect("it stands")]["vertices"].as_array_mut().expect("a polyline");
+        let vertices = entities[at.expect("it stands")]["vertices"]
+            .as_array_mut()
+            .expect("a polyline");
         let start = splice["start"].as_u64().expect("a number") as usize;
         let end = start + splice["deleteCount"].as_u64().expect("a number") as usize;
-        vertices.splice(start..end, splice["insert"].as_array().expect("vertices").iter().cloned());
+        vertices.splice(
+            start..end,
+            splice["insert"]
+                .as_array()
+                .expect("vertices")
+                .iter()
+                .cloned(),
+        );
         return;
     }
     let before = change.get("before").filter(|before| !before.is_null());
@@ -281,7 +366,9 @@ fn change_entity(entities: &mut Vec<Value>, change: &Value) {
             if let Some(at) = at {
                 entities.remove(at);
             }
-            let place = before.and_then(|before| entities.iter().position(|other| other["handle"] == *before)).unwrap_or(entities.len());
+            let place = before
+                .and_then(|before| entities.iter().position(|other| other["handle"] == *before))
+                .unwrap_or(entities.len());
             entities.insert(place, entity.clone());
         }
     }
@@ -289,9 +376,13 @@ fn change_entity(entities: &mut Vec<Value>, change: &Value) {
 
 /// The byte of a position, as far into its line as that goes.
 fn offset(text: &str, position: &Value) -> usize {
-    let (line, character) =
-        (position["line"].as_u64().expect("a line") as usize, position["character"].as_u64().expect("a place") as usize);
-    lines(text).get(line).map_or(text.len(), |(start, length)| start + character.min(*length))
+    let (line, character) = (
+        position["line"].as_u64().expect("a line") as usize,
+        position["character"].as_u64().expect("a place") as usize,
+    );
+    lines(text)
+        .get(line)
+        .map_or(text.len(), |(start, length)| start + character.min(*length))
 }
 
 /// Where each line begins, and its length without its end: `\n`, `\r\n` or `\r`.
@@ -299,7 +390,12 @@ fn lines(text: &str) -> Vec<(usize, usize)> {
     let (mut found, mut start) = (Vec::new(), 0);
     while let Some(length) = text[start..].find(['\n', '\r']) {
         found.push((start, length));
-        start += length + if text[start + length..].starts_with("\r\n") { 2 } else { 1 };
+        start += length
+            + if text[start + length..].starts_with("\r\n") {
+                2
+            } else {
+                1
+            };
     }
     found.push((start, text.len() - start));
     found

@@ -57,7 +57,10 @@ fn data(name: &str) -> String {
 /// Lines and an arc in DXF that come together, with doubles and a gap.
 fn lines() -> String {
     let line = |handle: &str, from: [f64; 2], to: [f64; 2]| {
-        format!("0\nLINE\n5\n{handle}\n8\n0\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n", from[0], from[1], to[0], to[1])
+        format!(
+            "0\nLINE\n5\n{handle}\n8\n0\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n",
+            from[0], from[1], to[0], to[1]
+        )
     };
     let entities = line("A1", [0.0, 0.0], [10.0, 0.0])
         + &line("A2", [10.0, 0.0], [10.0, 10.0])
@@ -65,7 +68,9 @@ fn lines() -> String {
         + &line("A4", [0.0, 10.0], [0.0, 0.0])
         + &line("A5", [10.0, 0.0], [10.0, 10.0])
         + "0\nCIRCLE\n5\nA6\n8\n0\n10\n5\n20\n5\n40\n2\n0\nARC\n5\nA7\n8\n0\n10\n20\n20\n5\n40\n3\n50\n0\n51\n180\n";
-    format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
+    format!(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+    )
 }
 
 fn blocks() -> String {
@@ -100,8 +105,16 @@ pub fn models() -> Vec<Model> {
         Model::drawing("cad:///mixed", mixed()),
         Model::text("file:///hole.3b", "3b", &data("hole.3b")),
         Model::text("file:///checking.3b", "3b", CHECKING),
-        Model::text("file:///holes.3b", "3b", &program("right/two_holes_with_pauses.3b")),
-        Model::text("file:///plate.3b", "3b", &program("right/plate_with_three_arcs.3b")),
+        Model::text(
+            "file:///holes.3b",
+            "3b",
+            &program("right/two_holes_with_pauses.3b"),
+        ),
+        Model::text(
+            "file:///plate.3b",
+            "3b",
+            &program("right/plate_with_three_arcs.3b"),
+        ),
         Model::text("file:///numbers.3b", "3b", &program("wrong/numbers.3b")),
         Model::text("file:///four.4b", "3b", FOUR_B),
         Model::text("file:///contour.nc", "wire-iso", ISO),

@@ -44,7 +44,14 @@ impl Client {
             .spawn()
             .expect("the server starts");
         let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
-        Client { child, stdin, stdout, inbox: None, seen: Vec::new(), next_id: 0 }
+        Client {
+            child,
+            stdin,
+            stdout,
+            inbox: None,
+            seen: Vec::new(),
+            next_id: 0,
+        }
     }
 
     /// A server before its handshake.
@@ -67,7 +74,9 @@ impl Client {
     }
 
     pub fn shake_hands(&mut self, params: Value) -> Value {
-        let result = self.request("initialize", params).expect("initialize succeeds");
+        let result = self
+            .request("initialize", params)
+            .expect("initialize succeeds");
         self.notify("initialized", json!({}));
         result
     }
@@ -89,7 +98,10 @@ impl Client {
 
     pub fn send_bytes(&mut self, bytes: &[u8]) {
         let stdin = self.stdin.as_mut().expect("stdin is open");
-        stdin.write_all(bytes).and_then(|()| stdin.flush()).expect("the server reads");
+        stdin
+            .write_all(bytes)
+            .and_then(|()| stdin.flush())
+            .expect("the server reads");
     }
 
     pub fn send(&mut self, message: &Value) {
@@ -103,7 +115,9 @@ impl Client {
     /// Sends a request and returns its id.
     pub fn ask(&mut self, method: &str, params: Value) -> i64 {
         self.next_id += 1;
-        self.send(&json!({ "jsonrpc": "2.0", "id": self.next_id, "method": method, "params": params }));
+        self.send(
+            &json!({ "jsonrpc": "2.0", "id": self.next_id, "method": method, "params": params }),
+        );
         self.next_id
     }
 
@@ -113,7 +127,9 @@ impl Client {
     }
 
     pub fn answer(&mut self, id: i64) -> Result<Value, Value> {
-        let message = self.wait_for(&format!("the answer to {id}"), |message| message["id"] == id && message.get("method").is_none());
+        let message = self.wait_for(&format!("the answer to {id}"), |message| {
+            message["id"] == id && message.get("method").is_none()
+        });
         match message.get("error") {
             Some(error) => Err(error.clone()),
             None => Ok(message["result"].clone()),
@@ -122,13 +138,20 @@ impl Client {
 
     /// Code of the error that a request is answered with.
     pub fn code(&mut self, method: &str, params: Value) -> i64 {
-        self.request(method, params).expect_err(method)["code"].as_i64().expect("a code")
+        self.request(method, params).expect_err(method)["code"]
+            .as_i64()
+            .expect("a code")
     }
 
     /// The next request of the server with this method.
     pub fn asked(&mut self, method: &str) -> Asked {
-        let message = self.wait_for(method, |message| message["method"] == method && message.get("id").is_some());
-        Asked { id: message["id"].clone(), params: message["params"].clone() }
+        let message = self.wait_for(method, |message| {
+            message["method"] == method && message.get("id").is_some()
+        });
+        Asked {
+            id: message["id"].clone(),
+            params: message["params"].clone(),
+        }
     }
 
     pub fn respond(&mut self, asked: &Asked, result: Value) {
@@ -137,20 +160,32 @@ impl Client {
 
     /// The next notification with this method.
     pub fn told(&mut self, method: &str) -> Value {
-        self.wait_for(method, |message| message["method"] == method && message.get("id").is_none())["params"].take()
+        self.wait_for(method, |message| {
+            message["method"] == method && message.get("id").is_none()
+        })["params"]
+            .take()
     }
 
     /// The next line of the log that holds `text`.
     pub fn logged(&mut self, text: &str) -> String {
         let is_it = |message: &Value| {
-            message["method"] == "window/logMessage" && message["params"]["message"].as_str().is_some_and(|line| line.contains(text))
+            message["method"] == "window/logMessage"
+                && message["params"]["message"]
+                    .as_str()
+                    .is_some_and(|line| line.contains(text))
         };
-        self.wait_for(&format!("a log line with \"{text}\""), is_it)["params"]["message"].as_str().unwrap_or_default().into()
+        self.wait_for(&format!("a log line with \"{text}\""), is_it)["params"]["message"]
+            .as_str()
+            .unwrap_or_default()
+            .into()
     }
 
     /// The next publish for a document, whatever its version.
     pub fn published(&mut self, uri: &str) -> Value {
-        let is_it = |message: &Value| message["method"] == "textDocument/publishDiagnostics" && message["params"]["uri"] == uri;
+        let is_it = |message: &Value| {
+            message["method"] == "textDocument/publishDiagnostics"
+                && message["params"]["uri"] == uri
+        };
         self.wait_for(&format!("diagnostics of {uri}"), is_it)["params"].take()
     }
 
@@ -159,7 +194,10 @@ impl Client {
         loop {
             let mut publish = self.published(uri);
             if publish["version"] == version {
-                return publish["diagnostics"].as_array_mut().map(std::mem::take).expect("a list");
+                return publish["diagnostics"]
+                    .as_array_mut()
+                    .map(std::mem::take)
+                    .expect("a list");
             }
         }
     }
@@ -172,11 +210,20 @@ impl Client {
         let deadline = Instant::now() + PATIENCE;
         loop {
             let left = deadline.saturating_duration_since(Instant::now());
-            match self.inbox.as_ref().expect("somebody reads").recv_timeout(left) {
+            match self
+                .inbox
+                .as_ref()
+                .expect("somebody reads")
+                .recv_timeout(left)
+            {
                 Ok(message) if fits(&message) => return message,
                 Ok(message) => self.seen.push(message),
-                Err(RecvTimeoutError::Timeout) => panic!("{what} did not come; came: {:?}", self.seen),
-                Err(RecvTimeoutError::Disconnected) => panic!("the server ended before {what} came; came: {:?}", self.seen),
+                Err(RecvTimeoutError::Timeout) => {
+                    panic!("{what} did not come; came: {:?}", self.seen)
+                }
+                Err(RecvTimeoutError::Disconnected) => {
+                    panic!("the server ended before {what} came; came: {:?}", self.seen)
+                }
             }
         }
     }
@@ -212,7 +259,8 @@ impl Client {
     }
 
     pub fn shut_down(mut self) {
-        self.request("shutdown", Value::Null).expect("shutdown is answered");
+        self.request("shutdown", Value::Null)
+            .expect("shutdown is answered");
         self.notify("exit", Value::Null);
         assert_eq!(self.end().0, Some(0));
     }
@@ -225,12 +273,18 @@ impl Client {
 
     /// Opens a drawing and returns its first diagnostics.
     pub fn open_drawing(&mut self, uri: &str, entities: Value) -> Vec<Value> {
-        self.notify("wedm/didOpenDrawing", json!({ "drawing": { "uri": uri, "version": 1, "units": "mm", "entities": entities } }));
+        self.notify(
+            "wedm/didOpenDrawing",
+            json!({ "drawing": { "uri": uri, "version": 1, "units": "mm", "entities": entities } }),
+        );
         self.diagnostics(uri, 1)
     }
 
     pub fn change_drawing(&mut self, uri: &str, version: i64, changes: Value) {
-        self.notify("wedm/didChangeDrawing", json!({ "drawing": { "uri": uri, "version": version }, "changes": changes }));
+        self.notify(
+            "wedm/didChangeDrawing",
+            json!({ "drawing": { "uri": uri, "version": version }, "changes": changes }),
+        );
     }
 }
 
@@ -276,9 +330,14 @@ pub fn wide_plate(handle: &str) -> Value {
 
 /// DXF text of closed polylines, each with its handle.
 pub fn dxf_of(polylines: &[(&str, &[[f64; 3]])]) -> String {
-    let mut text = String::from("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
+    let mut text = String::from(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+    );
     for (handle, vertices) in polylines {
-        text += &format!("0\nLWPOLYLINE\n5\n{handle}\n8\n0\n90\n{}\n70\n1\n", vertices.len());
+        text += &format!(
+            "0\nLWPOLYLINE\n5\n{handle}\n8\n0\n90\n{}\n70\n1\n",
+            vertices.len()
+        );
         for [x, y, bulge] in *vertices {
             text += &format!("10\n{x:?}\n20\n{y:?}\n");
             if *bulge != 0.0 {
@@ -290,15 +349,26 @@ pub fn dxf_of(polylines: &[(&str, &[[f64; 3]])]) -> String {
 }
 
 /// Its vertices: all corners but the tight one are tangent and wide.
-pub const TIGHT: [[f64; 3]; 5] =
-    [[0.0, 5.0, 1.0], [10.0, 5.0, 0.0], [10.0, 9.95, 0.41421356237309503], [9.95, 10.0, 0.0], [5.0, 10.0, 0.41421356237309503]];
+pub const TIGHT: [[f64; 3]; 5] = [
+    [0.0, 5.0, 1.0],
+    [10.0, 5.0, 0.0],
+    [10.0, 9.95, 0.41421356237309503],
+    [9.95, 10.0, 0.0],
+    [5.0, 10.0, 0.41421356237309503],
+];
 
 /// Rules of diagnostics, in order.
 pub fn codes(diagnostics: &[Value]) -> Vec<&str> {
-    diagnostics.iter().map(|diagnostic| diagnostic["code"].as_str().unwrap_or_default()).collect()
+    diagnostics
+        .iter()
+        .map(|diagnostic| diagnostic["code"].as_str().unwrap_or_default())
+        .collect()
 }
 
 /// How many of the diagnostics are of `small-radius`.
 pub fn small(diagnostics: &[Value]) -> usize {
-    codes(diagnostics).iter().filter(|code| **code == "small-radius").count()
+    codes(diagnostics)
+        .iter()
+        .filter(|code| **code == "small-radius")
+        .count()
 }

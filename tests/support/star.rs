@@ -47,7 +47,10 @@ fn corner() -> impl Strategy<Value = Corner> {
 
 pub fn star() -> impl Strategy<Value = Star> {
     let edge = prop_oneof![3 => Just(0.0), 1 => -0.12..0.12f64];
-    (proptest::collection::vec((0.6..1.4f64, 2.0..5.0f64, edge, corner()), 4..9), any::<bool>())
+    (
+        proptest::collection::vec((0.6..1.4f64, 2.0..5.0f64, edge, corner()), 4..9),
+        any::<bool>(),
+    )
         .prop_map(|(corners, clockwise)| Star { corners, clockwise })
 }
 
@@ -57,11 +60,15 @@ impl Star {
         let mut angle = 0.0;
         let mut points = Vec::new();
         for &(step, radius, ..) in &self.corners {
-            points.push(Point::new(radius * f64::cos(angle), radius * f64::sin(angle)));
+            points.push(Point::new(
+                radius * f64::cos(angle),
+                radius * f64::sin(angle),
+            ));
             angle += step / whole * std::f64::consts::TAU;
         }
         let count = points.len();
-        let edge = |i: usize| Segment::from_bulge(points[i], points[(i + 1) % count], self.corners[i].2);
+        let edge =
+            |i: usize| Segment::from_bulge(points[i], points[(i + 1) % count], self.corners[i].2);
         let mut vertices = Vec::new();
         for (i, &corner_at) in points.iter().enumerate() {
             let (incoming, outgoing) = (edge((i + count - 1) % count), edge(i));
@@ -72,19 +79,33 @@ impl Star {
             let mut push = |point: Point, bulge: f64| vertices.push(Vertex { point, bulge });
             let leave = match self.corners[i].3 {
                 Corner::Sharp => corner_at,
-                Corner::Arc { before, after, bulge } => {
+                Corner::Arc {
+                    before,
+                    after,
+                    bulge,
+                } => {
                     push(last_end(before), bulge);
                     next_start(after)
                 }
-                Corner::Arcs { before, after, bulge, middle } => {
+                Corner::Arcs {
+                    before,
+                    after,
+                    bulge,
+                    middle,
+                } => {
                     let (from, to) = (last_end(before), next_start(after));
                     let whole = Segment::from_bulge(from, to, bulge);
                     push(from, (bulge.atan() * middle).tan());
-                    push(whole.point_at(middle), (bulge.atan() * (1.0 - middle)).tan() * 1.3);
+                    push(
+                        whole.point_at(middle),
+                        (bulge.atan() * (1.0 - middle)).tan() * 1.3,
+                    );
                     to
                 }
                 Corner::Fillet { length } => {
-                    let length = length.min(0.4 * incoming.length()).min(0.4 * outgoing.length());
+                    let length = length
+                        .min(0.4 * incoming.length())
+                        .min(0.4 * outgoing.length());
                     push(last_end(length), (turned / 4.0).tan());
                     next_start(length)
                 }
@@ -93,11 +114,15 @@ impl Star {
             let cut_at_end = match self.corners[(i + 1) % count].3 {
                 Corner::Sharp => 0.0,
                 Corner::Arc { before, .. } | Corner::Arcs { before, .. } => before,
-                Corner::Fillet { length } => length.min(0.4 * outgoing.length()).min(0.4 * edge((i + 1) % count).length()),
+                Corner::Fillet { length } => length
+                    .min(0.4 * outgoing.length())
+                    .min(0.4 * edge((i + 1) % count).length()),
             };
             let end = outgoing.point_at(1.0 - share(&outgoing, cut_at_end));
             let bulge = match outgoing {
-                Segment::Arc(arc) => (arc.sweep * (arc.share_of(end) - arc.share_of(leave)) / 4.0).tan(),
+                Segment::Arc(arc) => {
+                    (arc.sweep * (arc.share_of(end) - arc.share_of(leave)) / 4.0).tan()
+                }
                 Segment::Line(_) => 0.0,
             };
             push(leave, bulge);

@@ -13,12 +13,21 @@ fn a_panic_costs_its_own_request_and_no_document() {
         assert_eq!(client.open_text("file:///t.dxf", "dxf", &text).len(), 1);
         for panicked in [uri, "file:///t.dxf"] {
             for _ in 0..3 {
-                assert_eq!(client.code("wedm/test/panic", json!({ "site": site, "uri": panicked })), -32603, "{site}");
+                assert_eq!(
+                    client.code("wedm/test/panic", json!({ "site": site, "uri": panicked })),
+                    -32603,
+                    "{site}"
+                );
             }
         }
         // Both documents are as they were, and go on to change.
-        let list = client.request("wedm/inspect", json!({ "uri": uri })).unwrap();
-        assert_eq!(list["entities"][0]["segments"][2]["verdict"], "small-radius", "{site}");
+        let list = client
+            .request("wedm/inspect", json!({ "uri": uri }))
+            .unwrap();
+        assert_eq!(
+            list["entities"][0]["segments"][2]["verdict"], "small-radius",
+            "{site}"
+        );
         client.change_drawing(uri, 2, json!([{ "handle": "2A", "vertices": { "start": 2, "deleteCount": 1, "insert": [[10, 9.95, 0]] } }]));
         assert_eq!(small(&client.diagnostics(uri, 2)), 0, "{site}");
         let end = json!({ "line": 100_000, "character": 0 });
@@ -37,7 +46,10 @@ fn the_id_of_a_request_that_panicked_may_be_used_again() {
     let mut client = Client::start();
     for _ in 0..3 {
         client.send(&json!({ "jsonrpc": "2.0", "id": "again", "method": "wedm/test/panic", "params": { "site": "handler" } }));
-        assert_eq!(client.wait_for("an answer", |message| message["id"] == "again")["error"]["code"], -32603);
+        assert_eq!(
+            client.wait_for("an answer", |message| message["id"] == "again")["error"]["code"],
+            -32603
+        );
     }
     client.shut_down();
 }

@@ -9,13 +9,18 @@ fn a_doubled_id_harms_nobody() {
     let mut client = Client::start();
     // The first waits for the client, the second comes while it waits.
     for _ in 0..2 {
-        client.send(&json!({ "jsonrpc": "2.0", "id": "twice", "method": "wedm/test/ask", "params": {} }));
+        client.send(
+            &json!({ "jsonrpc": "2.0", "id": "twice", "method": "wedm/test/ask", "params": {} }),
+        );
     }
     let second = client.wait_for("a refusal", |message| message["id"] == "twice");
     assert_eq!(second["error"]["code"], -32600);
     let asked = client.asked("wedm/test/question");
     client.respond(&asked, json!("yes"));
-    assert_eq!(client.wait_for("the first answer", |message| message["id"] == "twice")["result"], "yes");
+    assert_eq!(
+        client.wait_for("the first answer", |message| message["id"] == "twice")["result"],
+        "yes"
+    );
     client.shut_down();
 }
 
@@ -23,8 +28,12 @@ fn a_doubled_id_harms_nobody() {
 fn handlers_that_wait_for_the_client_do_not_stop_the_others() {
     let mut client = Client::start();
     client.open_drawing("cad:///1", json!([tight_plate("2A")]));
-    let waiting: Vec<i64> = (0..40).map(|_| client.ask("wedm/test/ask", json!({}))).collect();
-    let fifth = client.request("wedm/inspect", json!({ "uri": "cad:///1" })).unwrap();
+    let waiting: Vec<i64> = (0..40)
+        .map(|_| client.ask("wedm/test/ask", json!({})))
+        .collect();
+    let fifth = client
+        .request("wedm/inspect", json!({ "uri": "cad:///1" }))
+        .unwrap();
     assert_eq!(fifth["entities"].as_array().unwrap().len(), 1);
     // The waiting ones are answered in any order, one of them by a cancellation.
     client.notify("$/cancelRequest", json!({ "id": waiting[7] }));
@@ -71,19 +80,36 @@ fn ten_thousand_changes_between_slow_requests_are_applied_in_order() {
         }
     }
     assert_eq!(client.diagnostics(URI, COUNT + 1).len(), 1);
-    let list = client.request("wedm/inspect", json!({ "uri": "cad:///1" })).unwrap();
-    assert_eq!(list["entities"][0]["segments"][0]["start"][0], -((COUNT - 1) as f64) / 1e6);
+    let list = client
+        .request("wedm/inspect", json!({ "uri": "cad:///1" }))
+        .unwrap();
+    assert_eq!(
+        list["entities"][0]["segments"][0]["start"][0],
+        -((COUNT - 1) as f64) / 1e6
+    );
     assert_eq!(small(&client.diagnostics("cad:///1", COUNT + 1)), 1);
     // The comment is empty again: the bulge stands where it stood.
     let action = json!({ "textDocument": { "uri": URI }, "range": { "start": { "line": 0, "character": 0 }, "end": { "line": 1000, "character": 0 } },
         "context": { "diagnostics": [], "only": ["quickfix"] } });
     let actions = client.request("textDocument/codeAction", action).unwrap();
-    let line = text.lines().position(|line| line == "0.41421356237309503").unwrap();
-    assert_eq!(actions[0]["diagnostics"][0]["range"]["start"], json!({ "line": line, "character": 0 }));
+    let line = text
+        .lines()
+        .position(|line| line == "0.41421356237309503")
+        .unwrap();
+    assert_eq!(
+        actions[0]["diagnostics"][0]["range"]["start"],
+        json!({ "line": line, "character": 0 })
+    );
     assert!(
-        client.seen.iter().all(|message| message["method"] != "window/logMessage"),
+        client
+            .seen
+            .iter()
+            .all(|message| message["method"] != "window/logMessage"),
         "{:?}",
-        client.seen.iter().find(|message| message["method"] == "window/logMessage")
+        client
+            .seen
+            .iter()
+            .find(|message| message["method"] == "window/logMessage")
     );
     for id in requests {
         assert!(client.answer(id).is_ok());

@@ -74,7 +74,10 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         Format::Json => output::print_json(&json(&survey.rows))?,
         Format::Sarif => output::print_json(&sarif::render(&survey))?,
     }
-    survey.failures.iter().for_each(|Failure(sentence)| output::complain(sentence));
+    survey
+        .failures
+        .iter()
+        .for_each(|Failure(sentence)| output::complain(sentence));
     Ok(verdict(&survey, arguments.deny))
 }
 
@@ -102,7 +105,12 @@ fn survey(arguments: &Arguments) -> Survey {
     };
     let checked: Vec<Checked> = found.files.par_iter().map(check_and_count).collect();
     progress.finish_and_clear();
-    let mut survey = Survey { files: 0, rows: Vec::new(), fixable: Vec::new(), failures: found.failures };
+    let mut survey = Survey {
+        files: 0,
+        rows: Vec::new(),
+        fixable: Vec::new(),
+        failures: found.failures,
+    };
     for (path, file) in found.files.into_iter().zip(checked) {
         survey.files += usize::from(file.failure.is_none());
         survey.failures.extend(file.failure);
@@ -113,18 +121,37 @@ fn survey(arguments: &Arguments) -> Survey {
     }
     // Several drawings may share one faulty settings file: it is said once.
     let mut said = std::collections::HashSet::new();
-    let of_settings = [crate::finding::Rule::Settings, crate::finding::Rule::PassOrder];
-    survey.rows.retain(|row| !of_settings.contains(&row.rule) || said.insert((row.path.clone(), row.line, row.message.clone())));
+    let of_settings = [
+        crate::finding::Rule::Settings,
+        crate::finding::Rule::PassOrder,
+    ];
+    survey.rows.retain(|row| {
+        !of_settings.contains(&row.rule)
+            || said.insert((row.path.clone(), row.line, row.message.clone()))
+    });
     survey
 }
 
 fn check(path: &Path, common: &Common, settings: &Settings) -> Checked {
     match files::open(path, common, settings) {
-        Err(failure) => Checked { rows: Vec::new(), fixable: false, failure: Some(failure) },
-        Ok(Opened { path, mut document, settings_rows, .. }) => {
+        Err(failure) => Checked {
+            rows: Vec::new(),
+            fixable: false,
+            failure: Some(failure),
+        },
+        Ok(Opened {
+            path,
+            mut document,
+            settings_rows,
+            ..
+        }) => {
             let mut rows = settings_rows;
             rows.extend(report::rows(&path, &mut document));
-            Checked { rows, fixable: document.fix_all().is_some(), failure: None }
+            Checked {
+                rows,
+                fixable: document.fix_all().is_some(),
+                failure: None,
+            }
         }
     }
 }

@@ -7,8 +7,11 @@ use crate::finding::{Rule, Severity};
 use serde_json::{Value, json};
 
 pub(super) fn render(survey: &Survey) -> String {
-    let notifications: Vec<Value> =
-        survey.failures.iter().map(|Failure(sentence)| json!({ "level": "error", "message": { "text": sentence } })).collect();
+    let notifications: Vec<Value> = survey
+        .failures
+        .iter()
+        .map(|Failure(sentence)| json!({ "level": "error", "message": { "text": sentence } }))
+        .collect();
     let log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
@@ -145,7 +148,11 @@ fn summary(rule: Rule) -> &'static str {
 
 /// A path as a URI reference: relative paths stay relative, what a URI cannot hold is escaped.
 fn uri(path: &str) -> String {
-    let forward = if cfg!(windows) { path.replace('\\', "/") } else { path.to_string() };
+    let forward = if cfg!(windows) {
+        path.replace('\\', "/")
+    } else {
+        path.to_string()
+    };
     let mut uri = String::new();
     if forward.starts_with('/') {
         uri.push_str("file://");
@@ -154,7 +161,9 @@ fn uri(path: &str) -> String {
     }
     for byte in forward.bytes() {
         match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => uri.push(byte as char),
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => {
+                uri.push(byte as char)
+            }
             byte => uri.push_str(&format!("%{byte:02X}")),
         }
     }
@@ -167,7 +176,11 @@ mod tests {
 
     #[test]
     fn paths_become_uri_references() {
-        let expected = [("a b/ä.dxf", "a%20b/%C3%A4.dxf"), ("/parts/x#1.dxf", "file:///parts/x%231.dxf"), ("./p.3b", "./p.3b")];
+        let expected = [
+            ("a b/ä.dxf", "a%20b/%C3%A4.dxf"),
+            ("/parts/x#1.dxf", "file:///parts/x%231.dxf"),
+            ("./p.3b", "./p.3b"),
+        ];
         for (path, expected) in expected {
             assert_eq!(uri(path), expected);
         }

@@ -10,7 +10,13 @@ pub(super) fn render(survey: &Survey) -> String {
     for row in &survey.rows {
         let _ = writeln!(text, "{}\n", row.rendered());
     }
-    let count = |severity| survey.rows.iter().filter(|row| row.severity == severity).count();
+    let count = |severity| {
+        survey
+            .rows
+            .iter()
+            .filter(|row| row.severity == severity)
+            .count()
+    };
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
     let notes = survey.rows.len() - errors - warnings;
     let mut parts = Vec::new();
@@ -23,13 +29,32 @@ pub(super) fn render(survey: &Survey) -> String {
     if notes > 0 {
         parts.push(counted(notes, "note"));
     }
-    let result = if parts.is_empty() { styled(output::GOOD, "nothing found") } else { parts.join(", ") };
+    let result = if parts.is_empty() {
+        styled(output::GOOD, "nothing found")
+    } else {
+        parts.join(", ")
+    };
     let _ = writeln!(text, "{} checked: {result}", counted(survey.files, "file"));
     if let [only] = survey.fixable.as_slice() {
-        let _ = writeln!(text, "{} wedm fix {} --in-place", styled(output::NOTE, "repair what can be repaired with:"), output::name(only));
+        let _ = writeln!(
+            text,
+            "{} wedm fix {} --in-place",
+            styled(output::NOTE, "repair what can be repaired with:"),
+            output::name(only)
+        );
     } else if let Some(first) = survey.fixable.first() {
-        let heading = styled(output::NOTE, format!("{} can be repaired, such as:", counted(survey.fixable.len(), "file")));
-        let _ = writeln!(text, "{heading} wedm fix {} --in-place", output::name(first));
+        let heading = styled(
+            output::NOTE,
+            format!(
+                "{} can be repaired, such as:",
+                counted(survey.fixable.len(), "file")
+            ),
+        );
+        let _ = writeln!(
+            text,
+            "{heading} wedm fix {} --in-place",
+            output::name(first)
+        );
     }
     text
 }

@@ -28,7 +28,8 @@ pub struct Client {
 impl Client {
     /// Starts this very program as a server.
     pub fn start() -> Result<Client, Failure> {
-        let program = std::env::current_exe().map_err(|error| Failure(format!("the program does not find itself: {error}")))?;
+        let program = std::env::current_exe()
+            .map_err(|error| Failure(format!("the program does not find itself: {error}")))?;
         let mut child = Command::new(program)
             .args(["serve", "--stdio"])
             .stdin(Stdio::piped())
@@ -36,10 +37,19 @@ impl Client {
             .spawn()
             .map_err(|error| Failure(format!("the server did not start: {error}")))?;
         let stdin = child.stdin.take();
-        let stdout = child.stdout.take().ok_or_else(|| Failure("the server has no stdout".into()))?;
+        let stdout = child
+            .stdout
+            .take()
+            .ok_or_else(|| Failure("the server has no stdout".into()))?;
         let (sender, incoming) = channel();
         std::thread::spawn(move || read_messages(BufReader::new(stdout), &sender));
-        Ok(Client { child, stdin, incoming, waiting: VecDeque::new(), last_id: 0 })
+        Ok(Client {
+            child,
+            stdin,
+            incoming,
+            waiting: VecDeque::new(),
+            last_id: 0,
+        })
     }
 
     pub fn notify(&mut self, method: &str, params: Value) -> Result<(), Failure> {
@@ -49,19 +59,27 @@ impl Client {
     /// Sends a request and gives it time to be answered by `reply`: the server may ask something in between.
     pub fn ask(&mut self, method: &str, params: Value) -> Result<u64, Failure> {
         self.last_id += 1;
-        self.send(&json!({ "jsonrpc": "2.0", "id": self.last_id, "method": method, "params": params }))?;
+        self.send(
+            &json!({ "jsonrpc": "2.0", "id": self.last_id, "method": method, "params": params }),
+        )?;
         Ok(self.last_id)
     }
 
     /// The result of the request `id`. An error reply is a failure with the server's sentence.
     pub fn reply(&mut self, id: u64) -> Result<Value, Failure> {
-        self.reply_or_error(id)?
-            .map_err(|error| Failure(format!("the server refuses: {}", error["message"].as_str().unwrap_or("without a reason"))))
+        self.reply_or_error(id)?.map_err(|error| {
+            Failure(format!(
+                "the server refuses: {}",
+                error["message"].as_str().unwrap_or("without a reason")
+            ))
+        })
     }
 
     /// The result of the request `id`, or the error that it was answered with.
     pub fn reply_or_error(&mut self, id: u64) -> Result<Result<Value, Value>, Failure> {
-        let mut message = self.wait_for("an answer", |message| message["id"] == id && message.get("method").is_none())?;
+        let mut message = self.wait_for("an answer", |message| {
+            message["id"] == id && message.get("method").is_none()
+        })?;
         Ok(match message.get_mut("error") {
             Some(error) => Err(error.take()),
             None => Ok(message["result"].take()),
@@ -77,17 +95,23 @@ impl Client {
     pub fn diagnostics(&mut self, uri: &str, version: i64) -> Result<Vec<Value>, Failure> {
         let mut message = self.wait_for("diagnostics", |message| {
             let params = &message["params"];
-            message["method"] == "textDocument/publishDiagnostics" && params["uri"] == uri && params["version"] == version
+            message["method"] == "textDocument/publishDiagnostics"
+                && params["uri"] == uri
+                && params["version"] == version
         })?;
         match message["params"]["diagnostics"].take() {
             Value::Array(diagnostics) => Ok(diagnostics),
-            _ => Err(Failure("the server sent diagnostics that are no list".into())),
+            _ => Err(Failure(
+                "the server sent diagnostics that are no list".into(),
+            )),
         }
     }
 
     /// The server's own request `method`: its id and params.
     pub fn asked(&mut self, method: &str) -> Result<(Value, Value), Failure> {
-        let mut message = self.wait_for("a request of the server", |message| message["method"] == method && message.get("id").is_some())?;
+        let mut message = self.wait_for("a request of the server", |message| {
+            message["method"] == method && message.get("id").is_some()
+        })?;
         Ok((message["id"].take(), message["params"].take()))
     }
 
@@ -104,9 +128,15 @@ impl Client {
         while begun.elapsed() < PATIENCE {
             match self.child.try_wait() {
                 Ok(Some(status)) if status.success() => return Ok(()),
-                Ok(Some(status)) => return Err(Failure(format!("the server ended with {status}, expected success"))),
+                Ok(Some(status)) => {
+                    return Err(Failure(format!(
+                        "the server ended with {status}, expected success"
+                    )));
+                }
                 Ok(None) => std::thread::sleep(Duration::from_millis(2)),
-                Err(error) => return Err(Failure(format!("the server cannot be waited for: {error}"))),
+                Err(error) => {
+                    return Err(Failure(format!("the server cannot be waited for: {error}")));
+                }
             }
         }
         Err(Failure("the server did not end after exit".into()))
@@ -120,11 +150,21 @@ impl Client {
         }
         let deadline = Instant::now() + PATIENCE;
         loop {
-            match self.incoming.recv_timeout(deadline.saturating_duration_since(Instant::now())) {
+            match self
+                .incoming
+                .recv_timeout(deadline.saturating_duration_since(Instant::now()))
+            {
                 Ok(message) if wanted(&message) => return Ok(message),
                 Ok(message) => self.keep(message)?,
-                Err(RecvTimeoutError::Timeout) => return Err(Failure(format!("{what} did not arrive within {} s", PATIENCE.as_secs()))),
-                Err(RecvTimeoutError::Disconnected) => return Err(Failure(format!("the server ended before {what} arrived"))),
+                Err(RecvTimeoutError::Timeout) => {
+                    return Err(Failure(format!(
+                        "{what} did not arrive within {} s",
+                        PATIENCE.as_secs()
+                    )));
+                }
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(Failure(format!("the server ended before {what} arrived")));
+                }
             }
         }
     }
@@ -132,7 +172,9 @@ impl Client {
     /// Keeps what may be asked for later; what a client must answer at once is answered.
     fn keep(&mut self, message: Value) -> Result<(), Failure> {
         match message["method"].as_str() {
-            Some("window/workDoneProgress/create" | "client/registerCapability") => self.answer(&message["id"], Value::Null),
+            Some("window/workDoneProgress/create" | "client/registerCapability") => {
+                self.answer(&message["id"], Value::Null)
+            }
             _ => {
                 self.waiting.push_back(message);
                 Ok(())
@@ -142,8 +184,11 @@ impl Client {
 
     fn send(&mut self, message: &Value) -> Result<(), Failure> {
         let body = message.to_string();
-        let Some(stdin) = &mut self.stdin else { return Err(Failure("the server's stdin is closed".into())) };
-        let sent = write!(stdin, "Content-Length: {}\r\n\r\n{body}", body.len()).and_then(|()| stdin.flush());
+        let Some(stdin) = &mut self.stdin else {
+            return Err(Failure("the server's stdin is closed".into()));
+        };
+        let sent = write!(stdin, "Content-Length: {}\r\n\r\n{body}", body.len())
+            .and_then(|()| stdin.flush());
         sent.map_err(|error| Failure(format!("the server does not read: {error}")))
     }
 }
@@ -176,7 +221,9 @@ fn read_message(stream: &mut impl BufRead) -> Option<Value> {
             return None;
         }
         match line.trim_end().split_once(':') {
-            Some((name, value)) if name.eq_ignore_ascii_case("content-length") => length = value.trim().parse().ok(),
+            Some((name, value)) if name.eq_ignore_ascii_case("content-length") => {
+                length = value.trim().parse().ok()
+            }
             Some(_) => {}
             None if line.trim_end().is_empty() => break,
             None => return None,

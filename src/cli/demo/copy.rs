@@ -18,15 +18,25 @@ struct Vertex {
 
 impl Copy {
     pub fn new(uri: &str, text: &str) -> Copy {
-        Copy { uri: uri.into(), text: text.into(), version: 1 }
+        Copy {
+            uri: uri.into(),
+            text: text.into(),
+            version: 1,
+        }
     }
 
     /// Moves vertices of the polyline `handle` as a designer does and gives the params of `textDocument/didChange`.
-    pub fn move_vertices(&mut self, handle: &str, moves: &[(usize, f64, f64)]) -> Result<Value, Failure> {
+    pub fn move_vertices(
+        &mut self,
+        handle: &str,
+        moves: &[(usize, f64, f64)],
+    ) -> Result<Value, Failure> {
         let mut changes = Vec::new();
         for &(index, x, y) in moves {
             for (is_x, value) in [(true, x), (false, y)] {
-                let vertex = self.vertex(handle, index).ok_or_else(|| Failure(format!("the plate has no vertex {index} of {handle}")))?;
+                let vertex = self.vertex(handle, index).ok_or_else(|| {
+                    Failure(format!("the plate has no vertex {index} of {handle}"))
+                })?;
                 let range = if is_x { vertex.x } else { vertex.y };
                 let text = shortest(value);
                 if self.text.get(range.clone()) != Some(text.as_str()) {
@@ -40,26 +50,41 @@ impl Copy {
     /// Applies the edits that a `WorkspaceEdit` has for this text, refusing those for another version; gives the params of
     /// `textDocument/didChange`.
     pub fn apply(&mut self, workspace_edit: &Value) -> Result<Value, Failure> {
-        let documents = workspace_edit["documentChanges"].as_array().map_or(&[][..], Vec::as_slice);
+        let documents = workspace_edit["documentChanges"]
+            .as_array()
+            .map_or(&[][..], Vec::as_slice);
         let [document] = documents else {
-            return Err(Failure(format!("the fix edits {} documents, expected one", documents.len())));
+            return Err(Failure(format!(
+                "the fix edits {} documents, expected one",
+                documents.len()
+            )));
         };
         let versioned = &document["textDocument"];
         if versioned["uri"] != self.uri.as_str() || versioned["version"] != self.version {
-            return Err(Failure(format!("the fix is for {versioned}, expected version {} of {}", self.version, self.uri)));
+            return Err(Failure(format!(
+                "the fix is for {versioned}, expected version {} of {}",
+                self.version, self.uri
+            )));
         }
         let edits = document["edits"].as_array().map_or(&[][..], Vec::as_slice);
         let mut placed = Vec::new();
         for edit in edits {
-            let (start, end) = (self.offset(&edit["range"]["start"]), self.offset(&edit["range"]["end"]));
-            let (Some(start), Some(end), Some(text)) = (start, end, edit["newText"].as_str()) else {
+            let (start, end) = (
+                self.offset(&edit["range"]["start"]),
+                self.offset(&edit["range"]["end"]),
+            );
+            let (Some(start), Some(end), Some(text)) = (start, end, edit["newText"].as_str())
+            else {
                 return Err(Failure(format!("the edit {edit} does not fit the text")));
             };
             placed.push((start..end, text));
         }
         // From the last to the first, so that the places of the others stay true.
         placed.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
-        let changes = placed.into_iter().map(|(range, text)| self.replace(range, text)).collect::<Result<_, _>>()?;
+        let changes = placed
+            .into_iter()
+            .map(|(range, text)| self.replace(range, text))
+            .collect::<Result<_, _>>()?;
         Ok(self.changed(changes))
     }
 
@@ -90,7 +115,10 @@ impl Copy {
                 _ => {}
             }
         }
-        Some(Vertex { x: x.get(index)?.clone(), y: y.get(index)?.clone() })
+        Some(Vertex {
+            x: x.get(index)?.clone(),
+            y: y.get(index)?.clone(),
+        })
     }
 
     fn tags(&self) -> impl Iterator<Item = (i32, Range<usize>)> + '_ {
@@ -106,7 +134,12 @@ impl Copy {
             .collect();
         let tags: Vec<(i32, Range<usize>)> = lines
             .chunks_exact(2)
-            .filter_map(|pair| Some((self.text.get(pair[0].clone())?.trim().parse().ok()?, pair[1].clone())))
+            .filter_map(|pair| {
+                Some((
+                    self.text.get(pair[0].clone())?.trim().parse().ok()?,
+                    pair[1].clone(),
+                ))
+            })
             .collect();
         tags.into_iter()
     }
@@ -119,8 +152,16 @@ impl Copy {
     }
 
     fn offset(&self, position: &Value) -> Option<usize> {
-        let (line, character) = (position["line"].as_u64()? as usize, position["character"].as_u64()? as usize);
-        let start: usize = self.text.split_inclusive('\n').take(line).map(str::len).sum();
+        let (line, character) = (
+            position["line"].as_u64()? as usize,
+            position["character"].as_u64()? as usize,
+        );
+        let start: usize = self
+            .text
+            .split_inclusive('\n')
+            .take(line)
+            .map(str::len)
+            .sum();
         Some(start + character).filter(|&offset| offset <= self.text.len())
     }
 }
@@ -129,22 +170,31 @@ impl Copy {
 fn shortest(value: f64) -> String {
     let text = format!("{value:.6}");
     let short = text.trim_end_matches('0');
-    if short.ends_with('.') { format!("{short}0") } else { short.into() }
+    if short.ends_with('.') {
+        format!("{short}0")
+    } else {
+        short.into()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TEXT: &str = "  0\nLWPOLYLINE\n  5\n2A\n 10\n1.5\n 20\n2.0\n 10\n3.0\n 20\n4.0\n  0\nEOF\n";
+    const TEXT: &str =
+        "  0\nLWPOLYLINE\n  5\n2A\n 10\n1.5\n 20\n2.0\n 10\n3.0\n 20\n4.0\n  0\nEOF\n";
 
     #[test]
     fn a_moved_vertex_changes_its_numbers_only() {
         let mut copy = Copy::new("untitled:x", TEXT);
         let params = copy.move_vertices("2A", &[(1, 3.25, 4.0)]).unwrap();
         assert_eq!(copy.text, TEXT.replace("3.0", "3.25"));
-        let range = json!({ "start": { "line": 9, "character": 0 }, "end": { "line": 9, "character": 3 } });
-        assert_eq!(params["contentChanges"], json!([{ "range": range, "text": "3.25" }]));
+        let range =
+            json!({ "start": { "line": 9, "character": 0 }, "end": { "line": 9, "character": 3 } });
+        assert_eq!(
+            params["contentChanges"],
+            json!([{ "range": range, "text": "3.25" }])
+        );
         assert!(copy.move_vertices("2A", &[(2, 0.0, 0.0)]).is_err());
     }
 

@@ -40,7 +40,10 @@ pub struct Arguments {
 const CORRECTIONS: std::ops::RangeInclusive<f64> = 0.02..=0.5;
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let correction = arguments.common.correction.unwrap_or(crate::settings::Effective::CORRECTION);
+    let correction = arguments
+        .common
+        .correction
+        .unwrap_or(crate::settings::Effective::CORRECTION);
     if !CORRECTIONS.contains(&correction) {
         let (least, most) = (CORRECTIONS.start(), CORRECTIONS.end());
         return Err(Failure(format!(
@@ -48,13 +51,22 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         )));
     }
     if arguments.common.side.is_some() || arguments.common.config.is_some() {
-        return Err(Failure("the demonstration brings its own settings, expected --correction alone".into()));
+        return Err(Failure(
+            "the demonstration brings its own settings, expected --correction alone".into(),
+        ));
     }
-    std::fs::create_dir_all(&arguments.folder)
-        .map_err(|error| Failure(format!("{} could not be made: {error}", arguments.folder.display())))?;
+    std::fs::create_dir_all(&arguments.folder).map_err(|error| {
+        Failure(format!(
+            "{} could not be made: {error}",
+            arguments.folder.display()
+        ))
+    })?;
 
     let mut narrator = Narrator::default();
-    narrator.heading(&format!("wedm {}: a cutting plate, a correction of {correction:.3} mm, a real server", env!("CARGO_PKG_VERSION")));
+    narrator.heading(&format!(
+        "wedm {}: a cutting plate, a correction of {correction:.3} mm, a real server",
+        env!("CARGO_PKG_VERSION")
+    ));
     let mut client = start(&mut narrator, correction)?;
     let made = plate::session(&mut narrator, &mut client, correction)?;
     punch::session(&mut narrator, &mut client, correction)?;
@@ -64,7 +76,11 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     for (name, bytes, what) in [
         ("demo.dxf", made.dxf.as_bytes(), "the plate, repaired"),
         ("demo.3b", made.program.as_bytes(), "its program"),
-        ("demo.svg", made.picture.as_bytes(), "contour, faults and wire path: open it in a browser"),
+        (
+            "demo.svg",
+            made.picture.as_bytes(),
+            "contour, faults and wire path: open it in a browser",
+        ),
     ] {
         let path = arguments.folder.join(name);
         output::write(Some(&path), bytes)?;
@@ -103,9 +119,15 @@ fn start(narrator: &mut Narrator, correction: f64) -> Result<Client, Failure> {
     let result = client.request("initialize", params)?;
     let elapsed = begun.elapsed();
     client.notify("initialized", json!({}))?;
-    let (name, version) = (&result["serverInfo"]["name"], &result["serverInfo"]["version"]);
+    let (name, version) = (
+        &result["serverInfo"]["name"],
+        &result["serverInfo"]["version"],
+    );
     let protocol = &result["capabilities"]["experimental"]["wedm"]["protocol"];
-    holds(name == "wedm" && protocol == crate::protocol::PROTOCOL, || format!("the server says it is {name}, protocol {protocol}"))?;
+    holds(
+        name == "wedm" && protocol == crate::protocol::PROTOCOL,
+        || format!("the server says it is {name}, protocol {protocol}"),
+    )?;
     narrator.say(&format!(
         "wedm {}, protocol {protocol}; started and answered within {}",
         version.as_str().unwrap_or("of unknown version"),
@@ -117,22 +139,43 @@ fn start(narrator: &mut Narrator, correction: f64) -> Result<Client, Failure> {
 
 /// What the demonstration claims; a claim that does not hold ends it.
 fn holds(claim: bool, otherwise: impl FnOnce() -> String) -> Result<(), Failure> {
-    if claim { Ok(()) } else { Err(Failure(format!("the demonstration found something else than it claims: {}", otherwise()))) }
+    if claim {
+        Ok(())
+    } else {
+        Err(Failure(format!(
+            "the demonstration found something else than it claims: {}",
+            otherwise()
+        )))
+    }
 }
 
 /// The place of a diagnostic's segment: handle and index.
 fn segment_of(diagnostic: &Value) -> (String, u64) {
     let data = &diagnostic["data"];
-    (data["handle"].as_str().unwrap_or_default().into(), data["segment"].as_u64().unwrap_or_default())
+    (
+        data["handle"].as_str().unwrap_or_default().into(),
+        data["segment"].as_u64().unwrap_or_default(),
+    )
 }
 
 /// The preferred quick fix among `actions`; the titles of all are said.
 fn preferred(narrator: &mut Narrator, actions: &Value) -> Result<Value, Failure> {
     let actions = actions.as_array().map_or(&[][..], Vec::as_slice);
     for action in actions {
-        let mark = if action["isPreferred"] == true { "preferred: " } else { "or: " };
-        narrator.item(&format!("{mark}{}", action["title"].as_str().unwrap_or("without a title")));
+        let mark = if action["isPreferred"] == true {
+            "preferred: "
+        } else {
+            "or: "
+        };
+        narrator.item(&format!(
+            "{mark}{}",
+            action["title"].as_str().unwrap_or("without a title")
+        ));
     }
-    let preferred = actions.iter().find(|action| action["isPreferred"] == true && action["kind"] == "quickfix");
-    preferred.cloned().ok_or_else(|| Failure("the server offers no preferred fix".into()))
+    let preferred = actions
+        .iter()
+        .find(|action| action["isPreferred"] == true && action["kind"] == "quickfix");
+    preferred
+        .cloned()
+        .ok_or_else(|| Failure("the server offers no preferred fix".into()))
 }

@@ -47,7 +47,13 @@ impl Narrator {
     pub fn diagnostic(&mut self, diagnostic: &Value, behind: Behind) {
         let (handle, segment) = super::segment_of(diagnostic);
         let line = match behind {
-            Behind::Text => format!("line {}, ", diagnostic["range"]["start"]["line"].as_u64().unwrap_or_default() + 1),
+            Behind::Text => format!(
+                "line {}, ",
+                diagnostic["range"]["start"]["line"]
+                    .as_u64()
+                    .unwrap_or_default()
+                    + 1
+            ),
             Behind::Nothing => String::new(),
         };
         let at = &diagnostic["data"]["start"];
@@ -58,13 +64,22 @@ impl Narrator {
             at[1].as_f64().unwrap_or(f64::NAN)
         );
         self.print(output::ERROR, INDENT + 2, "    ! ", &place);
-        self.print(Style::new(), INDENT + 2, "      ", diagnostic["message"].as_str().unwrap_or_default());
+        self.print(
+            Style::new(),
+            INDENT + 2,
+            "      ",
+            diagnostic["message"].as_str().unwrap_or_default(),
+        );
     }
 
     /// Text in lines of at most 80 columns, the first behind `lead`, the others indented. A word is never broken.
     fn print(&mut self, style: Style, indent: usize, lead: &str, text: &str) {
         for (index, line) in wrapped(text, COLUMNS - indent).into_iter().enumerate() {
-            let margin = if index == 0 { lead.to_string() } else { " ".repeat(indent) };
+            let margin = if index == 0 {
+                lead.to_string()
+            } else {
+                " ".repeat(indent)
+            };
             // A reader that has gone away has seen enough; the files are still written.
             let _ = output::print(format!("{margin}{}\n", styled(style, line)));
         }
@@ -80,7 +95,9 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
             lines.push(String::new());
             length = 0;
         }
-        let Some(line) = lines.last_mut() else { return lines };
+        let Some(line) = lines.last_mut() else {
+            return lines;
+        };
         if length > 0 {
             line.push(' ');
             length += 1;
@@ -94,7 +111,11 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 /// Milliseconds as a person reads them.
 pub fn duration(duration: Duration) -> String {
     let milliseconds = duration.as_secs_f64() * 1e3;
-    if milliseconds < 10.0 { format!("{milliseconds:.1} ms") } else { format!("{milliseconds:.0} ms") }
+    if milliseconds < 10.0 {
+        format!("{milliseconds:.1} ms")
+    } else {
+        format!("{milliseconds:.0} ms")
+    }
 }
 
 #[cfg(test)]

@@ -28,47 +28,109 @@ pub struct Proof {
 const SAMPLES: u32 = 16;
 
 /// `faulty` and `fixed` are DXF text; `path` is the reply of `wedm/toolpath` for the latter.
-pub fn of(faulty: &str, fixed: &str, program: &str, path: &Value, correction: f64) -> Result<Proof, Failure> {
-    let path: Toolpath = serde_json::from_value(path.clone()).map_err(|error| Failure(format!("the wire path is not one: {error}")))?;
+pub fn of(
+    faulty: &str,
+    fixed: &str,
+    program: &str,
+    path: &Value,
+    correction: f64,
+) -> Result<Proof, Failure> {
+    let path: Toolpath = serde_json::from_value(path.clone())
+        .map_err(|error| Failure(format!("the wire path is not one: {error}")))?;
     let settings = settings(correction);
     let mut before = document(faulty, &settings);
     let mut after = document(fixed, &settings);
     let (faults, _) = before.findings(usize::MAX);
-    holds(!after.has_errors() && !faults.is_empty(), || "the repaired drawing has errors when it is read again".into())?;
+    holds(!after.has_errors() && !faults.is_empty(), || {
+        "the repaired drawing has errors when it is read again".into()
+    })?;
     let (Some(snapshot), Some(first)) = (after.snapshot(), path.paths.first()) else {
-        return Err(Failure("there is no path to hold the program against".into()));
+        return Err(Failure(
+            "there is no path to hold the program against".into(),
+        ));
     };
 
     let motions = decoded(program, Point::from(first.thread_hole))?;
-    let pieces: Vec<(PathSource, Segment)> =
-        path.paths.iter().flat_map(|path| &path.segments).filter_map(|piece| Some((piece.source, geometry(piece)?))).collect();
-    let contours: Vec<Segment> =
-        snapshot.outlines.iter().flat_map(|outline| outline.contour.segments(&snapshot.drawing).map(|segment| segment.geometry)).collect();
+    let pieces: Vec<(PathSource, Segment)> = path
+        .paths
+        .iter()
+        .flat_map(|path| &path.segments)
+        .filter_map(|piece| Some((piece.source, geometry(piece)?)))
+        .collect();
+    let contours: Vec<Segment> = snapshot
+        .outlines
+        .iter()
+        .flat_map(|outline| {
+            outline
+                .contour
+                .segments(&snapshot.drawing)
+                .map(|segment| segment.geometry)
+        })
+        .collect();
     let mut proof = measured(&motions, &pieces, &contours);
-    let arcs = motions.iter().filter(|motion| motion.segment.as_arc().is_some()).count();
+    let arcs = motions
+        .iter()
+        .filter(|motion| motion.segment.as_arc().is_some())
+        .count();
     if let (Some(motion), Some(path)) = (motions.last(), path.paths.last()) {
         proof.open_um = (motion.segment.end() - Point::from(path.thread_hole)).norm() * 1e3;
     }
     // A controller that counts J may drift on the way round.
     let allowed_um = crate::program::closing::tolerance(arcs);
     let near = proof.from_path_um <= allowed_um && proof.open_um <= allowed_um;
-    holds(near, || format!("the program lies {:.2} µm from the path", proof.from_path_um))?;
-    let distances = (proof.least_distance - correction).abs().max((proof.largest_distance - correction).abs()) * 1e3;
-    holds(distances <= allowed_um, || format!("the wire leaves its distance by {distances:.2} µm"))?;
+    holds(near, || {
+        format!(
+            "the program lies {:.2} µm from the path",
+            proof.from_path_um
+        )
+    })?;
+    let distances = (proof.least_distance - correction)
+        .abs()
+        .max((proof.largest_distance - correction).abs())
+        * 1e3;
+    holds(distances <= allowed_um, || {
+        format!("the wire leaves its distance by {distances:.2} µm")
+    })?;
 
-    let planned = toolpath::plan(&snapshot.drawing, &snapshot.outlines, &snapshot.settings, None).unwrap_or_default();
-    proof.picture = picture::svg(&snapshot.drawing, &snapshot.outlines, &faults, &planned, path.units_to_mm);
+    let planned = toolpath::plan(
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &snapshot.settings,
+        None,
+    )
+    .unwrap_or_default();
+    proof.picture = picture::svg(
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &faults,
+        &planned,
+        path.units_to_mm,
+    );
     Ok(proof)
 }
 
 fn settings(correction: f64) -> Shared<Effective> {
-    let layers = [("DIE", Role::Opening), ("HOLES", Role::Opening), ("PLATE", Role::Ignore)];
-    let layers = layers.into_iter().map(|(layer, role)| (layer.to_string(), role)).collect();
-    Shared::new(Effective::of(&Settings { correction: Some(correction), layers: Some(layers), ..Settings::default() }))
+    let layers = [
+        ("DIE", Role::Opening),
+        ("HOLES", Role::Opening),
+        ("PLATE", Role::Ignore),
+    ];
+    let layers = layers
+        .into_iter()
+        .map(|(layer, role)| (layer.to_string(), role))
+        .collect();
+    Shared::new(Effective::of(&Settings {
+        correction: Some(correction),
+        layers: Some(layers),
+        ..Settings::default()
+    }))
 }
 
 fn document(text: &str, settings: &Shared<Effective>) -> Document {
-    Document::new(Source::Dxf(dxf::Document::read(text.as_bytes().to_vec())), settings.clone())
+    Document::new(
+        Source::Dxf(dxf::Document::read(text.as_bytes().to_vec())),
+        settings.clone(),
+    )
 }
 
 /// One decoded block in mm, and whether it is on the way between two contours.
@@ -80,21 +142,36 @@ struct Motion {
 /// Every block decoded from where the one before it ended.
 fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
     let (items, faults) = three_b::read(program.as_bytes(), &Words::default());
-    holds(faults.is_empty(), || faults.first().map_or_else(String::new, three_b::SyntaxFault::sentence))?;
+    holds(faults.is_empty(), || {
+        faults
+            .first()
+            .map_or_else(String::new, three_b::SyntaxFault::sentence)
+    })?;
     let mut motions = Vec::new();
     let mut at = start * 1e3;
     let (mut jump, mut ended) = (false, false);
     for item in items {
         match item {
-            Item::Word { word: Word::Pause, .. } => jump = !jump,
-            Item::Word { word: Word::End, .. } => ended = true,
+            Item::Word {
+                word: Word::Pause, ..
+            } => jump = !jump,
+            Item::Word {
+                word: Word::End, ..
+            } => ended = true,
             Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => {}
             Item::StartPoint { .. } => {}
             Item::Block { block, .. } => {
-                let segment = three_b::decode(&block, at)
-                    .map_err(|fault| Failure(format!("block {} leads nowhere: {fault:?}", motions.len() + 1)))?;
+                let segment = three_b::decode(&block, at).map_err(|fault| {
+                    Failure(format!(
+                        "block {} leads nowhere: {fault:?}",
+                        motions.len() + 1
+                    ))
+                })?;
                 at = segment.end();
-                motions.push(Motion { segment: in_mm(&segment), jump });
+                motions.push(Motion {
+                    segment: in_mm(&segment),
+                    jump,
+                });
             }
         }
     }
@@ -106,17 +183,34 @@ fn in_mm(segment: &Segment) -> Segment {
     let mm = |point: Point| point * 1e-3;
     match segment {
         Segment::Line(line) => Segment::line(mm(line.start), mm(line.end)),
-        Segment::Arc(arc) => {
-            Segment::Arc(Arc { center: mm(arc.center), radius: arc.radius * 1e-3, start: mm(arc.start), end: mm(arc.end), ..*arc })
-        }
+        Segment::Arc(arc) => Segment::Arc(Arc {
+            center: mm(arc.center),
+            radius: arc.radius * 1e-3,
+            start: mm(arc.start),
+            end: mm(arc.end),
+            ..*arc
+        }),
     }
 }
 
 fn geometry(piece: &PathPiece) -> Option<Segment> {
-    let SegmentShape { start, end, center, sweep, .. } = &piece.shape;
+    let SegmentShape {
+        start,
+        end,
+        center,
+        sweep,
+        ..
+    } = &piece.shape;
     let (start, end) = (Point::from(*start), Point::from(*end));
-    let (Some(center), Some(sweep)) = (center, sweep) else { return Some(Segment::line(start, end)) };
-    Some(Segment::Arc(Arc::about(Point::from(*center), start, end, *sweep > 0.0)))
+    let (Some(center), Some(sweep)) = (center, sweep) else {
+        return Some(Segment::line(start, end));
+    };
+    Some(Segment::Arc(Arc::about(
+        Point::from(*center),
+        start,
+        end,
+        *sweep > 0.0,
+    )))
 }
 
 /// Holds each block against the path, and where it cuts along a contour against the contours.
@@ -131,12 +225,22 @@ fn measured(motions: &[Motion], pieces: &[(PathSource, Segment)], contours: &[Se
     };
     for motion in motions.iter().filter(|motion| !motion.jump) {
         for sample in 0..=SAMPLES {
-            let point = motion.segment.point_at(f64::from(sample) / f64::from(SAMPLES));
-            let nearest = pieces.iter().map(|(source, piece)| (piece.distance_to(point), *source)).min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((distance, source)) = nearest else { continue };
+            let point = motion
+                .segment
+                .point_at(f64::from(sample) / f64::from(SAMPLES));
+            let nearest = pieces
+                .iter()
+                .map(|(source, piece)| (piece.distance_to(point), *source))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((distance, source)) = nearest else {
+                continue;
+            };
             proof.from_path_um = proof.from_path_um.max(distance * 1e3);
             if matches!(source, PathSource::Segment | PathSource::Corner) {
-                let clearance = contours.iter().map(|contour| contour.distance_to(point)).fold(f64::INFINITY, f64::min);
+                let clearance = contours
+                    .iter()
+                    .map(|contour| contour.distance_to(point))
+                    .fold(f64::INFINITY, f64::min);
                 proof.least_distance = proof.least_distance.min(clearance);
                 proof.largest_distance = proof.largest_distance.max(clearance);
             }
@@ -146,7 +250,10 @@ fn measured(motions: &[Motion], pieces: &[(PathSource, Segment)], contours: &[Se
     for (_, piece) in pieces {
         for sample in 0..=SAMPLES {
             let point = piece.point_at(f64::from(sample) / f64::from(SAMPLES));
-            let nearest = motions.iter().map(|motion| motion.segment.distance_to(point)).fold(f64::INFINITY, f64::min);
+            let nearest = motions
+                .iter()
+                .map(|motion| motion.segment.distance_to(point))
+                .fold(f64::INFINITY, f64::min);
             proof.from_path_um = proof.from_path_um.max(nearest * 1e3);
         }
     }
@@ -163,16 +270,27 @@ mod tests {
     fn made(correction: f64) -> (String, String, Value) {
         let settings = settings(correction);
         let mut fixed = document(PLATE, &settings);
-        let Source::Dxf(text) = fixed.source() else { unreachable!() };
-        let Some(crate::finding::Edit::Drawing(edit)) = fixed.fix_all() else { unreachable!() };
+        let Source::Dxf(text) = fixed.source() else {
+            unreachable!()
+        };
+        let Some(crate::finding::Edit::Drawing(edit)) = fixed.fix_all() else {
+            unreachable!()
+        };
         let edits = text.text_edits(&edit).unwrap();
         let mut bytes = PLATE.to_string();
-        edits.iter().rev().for_each(|edit| bytes.replace_range(edit.range.clone(), &edit.text));
+        edits
+            .iter()
+            .rev()
+            .for_each(|edit| bytes.replace_range(edit.range.clone(), &edit.text));
         fixed = document(&bytes, &settings);
         let snapshot = fixed.snapshot().unwrap();
         let paths = toolpath::plan(&snapshot.drawing, &snapshot.outlines, &settings, None).unwrap();
         let program = three_b::write(&paths, 1.0, &settings).unwrap();
-        (bytes, program.text, serde_json::to_value(Toolpath::new(&snapshot.drawing, &paths, 1.0)).unwrap())
+        (
+            bytes,
+            program.text,
+            serde_json::to_value(Toolpath::new(&snapshot.drawing, &paths, 1.0)).unwrap(),
+        )
     }
 
     #[test]
@@ -181,7 +299,10 @@ mod tests {
             let (fixed, program, path) = made(correction);
             let proof = of(PLATE, &fixed, &program, &path, correction).unwrap();
             assert!(proof.blocks > 30 && proof.from_path_um < 3.0 && proof.open_um < 3.0);
-            assert!((proof.least_distance - correction).abs() < 2e-3 && (proof.largest_distance - correction).abs() < 2e-3);
+            assert!(
+                (proof.least_distance - correction).abs() < 2e-3
+                    && (proof.largest_distance - correction).abs() < 2e-3
+            );
         }
     }
 
@@ -190,17 +311,43 @@ mod tests {
         let (fixed, program, path) = made(0.1);
         let tampered = [
             ("about another centre", program.replacen("NR1", "NR3", 1)),
-            ("a contour left out", program.lines().skip_while(|line| *line != "D").collect::<Vec<_>>().join("\n")),
-            ("a tenth too long", program.replacen("B2900B0B2900GXL1", "B3000B0B3000GXL1", 1)),
+            (
+                "a contour left out",
+                program
+                    .lines()
+                    .skip_while(|line| *line != "D")
+                    .collect::<Vec<_>>()
+                    .join("\n"),
+            ),
+            (
+                "a tenth too long",
+                program.replacen("B2900B0B2900GXL1", "B3000B0B3000GXL1", 1),
+            ),
             ("no end", program.replace("DD", "")),
-            ("a block lost", program.lines().filter(|line| !line.contains("NR2")).collect::<Vec<_>>().join("\n")),
+            (
+                "a block lost",
+                program
+                    .lines()
+                    .filter(|line| !line.contains("NR2"))
+                    .collect::<Vec<_>>()
+                    .join("\n"),
+            ),
             ("no program", "hello".into()),
         ];
         for (what, program) in &tampered {
             assert!(*program != made(0.1).1, "{what} is the same program");
-            assert!(of(PLATE, &fixed, program, &path, 0.1).is_err(), "{what} is proved");
+            assert!(
+                of(PLATE, &fixed, program, &path, 0.1).is_err(),
+                "{what} is proved"
+            );
         }
-        assert!(of(PLATE, PLATE, &program, &path, 0.1).is_err(), "the faulty drawing is proved");
-        assert!(of(PLATE, &fixed, &program, &path, 0.15).is_err(), "another correction is proved");
+        assert!(
+            of(PLATE, PLATE, &program, &path, 0.1).is_err(),
+            "the faulty drawing is proved"
+        );
+        assert!(
+            of(PLATE, &fixed, &program, &path, 0.15).is_err(),
+            "another correction is proved"
+        );
     }
 }

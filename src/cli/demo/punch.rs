@@ -11,12 +11,26 @@ const URI: &str = "cad:punch";
 /// `tan(−90° / 4)`: a quarter turn clockwise.
 const QUARTER: f64 = -0.414_213_562_373_095_03;
 
-pub fn session(narrator: &mut Narrator, client: &mut Client, correction: f64) -> Result<(), Failure> {
+pub fn session(
+    narrator: &mut Narrator,
+    client: &mut Client,
+    correction: f64,
+) -> Result<(), Failure> {
     narrator.step("The same from a CAD program: a punch, no text behind it (wedm/didOpenDrawing)");
     let wide = 2.0 * correction;
-    let mut vertices = vec![json!([0, 0]), json!([12, 0]), json!([12, 8]), json!([7.5, 8])];
+    let mut vertices = vec![
+        json!([0, 0]),
+        json!([12, 0]),
+        json!([12, 8]),
+        json!([7.5, 8]),
+    ];
     vertices.extend(fillet(wide));
-    vertices.extend([json!([4.7, 5, QUARTER]), json!([4.5, 5.2]), json!([4.5, 8]), json!([0, 8])]);
+    vertices.extend([
+        json!([4.7, 5, QUARTER]),
+        json!([4.5, 5.2]),
+        json!([4.5, 8]),
+        json!([0, 8]),
+    ]);
     let punch = json!({ "handle": "9F", "role": "punch", "type": "polyline", "closed": true, "vertices": vertices });
     let drawing = json!({ "uri": URI, "version": 1, "units": "mm", "entities": [punch] });
     client.notify("wedm/didOpenDrawing", json!({ "drawing": drawing }))?;
@@ -24,35 +38,57 @@ pub fn session(narrator: &mut Narrator, client: &mut Client, correction: f64) ->
     narrator.say(&format!("version 1: {}", counted(first, "diagnostic")));
 
     let tight = 0.5 * correction;
-    narrator.say(&format!("Two of its 10 vertices are spliced: the fillet in the slot becomes R {tight:.3}."));
+    narrator.say(&format!(
+        "Two of its 10 vertices are spliced: the fillet in the slot becomes R {tight:.3}."
+    ));
     let splice = json!({ "handle": "9F", "vertices": { "start": 4, "deleteCount": 2, "insert": fillet(tight) } });
     let begun = Instant::now();
     change(client, 2, json!([splice]))?;
     let diagnostics = client.diagnostics(URI, 2)?;
-    narrator.say(&format!("version 2: {}, {} after the splice", counted(diagnostics.len(), "diagnostic"), duration(begun.elapsed())));
-    let found = diagnostics.iter().find(|diagnostic| diagnostic["data"]["segment"] == 4);
-    let Some(diagnostic) = found else { return Err(Failure("the splice gets no diagnostic".into())) };
+    narrator.say(&format!(
+        "version 2: {}, {} after the splice",
+        counted(diagnostics.len(), "diagnostic"),
+        duration(begun.elapsed())
+    ));
+    let found = diagnostics
+        .iter()
+        .find(|diagnostic| diagnostic["data"]["segment"] == 4);
+    let Some(diagnostic) = found else {
+        return Err(Failure("the splice gets no diagnostic".into()));
+    };
     narrator.diagnostic(diagnostic, Behind::Nothing);
 
     let edit = ask_for_edit(narrator, client, diagnostic)?;
     change(client, 3, edit["changes"].clone())?;
     let left = client.diagnostics(URI, 3)?.len();
-    holds(left == first, || format!("{left} diagnostics are left in the punch"))?;
+    holds(left == first, || {
+        format!("{left} diagnostics are left in the punch")
+    })?;
     narrator.good(&format!("version 3: {}", counted(left, "diagnostic")));
     client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }))
 }
 
 /// The two vertices of the fillet in the slot's right corner.
 fn fillet(radius: f64) -> [Value; 2] {
-    [json!([7.5, 5.0 + radius, QUARTER]), json!([7.5 - radius, 5])]
+    [
+        json!([7.5, 5.0 + radius, QUARTER]),
+        json!([7.5 - radius, 5]),
+    ]
 }
 
 fn change(client: &mut Client, version: i64, changes: Value) -> Result<(), Failure> {
-    client.notify("wedm/didChangeDrawing", json!({ "drawing": { "uri": URI, "version": version }, "changes": changes }))
+    client.notify(
+        "wedm/didChangeDrawing",
+        json!({ "drawing": { "uri": URI, "version": version }, "changes": changes }),
+    )
 }
 
 /// Runs the preferred fix's command; the server asks the CAD program to apply its edit, which it does.
-fn ask_for_edit(narrator: &mut Narrator, client: &mut Client, diagnostic: &Value) -> Result<Value, Failure> {
+fn ask_for_edit(
+    narrator: &mut Narrator,
+    client: &mut Client,
+    diagnostic: &Value,
+) -> Result<Value, Failure> {
     let params = json!({
         "textDocument": { "uri": URI },
         "range": diagnostic["range"],
@@ -61,12 +97,18 @@ fn ask_for_edit(narrator: &mut Narrator, client: &mut Client, diagnostic: &Value
     let actions = client.request("textDocument/codeAction", params)?;
     let action = preferred(narrator, &actions)?;
     let command = &action["command"];
-    let id = client.ask("workspace/executeCommand", json!({ "command": command["command"], "arguments": command["arguments"] }))?;
+    let id = client.ask(
+        "workspace/executeCommand",
+        json!({ "command": command["command"], "arguments": command["arguments"] }),
+    )?;
     let (asked, mut params) = client.asked("wedm/applyDrawingEdit")?;
     let edit = params["edit"].take();
-    holds(edit["version"] == 2 && edit["uri"] == URI, || format!("the edit is {edit}"))?;
+    holds(edit["version"] == 2 && edit["uri"] == URI, || {
+        format!("the edit is {edit}")
+    })?;
     client.answer(&asked, json!({ "applied": true }))?;
     client.reply(id)?;
-    narrator.say("The server asks for the edit (wedm/applyDrawingEdit), the CAD program applies it.");
+    narrator
+        .say("The server asks for the edit (wedm/applyDrawingEdit), the CAD program applies it.");
     Ok(edit)
 }

@@ -22,8 +22,16 @@ type Codes = &'static [(i16, &'static str, Value)];
 const COMMON: Codes = &[
     (0, "name of the record that begins here", Plain),
     (5, "handle of the record (hexadecimal)", OwnHandle),
-    (100, "subclass: which class the following codes belong to", Plain),
-    (102, "begin or end of a group of another program, in braces", Plain),
+    (
+        100,
+        "subclass: which class the following codes belong to",
+        Plain,
+    ),
+    (
+        102,
+        "begin or end of a group of another program, in braces",
+        Plain,
+    ),
     (330, "handle of the owner", Handle),
     (360, "handle of an owned record", Handle),
     (999, "comment", Plain),
@@ -36,11 +44,19 @@ const ENTITY: Codes = &[
     (39, "thickness", Length),
     (48, "scale of the linetype", Plain),
     (60, "visibility: 0 visible, 1 invisible", Plain),
-    (62, "colour number: 0 by block, 256 by layer, 257 by entity", Plain),
+    (
+        62,
+        "colour number: 0 by block, 256 by layer, 257 by entity",
+        Plain,
+    ),
     (67, "space: 0 model space, 1 paper space", Plain),
     (92, "number of bytes of the preview picture", Plain),
     (347, "handle of the material", Handle),
-    (370, "line weight in hundredths of a millimetre; -1 by layer, -2 by block, -3 default", Plain),
+    (
+        370,
+        "line weight in hundredths of a millimetre; -1 by layer, -2 by block, -3 default",
+        Plain,
+    ),
     (390, "handle of the plot style", Handle),
     (410, "name of the layout", Plain),
     (420, "true colour, 24 bits red, green, blue", Plain),
@@ -53,13 +69,30 @@ const ENTITY: Codes = &[
 
 /// Codes of one kind of record; they go before the common ones.
 const OF_RECORD: &[(&[&str], Codes)] = &[
-    (&["SECTION"], &[(2, "name of the section", Plain), (9, "name of a header variable; its value follows", Plain)]),
-    (&["TABLE"], &[(2, "name of the table", Plain), (5, "handle of the table", OwnHandle), (70, "largest number of entries", Plain)]),
+    (
+        &["SECTION"],
+        &[
+            (2, "name of the section", Plain),
+            (9, "name of a header variable; its value follows", Plain),
+        ],
+    ),
+    (
+        &["TABLE"],
+        &[
+            (2, "name of the table", Plain),
+            (5, "handle of the table", OwnHandle),
+            (70, "largest number of entries", Plain),
+        ],
+    ),
     (
         &["LAYER"],
         &[
             (2, "name of the layer", Plain),
-            (70, "flags: 1 frozen, 2 frozen in new viewports, 4 locked", Plain),
+            (
+                70,
+                "flags: 1 frozen, 2 frozen in new viewports, 4 locked",
+                Plain,
+            ),
             (62, "colour number; negative when the layer is off", Plain),
             (6, "name of the linetype", Plain),
             (290, "plotted: 0 no, 1 yes", Plain),
@@ -96,16 +129,36 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (71, "text generation: 2 backwards, 4 upside down", Plain),
         ],
     ),
-    (&["BLOCK_RECORD"], &[(2, "name of the block", Plain), (340, "handle of the layout", Handle), (70, "units of the block", Plain)]),
-    (&["DIMSTYLE"], &[(105, "handle of the record (hexadecimal)", OwnHandle), (2, "name of the dimension style", Plain)]),
-    (&["VPORT", "APPID", "UCS", "VIEW"], &[(2, "name of the entry", Plain), (70, "flags", Plain)]),
+    (
+        &["BLOCK_RECORD"],
+        &[
+            (2, "name of the block", Plain),
+            (340, "handle of the layout", Handle),
+            (70, "units of the block", Plain),
+        ],
+    ),
+    (
+        &["DIMSTYLE"],
+        &[
+            (105, "handle of the record (hexadecimal)", OwnHandle),
+            (2, "name of the dimension style", Plain),
+        ],
+    ),
+    (
+        &["VPORT", "APPID", "UCS", "VIEW"],
+        &[(2, "name of the entry", Plain), (70, "flags", Plain)],
+    ),
     (
         &["BLOCK"],
         &[
             (2, "name of the block", Plain),
             (3, "name of the block, again", Plain),
             (8, "name of the layer", Plain),
-            (70, "flags: 1 anonymous, 2 has attributes, 4 external reference", Plain),
+            (
+                70,
+                "flags: 1 anonymous, 2 has attributes, 4 external reference",
+                Plain,
+            ),
             (10, "base point, x", Length),
             (20, "base point, y", Length),
             (30, "base point, z", Length),
@@ -146,14 +199,22 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (91, "identifier of the vertex", Plain),
             (40, "width at the start of the segment", Length),
             (41, "width at the end of the segment", Length),
-            (42, "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line", Bulge),
+            (
+                42,
+                "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line",
+                Bulge,
+            ),
         ],
     ),
     (
         &["POLYLINE"],
         &[
             (66, "vertices follow: always 1", Plain),
-            (70, "flags: 1 closed, 2 curve fit, 4 spline fit, 8 in space, 16 mesh, 64 polyface", Plain),
+            (
+                70,
+                "flags: 1 closed, 2 curve fit, 4 spline fit, 8 in space, 16 mesh, 64 polyface",
+                Plain,
+            ),
             (10, "always 0", Plain),
             (20, "always 0", Plain),
             (30, "elevation", Length),
@@ -172,14 +233,27 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (30, "vertex, z", Length),
             (40, "width at the start of the segment", Length),
             (41, "width at the end of the segment", Length),
-            (42, "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line", Bulge),
+            (
+                42,
+                "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line",
+                Bulge,
+            ),
             (50, "direction of the tangent of a curve fit", Degrees),
-            (70, "flags: 1 made by curve fit, 2 has a tangent, 8 made by spline fit, 16 control point", Plain),
+            (
+                70,
+                "flags: 1 made by curve fit, 2 has a tangent, 8 made by spline fit, 16 control point",
+                Plain,
+            ),
         ],
     ),
     (
         &["POINT"],
-        &[(10, "position, x", Length), (20, "position, y", Length), (30, "position, z", Length), (50, "angle of the x axis", Degrees)],
+        &[
+            (10, "position, x", Length),
+            (20, "position, y", Length),
+            (30, "position, z", Length),
+            (50, "angle of the x axis", Degrees),
+        ],
     ),
     (
         &["TEXT", "ATTRIB", "ATTDEF"],
@@ -199,8 +273,16 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (50, "rotation", Degrees),
             (51, "oblique angle", Degrees),
             (71, "text generation: 2 backwards, 4 upside down", Plain),
-            (72, "horizontal alignment: 0 left, 1 centre, 2 right, 3 aligned, 4 middle, 5 fit", Plain),
-            (73, "vertical alignment: 0 baseline, 1 bottom, 2 middle, 3 top", Plain),
+            (
+                72,
+                "horizontal alignment: 0 left, 1 centre, 2 right, 3 aligned, 4 middle, 5 fit",
+                Plain,
+            ),
+            (
+                73,
+                "vertical alignment: 0 baseline, 1 bottom, 2 middle, 3 top",
+                Plain,
+            ),
         ],
     ),
     (
@@ -216,7 +298,11 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (41, "width of the column", Length),
             (50, "rotation, in radians", Plain),
             (71, "attachment: 1 top left to 9 bottom right", Plain),
-            (72, "direction: 1 left to right, 3 top to bottom, 5 by style", Plain),
+            (
+                72,
+                "direction: 1 left to right, 3 top to bottom, 5 by style",
+                Plain,
+            ),
         ],
     ),
     (
@@ -254,7 +340,11 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
     (
         &["SPLINE"],
         &[
-            (70, "flags: 1 closed, 2 periodic, 4 rational, 8 planar, 16 linear", Plain),
+            (
+                70,
+                "flags: 1 closed, 2 periodic, 4 rational, 8 planar, 16 linear",
+                Plain,
+            ),
             (71, "degree", Plain),
             (72, "number of knots", Plain),
             (73, "number of control points", Plain),
@@ -278,7 +368,14 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (33, "tangent at the end, z", Plain),
         ],
     ),
-    (&["DICTIONARY"], &[(3, "name of an entry", Plain), (350, "handle of the entry", Handle), (281, "what happens to doubles", Plain)]),
+    (
+        &["DICTIONARY"],
+        &[
+            (3, "name of an entry", Plain),
+            (350, "handle of the entry", Handle),
+            (281, "what happens to doubles", Plain),
+        ],
+    ),
 ];
 
 /// Records that are no entities: what entities have in common is not theirs.
@@ -315,14 +412,27 @@ pub(super) fn meaning(record: &str, code: i16) -> (&'static str, Value) {
 
 /// The codes that make sense in a record of this name, those of its own kind first; each once.
 pub(super) fn codes_of(record: &str) -> impl Iterator<Item = (i16, &'static str, Value)> + use<> {
-    let own: Codes = OF_RECORD.iter().find(|(names, _)| names.contains(&record)).map_or(&[], |(_, codes)| codes);
-    let entity: Codes = if NO_ENTITY.contains(&record) { &[] } else { ENTITY };
+    let own: Codes = OF_RECORD
+        .iter()
+        .find(|(names, _)| names.contains(&record))
+        .map_or(&[], |(_, codes)| codes);
+    let entity: Codes = if NO_ENTITY.contains(&record) {
+        &[]
+    } else {
+        ENTITY
+    };
     let is_own = move |code: i16| own.iter().any(|(known, _, _)| *known == code);
     // DIMSTYLE has its handle behind 105: its 5 is the name of an arrow head.
     let no_handle = record == "DIMSTYLE";
     let is_circle = record == "CIRCLE";
-    let rest = entity.iter().chain(COMMON).filter(move |(code, _, _)| !(is_own(*code) || no_handle && *code == 5));
-    own.iter().filter(move |(code, _, _)| !(is_circle && matches!(code, 50 | 51))).chain(rest).copied()
+    let rest = entity
+        .iter()
+        .chain(COMMON)
+        .filter(move |(code, _, _)| !(is_own(*code) || no_handle && *code == 5));
+    own.iter()
+        .filter(move |(code, _, _)| !(is_circle && matches!(code, 50 | 51)))
+        .chain(rest)
+        .copied()
 }
 
 /// What a code holds wherever nothing more is known of it.
@@ -348,7 +458,10 @@ fn by_range(code: i16) -> (&'static str, Value) {
         350..=359 => ("handle of a record (soft owner)", Handle),
         360..=369 => ("handle of a record (hard owner)", Handle),
         1000 => ("text of another program", Plain),
-        1001 => ("name of the program that the following codes belong to", Plain),
+        1001 => (
+            "name of the program that the following codes belong to",
+            Plain,
+        ),
         1002 => ("brace of a list of another program", Plain),
         1003 => ("name of a layer, of another program", Plain),
         1010..=1059 => ("number of another program", Plain),
@@ -357,8 +470,26 @@ fn by_range(code: i16) -> (&'static str, Value) {
     }
 }
 
-pub(super) const SECTIONS: [&str; 7] = ["HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE"];
-pub(super) const TABLES: [&str; 9] = ["VPORT", "LTYPE", "LAYER", "STYLE", "VIEW", "UCS", "APPID", "DIMSTYLE", "BLOCK_RECORD"];
+pub(super) const SECTIONS: [&str; 7] = [
+    "HEADER",
+    "CLASSES",
+    "TABLES",
+    "BLOCKS",
+    "ENTITIES",
+    "OBJECTS",
+    "THUMBNAILIMAGE",
+];
+pub(super) const TABLES: [&str; 9] = [
+    "VPORT",
+    "LTYPE",
+    "LAYER",
+    "STYLE",
+    "VIEW",
+    "UCS",
+    "APPID",
+    "DIMSTYLE",
+    "BLOCK_RECORD",
+];
 
 /// Names of records that can stand in a section, with what they are.
 pub(super) fn records_of(section: &str) -> &'static [(&'static str, &'static str)] {
@@ -393,17 +524,29 @@ pub(super) fn records_of(section: &str) -> &'static [(&'static str, &'static str
             ("ENDSEC", "ends the section"),
         ],
         "" => &[("SECTION", "begins a section"), ("EOF", "end of the file")],
-        "OBJECTS" => &[("DICTIONARY", "names and handles"), ("ENDSEC", "ends the section")],
+        "OBJECTS" => &[
+            ("DICTIONARY", "names and handles"),
+            ("ENDSEC", "ends the section"),
+        ],
         _ => &[("ENDSEC", "ends the section")],
     }
 }
 
 /// Header variables that bear on a cut, with what they say.
 pub(super) const VARIABLES: &[(&str, &str)] = &[
-    ("$ACADVER", "version of the file: AC1009 is R12, AC1015 is 2000, AC1032 is 2018"),
+    (
+        "$ACADVER",
+        "version of the file: AC1009 is R12, AC1015 is 2000, AC1032 is 2018",
+    ),
     ("$DWGCODEPAGE", "code page of texts in files before 2007"),
-    ("$INSUNITS", "unit of the drawing: 1 inch, 4 millimetre, 5 centimetre, 6 metre, 0 none"),
-    ("$MEASUREMENT", "0 imperial, 1 metric: chooses patterns, says nothing about the unit"),
+    (
+        "$INSUNITS",
+        "unit of the drawing: 1 inch, 4 millimetre, 5 centimetre, 6 metre, 0 none",
+    ),
+    (
+        "$MEASUREMENT",
+        "0 imperial, 1 metric: chooses patterns, says nothing about the unit",
+    ),
     ("$LUNITS", "how lengths are written"),
     ("$EXTMIN", "lower left corner of what is drawn"),
     ("$EXTMAX", "upper right corner of what is drawn"),

@@ -28,10 +28,25 @@ fn collect(nodes: &[Node], depth: usize, found: &mut Vec<(usize, Fold)>) {
         // The name of the record stays in sight, not its group code 0.
         let (first, last) = (node.lines.start + 1, node.lines.end.saturating_sub(1));
         if last > first {
-            let of_entity = if node.kind == NodeKind::Entity { node.detail.as_str() } else { "" };
+            let of_entity = if node.kind == NodeKind::Entity {
+                node.detail.as_str()
+            } else {
+                ""
+            };
             let parts = [&*node.record, &*node.name, of_entity];
-            let text = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
-            found.push((depth, Fold { first, last, text: format!("{text} …") }));
+            let text = parts
+                .into_iter()
+                .filter(|part| !part.is_empty())
+                .collect::<Vec<_>>()
+                .join(" ");
+            found.push((
+                depth,
+                Fold {
+                    first,
+                    last,
+                    text: format!("{text} …"),
+                },
+            ));
         }
         collect(&node.children, depth + 1, found);
     }

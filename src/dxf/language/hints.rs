@@ -20,25 +20,37 @@ pub struct Hint {
 /// Hints for what stands in a range of bytes, in the order of the text.
 pub fn hints(document: &Document, range: Range<usize>, unit: Unit) -> Vec<Hint> {
     let text = &document.text;
-    let end = text.line_start(text.line_of(range.start) + HINT_LINES).min(range.end);
+    let end = text
+        .line_start(text.line_of(range.start) + HINT_LINES)
+        .min(range.end);
     let mut found = Vec::new();
     for (id, segment) in document.segments_at(range.start..end.max(range.start)) {
-        let Some(entity) = document.drawing.get(id) else { continue };
+        let Some(entity) = document.drawing.get(id) else {
+            continue;
+        };
         let arc = match (&entity.geometry, document.drawing.segment(id, segment)) {
             (Geometry::Polyline { .. } | Geometry::Arc { .. }, Some(Segment::Arc(arc))) => arc,
             _ => continue,
         };
-        let place = document.range_of(&Place::Segment { entity: id, segment });
+        let place = document.range_of(&Place::Segment {
+            entity: id,
+            segment,
+        });
         if place.start < range.start || place.end > end {
             continue;
         }
         let sweep = rounded_to(arc.sweep.to_degrees(), 3);
         let text = match entity.geometry {
-            Geometry::Polyline { .. } => format!("R {} mm, {sweep}°", rounded_to(arc.radius * unit.mm, 4)),
+            Geometry::Polyline { .. } => {
+                format!("R {} mm, {sweep}°", rounded_to(arc.radius * unit.mm, 4))
+            }
             _ if unit.mm == 1.0 => format!("{sweep}°"),
             _ => format!("{} mm, {sweep}°", rounded_to(arc.radius * unit.mm, 4)),
         };
-        found.push(Hint { offset: place.end, text });
+        found.push(Hint {
+            offset: place.end,
+            text,
+        });
     }
     found
 }

@@ -37,15 +37,30 @@ pub struct Occurrence {
 pub fn name_at(document: &Document, offset: usize) -> Option<(Name, Range<usize>)> {
     let spot = spot(document, document.text.line_of(offset))?;
     let tag = spot.tag?;
-    let in_header = spot.name == b"SECTION" && section_of(document, spot.item).is_some_and(|(name, _)| name == "HEADER");
+    let in_header = spot.name == b"SECTION"
+        && section_of(document, spot.item).is_some_and(|(name, _)| name == "HEADER");
     let (names, _) = named_by(spot.name, in_header, tag.code)?;
     let value = spot.lines.trimmed(tag.value_line());
-    let is_name = !value.is_empty() && (names != Names::Record || value.iter().all(u8::is_ascii_hexdigit) && value != b"0");
-    is_name.then(|| (Name { names, text: text_of(value) }, spot.lines.trimmed_range(tag.value_line())))
+    let is_name = !value.is_empty()
+        && (names != Names::Record || value.iter().all(u8::is_ascii_hexdigit) && value != b"0");
+    is_name.then(|| {
+        (
+            Name {
+                names,
+                text: text_of(value),
+            },
+            spot.lines.trimmed_range(tag.value_line()),
+        )
+    })
 }
 
 /// Every place that defines or uses a name, in the order of the text, at most `limit`; `None` when it was stopped.
-pub fn occurrences(text: &SourceText, name: &Name, limit: usize, stop: Stop<'_>) -> Option<Vec<Occurrence>> {
+pub fn occurrences(
+    text: &SourceText,
+    name: &Name,
+    limit: usize,
+    stop: Stop<'_>,
+) -> Option<Vec<Occurrence>> {
     let lines = Lines::new(text);
     let wanted = key(name.names, name.text.as_bytes());
     let mut found = Vec::new();
@@ -59,11 +74,22 @@ pub fn occurrences(text: &SourceText, name: &Name, limit: usize, stop: Stop<'_>)
             in_header = record == b"SECTION";
             return;
         }
-        in_group = if tag.code == 102 { lines.trimmed(tag.value_line()).starts_with(b"{") } else { in_group };
-        let Some((names, defines)) = named_by(record, in_header, tag.code).filter(|(names, _)| *names == name.names) else { return };
+        in_group = if tag.code == 102 {
+            lines.trimmed(tag.value_line()).starts_with(b"{")
+        } else {
+            in_group
+        };
+        let Some((names, defines)) =
+            named_by(record, in_header, tag.code).filter(|(names, _)| *names == name.names)
+        else {
+            return;
+        };
         let value = lines.trimmed(tag.value_line());
         if found.len() < limit && key(names, value).eq_ignore_ascii_case(wanted) {
-            found.push(Occurrence { range: lines.trimmed_range(tag.value_line()), defines: defines && !in_group });
+            found.push(Occurrence {
+                range: lines.trimmed_range(tag.value_line()),
+                defines: defines && !in_group,
+            });
         }
     });
     whole.then_some(found)
@@ -71,7 +97,11 @@ pub fn occurrences(text: &SourceText, name: &Name, limit: usize, stop: Stop<'_>)
 
 /// What is compared: a handle without its leading zeros.
 fn key(names: Names, value: &[u8]) -> &[u8] {
-    let zeros = if names == Names::Record { value.iter().take_while(|&&digit| digit == b'0').count() } else { 0 };
+    let zeros = if names == Names::Record {
+        value.iter().take_while(|&&digit| digit == b'0').count()
+    } else {
+        0
+    };
     &value[zeros..]
 }
 
@@ -99,7 +129,9 @@ fn named_by(record: &[u8], in_header: bool, code: i16) -> Option<(Names, bool)> 
         (_, 8 | 1003) => Some((Names::Layer, false)),
         (_, 6) => Some((Names::Linetype, false)),
         (b"TEXT" | b"MTEXT" | b"ATTRIB" | b"ATTDEF", 7) => Some((Names::Style, false)),
-        (_, 320..=369 | 390..=399 | 480..=481 | 1005) => (meaning("", code).1 == Value::Handle).then_some((Names::Record, false)),
+        (_, 320..=369 | 390..=399 | 480..=481 | 1005) => {
+            (meaning("", code).1 == Value::Handle).then_some((Names::Record, false))
+        }
         _ => None,
     }
 }

@@ -75,7 +75,13 @@ pub(super) fn walk(lines: Lines<'_>, stop: Stop<'_>, mut visit: impl FnMut(Tag))
 /// The tree of a text; `None` when it was stopped.
 pub fn outline(text: &SourceText, stop: Stop<'_>) -> Option<Vec<Node>> {
     let lines = Lines::new(text);
-    let mut builder = Builder { lines, open: Vec::new(), done: Vec::new(), record: None, vertices: 0 };
+    let mut builder = Builder {
+        lines,
+        open: Vec::new(),
+        done: Vec::new(),
+        record: None,
+        vertices: 0,
+    };
     let mut end = 0;
     let whole = walk(lines, stop, |tag| {
         if tag.code == 0 {
@@ -139,7 +145,11 @@ impl Builder<'_> {
             }
             b"TABLE" | b"BLOCK" => {
                 self.close_to_section(line);
-                let kind = if name == b"TABLE" { NodeKind::Table } else { NodeKind::Block };
+                let kind = if name == b"TABLE" {
+                    NodeKind::Table
+                } else {
+                    NodeKind::Block
+                };
                 self.open.push(self.node(kind, tag));
             }
             b"ENDTAB" => self.close_to_section(line + 2),
@@ -152,14 +162,26 @@ impl Builder<'_> {
                 self.open.push(self.node(NodeKind::Entity, tag));
             }
             _ => {
-                let kind = match self.open.iter().rev().find(|node| node.kind != NodeKind::Entity).map(|node| (node.kind, &*node.name)) {
+                let kind = match self
+                    .open
+                    .iter()
+                    .rev()
+                    .find(|node| node.kind != NodeKind::Entity)
+                    .map(|node| (node.kind, &*node.name))
+                {
                     Some((NodeKind::Table, _)) => NodeKind::Entry,
-                    Some((NodeKind::Block, _) | (NodeKind::Section, "ENTITIES" | "BLOCKS")) => NodeKind::Entity,
+                    Some((NodeKind::Block, _) | (NodeKind::Section, "ENTITIES" | "BLOCKS")) => {
+                        NodeKind::Entity
+                    }
                     _ => NodeKind::Other,
                 };
                 self.vertices = 0;
                 let node = self.node(kind, tag);
-                if name == b"INSERT" { self.open.push(node) } else { self.record = Some(node) }
+                if name == b"INSERT" {
+                    self.open.push(node)
+                } else {
+                    self.record = Some(node)
+                }
             }
         }
     }
@@ -167,21 +189,38 @@ impl Builder<'_> {
     /// A tag that begins no record.
     fn take(&mut self, tag: Tag) {
         let in_holder = self.record.is_none();
-        let Some(node) = self.record.as_mut().or(self.open.last_mut()) else { return };
+        let Some(node) = self.record.as_mut().or(self.open.last_mut()) else {
+            return;
+        };
         // Vertices and attributes of a holder have codes of their own.
         if in_holder && node.lines.end > node.lines.start {
             return self.hold_to(tag.line + 2);
         }
         let value = self.lines.trimmed(tag.value_line());
         match tag.code {
-            2 if matches!(node.kind, NodeKind::Section | NodeKind::Table | NodeKind::Entry | NodeKind::Block) && node.name.is_empty() => {
+            2 if matches!(
+                node.kind,
+                NodeKind::Section | NodeKind::Table | NodeKind::Entry | NodeKind::Block
+            ) && node.name.is_empty() =>
+            {
                 node.name = text_of(value).into();
             }
-            5 | 105 if matches!(node.kind, NodeKind::Entity | NodeKind::Other) && node.name.is_empty() => node.name = text_of(value).into(),
-            8 if node.kind == NodeKind::Entity && node.detail.is_empty() => node.detail = text_of(value),
+            5 | 105
+                if matches!(node.kind, NodeKind::Entity | NodeKind::Other)
+                    && node.name.is_empty() =>
+            {
+                node.name = text_of(value).into()
+            }
+            8 if node.kind == NodeKind::Entity && node.detail.is_empty() => {
+                node.detail = text_of(value)
+            }
             10 if &*node.record == "LWPOLYLINE" => self.vertices += 1,
-            2 if &*node.record == "INSERT" => node.detail = format!("{}, block {}", node.detail, text_of(value)),
-            1 if matches!(&*node.record, "TEXT" | "MTEXT") => node.detail = format!("{}, \"{}\"", node.detail, text_of(value)),
+            2 if &*node.record == "INSERT" => {
+                node.detail = format!("{}, block {}", node.detail, text_of(value))
+            }
+            1 if matches!(&*node.record, "TEXT" | "MTEXT") => {
+                node.detail = format!("{}, \"{}\"", node.detail, text_of(value))
+            }
             _ => {}
         }
     }
@@ -210,7 +249,11 @@ impl Builder<'_> {
 
     fn ended(&self, mut node: Node, end: usize) -> Node {
         node.lines.end = end.max(node.lines.start + 1);
-        node.range.end = self.lines.range(node.lines.end - 1).end.max(node.selection.end);
+        node.range.end = self
+            .lines
+            .range(node.lines.end - 1)
+            .end
+            .max(node.selection.end);
         if matches!(&*node.record, "LWPOLYLINE" | "POLYLINE") {
             node.detail = match self.vertices {
                 1 => format!("{}, 1 vertex", node.detail),
@@ -221,7 +264,9 @@ impl Builder<'_> {
     }
 
     fn finish_record(&mut self, end: usize) {
-        let Some(node) = self.record.take() else { return };
+        let Some(node) = self.record.take() else {
+            return;
+        };
         if &*node.record == "ENDBLK" {
             return self.close_to_section(end);
         }
@@ -238,7 +283,11 @@ impl Builder<'_> {
     }
 
     fn close_to_section(&mut self, end: usize) {
-        while self.open.last().is_some_and(|node| node.kind != NodeKind::Section) {
+        while self
+            .open
+            .last()
+            .is_some_and(|node| node.kind != NodeKind::Section)
+        {
             self.close(end);
         }
     }

@@ -9,9 +9,13 @@ use std::ops::Range;
 pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     let all = 0..document.text.len();
     let mut found: Vec<Range<usize>> = Vec::new();
-    let Some(spot) = spot(document, document.text.line_of(offset)) else { return vec![all] };
+    let Some(spot) = spot(document, document.text.line_of(offset)) else {
+        return vec![all];
+    };
     let lines = spot.lines;
-    let bytes_of = |range: Range<usize>| lines.range(range.start).start..lines.range(range.end.saturating_sub(1)).end;
+    let bytes_of = |range: Range<usize>| {
+        lines.range(range.start).start..lines.range(range.end.saturating_sub(1)).end
+    };
     let mut wider = |range: Range<usize>| {
         let grows = match found.last() {
             None => range.start <= offset && offset <= range.end,
@@ -36,7 +40,13 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     wider(bytes_of(of_item));
     if let Some((_, items)) = section_of(document, spot.item) {
         let start = document.table.lines_of(items.start, lines.count()).start;
-        wider(bytes_of(start..document.table.lines_of(items.end.saturating_sub(1), lines.count()).end));
+        wider(bytes_of(
+            start
+                ..document
+                    .table
+                    .lines_of(items.end.saturating_sub(1), lines.count())
+                    .end,
+        ));
     }
     wider(all.clone());
     if found.is_empty() {

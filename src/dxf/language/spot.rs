@@ -37,7 +37,16 @@ pub(super) fn spot(document: &Document, line: usize) -> Option<Spot<'_>> {
     let begins = Lexer::new(lines, of_item.start).peek_record().is_some();
     let mut record = begins.then_some(of_item.start);
     let from = vertex_before(document, item, line).unwrap_or(of_item.start);
-    let mut spot = Spot { lines, line, item, record, name: b"", tag: None, before: None, in_step: from };
+    let mut spot = Spot {
+        lines,
+        line,
+        item,
+        record,
+        name: b"",
+        tag: None,
+        before: None,
+        in_step: from,
+    };
     let (mut lexer, mut unheard) = (Lexer::new(lines, from), Vec::new());
     let mut last = None;
     while lexer.at() <= line
@@ -73,22 +82,52 @@ pub(super) fn vertex_at(document: &Document, item: usize, line: usize) -> Option
     let entity = document.table.items.get(item)?.entity()?;
     let start = *document.table.lines.get(item)? as usize;
     let vertices = document.table.vertices.get(&entity)?;
-    let index = vertices.lines.partition_point(|&vertex| start + vertex as usize <= line).checked_sub(1)?;
+    let index = vertices
+        .lines
+        .partition_point(|&vertex| start + vertex as usize <= line)
+        .checked_sub(1)?;
     document.vertex_lines(entity, index)
 }
 
 /// Name of the section that holds an item, and the items of it, both ends included; `None` outside of all.
 pub(super) fn section_of(document: &Document, item: usize) -> Option<(String, Range<usize>)> {
     let lines = Lines::new(&document.text);
-    let name_of = |item: usize| document.table.lines.get(item).map_or(&b""[..], |&line| lines.trimmed(line as usize + 1));
-    let is_edge = |item: &usize| matches!(document.table.items.get(*item).map(|item| item.became), Some(Became::Structure { .. }));
-    let first = if is_edge(&item) && name_of(item) == b"ENDSEC" { item.checked_sub(1)? } else { item };
-    let start = (0..=first).rev().find(is_edge).filter(|&start| name_of(start) == b"SECTION")?;
-    let end = (start + 1..document.table.items.len()).find(is_edge).unwrap_or(document.table.items.len());
-    let last = if name_of(end) == b"ENDSEC" { end } else { end.saturating_sub(1) };
+    let name_of = |item: usize| {
+        document
+            .table
+            .lines
+            .get(item)
+            .map_or(&b""[..], |&line| lines.trimmed(line as usize + 1))
+    };
+    let is_edge = |item: &usize| {
+        matches!(
+            document.table.items.get(*item).map(|item| item.became),
+            Some(Became::Structure { .. })
+        )
+    };
+    let first = if is_edge(&item) && name_of(item) == b"ENDSEC" {
+        item.checked_sub(1)?
+    } else {
+        item
+    };
+    let start = (0..=first)
+        .rev()
+        .find(is_edge)
+        .filter(|&start| name_of(start) == b"SECTION")?;
+    let end = (start + 1..document.table.items.len())
+        .find(is_edge)
+        .unwrap_or(document.table.items.len());
+    let last = if name_of(end) == b"ENDSEC" {
+        end
+    } else {
+        end.saturating_sub(1)
+    };
     let line = *document.table.lines.get(start)? as usize;
     // The name is the first tag of code 2; it stands right behind the beginning, but for comments.
-    let name = (line + 2..line + 12).step_by(2).find(|&at| lines.trimmed(at) == b"2").map(|at| text_of(lines.trimmed(at + 1)));
+    let name = (line + 2..line + 12)
+        .step_by(2)
+        .find(|&at| lines.trimmed(at) == b"2")
+        .map(|at| text_of(lines.trimmed(at + 1)));
     Some((name.unwrap_or_default(), start..last + 1))
 }
 

@@ -15,13 +15,28 @@ pub fn symbols(mut tree: Vec<Node>, contours: &[ContourNote]) -> Vec<Node> {
     let listed = contours_of(&tree, contours);
     shorten(&mut tree);
     if let Some(first) = listed.first()
-        && let Some(section) = tree.iter_mut().find(|node| node.kind == NodeKind::Section && &*node.name == "ENTITIES")
+        && let Some(section) = tree
+            .iter_mut()
+            .find(|node| node.kind == NodeKind::Section && &*node.name == "ENTITIES")
     {
         // Symbols lie within the one that holds them: the contours are a part of their section.
-        let (range, selection, lines) = (section.range.clone(), first.selection.clone(), section.lines.clone());
+        let (range, selection, lines) = (
+            section.range.clone(),
+            first.selection.clone(),
+            section.lines.clone(),
+        );
         let detail = format!("{} of them", contours.len());
         let (record, name) = ("".into(), "Contours".into());
-        let mut node = Node { kind: NodeKind::Contours, record, name, detail, range, selection, lines, children: listed };
+        let mut node = Node {
+            kind: NodeKind::Contours,
+            record,
+            name,
+            detail,
+            range,
+            selection,
+            lines,
+            children: listed,
+        };
         shorten_children(&mut node.children);
         section.children.insert(0, node);
     }
@@ -50,7 +65,16 @@ fn shorten_children(children: &mut Vec<Node>) {
     let size = all.div_ceil(RUNS);
     let run = |(index, nodes): (usize, &[Node])| {
         let (first, last) = (nodes.first()?, nodes.last()?);
-        let mut kinds: Vec<&str> = nodes.iter().map(|node| if node.record.is_empty() { "contour" } else { &*node.record }).collect();
+        let mut kinds: Vec<&str> = nodes
+            .iter()
+            .map(|node| {
+                if node.record.is_empty() {
+                    "contour"
+                } else {
+                    &*node.record
+                }
+            })
+            .collect();
         kinds.sort_unstable();
         kinds.dedup();
         let from = index * size + 1;
@@ -71,22 +95,46 @@ fn shorten_children(children: &mut Vec<Node>) {
 
 /// One node for each contour whose entities are in the tree.
 fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
-    let Some(section) = tree.iter().find(|node| node.kind == NodeKind::Section && &*node.name == "ENTITIES") else { return Vec::new() };
+    let Some(section) = tree
+        .iter()
+        .find(|node| node.kind == NodeKind::Section && &*node.name == "ENTITIES")
+    else {
+        return Vec::new();
+    };
     let mut by_handle: HashMap<String, &Node> = HashMap::with_capacity(section.children.len());
     for (ordinal, node) in section.children.iter().enumerate() {
         // Entities without a handle are known by their number.
-        let handle = if node.name.is_empty() { format!("#{}", ordinal + 1) } else { node.name.to_string() };
+        let handle = if node.name.is_empty() {
+            format!("#{}", ordinal + 1)
+        } else {
+            node.name.to_string()
+        };
         by_handle.entry(handle).or_insert(node);
     }
     let node_of = |(index, contour): (usize, &ContourNote)| {
-        let members: Vec<&Node> = contour.handles.iter().filter_map(|handle| by_handle.get(&**handle).copied()).collect();
+        let members: Vec<&Node> = contour
+            .handles
+            .iter()
+            .filter_map(|handle| by_handle.get(&**handle).copied())
+            .collect();
         let first = *members.first()?;
         let start = members.iter().map(|node| node.range.start).min()?;
         let end = members.iter().map(|node| node.range.end).max()?;
         let closed = if contour.closed { "closed" } else { "open" };
-        let segments = if contour.segments == 1 { "1 segment".into() } else { format!("{} segments", contour.segments) };
-        let children =
-            if members.len() > 1 { members.iter().take(LISTED_OF_CONTOUR).map(|&node| node.clone()).collect() } else { Vec::new() };
+        let segments = if contour.segments == 1 {
+            "1 segment".into()
+        } else {
+            format!("{} segments", contour.segments)
+        };
+        let children = if members.len() > 1 {
+            members
+                .iter()
+                .take(LISTED_OF_CONTOUR)
+                .map(|&node| node.clone())
+                .collect()
+        } else {
+            Vec::new()
+        };
         Some(Node {
             kind: NodeKind::Contour,
             record: "".into(),

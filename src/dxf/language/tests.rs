@@ -20,7 +20,10 @@ fn lines(text: &str) -> String {
 fn with_cursor(text: &str) -> (Document, usize) {
     let text = lines(text);
     let cursor = text.find("$0").expect("there is a cursor");
-    (Document::read(text.replacen("$0", "", 1).into_bytes()), cursor)
+    (
+        Document::read(text.replacen("$0", "", 1).into_bytes()),
+        cursor,
+    )
 }
 
 fn in_entities(text: &str) -> String {
@@ -42,8 +45,13 @@ fn check_hover(text: &str, unit: Unit, expected: &Expect) {
 
 #[test]
 fn hover_says_what_a_code_means_in_its_entity() {
-    let check = |text: &str, unit: Unit, expected: Expect| check_hover(&in_entities(text), unit, &expected);
-    check("0|CIRCLE|10|0|20|0|4$00|2", MM, expect!["**40** of CIRCLE: radius"]);
+    let check =
+        |text: &str, unit: Unit, expected: Expect| check_hover(&in_entities(text), unit, &expected);
+    check(
+        "0|CIRCLE|10|0|20|0|4$00|2",
+        MM,
+        expect!["**40** of CIRCLE: radius"],
+    );
     check(
         "0|CIRCLE|10|0|20|0|40|$02",
         INCH,
@@ -52,7 +60,11 @@ fn hover_says_what_a_code_means_in_its_entity() {
 
         50.8 mm"#]],
     );
-    check("0|TEXT|10|0|20|0|$040|2", MM, expect!["**40** of TEXT: text height"]);
+    check(
+        "0|TEXT|10|0|20|0|$040|2",
+        MM,
+        expect!["**40** of TEXT: text height"],
+    );
     check(
         "0|LWPOLYLINE|90|2|70|$0129|10|0|20|0|10|1|20|0",
         MM,
@@ -77,12 +89,17 @@ fn hover_says_what_a_code_means_in_its_entity() {
 
         entity 1A on layer DIE, 1 segment"#]],
     );
-    check("999|$0remark|0|LINE|10|0|20|0|11|1|21|0", MM, expect!["comment: programs pass it over"]);
+    check(
+        "999|$0remark|0|LINE|10|0|20|0|11|1|21|0",
+        MM,
+        expect!["comment: programs pass it over"],
+    );
 }
 
 #[test]
 fn hover_on_an_arc_gives_its_sweep_radius_and_centre() {
-    let check = |text: &str, unit: Unit, expected: Expect| check_hover(&in_entities(text), unit, &expected);
+    let check =
+        |text: &str, unit: Unit, expected: Expect| check_hover(&in_entities(text), unit, &expected);
     check(
         "0|LWPOLYLINE|90|2|70|0|10|0|20|0|42|$01|10|2|20|0",
         INCH,
@@ -155,7 +172,14 @@ fn hover_is_silent_where_no_tag_is() {
 fn tree(nodes: &[Node], depth: usize, text: &mut String) {
     for node in nodes {
         let (first, last) = (node.lines.start, node.lines.end);
-        let _ = writeln!(text, "{}{} {} [{}] {first}..{last}", "  ".repeat(depth), node.record, node.name, node.detail);
+        let _ = writeln!(
+            text,
+            "{}{} {} [{}] {first}..{last}",
+            "  ".repeat(depth),
+            node.record,
+            node.name,
+            node.detail
+        );
         tree(&node.children, depth + 1, text);
     }
 }
@@ -189,7 +213,9 @@ fn the_outline_has_sections_tables_blocks_and_entities() {
 fn the_outline_of_damaged_text_is_what_is_there() {
     let mut text = String::new();
     tree(
-        &outline_of(&lines("0|SECTION|2|ENTITIES|0|POLYLINE|8|A|0|VERTEX|10|1|0|LINE|8|B|junk|0|SECTION|2|BLOCKS|0|BLOCK|2|X")),
+        &outline_of(&lines(
+            "0|SECTION|2|ENTITIES|0|POLYLINE|8|A|0|VERTEX|10|1|0|LINE|8|B|junk|0|SECTION|2|BLOCKS|0|BLOCK|2|X",
+        )),
         0,
         &mut text,
     );
@@ -214,8 +240,19 @@ fn a_stopped_outline_is_none() {
 #[test]
 fn contours_are_listed_with_their_entities() {
     let text = in_entities("0|LINE|5|A|8|0|10|0|0|LINE|5|B|8|0|10|1|0|CIRCLE|8|0|10|5");
-    let note = |closed, segments, handles: &[&str]| ContourNote { closed, segments, handles: handles.iter().map(|&h| h.into()).collect() };
-    let listed = symbols(outline_of(&lines(&text)), &[note(false, 2, &["A", "B"]), note(true, 1, &["#3"]), note(true, 1, &["gone"])]);
+    let note = |closed, segments, handles: &[&str]| ContourNote {
+        closed,
+        segments,
+        handles: handles.iter().map(|&h| h.into()).collect(),
+    };
+    let listed = symbols(
+        outline_of(&lines(&text)),
+        &[
+            note(false, 2, &["A", "B"]),
+            note(true, 1, &["#3"]),
+            note(true, 1, &["gone"]),
+        ],
+    );
     let mut text = String::new();
     tree(&listed, 0, &mut text);
     expect![[r#"
@@ -237,17 +274,28 @@ fn very_many_entities_are_listed_in_runs() {
     let text = in_entities(&vec!["0|POINT|8|0"; GROUPED_ABOVE + 1].join("|"));
     let listed = symbols(outline_of(&lines(&text)), &[]);
     let runs = &listed[0].children;
-    assert_eq!((runs.len(), &*runs[0].name, runs[0].detail.as_str()), (953, "1 to 21", "POINT · 21 of 20001"));
+    assert_eq!(
+        (runs.len(), &*runs[0].name, runs[0].detail.as_str()),
+        (953, "1 to 21", "POINT · 21 of 20001")
+    );
     assert_eq!(&*runs[952].name, "19993 to 20001");
-    let bytes: usize = runs.windows(2).filter(|pair| pair[0].range.end > pair[1].range.start).count();
+    let bytes: usize = runs
+        .windows(2)
+        .filter(|pair| pair[0].range.end > pair[1].range.start)
+        .count();
     assert_eq!(bytes, 0, "runs do not overlap");
 }
 
 #[test]
 fn folds_begin_behind_the_name_and_the_outer_ones_stay_when_there_are_too_many() {
     let tree = outline_of(&lines(ALL));
-    let list =
-        |limit| folds(&tree, limit).iter().map(|fold| format!("{}-{} {}", fold.first, fold.last, fold.text)).collect::<Vec<_>>().join("\n");
+    let list = |limit| {
+        folds(&tree, limit)
+            .iter()
+            .map(|fold| format!("{}-{} {}", fold.first, fold.last, fold.text))
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
     expect![[r#"
         1-9 SECTION HEADER …
         11-29 SECTION TABLES …
@@ -279,7 +327,11 @@ fn tokens_tell_lines_apart() {
         .filter(|token| token.kind != TokenKind::Code)
         .map(|token| {
             let start = text.line_start(token.line) + token.start;
-            format!("{:?} {}", token.kind, String::from_utf8_lossy(&text.bytes()[start..start + token.length]))
+            format!(
+                "{:?} {}",
+                token.kind,
+                String::from_utf8_lossy(&text.bytes()[start..start + token.length])
+            )
         })
         .collect();
     kinds.sort();
@@ -333,7 +385,10 @@ fn tokens_tell_lines_apart() {
         Text O
         Variable $INSUNITS"#]]
     .assert_eq(&kinds.join("\n"));
-    assert_eq!(tokens(&text, 5, &|| false).map(|tokens| tokens.len()), Some(5));
+    assert_eq!(
+        tokens(&text, 5, &|| false).map(|tokens| tokens.len()),
+        Some(5)
+    );
 }
 
 #[test]
@@ -341,30 +396,60 @@ fn tokens_of_some_lines_are_those_of_the_whole() {
     let document = Document::read(lines(ALL).into_bytes());
     let whole = tokens(&document.text, usize::MAX, &|| false).unwrap_or_default();
     let count = document.text.line_count();
-    for (start, end) in (0..count).flat_map(|start| [(start, start + 1), (start, start + 7), (start, count)]) {
-        let expected: Vec<Token> = whole.iter().filter(|token| (start..end).contains(&token.line)).copied().collect();
+    for (start, end) in
+        (0..count).flat_map(|start| [(start, start + 1), (start, start + 7), (start, count)])
+    {
+        let expected: Vec<Token> = whole
+            .iter()
+            .filter(|token| (start..end).contains(&token.line))
+            .copied()
+            .collect();
         assert_eq!(tokens_in(&document, start..end), expected, "{start}..{end}");
     }
 }
 
 fn check_names(cursor_in: &str, expected: &Expect) {
     let (document, cursor) = with_cursor(cursor_in);
-    let Some((name, _)) = name_at(&document, cursor) else { return expected.assert_eq("no name") };
+    let Some((name, _)) = name_at(&document, cursor) else {
+        return expected.assert_eq("no name");
+    };
     let found = occurrences(&document.text, &name, usize::MAX, &|| false).unwrap_or_default();
     let place = |found: &Occurrence| {
-        let text = String::from_utf8_lossy(&document.text.bytes()[found.range.clone()]).into_owned();
-        format!("{}{} {text}", if found.defines { "defined " } else { "" }, document.text.line_of(found.range.start))
+        let text =
+            String::from_utf8_lossy(&document.text.bytes()[found.range.clone()]).into_owned();
+        format!(
+            "{}{} {text}",
+            if found.defines { "defined " } else { "" },
+            document.text.line_of(found.range.start)
+        )
     };
-    expected.assert_eq(&format!("{:?}: {}", name.names, found.iter().map(place).collect::<Vec<_>>().join(", ")));
+    expected.assert_eq(&format!(
+        "{:?}: {}",
+        name.names,
+        found.iter().map(place).collect::<Vec<_>>().join(", ")
+    ));
 }
 
 #[test]
 fn names_are_found_where_they_are_defined_and_used() {
-    let check = |from: &str, to: &str, expected: Expect| check_names(&ALL.replacen(from, to, 1), &expected);
-    check("330|02A", "330|$002A", expect!["Record: defined 71 2A, 145 02A"]);
+    let check =
+        |from: &str, to: &str, expected: Expect| check_names(&ALL.replacen(from, to, 1), &expected);
+    check(
+        "330|02A",
+        "330|$002A",
+        expect!["Record: defined 71 2A, 145 02A"],
+    );
     check("5|2A", "5|2$0A", expect!["Record: defined 71 2A, 145 02A"]);
-    check("8|die", "8|d$0ie", expect!["Layer: defined 23 DIE, 51 die, 75 DIE, 95 DIE, 103 DIE"]);
-    check("2|hole", "2$0|hole", expect!["Block: defined 41 HOLE, 127 hole"]);
+    check(
+        "8|die",
+        "8|d$0ie",
+        expect!["Layer: defined 23 DIE, 51 die, 75 DIE, 95 DIE, 103 DIE"],
+    );
+    check(
+        "2|hole",
+        "2$0|hole",
+        expect!["Block: defined 41 HOLE, 127 hole"],
+    );
     check("330|1F", "330|$01F", expect!["Record: 73 1F"]);
     check("40|1|1|O", "40|1|1|$0O", expect!["no name"]);
     check("70|4", "7$00|4", expect!["no name"]);
@@ -372,8 +457,16 @@ fn names_are_found_where_they_are_defined_and_used() {
 
 fn check_selections(text: &str, expected: &Expect) {
     let (document, cursor) = with_cursor(text);
-    let show = |range: &std::ops::Range<usize>| String::from_utf8_lossy(&document.text.bytes()[range.clone()]).replace('\n', "|");
-    expected.assert_eq(&selections(&document, cursor).iter().map(show).collect::<Vec<_>>().join("\n"));
+    let show = |range: &std::ops::Range<usize>| {
+        String::from_utf8_lossy(&document.text.bytes()[range.clone()]).replace('\n', "|")
+    };
+    expected.assert_eq(
+        &selections(&document, cursor)
+            .iter()
+            .map(show)
+            .collect::<Vec<_>>()
+            .join("\n"),
+    );
 }
 
 #[test]
@@ -414,8 +507,20 @@ fn check_completions(text: &str, expected: &Expect) {
     let (document, cursor) = with_cursor(text);
     let found = completions(&document, cursor);
     let show = |found: &Completion| format!("{} {}", found.text, found.about);
-    let more = if found.len() > 6 { format!("\n… {}", found.len()) } else { String::new() };
-    expected.assert_eq(&format!("{}{more}", found.iter().take(6).map(show).collect::<Vec<_>>().join("\n")));
+    let more = if found.len() > 6 {
+        format!("\n… {}", found.len())
+    } else {
+        String::new()
+    };
+    expected.assert_eq(&format!(
+        "{}{more}",
+        found
+            .iter()
+            .take(6)
+            .map(show)
+            .collect::<Vec<_>>()
+            .join("\n")
+    ));
 }
 
 #[test]
@@ -506,14 +611,32 @@ fn hints_stand_behind_bulges_and_radii() {
         15: R 1 mm, 180°
         25: R 1.4142 mm, -90°"#]],
     );
-    check("0|ARC|10|0|20|0|40|2|50|350|51|20|0|LINE|10|0|20|0|11|1|21|1|0|CIRCLE|10|0|20|0|40|1", INCH, expect!["11: 50.8 mm, 30°"]);
+    check(
+        "0|ARC|10|0|20|0|40|2|50|350|51|20|0|LINE|10|0|20|0|11|1|21|1|0|CIRCLE|10|0|20|0|40|1",
+        INCH,
+        expect!["11: 50.8 mm, 30°"],
+    );
 }
 
 #[test]
 fn the_tables_of_codes_name_each_code_once() {
-    for record in ["LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "VERTEX", "SPLINE", "INSERT", "LAYER", "DIMSTYLE", "SECTION", "TEXT"]
-    {
-        let mut all: Vec<i16> = super::codes::codes_of(record).map(|(code, _, _)| code).collect();
+    for record in [
+        "LINE",
+        "ARC",
+        "CIRCLE",
+        "LWPOLYLINE",
+        "POLYLINE",
+        "VERTEX",
+        "SPLINE",
+        "INSERT",
+        "LAYER",
+        "DIMSTYLE",
+        "SECTION",
+        "TEXT",
+    ] {
+        let mut all: Vec<i16> = super::codes::codes_of(record)
+            .map(|(code, _, _)| code)
+            .collect();
         let count = all.len();
         all.sort_unstable();
         all.dedup();
@@ -527,34 +650,66 @@ fn ask_everything(text: Vec<u8>) {
     let length = document.text.len();
     let tree = outline(&document.text, &|| false).unwrap_or_default();
     let mut all = Vec::new();
-    fn ranges(nodes: &[Node], holder: std::ops::Range<usize>, all: &mut Vec<std::ops::Range<usize>>) {
+    fn ranges(
+        nodes: &[Node],
+        holder: std::ops::Range<usize>,
+        all: &mut Vec<std::ops::Range<usize>>,
+    ) {
         for node in nodes {
-            assert!(node.range.start <= node.selection.start && node.selection.end <= node.range.end, "{node:?}");
-            assert!(holder.start <= node.range.start && node.range.end <= holder.end, "{node:?} in {holder:?}");
+            assert!(
+                node.range.start <= node.selection.start && node.selection.end <= node.range.end,
+                "{node:?}"
+            );
+            assert!(
+                holder.start <= node.range.start && node.range.end <= holder.end,
+                "{node:?} in {holder:?}"
+            );
             all.push(node.range.clone());
             ranges(&node.children, node.range.clone(), all);
         }
     }
     ranges(&tree, 0..length, &mut all);
     let lines = document.text.line_count();
-    assert!(folds(&tree, 100).iter().all(|fold| fold.first < fold.last && fold.last < lines));
-    assert!(tokens(&document.text, usize::MAX, &|| false).unwrap_or_default().windows(2).all(|pair| pair[0].line < pair[1].line));
+    assert!(
+        folds(&tree, 100)
+            .iter()
+            .all(|fold| fold.first < fold.last && fold.last < lines)
+    );
+    assert!(
+        tokens(&document.text, usize::MAX, &|| false)
+            .unwrap_or_default()
+            .windows(2)
+            .all(|pair| pair[0].line < pair[1].line)
+    );
     for line in 0..lines {
         let offset = document.text.line_start(line);
         all.extend(hover(&document, offset, MM).map(|hover| hover.range));
-        all.extend(completions(&document, offset).into_iter().map(|completion| completion.range));
+        all.extend(
+            completions(&document, offset)
+                .into_iter()
+                .map(|completion| completion.range),
+        );
         let steps = selections(&document, offset);
-        assert!(steps.windows(2).all(|pair| pair[1].start <= pair[0].start && pair[0].end <= pair[1].end), "{steps:?}");
+        assert!(
+            steps
+                .windows(2)
+                .all(|pair| pair[1].start <= pair[0].start && pair[0].end <= pair[1].end),
+            "{steps:?}"
+        );
         all.extend(steps);
         if let Some((name, range)) = name_at(&document, offset) {
-            let found = occurrences(&document.text, &name, usize::MAX, &|| false).unwrap_or_default();
+            let found =
+                occurrences(&document.text, &name, usize::MAX, &|| false).unwrap_or_default();
             all.extend(found.into_iter().map(|found| found.range));
             all.push(range);
         }
         tokens_in(&document, line..line + 3);
     }
     hints(&document, 0..length, MM);
-    assert!(all.iter().all(|range| range.start <= range.end && range.end <= length));
+    assert!(
+        all.iter()
+            .all(|range| range.start <= range.end && range.end <= length)
+    );
 }
 
 #[test]
@@ -566,7 +721,12 @@ fn everything_can_be_asked_of_any_text() {
     ask_everything(all.replace('\n', "\r\n").into_bytes());
     ask_everything(format!("\u{feff}{all}").into_bytes());
     // One line is missing, and then the end.
-    let missing: Vec<&str> = all.lines().enumerate().filter(|(line, _)| *line != 25).map(|(_, line)| line).collect();
+    let missing: Vec<&str> = all
+        .lines()
+        .enumerate()
+        .filter(|(line, _)| *line != 25)
+        .map(|(_, line)| line)
+        .collect();
     ask_everything(missing.join("\n").as_bytes()[..114].to_vec());
     ask_everything(all.replace("DIE", "D\u{fc}").into_bytes());
 }

@@ -63,7 +63,11 @@ pub fn tokens(text: &SourceText, limit: usize, stop: Stop<'_>) -> Option<Vec<Tok
                 return Next::Stopped;
             }
         }
-        if found.len() >= limit { Next::Enough } else { Next::On }
+        if found.len() >= limit {
+            Next::Enough
+        } else {
+            Next::On
+        }
     });
     whole.then_some(found)
 }
@@ -72,8 +76,9 @@ pub fn tokens(text: &SourceText, limit: usize, stop: Stop<'_>) -> Option<Vec<Tok
 pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
     let mut found = Vec::new();
     // A text that is no DXF has no spots; it is looked at from its beginning.
-    let (begin, name) =
-        spot(document, lines.start).map_or((0, &b""[..]), |spot| (spot.tag.map_or(spot.in_step, |tag| tag.line), spot.name));
+    let (begin, name) = spot(document, lines.start).map_or((0, &b""[..]), |spot| {
+        (spot.tag.map_or(spot.in_step, |tag| tag.line), spot.name)
+    });
     collect(&document.text, begin, name, |token| {
         if token.line >= lines.end {
             return Next::Enough;
@@ -94,7 +99,12 @@ enum Next {
 
 /// Calls `take` for each token from a line on that is in step; `record` is the name of the record that holds it. False
 /// when it was stopped.
-fn collect(text: &SourceText, from: usize, record: &[u8], mut take: impl FnMut(Token) -> Next) -> bool {
+fn collect(
+    text: &SourceText,
+    from: usize,
+    record: &[u8],
+    mut take: impl FnMut(Token) -> Next,
+) -> bool {
     let lines = Lines::new(text);
     let (mut lexer, mut unheard) = (Lexer::new(lines, from), Vec::new());
     let mut is_style = record == b"DIMSTYLE";
@@ -106,13 +116,21 @@ fn collect(text: &SourceText, from: usize, record: &[u8], mut take: impl FnMut(T
         if tag.code == 0 {
             is_style = value == b"DIMSTYLE";
         }
-        for (line, kind) in [(tag.line, code_kind(tag)), (tag.value_line(), value_kind(tag, value, is_style))] {
+        for (line, kind) in [
+            (tag.line, code_kind(tag)),
+            (tag.value_line(), value_kind(tag, value, is_style)),
+        ] {
             let range = lines.trimmed_range(line);
             if range.is_empty() || line < told {
                 continue;
             }
             told = line + 1;
-            match take(Token { line, start: range.start - text.line_start(line), length: range.len(), kind }) {
+            match take(Token {
+                line,
+                start: range.start - text.line_start(line),
+                length: range.len(),
+                kind,
+            }) {
                 Next::On => {}
                 Next::Enough => return true,
                 Next::Stopped => return false,
@@ -123,7 +141,11 @@ fn collect(text: &SourceText, from: usize, record: &[u8], mut take: impl FnMut(T
 }
 
 fn code_kind(tag: Tag) -> TokenKind {
-    if tag.code == 999 { TokenKind::Comment } else { TokenKind::Code }
+    if tag.code == 999 {
+        TokenKind::Comment
+    } else {
+        TokenKind::Code
+    }
 }
 
 fn value_kind(tag: Tag, value: &[u8], is_style: bool) -> TokenKind {
@@ -134,7 +156,9 @@ fn value_kind(tag: Tag, value: &[u8], is_style: bool) -> TokenKind {
         8 | 1003 => TokenKind::Layer,
         9 => TokenKind::Variable,
         2 | 100 => TokenKind::Name,
-        1 | 3 | 4 | 6 | 7 | 102 | 300..=309 | 410..=419 | 430..=439 | 470..=479 | 1000..=1002 => TokenKind::Text,
+        1 | 3 | 4 | 6 | 7 | 102 | 300..=309 | 410..=419 | 430..=439 | 470..=479 | 1000..=1002 => {
+            TokenKind::Text
+        }
         // Points and numbers are nearly all that there is: no look into the table for them.
         10..=59 => number_or_text(value),
         code => match meaning("", code).1 {
@@ -145,5 +169,9 @@ fn value_kind(tag: Tag, value: &[u8], is_style: bool) -> TokenKind {
 }
 
 fn number_or_text(value: &[u8]) -> TokenKind {
-    if number::number(value) == Number::Bad { TokenKind::Text } else { TokenKind::Number }
+    if number::number(value) == Number::Bad {
+        TokenKind::Text
+    } else {
+        TokenKind::Number
+    }
 }

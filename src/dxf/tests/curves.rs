@@ -6,12 +6,19 @@ use crate::dxf::Document;
 use crate::geometry::{Point, Segment};
 
 fn segments(document: &Document) -> Vec<Segment> {
-    document.drawing().entities().flat_map(|(_, entity)| entity.geometry.segments().collect::<Vec<_>>()).collect()
+    document
+        .drawing()
+        .entities()
+        .flat_map(|(_, entity)| entity.geometry.segments().collect::<Vec<_>>())
+        .collect()
 }
 
 /// How far a point is from what is drawn.
 fn distance(segments: &[Segment], point: Point) -> f64 {
-    segments.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min)
+    segments
+        .iter()
+        .map(|segment| segment.distance_to(point))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// A periodic spline has no clamped ends: it runs over the knots from number 3 on, and is closed because its first control points
@@ -20,12 +27,33 @@ fn distance(segments: &[Segment], point: Point) -> f64 {
 fn a_periodic_spline_closes_without_running_through_its_control_points() {
     let corners = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]];
     let knots: String = (0..11).map(|knot| format!("40 {knot} ")).collect();
-    let points: String = (0..7).map(|at| format!("10 {} 20 {} ", corners[at % 4][0], corners[at % 4][1])).collect();
-    let document = Document::read(dxf(&format!("0 SPLINE 5 A 70 11 71 3 72 11 73 7 {knots}{points}")).into_bytes());
+    let points: String = (0..7)
+        .map(|at| format!("10 {} 20 {} ", corners[at % 4][0], corners[at % 4][1]))
+        .collect();
+    let document = Document::read(
+        dxf(&format!(
+            "0 SPLINE 5 A 70 11 71 3 72 11 73 7 {knots}{points}"
+        ))
+        .into_bytes(),
+    );
     assert_eq!(findings(&document), [""; 0]);
     let drawn = segments(&document);
-    assert!(document.drawing().entities().all(|(_, entity)| entity.geometry.is_closed()));
-    for [x, y] in [[5.0, 1.0], [5.0, 5.0], [1.0, 5.0], [1.0, 1.0], [5.75, 3.0], [3.0, 5.75], [0.25, 3.0], [3.0, 0.25]] {
+    assert!(
+        document
+            .drawing()
+            .entities()
+            .all(|(_, entity)| entity.geometry.is_closed())
+    );
+    for [x, y] in [
+        [5.0, 1.0],
+        [5.0, 5.0],
+        [1.0, 5.0],
+        [1.0, 1.0],
+        [5.75, 3.0],
+        [3.0, 5.75],
+        [0.25, 3.0],
+        [3.0, 0.25],
+    ] {
         assert!(distance(&drawn, Point::new(x, y)) <= 1e-3, "{x} {y}");
     }
     assert!(distance(&drawn, Point::new(0.0, 0.0)) > 1.0);
@@ -37,22 +65,30 @@ fn a_periodic_spline_closes_without_running_through_its_control_points() {
 fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
     let points = "10 0 20 0 10 1 20 3 10 4 20 3 10 5 20 0";
     let document = Document::read(dxf(&format!("0 SPLINE 5 A 70 8 71 3 {points}")).into_bytes());
-    assert_eq!(findings(&document), [r#"warning at "SPLINE": SPLINE has no knots (group code 40): even ones are taken"#]);
+    assert_eq!(
+        findings(&document),
+        [r#"warning at "SPLINE": SPLINE has no knots (group code 40): even ones are taken"#]
+    );
     let drawn = segments(&document);
     for [x, y] in [[0.0, 0.0], [2.5, 2.25], [5.0, 0.0]] {
         assert!(distance(&drawn, Point::new(x, y)) <= 1e-3, "{x} {y}");
     }
-    let document = Document::read(dxf(&format!("0 SPLINE 5 A 70 8 71 3 40 0 40 1 {points}")).into_bytes());
+    let document =
+        Document::read(dxf(&format!("0 SPLINE 5 A 70 8 71 3 40 0 40 1 {points}")).into_bytes());
     assert_eq!(
         findings(&document),
-        [r#"error at "SPLINE": SPLINE has 2 knots, expected 8 for 4 control points of degree 3: it is not drawn"#]
+        [
+            r#"error at "SPLINE": SPLINE has 2 knots, expected 8 for 4 control points of degree 3: it is not drawn"#
+        ]
     );
 }
 
 #[test]
 fn the_setting_says_how_near_arcs_come_to_the_curve() {
-    let text = dxf("0 LINE 5 A 10 0 20 0 11 1 21 0 0 ELLIPSE 5 B 10 0 20 0 11 20 21 0 40 0.5 41 0 42 6.283185307179586 \
-         0 SPLINE 5 C 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 50 10 10 20 70 10 20 20 50");
+    let text = dxf(
+        "0 LINE 5 A 10 0 20 0 11 1 21 0 0 ELLIPSE 5 B 10 0 20 0 11 20 21 0 40 0.5 41 0 42 6.283185307179586 \
+         0 SPLINE 5 C 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 50 10 10 20 70 10 20 20 50",
+    );
     let mut counts = Vec::new();
     for fit in [0.1, 1e-3, 1e-5] {
         let mut document = Document::read(text.clone().into_bytes());
@@ -61,9 +97,15 @@ fn the_setting_says_how_near_arcs_come_to_the_curve() {
         counts.push(drawn.len());
         for step in 0..200 {
             let (sine, cosine) = (f64::from(step) * std::f64::consts::TAU / 200.0).sin_cos();
-            assert!(distance(&drawn, Point::new(20.0 * cosine, 10.0 * sine)) <= fit, "{fit}");
+            assert!(
+                distance(&drawn, Point::new(20.0 * cosine, 10.0 * sine)) <= fit,
+                "{fit}"
+            );
             let t = f64::from(step) / 200.0;
-            assert!(distance(&drawn, Point::new(20.0 * t, 50.0 + 40.0 * t * (1.0 - t))) <= fit, "{fit}");
+            assert!(
+                distance(&drawn, Point::new(20.0 * t, 50.0 + 40.0 * t * (1.0 - t))) <= fit,
+                "{fit}"
+            );
         }
         // An edit elsewhere keeps to it, as a reading of the whole text does.
         let at = document.text().len() - "0\nENDSEC\n0\nEOF\n".len();
@@ -73,14 +115,19 @@ fn the_setting_says_how_near_arcs_come_to_the_curve() {
         fresh.set_arc_fit(fit);
         assert_eq!(entities(&document), entities(&fresh));
     }
-    assert!(counts.is_sorted() && counts[0] < counts[1] && counts[1] < counts[2], "{counts:?}");
+    assert!(
+        counts.is_sorted() && counts[0] < counts[1] && counts[1] < counts[2],
+        "{counts:?}"
+    );
 }
 
 /// What a block reference stretches is a curve before it is fitted: the setting is of the drawing, not of the block.
 #[test]
 fn curves_out_of_blocks_are_fitted_where_they_come_to_lie() {
     let block = "0 BLOCK 2 B 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 0.01 0 ENDBLK ";
-    let mut document = Document::read(with_blocks(block, "0 INSERT 5 A 2 B 10 0 20 0 41 2000 42 1000").into_bytes());
+    let mut document = Document::read(
+        with_blocks(block, "0 INSERT 5 A 2 B 10 0 20 0 41 2000 42 1000").into_bytes(),
+    );
     document.set_arc_fit(1e-3);
     let drawn = segments(&document);
     for step in 0..100 {

@@ -20,9 +20,16 @@ fn all_of(document: &Document) -> String {
             document.range_of(&Place::Entity { entity: id })
         );
         for segment in 0..entity.geometry.segment_count() {
-            let range = document.range_of(&Place::Segment { entity: id, segment });
+            let range = document.range_of(&Place::Segment {
+                entity: id,
+                segment,
+            });
             let order_of = |id: EntityId| drawing.order().iter().position(|&other| other == id);
-            let at: Vec<_> = document.segments_at(range.clone()).into_iter().map(|(id, segment)| (order_of(id), segment)).collect();
+            let at: Vec<_> = document
+                .segments_at(range.clone())
+                .into_iter()
+                .map(|(id, segment)| (order_of(id), segment))
+                .collect();
             all += &format!("  {segment} at {range:?}: {at:?}\n");
         }
     }
@@ -39,8 +46,12 @@ fn edit(document: &mut Document, range: std::ops::Range<usize>, replacement: &st
     let delta = document.edit(range.clone(), replacement);
     let fresh = Document::read(document.text().bytes().to_vec());
     let (edited, fresh) = (all_of(document), all_of(&fresh));
-    let only_in =
-        |one: &str, other: &str| one.lines().filter(|line| !other.contains(*line)).map(|line| format!("{line}\n")).collect::<String>();
+    let only_in = |one: &str, other: &str| {
+        one.lines()
+            .filter(|line| !other.contains(*line))
+            .map(|line| format!("{line}\n"))
+            .collect::<String>()
+    };
     assert!(
         edited == fresh,
         "after {range:?} of {text_before:?} became {replacement:?}, {delta:?}\nedited:\n{}fresh:\n{}",
@@ -50,15 +61,23 @@ fn edit(document: &mut Document, range: std::ops::Range<usize>, replacement: &st
     if !delta.touched.contains(&Touched::All) {
         let touched = |id: EntityId| {
             delta.touched.iter().any(|touched| match *touched {
-                Touched::Vertices { entity, .. } | Touched::Entity { entity } | Touched::Removed { entity } => entity == id,
+                Touched::Vertices { entity, .. }
+                | Touched::Entity { entity }
+                | Touched::Removed { entity } => entity == id,
                 Touched::All => true,
             })
         };
         for (id, entity) in before.entities() {
-            assert!(touched(id) || document.drawing().get(id) == Some(entity), "{id:?} changed in silence");
+            assert!(
+                touched(id) || document.drawing().get(id) == Some(entity),
+                "{id:?} changed in silence"
+            );
         }
         for (id, _) in document.drawing().entities() {
-            assert!(touched(id) || before.get(id).is_some(), "{id:?} came in silence");
+            assert!(
+                touched(id) || before.get(id).is_some(),
+                "{id:?} came in silence"
+            );
         }
     }
     delta.touched
@@ -101,7 +120,11 @@ fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
             "\n1001\nX\n", "\r", "\r\n", "\n", "\u{feff}", "\n70\n5\n", "0\nHATCH\n", "nan", "1D2",
         ]).prop_map(str::to_owned),
     ];
-    (0.0..1.0f64, prop_oneof![3 => Just(0usize), 3 => 1usize..3, 1 => 3usize..40], replacement)
+    (
+        0.0..1.0f64,
+        prop_oneof![3 => Just(0usize), 3 => 1usize..3, 1 => 3usize..40],
+        replacement,
+    )
 }
 
 proptest! {
@@ -139,21 +162,50 @@ fn replace(document: &mut Document, after: &str, what: &str, by: &str) -> Vec<To
 #[test]
 fn an_edit_touches_no_more_than_it_must() {
     let mut document = Document::read(dxf(DRAWINGS[0]).into_bytes());
-    let [line, arc, polyline] = ["A1", "A2", "A4"].map(|handle| document.drawing().find(handle).unwrap());
-    let vertex = |start| Touched::Vertices { entity: polyline, start, removed: 1, inserted: 1 };
-    assert_eq!(replace(&mut document, "A1\n", "10\n1", "10\n1.5"), [Touched::Entity { entity: line }]);
-    assert_eq!(replace(&mut document, "A2\n", "40\n3", "40\n4"), [Touched::Entity { entity: arc }]);
+    let [line, arc, polyline] =
+        ["A1", "A2", "A4"].map(|handle| document.drawing().find(handle).unwrap());
+    let vertex = |start| Touched::Vertices {
+        entity: polyline,
+        start,
+        removed: 1,
+        inserted: 1,
+    };
+    assert_eq!(
+        replace(&mut document, "A1\n", "10\n1", "10\n1.5"),
+        [Touched::Entity { entity: line }]
+    );
+    assert_eq!(
+        replace(&mut document, "A2\n", "40\n3", "40\n4"),
+        [Touched::Entity { entity: arc }]
+    );
     assert_eq!(replace(&mut document, "A4\n", "0.5", "0.75"), [vertex(1)]);
-    assert_eq!(replace(&mut document, "A4\n", "20\n10\n40", "20\n11\n42\n1\n40"), [vertex(2)]);
+    assert_eq!(
+        replace(&mut document, "A4\n", "20\n10\n40", "20\n11\n42\n1\n40"),
+        [vertex(2)]
+    );
     assert_eq!(replace(&mut document, "A4\n", "42\n1\n", ""), [vertex(2)]);
     assert_eq!(replace(&mut document, "A3\n", "10\n1", "10\n2"), []);
-    assert_eq!(replace(&mut document, "A2\n", "40\n4", "40\n"), [Touched::Removed { entity: arc }]);
+    assert_eq!(
+        replace(&mut document, "A2\n", "40\n4", "40\n"),
+        [Touched::Removed { entity: arc }]
+    );
     let arc = EntityId(document.drawing().id_bound() as u32);
-    assert_eq!(replace(&mut document, "A2\n", "40\n", "40\n4"), [Touched::Entity { entity: arc }]);
+    assert_eq!(
+        replace(&mut document, "A2\n", "40\n", "40\n4"),
+        [Touched::Entity { entity: arc }]
+    );
     let mut document = Document::read(dxf(DRAWINGS[4]).into_bytes());
     let polyline = document.drawing().find("A").unwrap();
-    let vertex = Touched::Vertices { entity: polyline, start: 1, removed: 1, inserted: 1 };
-    assert_eq!(replace(&mut document, "VERTEX\n10\n1.5\n20\n", "42\n1", "42\n1.5"), [vertex]);
+    let vertex = Touched::Vertices {
+        entity: polyline,
+        start: 1,
+        removed: 1,
+        inserted: 1,
+    };
+    assert_eq!(
+        replace(&mut document, "VERTEX\n10\n1.5\n20\n", "42\n1", "42\n1.5"),
+        [vertex]
+    );
 }
 
 #[test]
@@ -161,11 +213,23 @@ fn an_edit_beside_blocks_touches_no_more_than_it_must() {
     let mut document = Document::read(with_blocks(BLOCKS, REFERENCES).into_bytes());
     let [line, ellipse] = ["A5", "A7"].map(|handle| document.drawing().find(handle).unwrap());
     assert_eq!(replace(&mut document, "A5\n", "31\n0", "31\n0.0"), []);
-    assert_eq!(replace(&mut document, "A5\n", "21\n4", "21\n5"), [Touched::Entity { entity: line }]);
-    assert_eq!(replace(&mut document, "A7\n", "40\n0.5", "40\n0.25"), [Touched::Entity { entity: ellipse }]);
+    assert_eq!(
+        replace(&mut document, "A5\n", "21\n4", "21\n5"),
+        [Touched::Entity { entity: line }]
+    );
+    assert_eq!(
+        replace(&mut document, "A7\n", "40\n0.5", "40\n0.25"),
+        [Touched::Entity { entity: ellipse }]
+    );
     assert!(!document.drawing().is_editable(ellipse));
-    assert_eq!(replace(&mut document, "A2\n", "50\n30", "50\n60"), [Touched::All]);
-    assert_eq!(replace(&mut document, "BLOCKS\n", "11\n3", "11\n5"), [Touched::All]);
+    assert_eq!(
+        replace(&mut document, "A2\n", "50\n30", "50\n60"),
+        [Touched::All]
+    );
+    assert_eq!(
+        replace(&mut document, "BLOCKS\n", "11\n3", "11\n5"),
+        [Touched::All]
+    );
 }
 
 #[test]
@@ -178,6 +242,11 @@ fn edits_that_once_went_wrong() {
         (4, "70\n32", "", "."),
         (4, "70\n16", "", "."),
     ] {
-        replace(&mut Document::read(dxf(DRAWINGS[drawing]).into_bytes()), after, what, by);
+        replace(
+            &mut Document::read(dxf(DRAWINGS[drawing]).into_bytes()),
+            after,
+            what,
+            by,
+        );
     }
 }

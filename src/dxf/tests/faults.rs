@@ -7,28 +7,61 @@ use proptest::prelude::*;
 
 #[test]
 fn what_is_no_dxf_gets_one_finding() {
-    let utf16: Vec<u8> = dxf("0 LINE 10 1 20 1 11 1 21 2").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let utf16: Vec<u8> = dxf("0 LINE 10 1 20 1 11 1 21 2")
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
     let marked = [&b"\xff\xfe"[..], &utf16].concat();
     let cases: [(&[u8], &str); 14] = [
         (b"", "the text is empty, expected DXF"),
         (b"\n\r\n \n", "the text is empty, expected DXF"),
-        (b"G21\nG90\nG1 X1 Y1\n", "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION"),
-        (b"1\n2\n3\n4\n", "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION"),
-        (b"hello", "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION"),
-        (b"AC1015\0\0\0\0\x06\x01", "the file is a DWG drawing, not DXF text: save it as DXF"),
+        (
+            b"G21\nG90\nG1 X1 Y1\n",
+            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+        ),
+        (
+            b"1\n2\n3\n4\n",
+            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+        ),
+        (
+            b"hello",
+            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+        ),
+        (
+            b"AC1015\0\0\0\0\x06\x01",
+            "the file is a DWG drawing, not DXF text: save it as DXF",
+        ),
         (b"%PDF-1.7\n", "the file is a PDF, not DXF text"),
-        (b"PK\x03\x04\x14\0", "the file is a ZIP archive, not DXF text"),
-        (b"AutoCAD Binary DXF\r\n\x1a\0", "the text is binary DXF, which an editor cannot keep: save it as ASCII DXF"),
+        (
+            b"PK\x03\x04\x14\0",
+            "the file is a ZIP archive, not DXF text",
+        ),
+        (
+            b"AutoCAD Binary DXF\r\n\x1a\0",
+            "the text is binary DXF, which an editor cannot keep: save it as ASCII DXF",
+        ),
         (&utf16, "the text is UTF-16: save it as UTF-8"),
         (&marked, "the text is UTF-16: save it as UTF-8"),
         (&[0; 5000], "the file is binary, not DXF text"),
         (&[0; 1], "the file is binary, not DXF text"),
-        (b"\x80\xff\n\xfe\n", "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION"),
+        (
+            b"\x80\xff\n\xfe\n",
+            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+        ),
     ];
     for (bytes, expected) in cases {
         let document = Document::read(bytes.to_vec());
-        let found: Vec<_> = document.findings().iter().map(|finding| (finding.severity, &finding.detail)).collect();
-        assert_eq!(found, [(Severity::Error, &Detail::Syntax(expected.into()))], "{:?}", String::from_utf8_lossy(bytes));
+        let found: Vec<_> = document
+            .findings()
+            .iter()
+            .map(|finding| (finding.severity, &finding.detail))
+            .collect();
+        assert_eq!(
+            found,
+            [(Severity::Error, &Detail::Syntax(expected.into()))],
+            "{:?}",
+            String::from_utf8_lossy(bytes)
+        );
         assert!(document.drawing().is_empty());
     }
 }
@@ -37,9 +70,15 @@ fn what_is_no_dxf_gets_one_finding() {
 fn a_text_that_becomes_dxf_is_read() {
     let mut document = Document::read(Vec::new());
     document.edit(0..0, &dxf("0 CIRCLE 10 1 20 1 40 2"));
-    assert_eq!((document.drawing().len(), document.findings().len()), (1, 0));
+    assert_eq!(
+        (document.drawing().len(), document.findings().len()),
+        (1, 0)
+    );
     document.edit(0..usize::MAX, "");
-    assert_eq!((document.drawing().len(), document.findings().len()), (0, 1));
+    assert_eq!(
+        (document.drawing().len(), document.findings().len()),
+        (0, 1)
+    );
 }
 
 /// Sentences of the findings about the text.
@@ -48,23 +87,32 @@ fn syntax(document: &Document) -> Vec<String> {
         Detail::Syntax(sentence) => Some(sentence.clone()),
         _ => None,
     };
-    document.findings().iter().filter_map(|finding| sentence(&finding.detail)).collect()
+    document
+        .findings()
+        .iter()
+        .filter_map(|finding| sentence(&finding.detail))
+        .collect()
 }
 
 #[test]
 fn a_text_that_is_cut_anywhere_has_one_finding() {
-    let whole = dxf("0 LINE 5 A1 8 DIE 10 1.5 20 2.5 11 3.5 21 4.5 0 ARC 5 A2 8 0 10 1.0 20 2.0 40 3.5 50 0.0 51 90.0 \
+    let whole = dxf(
+        "0 LINE 5 A1 8 DIE 10 1.5 20 2.5 11 3.5 21 4.5 0 ARC 5 A2 8 0 10 1.0 20 2.0 40 3.5 50 0.0 51 90.0 \
          0 LWPOLYLINE 5 A3 8 0 90 3 70 1 10 0.5 20 0.5 42 0.5 10 9.5 20 0.5 10 9.5 20 9.5 \
          0 POLYLINE 5 A4 8 0 66 1 70 0 0 VERTEX 8 0 10 1.0 20 2.0 0 VERTEX 8 0 10 3.0 20 4.0 0 SEQEND \
          0 SPLINE 8 0 70 8 71 1 40 0 40 0 40 1 40 1 10 0.5 20 0.5 10 1.5 20 1.5 \
-         0 ELLIPSE 8 0 10 0.5 20 0.5 11 3.5 21 0.0 40 0.5 41 0.0 42 3.0 0 TEXT 8 0 10 1.0 20 1.0 40 2.5 1 O");
+         0 ELLIPSE 8 0 10 0.5 20 0.5 11 3.5 21 0.0 40 0.5 41 0.0 42 3.0 0 TEXT 8 0 10 1.0 20 1.0 40 2.5 1 O",
+    );
     let mut report = String::new();
     for (bytes, what) in [(whole.clone(), "LF"), (whole.replace('\n', "\r\n"), "CRLF")] {
         let end = bytes.trim_end().len();
         for length in 1..end {
             let found = syntax(&Document::read_file(bytes.as_bytes()[..length].to_vec()));
             if found.len() != 1 {
-                report += &format!("{what} {length} behind {:?}: {found:?}\n", &bytes[length.saturating_sub(24)..length]);
+                report += &format!(
+                    "{what} {length} behind {:?}: {found:?}\n",
+                    &bytes[length.saturating_sub(24)..length]
+                );
             }
         }
         assert_eq!(syntax(&Document::read_file(bytes.into_bytes())), [""; 0]);
@@ -105,18 +153,42 @@ fn a_line_too_few_or_too_many_is_one_finding_and_costs_its_own_entity() {
     let mut report = String::new();
     let mut look = |what: String, lines: &[&str]| {
         let document = Document::read((lines.join("\n") + "\n").into_bytes());
-        let syntax = document.findings().iter().filter(|finding| matches!(finding.detail, Detail::Syntax(_))).count();
-        let kept = ["A1", "A2", "A3", "A4", "A5"].iter().filter(|handle| document.drawing().find(handle).is_some()).count();
+        let syntax = document
+            .findings()
+            .iter()
+            .filter(|finding| matches!(finding.detail, Detail::Syntax(_)))
+            .count();
+        let kept = ["A1", "A2", "A3", "A4", "A5"]
+            .iter()
+            .filter(|handle| document.drawing().find(handle).is_some())
+            .count();
         if syntax != 1 || kept < 3 {
-            let sentences: Vec<_> = document.findings().iter().map(|finding| format!("{:?}", finding.detail)).collect();
+            let sentences: Vec<_> = document
+                .findings()
+                .iter()
+                .map(|finding| format!("{:?}", finding.detail))
+                .collect();
             report += &format!("{what}: {syntax} findings, {kept} entities kept {sentences:?}\n");
         }
     };
     for at in first..lines.len() - 4 {
-        let without: Vec<&str> = lines.iter().enumerate().filter(|(line, _)| *line != at).map(|(_, line)| *line).collect();
-        look(format!("without {at} {:?} before {:?}", lines[at], lines[at + 1]), &without);
+        let without: Vec<&str> = lines
+            .iter()
+            .enumerate()
+            .filter(|(line, _)| *line != at)
+            .map(|(_, line)| *line)
+            .collect();
+        look(
+            format!("without {at} {:?} before {:?}", lines[at], lines[at + 1]),
+            &without,
+        );
         for extra in ["", "xyz", "7.5"] {
-            let with: Vec<&str> = lines[..at].iter().copied().chain([extra]).chain(lines[at..].iter().copied()).collect();
+            let with: Vec<&str> = lines[..at]
+                .iter()
+                .copied()
+                .chain([extra])
+                .chain(lines[at..].iter().copied())
+                .collect();
             look(format!("{extra:?} before {at} {:?}", lines[at]), &with);
         }
     }

@@ -17,15 +17,40 @@ fn what_ends_level_lies_where_ezdxf_says() {
                 include_str!(concat!("../../../tests/data/planes/", $name, ".points")))),*]
         };
     }
-    for (name, text, expected) in
-        files!("standing", "lying_on_its_side", "askew", "mirrored", "seen_from_below_twice", "tilted_and_back", "three_deep")
-    {
+    for (name, text, expected) in files!(
+        "standing",
+        "lying_on_its_side",
+        "askew",
+        "mirrored",
+        "seen_from_below_twice",
+        "tilted_and_back",
+        "three_deep"
+    ) {
         let document = Document::read(text.as_bytes().to_vec());
-        let segments: Vec<Segment> = document.drawing().entities().flat_map(|(_, entity)| entity.geometry.segments()).collect();
-        let kinds: Vec<&str> = document.drawing().entities().map(|(_, entity)| entity.kind.name()).collect();
+        let segments: Vec<Segment> = document
+            .drawing()
+            .entities()
+            .flat_map(|(_, entity)| entity.geometry.segments())
+            .collect();
+        let kinds: Vec<&str> = document
+            .drawing()
+            .entities()
+            .map(|(_, entity)| entity.kind.name())
+            .collect();
         assert_eq!(
             kinds,
-            ["LINE", "ARC", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "POLYLINE", "ELLIPSE", "ELLIPSE", "SPLINE"],
+            [
+                "LINE",
+                "ARC",
+                "ARC",
+                "CIRCLE",
+                "LWPOLYLINE",
+                "POLYLINE",
+                "POLYLINE",
+                "ELLIPSE",
+                "ELLIPSE",
+                "SPLINE"
+            ],
             "{name}: {:?}",
             findings(&document)
         );
@@ -35,12 +60,24 @@ fn what_ends_level_lies_where_ezdxf_says() {
                 tilted.push(format!("information at \"INSERT\": 1 {kind}: its plane is tilted against the drawing's plane"));
                 continue;
             }
-            let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
+            let numbers: Vec<f64> = line
+                .split(' ')
+                .map(|number| number.parse().unwrap())
+                .collect();
             let point = Point::new(numbers[0], numbers[1]);
-            let distance = segments.iter().map(|segment| segment.distance_to(point)).fold(f64::INFINITY, f64::min);
-            assert!(distance < FITTED, "{name}: {point} lies {distance} beside what is drawn");
+            let distance = segments
+                .iter()
+                .map(|segment| segment.distance_to(point))
+                .fold(f64::INFINITY, f64::min);
+            assert!(
+                distance < FITTED,
+                "{name}: {point} lies {distance} beside what is drawn"
+            );
         }
-        let said: Vec<String> = findings(&document).into_iter().filter(|finding| finding.contains("tilted")).collect();
+        let said: Vec<String> = findings(&document)
+            .into_iter()
+            .filter(|finding| finding.contains("tilted"))
+            .collect();
         assert_eq!(said, tilted, "{name}");
         // Nothing is drawn that ezdxf does not draw: all of it is as long as the same shapes drawn level.
         let length: f64 = segments.iter().map(Segment::length).sum();
@@ -56,14 +93,35 @@ fn a_line_that_rises_is_cut_where_its_block_lays_it_down() {
     // A square that stands on the x axis: two of its sides rise in the block.
     let side = |from: &str, to: &str| {
         let [x, z] = [from, to].map(|end| end.split_once(' ').unwrap());
-        format!("0 LINE 8 0 10 {} 20 0 30 {} 11 {} 21 0 31 {} ", x.0, x.1, z.0, z.1)
+        format!(
+            "0 LINE 8 0 10 {} 20 0 30 {} 11 {} 21 0 31 {} ",
+            x.0, x.1, z.0, z.1
+        )
     };
-    let square = [("0 0", "2 0"), ("2 0", "2 2"), ("2 2", "0 2"), ("0 2", "0 0")].map(|(from, to)| side(from, to)).concat();
+    let square = [
+        ("0 0", "2 0"),
+        ("2 0", "2 2"),
+        ("2 2", "0 2"),
+        ("0 2", "0 0"),
+    ]
+    .map(|(from, to)| side(from, to))
+    .concat();
     let blocks = format!("0 BLOCK 2 B 10 0 20 0 30 0 {square} 0 ENDBLK ");
     // Turned about the x axis, so that z comes to lie on −y: extrusion (0, 1, 0) has x on −x and y on z.
-    let document = Document::read(with_blocks(&blocks, "0 INSERT 5 A 8 P 2 B 10 0 20 0 30 0 210 0 220 1 230 0").into_bytes());
+    let document = Document::read(
+        with_blocks(
+            &blocks,
+            "0 INSERT 5 A 8 P 2 B 10 0 20 0 30 0 210 0 220 1 230 0",
+        )
+        .into_bytes(),
+    );
     assert_eq!(
         entities(&document),
-        ["LINE A on P: 0 0 to -2 0", "LINE A on P: -2 0 to -2 2", "LINE A on P: -2 2 to 0 2", "LINE A on P: 0 2 to 0 0"]
+        [
+            "LINE A on P: 0 0 to -2 0",
+            "LINE A on P: -2 0 to -2 2",
+            "LINE A on P: -2 2 to 0 2",
+            "LINE A on P: 0 2 to 0 0"
+        ]
     );
 }

@@ -18,22 +18,58 @@ fn assert_same(left: &Drawing, right: &Drawing, with_handles: bool) {
     };
     for ((_, a), (_, b)) in left.entities().zip(right.entities()) {
         let same = match (&a.geometry, &b.geometry) {
-            (Geometry::Polyline { closed, vertices }, Geometry::Polyline { closed: other_closed, vertices: others }) => {
+            (
+                Geometry::Polyline { closed, vertices },
+                Geometry::Polyline {
+                    closed: other_closed,
+                    vertices: others,
+                },
+            ) => {
                 let pairs = || vertices.iter().zip(others);
                 closed == other_closed
                     && vertices.len() == others.len()
-                    && pairs().all(|(v, w)| near_point(&v.point, &w.point) && near(v.bulge, w.bulge))
+                    && pairs()
+                        .all(|(v, w)| near_point(&v.point, &w.point) && near(v.bulge, w.bulge))
             }
-            (Geometry::Line { start, end }, Geometry::Line { start: s, end: e }) => near_point(start, s) && near_point(end, e),
+            (Geometry::Line { start, end }, Geometry::Line { start: s, end: e }) => {
+                near_point(start, s) && near_point(end, e)
+            }
             (
-                Geometry::Arc { center, radius, start_angle, end_angle },
-                Geometry::Arc { center: c, radius: r, start_angle: s, end_angle: e },
-            ) => near_point(center, c) && near(*radius, *r) && near_angle(*start_angle, *s) && near_angle(*end_angle, *e),
-            (Geometry::Circle { center, radius }, Geometry::Circle { center: c, radius: r }) => near_point(center, c) && near(*radius, *r),
-            (Geometry::Text { at, text }, Geometry::Text { at: a, text: t }) => near_point(at, a) && text == t,
+                Geometry::Arc {
+                    center,
+                    radius,
+                    start_angle,
+                    end_angle,
+                },
+                Geometry::Arc {
+                    center: c,
+                    radius: r,
+                    start_angle: s,
+                    end_angle: e,
+                },
+            ) => {
+                near_point(center, c)
+                    && near(*radius, *r)
+                    && near_angle(*start_angle, *s)
+                    && near_angle(*end_angle, *e)
+            }
+            (
+                Geometry::Circle { center, radius },
+                Geometry::Circle {
+                    center: c,
+                    radius: r,
+                },
+            ) => near_point(center, c) && near(*radius, *r),
+            (Geometry::Text { at, text }, Geometry::Text { at: a, text: t }) => {
+                near_point(at, a) && text == t
+            }
             _ => false,
         };
-        assert!(same && a.layer == b.layer && (!with_handles || (a.handle == b.handle && a.kind == b.kind)), "{a:?}\n{b:?}");
+        assert!(
+            same && a.layer == b.layer
+                && (!with_handles || (a.handle == b.handle && a.kind == b.kind)),
+            "{a:?}\n{b:?}"
+        );
     }
 }
 
@@ -41,7 +77,12 @@ fn assert_same(left: &Drawing, right: &Drawing, with_handles: bool) {
 fn edited(document: &Document, edit: &DrawingEdit) -> Vec<u8> {
     let edits = document.text_edits(edit).unwrap();
     let mut bytes = document.text().bytes().to_vec();
-    assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{edits:?}");
+    assert!(
+        edits
+            .windows(2)
+            .all(|pair| pair[0].range.end <= pair[1].range.start),
+        "{edits:?}"
+    );
     for edit in edits.iter().rev() {
         bytes.splice(edit.range.clone(), edit.text.bytes());
     }
@@ -59,7 +100,12 @@ fn number() -> impl Strategy<Value = f64> {
 }
 
 fn change() -> impl Strategy<Value = (usize, usize, [f64; 5], u8)> {
-    (0..6usize, 0..5usize, [number(), number(), number(), number(), number()], 0..12u8)
+    (
+        0..6usize,
+        0..5usize,
+        [number(), number(), number(), number(), number()],
+        0..12u8,
+    )
 }
 
 proptest! {
@@ -150,13 +196,24 @@ proptest! {
 #[test]
 fn what_is_new_looks_like_what_stands_beside_it() {
     let line = "  0\r\nLINE\r\n  5\r\n2F\r\n330\r\n1F\r\n100\r\nAcDbEntity\r\n  8\r\nDIE\r\n 62\r\n     3\r\n100\r\nAcDbLine\r\n 10\r\n0.0\r\n 20\r\n0.0\r\n 30\r\n0.0\r\n 11\r\n1.0\r\n 21\r\n0.0\r\n 31\r\n0.0\r\n";
-    let text = format!("  0\r\nSECTION\r\n  2\r\nENTITIES\r\n{line}  0\r\nENDSEC\r\n  0\r\nEOF\r\n");
+    let text =
+        format!("  0\r\nSECTION\r\n  2\r\nENTITIES\r\n{line}  0\r\nENDSEC\r\n  0\r\nEOF\r\n");
     let document = Document::read(text.clone().into());
     let after = document.drawing().order()[0];
-    let geometry = Geometry::Arc { center: Point::new(1.0, 0.5), radius: 0.5, start_angle: -TAU / 4.0, end_angle: 0.0 };
-    let edit = DrawingEdit { changes: vec![Change::AddEntity { after, geometry }] };
+    let geometry = Geometry::Arc {
+        center: Point::new(1.0, 0.5),
+        radius: 0.5,
+        start_angle: -TAU / 4.0,
+        end_angle: 0.0,
+    };
+    let edit = DrawingEdit {
+        changes: vec![Change::AddEntity { after, geometry }],
+    };
     let arc = "  0\r\nARC\r\n  5\r\n30\r\n330\r\n1F\r\n100\r\nAcDbEntity\r\n  8\r\nDIE\r\n 62\r\n     3\r\n100\r\nAcDbCircle\r\n 10\r\n1.0\r\n 20\r\n0.5\r\n 30\r\n0.0\r\n 40\r\n0.5\r\n100\r\nAcDbArc\r\n 50\r\n270.0\r\n 51\r\n0.0\r\n";
-    assert_eq!(String::from_utf8(edited(&document, &edit)).unwrap(), text.replace(line, &format!("{line}{arc}")));
+    assert_eq!(
+        String::from_utf8(edited(&document, &edit)).unwrap(),
+        text.replace(line, &format!("{line}{arc}"))
+    );
 }
 
 #[test]
@@ -165,9 +222,20 @@ fn what_is_new_stands_before_empty_lines_at_the_end_of_a_text_that_breaks_off() 
     for (end, kept) in [("\n", "\n"), ("\n\n", "\n")] {
         let document = Document::read(format!("{arc}{end}").into());
         let after = document.drawing().order()[0];
-        let geometry = Geometry::Line { start: Point::new(1.0, 5.0), end: Point::new(3.5, 3.5) };
-        let text = edited(&document, &DrawingEdit { changes: vec![Change::AddEntity { after, geometry }] });
-        assert!(String::from_utf8_lossy(&text).starts_with(&format!("{arc}{kept}0\nLINE\n")), "{end:?}");
+        let geometry = Geometry::Line {
+            start: Point::new(1.0, 5.0),
+            end: Point::new(3.5, 3.5),
+        };
+        let text = edited(
+            &document,
+            &DrawingEdit {
+                changes: vec![Change::AddEntity { after, geometry }],
+            },
+        );
+        assert!(
+            String::from_utf8_lossy(&text).starts_with(&format!("{arc}{kept}0\nLINE\n")),
+            "{end:?}"
+        );
         assert_eq!(Document::read(text).drawing().len(), 2, "{end:?}");
     }
 }
@@ -175,18 +243,38 @@ fn what_is_new_stands_before_empty_lines_at_the_end_of_a_text_that_breaks_off() 
 #[test]
 fn a_vertex_behind_the_last_one_comes_behind_the_bulge_that_the_last_one_gets() {
     for z in ["", "30\n7\n"] {
-        let text = format!("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n10\n1\n20\n2\n{z}0\nENDSEC\n0\nEOF\n");
+        let text = format!(
+            "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n10\n1\n20\n2\n{z}0\nENDSEC\n0\nEOF\n"
+        );
         let document = Document::read(text.into());
         let entity = document.drawing().order()[0];
-        let last = Vertex { point: Point::new(1.0, 2.0), bulge: 0.5 };
-        let new = Vertex { point: Point::new(3.0, 4.0), bulge: 0.0 };
+        let last = Vertex {
+            point: Point::new(1.0, 2.0),
+            bulge: 0.5,
+        };
+        let new = Vertex {
+            point: Point::new(3.0, 4.0),
+            bulge: 0.0,
+        };
         let edit = DrawingEdit {
-            changes: vec![Change::SetVertex { entity, index: 1, vertex: last }, Change::InsertVertex { entity, index: 2, vertex: new }],
+            changes: vec![
+                Change::SetVertex {
+                    entity,
+                    index: 1,
+                    vertex: last,
+                },
+                Change::InsertVertex {
+                    entity,
+                    index: 2,
+                    vertex: new,
+                },
+            ],
         };
         let after = Document::read(edited(&document, &edit));
         let mut wanted = Drawing::clone(document.drawing());
         wanted.apply(&edit).unwrap();
-        let geometry = |drawing: &Drawing| drawing.get(drawing.order()[0]).unwrap().geometry.clone();
+        let geometry =
+            |drawing: &Drawing| drawing.get(drawing.order()[0]).unwrap().geometry.clone();
         assert_eq!(geometry(after.drawing()), geometry(&wanted), "{z:?}");
     }
 }
@@ -196,22 +284,52 @@ fn only_the_numbers_that_change_are_touched() {
     let text = "  0\r\nSECTION\r\n  2\r\nENTITIES\r\n  0\r\nLWPOLYLINE\r\n  5\r\nA\r\n 90\r\n        2\r\n 10\r\n 1.50\r\n 20\r\n2.0 \r\n 10\r\n3.0\r\n 20\r\n4.0\r\n  0\r\nENDSEC\r\n  0\r\nEOF\r\n";
     let document = Document::read(text.into());
     let entity = document.drawing().order()[0];
-    let edit = |vertex| DrawingEdit { changes: vec![Change::SetVertex { entity, index: 0, vertex }] };
+    let edit = |vertex| DrawingEdit {
+        changes: vec![Change::SetVertex {
+            entity,
+            index: 0,
+            vertex,
+        }],
+    };
     for (vertex, from, to) in [
         (Vertex::new(1.5, 2.0, 0.0), "", ""),
         (Vertex::new(1.25, 2.0, 0.0), " 1.50\r\n", " 1.25\r\n"),
-        (Vertex::new(1.5, 1.0 / 3.0, 0.0), "2.0 \r\n", "0.333333333333 \r\n"),
-        (Vertex::new(1.5, 2.0, -0.25), "2.0 \r\n", "2.0 \r\n 42\r\n-0.25\r\n"),
+        (
+            Vertex::new(1.5, 1.0 / 3.0, 0.0),
+            "2.0 \r\n",
+            "0.333333333333 \r\n",
+        ),
+        (
+            Vertex::new(1.5, 2.0, -0.25),
+            "2.0 \r\n",
+            "2.0 \r\n 42\r\n-0.25\r\n",
+        ),
     ] {
         let expected = text.replacen(from, to, usize::from(!from.is_empty()));
-        assert_eq!(String::from_utf8(edited(&document, &edit(vertex))).unwrap(), expected);
+        assert_eq!(
+            String::from_utf8(edited(&document, &edit(vertex))).unwrap(),
+            expected
+        );
     }
     let refused = |edit: &DrawingEdit| document.text_edits(edit).unwrap_err();
-    assert_eq!(refused(&edit(Vertex::new(f64::NAN, 0.0, 0.0))), "group code 10 of LWPOLYLINE A cannot be NaN");
-    let removal = DrawingEdit { changes: vec![Change::RemoveVertex { entity, index: 1 }] };
-    assert_eq!(refused(&removal), "LWPOLYLINE A would be left with less than two vertices");
-    let beyond = DrawingEdit { changes: vec![Change::RemoveVertex { entity, index: 2 }] };
-    assert_eq!(refused(&beyond), "vertex 2 of LWPOLYLINE A is out of range, the polyline has 2");
+    assert_eq!(
+        refused(&edit(Vertex::new(f64::NAN, 0.0, 0.0))),
+        "group code 10 of LWPOLYLINE A cannot be NaN"
+    );
+    let removal = DrawingEdit {
+        changes: vec![Change::RemoveVertex { entity, index: 1 }],
+    };
+    assert_eq!(
+        refused(&removal),
+        "LWPOLYLINE A would be left with less than two vertices"
+    );
+    let beyond = DrawingEdit {
+        changes: vec![Change::RemoveVertex { entity, index: 2 }],
+    };
+    assert_eq!(
+        refused(&beyond),
+        "vertex 2 of LWPOLYLINE A is out of range, the polyline has 2"
+    );
 }
 
 #[test]
@@ -220,11 +338,24 @@ fn a_polyline_in_space_takes_no_bulge() {
         Document::read(dxf("0 POLYLINE 5 A 70 8 0 VERTEX 10 0 20 0 42 0 0 VERTEX 10 1 20 0 0 VERTEX 10 1 20 1 0 SEQEND").into_bytes());
     let entity = document.drawing().order()[0];
     for change in [
-        Change::SetVertex { entity, index: 0, vertex: Vertex::new(0.0, 0.0, 0.5) },
-        Change::InsertVertex { entity, index: 1, vertex: Vertex::new(0.0, 0.0, 0.5) },
+        Change::SetVertex {
+            entity,
+            index: 0,
+            vertex: Vertex::new(0.0, 0.0, 0.5),
+        },
+        Change::InsertVertex {
+            entity,
+            index: 1,
+            vertex: Vertex::new(0.0, 0.0, 0.5),
+        },
     ] {
-        let edit = DrawingEdit { changes: vec![change] };
-        assert_eq!(document.text_edits(&edit).unwrap_err(), "POLYLINE A is a 3D polyline and cannot take the bulge");
+        let edit = DrawingEdit {
+            changes: vec![change],
+        };
+        assert_eq!(
+            document.text_edits(&edit).unwrap_err(),
+            "POLYLINE A is a 3D polyline and cannot take the bulge"
+        );
         assert!(Drawing::clone(document.drawing()).apply(&edit).is_err());
     }
 }
@@ -232,12 +363,31 @@ fn a_polyline_in_space_takes_no_bulge() {
 #[test]
 fn lines_neither_come_nor_go_where_the_text_is_damaged() {
     // How the text goes on behind the damage is told from the lines that would go.
-    let damaged = dxf("0 LINE 5 A 10 1 20 2 11 3 2INE 0 LINE 5 B 10 1 20 2 11 3 21 4 0 LINE 5 C 10 1 20 2 11 3 21 4");
+    let damaged = dxf(
+        "0 LINE 5 A 10 1 20 2 11 3 2INE 0 LINE 5 B 10 1 20 2 11 3 21 4 0 LINE 5 C 10 1 20 2 11 3 21 4",
+    );
     let document = Document::read(damaged.into_bytes());
     let entity = document.drawing().find("B").unwrap();
-    let removal = DrawingEdit { changes: vec![Change::RemoveEntity { entity }] };
+    let removal = DrawingEdit {
+        changes: vec![Change::RemoveEntity { entity }],
+    };
     let refusal = document.text_edits(&removal).unwrap_err();
-    assert_eq!(refusal, "lines would come or go near line 25, which is damaged: mend that first");
-    let shift = Change::SetLine { entity, start: Point::new(0.0, 0.0), end: Point::new(3.0, 4.0) };
-    assert_eq!(document.text_edits(&DrawingEdit { changes: vec![shift] }).unwrap().len(), 2);
+    assert_eq!(
+        refusal,
+        "lines would come or go near line 25, which is damaged: mend that first"
+    );
+    let shift = Change::SetLine {
+        entity,
+        start: Point::new(0.0, 0.0),
+        end: Point::new(3.0, 4.0),
+    };
+    assert_eq!(
+        document
+            .text_edits(&DrawingEdit {
+                changes: vec![shift]
+            })
+            .unwrap()
+            .len(),
+        2
+    );
 }

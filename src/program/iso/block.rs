@@ -87,10 +87,7 @@ pub struct Offset {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
     /// A word that means on one machine what it does not on another.
-    Foreign {
-        code: Code,
-        range: Range<usize>,
-    },
+    Foreign { code: Code, range: Range<usize> },
     /// `H001=110`, or `H001=.0085+H175`.
     Definition {
         offset: Offset,
@@ -98,15 +95,9 @@ pub enum Note {
         range: Range<usize>,
     },
     /// A length that is not 0, with a decimal point or without.
-    Length {
-        pointed: bool,
-        range: Range<usize>,
-    },
+    Length { pointed: bool, range: Range<usize> },
     /// A word of which another stands in the line.
-    Twice {
-        letter: u8,
-        range: Range<usize>,
-    },
+    Twice { letter: u8, range: Range<usize> },
     Fault {
         fault: WordFault,
         range: Range<usize>,
@@ -133,11 +124,18 @@ impl Code {
 
 /// Reads one line, without its line end. Ranges are counted from `offset`.
 pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Block {
-    let mut block = Block { empty: true, ..Block::default() };
+    let mut block = Block {
+        empty: true,
+        ..Block::default()
+    };
     let (mut subprogram, mut calls, mut p_range) = (None, false, None);
     let mut is_spare_p = false;
     words(line, offset, |token| match token {
-        Token::Word { letter, number, range } => {
+        Token::Word {
+            letter,
+            number,
+            range,
+        } => {
             block.empty = false;
             let length = match letter {
                 b'X' => Some(&mut block.x),
@@ -149,20 +147,35 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
             };
             if let Some(length) = length {
                 if length.replace(number).is_some() {
-                    note(Note::Twice { letter, range: range.clone() });
+                    note(Note::Twice {
+                        letter,
+                        range: range.clone(),
+                    });
                 }
                 if number.mantissa != 0 {
-                    note(Note::Length { pointed: number.point, range });
+                    note(Note::Length {
+                        pointed: number.point,
+                        range,
+                    });
                 }
                 return;
             }
             match letter {
                 b'G' => {
-                    if block.motion.is_some() && number.decimals == 0 && (0..=3).contains(&number.mantissa) {
-                        note(Note::Twice { letter, range: range.clone() });
+                    if block.motion.is_some()
+                        && number.decimals == 0
+                        && (0..=3).contains(&number.mantissa)
+                    {
+                        note(Note::Twice {
+                            letter,
+                            range: range.clone(),
+                        });
                     }
                     if !block.prepare(number) {
-                        note(Note::Foreign { code: Code::of(letter, number), range });
+                        note(Note::Foreign {
+                            code: Code::of(letter, number),
+                            range,
+                        });
                     }
                 }
                 b'M' => match number.whole() {
@@ -170,49 +183,109 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
                     Some(2 | 30) => block.stop = Some(Stop::End),
                     Some(98) => calls = true,
                     Some(99) => block.returns = true,
-                    _ => note(Note::Foreign { code: Code::of(letter, number), range }),
+                    _ => note(Note::Foreign {
+                        code: Code::of(letter, number),
+                        range,
+                    }),
                 },
                 b'N' => block.number = Some(index(number)),
                 b'O' => block.program = Some(index(number)),
-                b'D' | b'H' => block.offset = Some(Offset { letter, index: index(number) }),
+                b'D' | b'H' => {
+                    block.offset = Some(Offset {
+                        letter,
+                        index: index(number),
+                    })
+                }
                 b'P' => {
-                    (subprogram, p_range, is_spare_p) = (number.whole().and_then(|whole| u32::try_from(whole).ok()), Some(range), true);
+                    (subprogram, p_range, is_spare_p) = (
+                        number.whole().and_then(|whole| u32::try_from(whole).ok()),
+                        Some(range),
+                        true,
+                    );
                 }
                 b'L' => block.repeat = Some(index(number)),
                 // The feed does not change where the wire goes.
                 b'F' => {}
-                _ => note(Note::Foreign { code: Code::of(letter, number), range }),
+                _ => note(Note::Foreign {
+                    code: Code::of(letter, number),
+                    range,
+                }),
             }
         }
-        Token::Definition { letter, index: place, value, range } => {
+        Token::Definition {
+            letter,
+            index: place,
+            value,
+            range,
+        } => {
             block.empty = false;
             match value {
                 Some(value) if matches!(letter, b'D' | b'H') => {
-                    let terms = vec![Term { is_negative: false, value: Value::Number(value) }];
-                    note(Note::Definition { offset: Offset { letter, index: index(place) }, terms, range });
+                    let terms = vec![Term {
+                        is_negative: false,
+                        value: Value::Number(value),
+                    }];
+                    note(Note::Definition {
+                        offset: Offset {
+                            letter,
+                            index: index(place),
+                        },
+                        terms,
+                        range,
+                    });
                 }
-                _ => note(Note::Foreign { code: Code::of(letter, place), range }),
+                _ => note(Note::Foreign {
+                    code: Code::of(letter, place),
+                    range,
+                }),
             }
         }
-        Token::Sum { letter, index: place, terms, range } => {
+        Token::Sum {
+            letter,
+            index: place,
+            terms,
+            range,
+        } => {
             block.empty = false;
             if matches!(letter, b'D' | b'H') {
-                note(Note::Definition { offset: Offset { letter, index: index(place) }, terms, range });
+                note(Note::Definition {
+                    offset: Offset {
+                        letter,
+                        index: index(place),
+                    },
+                    terms,
+                    range,
+                });
             } else {
-                note(Note::Foreign { code: Code::of(letter, place), range });
+                note(Note::Foreign {
+                    code: Code::of(letter, place),
+                    range,
+                });
             }
         }
         Token::Corner { round, number, .. } => {
             block.empty = false;
-            block.corner = Some(Corner { round, size: number });
+            block.corner = Some(Corner {
+                round,
+                size: number,
+            });
         }
         Token::Foreign { range } => {
             block.empty = false;
             // X#101 is a coordinate that is not known.
-            block.broken |= range.len() > 1 && line.get(range.start - offset).is_some_and(|byte| b"XYIJRxyijr".contains(byte));
-            note(Note::Foreign { code: Code::NAME, range });
+            block.broken |= range.len() > 1
+                && line
+                    .get(range.start - offset)
+                    .is_some_and(|byte| b"XYIJRxyijr".contains(byte));
+            note(Note::Foreign {
+                code: Code::NAME,
+                range,
+            });
         }
-        Token::Skip { range } => note(Note::Foreign { code: Code::SKIP, range }),
+        Token::Skip { range } => note(Note::Foreign {
+            code: Code::SKIP,
+            range,
+        }),
         Token::Comment { .. } | Token::Tape { .. } => {}
         Token::Fault { fault, range } => {
             block.empty = false;
@@ -226,13 +299,19 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
         && !block.takes_coordinates
         && let Some(range) = p_range
     {
-        note(Note::Foreign { code: Code(u32::from(b'P') << 16), range });
+        note(Note::Foreign {
+            code: Code(u32::from(b'P') << 16),
+            range,
+        });
     }
     block
 }
 
 fn index(number: Number) -> u32 {
-    number.whole().and_then(|whole| u32::try_from(whole).ok()).unwrap_or(u32::MAX)
+    number
+        .whole()
+        .and_then(|whole| u32::try_from(whole).ok())
+        .unwrap_or(u32::MAX)
 }
 
 impl Block {
@@ -273,10 +352,18 @@ impl Block {
 }
 
 /// Bytes of the word with `letter` in a line; the last of them where it stands several times.
-pub fn word_range(line: &[u8], offset: usize, wanted: impl Fn(u8, Number) -> bool) -> Option<Range<usize>> {
+pub fn word_range(
+    line: &[u8],
+    offset: usize,
+    wanted: impl Fn(u8, Number) -> bool,
+) -> Option<Range<usize>> {
     let mut found = None;
     words(line, offset, |token| {
-        if let Token::Word { letter, number, range } = token
+        if let Token::Word {
+            letter,
+            number,
+            range,
+        } = token
             && wanted(letter, number)
         {
             found = Some(range);

@@ -25,9 +25,21 @@ pub struct Turned {
 
 /// Makes the corner at the end of a move, towards the first one that `behind` makes; the machine, which has made the move, stands at the
 /// sharp corner as its coordinates say, and begins the next move where the corner ends.
-pub fn turned<'a>(made: Move, machine: &mut Machine, behind: impl Iterator<Item = &'a [u8]>, reading: &Reading) -> Turned {
-    let mut turned = Turned { made, corner: None, looked_at: 0, is_fixed: false };
-    let Some(corner) = made.corner else { return turned };
+pub fn turned<'a>(
+    made: Move,
+    machine: &mut Machine,
+    behind: impl Iterator<Item = &'a [u8]>,
+    reading: &Reading,
+) -> Turned {
+    let mut turned = Turned {
+        made,
+        corner: None,
+        looked_at: 0,
+        is_fixed: false,
+    };
+    let Some(corner) = made.corner else {
+        return turned;
+    };
     let (next, looked_at) = next_move(*machine, behind, reading);
     turned.looked_at = looked_at;
     let Some(next) = next else { return turned };
@@ -41,7 +53,11 @@ pub fn turned<'a>(made: Move, machine: &mut Machine, behind: impl Iterator<Item 
 }
 
 /// The next cut, where nothing stands between; and how many lines were looked at.
-pub fn next_move<'a>(mut machine: Machine, behind: impl Iterator<Item = &'a [u8]>, reading: &Reading) -> (Option<Move>, usize) {
+pub fn next_move<'a>(
+    mut machine: Machine,
+    behind: impl Iterator<Item = &'a [u8]>,
+    reading: &Reading,
+) -> (Option<Move>, usize) {
     let mut looked_at = 0;
     for line in behind.take(REACH) {
         looked_at += 1;
@@ -63,32 +79,80 @@ pub fn next_move<'a>(mut machine: Machine, behind: impl Iterator<Item = &'a [u8]
 }
 
 /// The move up to where the corner begins, and the corner.
-fn cut_off(made: &Move, next: &Move, corner: &Corner, size: i64, reading: &Reading) -> Option<(Move, Move)> {
+fn cut_off(
+    made: &Move,
+    next: &Move,
+    corner: &Corner,
+    size: i64,
+    reading: &Reading,
+) -> Option<(Move, Move)> {
     if size <= 0 {
         return None;
     }
     // Seen from the corner, so that it comes to the same wherever it lies.
-    let (one, other) = (way(&made.seen_from(made.to), reading)?, way(&next.seen_from(made.to), reading)?);
+    let (one, other) = (
+        way(&made.seen_from(made.to), reading)?,
+        way(&next.seen_from(made.to), reading)?,
+    );
     let length = size as f64 / 1e3;
-    let (begin, end, center) = if corner.round { rounded(&one, &other, length)? } else { chamfered(&one, &other, length)? };
-    let place = |point: Point| added(made.to, [(point.x * 1e3).round() as i64, (point.y * 1e3).round() as i64]);
+    let (begin, end, center) = if corner.round {
+        rounded(&one, &other, length)?
+    } else {
+        chamfered(&one, &other, length)?
+    };
+    let place = |point: Point| {
+        added(
+            made.to,
+            [
+                (point.x * 1e3).round() as i64,
+                (point.y * 1e3).round() as i64,
+            ],
+        )
+    };
     let (begin, end) = (place(begin), place(end));
-    let mut short = Move { to: begin, corner: None, ..*made };
+    let mut short = Move {
+        to: begin,
+        corner: None,
+        ..*made
+    };
     if let (Segment::Arc(arc), true) = (&one, made.is_arc()) {
         short.bend = bend_about(place(arc.center), made.from, made.incremental, reading);
     }
-    let own = Move { from: begin, to: end, bend: Bend::Nothing, corner: None, switches: None, motion: Motion::Line, ..*made };
-    let Some(center) = center else { return Some((short, own)) };
+    let own = Move {
+        from: begin,
+        to: end,
+        bend: Bend::Nothing,
+        corner: None,
+        switches: None,
+        motion: Motion::Line,
+        ..*made
+    };
+    let Some(center) = center else {
+        return Some((short, own));
+    };
     let turns_left = cross(one.end_tangent(), other.start_tangent()) > 0.0;
-    let motion = if turns_left { Motion::CounterClockwise } else { Motion::Clockwise };
+    let motion = if turns_left {
+        Motion::CounterClockwise
+    } else {
+        Motion::Clockwise
+    };
     let bend = bend_about(place(center), begin, made.incremental, reading);
-    Some((short, Move { motion, bend, ..own }))
+    Some((
+        short,
+        Move {
+            motion,
+            bend,
+            ..own
+        },
+    ))
 }
 
 fn way(made: &Move, reading: &Reading) -> Option<Segment> {
     match made.course(reading) {
         Course::Arc(arc) => Some(Segment::Arc(arc)),
-        Course::Line if made.from != made.to => Some(Segment::line(micrometres(made.from), micrometres(made.to))),
+        Course::Line if made.from != made.to => {
+            Some(Segment::line(micrometres(made.from), micrometres(made.to)))
+        }
         _ => None,
     }
 }
@@ -97,14 +161,25 @@ fn way(made: &Move, reading: &Reading) -> Option<Segment> {
 pub fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
     let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(from[axis]));
     match reading.rule(incremental) {
-        CenterRule::CenterToStart => Bend::Center { i: i.wrapping_neg(), j: j.wrapping_neg(), absolute: center },
-        CenterRule::StartToCenter | CenterRule::Absolute => Bend::Center { i, j, absolute: center },
+        CenterRule::CenterToStart => Bend::Center {
+            i: i.wrapping_neg(),
+            j: j.wrapping_neg(),
+            absolute: center,
+        },
+        CenterRule::StartToCenter | CenterRule::Absolute => Bend::Center {
+            i,
+            j,
+            absolute: center,
+        },
     }
 }
 
 /// Where a chamfer between two straight cuts begins and ends.
 fn chamfered(one: &Segment, other: &Segment, length: f64) -> Option<(Point, Point, Option<Point>)> {
-    let fits = one.as_arc().is_none() && other.as_arc().is_none() && length <= one.length() && length <= other.length();
+    let fits = one.as_arc().is_none()
+        && other.as_arc().is_none()
+        && length <= one.length()
+        && length <= other.length();
     let (from, to) = (one.end_tangent(), other.start_tangent());
     let turns = cross(from, to).atan2(from.dot(&to)).abs() > STRAIGHT;
     (fits && turns).then(|| (one.end() - from * length, other.start() + to * length, None))
@@ -119,12 +194,16 @@ fn rounded(one: &Segment, other: &Segment, radius: f64) -> Option<(Point, Point,
     }
     let corner = one.end();
     let side = turn.signum();
-    let found = meetings(&parallel(one, side * radius)?, &parallel(other, side * radius)?);
+    let found = meetings(
+        &parallel(one, side * radius)?,
+        &parallel(other, side * radius)?,
+    );
     let feet = found.into_iter().filter_map(|center| {
         let (begin, end) = (foot(one, center)?, foot(other, center)?);
         Some((begin, end, center))
     });
-    let nearest = feet.min_by(|(_, _, a), (_, _, b)| (a - corner).norm().total_cmp(&(b - corner).norm()))?;
+    let nearest =
+        feet.min_by(|(_, _, a), (_, _, b)| (a - corner).norm().total_cmp(&(b - corner).norm()))?;
     Some((nearest.0, nearest.1, Some(nearest.2)))
 }
 
@@ -137,10 +216,17 @@ enum Locus {
 fn parallel(way: &Segment, left: f64) -> Option<Locus> {
     match way {
         Segment::Arc(arc) => {
-            let radius = if arc.sweep > 0.0 { arc.radius - left } else { arc.radius + left };
+            let radius = if arc.sweep > 0.0 {
+                arc.radius - left
+            } else {
+                arc.radius + left
+            };
             (radius > 0.0).then_some(Locus::Circle(arc.center, radius))
         }
-        _ => Some(Locus::Line(way.start() + left_normal(way.start_tangent()) * left, way.start_tangent())),
+        _ => Some(Locus::Line(
+            way.start() + left_normal(way.start_tangent()) * left,
+            way.start_tangent(),
+        )),
     }
 }
 
@@ -148,12 +234,23 @@ fn meetings(one: &Locus, other: &Locus) -> Vec<Point> {
     match (one, other) {
         (Locus::Line(a, along), Locus::Line(b, across)) => {
             let turn = cross(*along, *across);
-            if turn == 0.0 { Vec::new() } else { vec![a + along * (cross(b - a, *across) / turn)] }
+            if turn == 0.0 {
+                Vec::new()
+            } else {
+                vec![a + along * (cross(b - a, *across) / turn)]
+            }
         }
-        (Locus::Line(a, along), Locus::Circle(center, radius)) | (Locus::Circle(center, radius), Locus::Line(a, along)) => {
+        (Locus::Line(a, along), Locus::Circle(center, radius))
+        | (Locus::Circle(center, radius), Locus::Line(a, along)) => {
             let nearest = a + along * (center - a).dot(along);
             let height = radius * radius - (nearest - center).norm_squared();
-            if height < 0.0 { Vec::new() } else { [-1.0, 1.0].map(|sign| nearest + along * (sign * height.sqrt())).to_vec() }
+            if height < 0.0 {
+                Vec::new()
+            } else {
+                [-1.0, 1.0]
+                    .map(|sign| nearest + along * (sign * height.sqrt()))
+                    .to_vec()
+            }
         }
         (Locus::Circle(a, r), Locus::Circle(b, s)) => {
             let between = b - a;
@@ -165,7 +262,13 @@ fn meetings(one: &Locus, other: &Locus) -> Vec<Point> {
             let height = r * r - along * along;
             let middle = a + between * (along / distance);
             let across = left_normal(between) / distance;
-            if height < 0.0 { Vec::new() } else { [-1.0, 1.0].map(|sign| middle + across * (sign * height.sqrt())).to_vec() }
+            if height < 0.0 {
+                Vec::new()
+            } else {
+                [-1.0, 1.0]
+                    .map(|sign| middle + across * (sign * height.sqrt()))
+                    .to_vec()
+            }
         }
     }
 }
@@ -183,7 +286,9 @@ fn foot(way: &Segment, center: Point) -> Option<Point> {
         _ => {
             let along = way.start_tangent();
             let at = (center - way.start()).dot(&along);
-            (-MET..=way.length() + MET).contains(&at).then(|| way.start() + along * at)
+            (-MET..=way.length() + MET)
+                .contains(&at)
+                .then(|| way.start() + along * at)
         }
     }
 }

@@ -7,7 +7,9 @@ use super::stretch::Stretch;
 use crate::finding::{Detail, Finding, NotJudged, Place as Where, ProgramFault, Rule, Severity};
 use crate::geometry::Segment;
 use crate::program::passes::{passes, pieces_of};
-use crate::program::three_b::{Displacement, Found, Known, PathStretch, crossings_of_passes, search};
+use crate::program::three_b::{
+    Displacement, Found, Known, PathStretch, crossings_of_passes, search,
+};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -29,7 +31,12 @@ impl Crossings {
     /// Looks through a program; what is known of pairs of its parts is taken as it is. Gives the stretches that have become calm.
     pub fn look(&mut self, document: &Document) -> Vec<usize> {
         self.found.clear();
-        let mut look = Look { document, crossings: self, pairs: 0, count: 0 };
+        let mut look = Look {
+            document,
+            crossings: self,
+            pairs: 0,
+            count: 0,
+        };
         let calm = look.through(document.stretches());
         let (pairs, count) = (look.pairs, look.count);
         self.known.tidy(pairs, count);
@@ -42,7 +49,10 @@ impl Crossings {
         for (cut, found) in &self.found {
             let place = |index: usize| place_of(document, cut, index);
             for crossing in &found.crossings {
-                let (Some(from), Some(own)) = (place(crossing.first), place(crossing.second)) else { continue };
+                let (Some(from), Some(own)) = (place(crossing.first), place(crossing.second))
+                else {
+                    continue;
+                };
                 let fault = ProgramFault::PathCrossesItself {
                     at: [crossing.at.x / 1000.0, crossing.at.y / 1000.0],
                     other: document.text().line_of(from.start),
@@ -89,7 +99,11 @@ struct OpenCut {
 impl Look<'_> {
     fn through(&mut self, stretches: &[Stretch]) -> Vec<usize> {
         let mut calm = Vec::new();
-        let mut open = OpenCut { parts: Vec::new(), moves: 0, is_sound: true };
+        let mut open = OpenCut {
+            parts: Vec::new(),
+            moves: 0,
+            is_sound: true,
+        };
         for (index, stretch) in stretches.iter().enumerate() {
             open.is_sound &= !stretch.faulty_before;
             if let Some(is_whole) = stretch.ends_run_before {
@@ -102,7 +116,11 @@ impl Look<'_> {
                 if run >= inner.end {
                     self.inner(stretch, index, &inner, &mut calm);
                 }
-                let (Some(joints), Some((_, moves, _))) = (stretch.joints(run), stretch.extent(run)) else { continue };
+                let (Some(joints), Some((_, moves, _))) =
+                    (stretch.joints(run), stretch.extent(run))
+                else {
+                    continue;
+                };
                 if !joints.continues {
                     self.close(&mut open);
                 }
@@ -122,15 +140,29 @@ impl Look<'_> {
     }
 
     /// The cuts that begin and end in a stretch.
-    fn inner(&mut self, stretch: &Stretch, index: usize, inner: &Range<usize>, calm: &mut Vec<usize>) {
+    fn inner(
+        &mut self,
+        stretch: &Stretch,
+        index: usize,
+        inner: &Range<usize>,
+        calm: &mut Vec<usize>,
+    ) {
         if stretch.is_calm {
             return;
         }
         let mut is_calm = true;
         for run in inner.clone() {
-            let is_near = stretch.paths.get(run).is_some_and(|path| !path.near.is_empty());
+            let is_near = stretch
+                .paths
+                .get(run)
+                .is_some_and(|path| !path.near.is_empty());
             let is_sound = stretch.joints(run).is_some_and(|joints| joints.sound);
-            if is_near && is_sound && stretch.extent(run).is_some_and(|(_, moves, _)| moves >= FEWEST_MOVES) {
+            if is_near
+                && is_sound
+                && stretch
+                    .extent(run)
+                    .is_some_and(|(_, moves, _)| moves >= FEWEST_MOVES)
+            {
                 is_calm &= self.is_calm(&[(index, run)]);
             }
         }
@@ -166,13 +198,22 @@ impl Look<'_> {
 
 /// Equal ways that are parted alike have equal marks.
 fn mark_of(stretches: &[Stretch], cut: &[(usize, usize)]) -> u64 {
-    let marks = cut.iter().filter_map(|(stretch, run)| Some(stretches.get(*stretch)?.paths.get(*run)?.mark));
-    marks.fold(cut.len() as u64, |mark, next| (mark ^ next).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23))
+    let marks = cut
+        .iter()
+        .filter_map(|(stretch, run)| Some(stretches.get(*stretch)?.paths.get(*run)?.mark));
+    marks.fold(cut.len() as u64, |mark, next| {
+        (mark ^ next)
+            .wrapping_mul(0x2545_f491_4f6c_dd1d)
+            .rotate_left(23)
+    })
 }
 
 fn search_cut(document: &Document, cut: &[(usize, usize)], known: &mut Known) -> Found {
     let stretches = document.stretches();
-    let Some(begin) = cut.first().and_then(|(stretch, run)| Some(stretches.get(*stretch)?.extent(*run)?.0)) else {
+    let Some(begin) = cut
+        .first()
+        .and_then(|(stretch, run)| Some(stretches.get(*stretch)?.extent(*run)?.0))
+    else {
         return Found::default();
     };
     let mut arcs = 0;
@@ -201,16 +242,29 @@ fn search_cut(document: &Document, cut: &[(usize, usize)], known: &mut Known) ->
     if !passes.is_empty() {
         return crossings_of_passes(&pieces_of(&way).unwrap_or_default(), &passes);
     }
-    let pieces = |part: usize| cut.get(part).map_or_else(Vec::new, |&(stretch, run)| pieces(document, stretch, run).0);
+    let pieces = |part: usize| {
+        cut.get(part)
+            .map_or_else(Vec::new, |&(stretch, run)| pieces(document, stretch, run).0)
+    };
     search(&parts, arcs, known, &pieces)
 }
 
 fn seen_from(begin: Place, place: Place) -> Displacement {
-    Displacement { machine: [0, 0], meant: [place[0].wrapping_sub(begin[0]), place[1].wrapping_sub(begin[1])] }
+    Displacement {
+        machine: [0, 0],
+        meant: [
+            place[0].wrapping_sub(begin[0]),
+            place[1].wrapping_sub(begin[1]),
+        ],
+    }
 }
 
 /// The moves of a run in µm from where it begins, and the place of each in the text.
-pub(super) fn pieces(document: &Document, stretch: usize, run: usize) -> (Vec<Segment>, Vec<Range<usize>>) {
+pub(super) fn pieces(
+    document: &Document,
+    stretch: usize,
+    run: usize,
+) -> (Vec<Segment>, Vec<Range<usize>>) {
     let mut start = None;
     let (mut pieces, mut places) = (Vec::new(), Vec::new());
     let offset = document.run_again(stretch, &mut |index, step, range| {
@@ -220,12 +274,16 @@ pub(super) fn pieces(document: &Document, stretch: usize, run: usize) -> (Vec<Se
             places.push(range.0 as usize..range.1 as usize);
         }
     });
-    places.iter_mut().for_each(|place| *place = place.start + offset..place.end + offset);
+    places
+        .iter_mut()
+        .for_each(|place| *place = place.start + offset..place.end + offset);
     (pieces, places)
 }
 
 fn moves_of(document: &Document, cut: &Cut) -> usize {
-    let moves = |&(stretch, run): &(usize, usize)| Some(document.stretches().get(stretch)?.extent(run)?.1 as usize);
+    let moves = |&(stretch, run): &(usize, usize)| {
+        Some(document.stretches().get(stretch)?.extent(run)?.1 as usize)
+    };
     cut.iter().filter_map(moves).sum()
 }
 

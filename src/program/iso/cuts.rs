@@ -45,7 +45,11 @@ impl Cut {
         let (offset, its) = (placed.offset, placed.stretch.run_at(run)?);
         let place = |(start, end): (u32, u32)| offset + start as usize..offset + end as usize;
         let mut cut = Cut {
-            parts: vec![Part { stretch, run, offset }],
+            parts: vec![Part {
+                stretch,
+                run,
+                offset,
+            }],
             flip: its.flip.map(|(at, line)| (at, place(line))),
             range: place(its.range),
             last_range: place(its.last_range),
@@ -101,7 +105,10 @@ impl Cut {
             return true;
         }
         if let [part] = self.parts[..] {
-            let path = document.stretches().get(part.stretch).and_then(|stretch| stretch.paths.get(part.run));
+            let path = document
+                .stretches()
+                .get(part.stretch)
+                .and_then(|stretch| stretch.paths.get(part.run));
             return path.is_some_and(|path| path.closes);
         }
         closing(&CutWay::of(document, &[self])).is_some_and(|closing| closing.closed)
@@ -122,16 +129,25 @@ pub(super) fn cuts(document: &Document, each: &mut dyn FnMut(Option<Cut>)) {
         if let Some(cut) = &mut open {
             cut.stopped(stretch.stop_before, index);
         }
-        let skipped = if stretch.is_quiet { stretch.inner() } else { 0..0 };
+        let skipped = if stretch.is_quiet {
+            stretch.inner()
+        } else {
+            0..0
+        };
         for run in (0..skipped.start).chain(skipped.end..stretch.run_count()) {
             if run == skipped.end && !skipped.is_empty() {
                 open.take().into_iter().for_each(|cut| each(Some(cut)));
                 each(None);
             }
-            let Some(own) = Cut::of(&placed, index, run) else { continue };
+            let Some(own) = Cut::of(&placed, index, run) else {
+                continue;
+            };
             match &mut open {
                 Some(known) if own.run.continues && known.run.open => known.append(own),
-                _ => open.replace(own).into_iter().for_each(|cut| each(Some(cut))),
+                _ => open
+                    .replace(own)
+                    .into_iter()
+                    .for_each(|cut| each(Some(cut))),
             }
         }
         if !skipped.is_empty() && skipped.end == stretch.run_count() {
@@ -144,32 +160,61 @@ pub(super) fn cuts(document: &Document, each: &mut dyn FnMut(Option<Cut>)) {
 
 /// The stops before tabs, in the order in which they run.
 pub(super) fn tabs(document: &Document) -> Vec<StopAt> {
-    if document.stretches().iter().all(|stretch| stretch.pauses == 0) {
+    if document
+        .stretches()
+        .iter()
+        .all(|stretch| stretch.pauses == 0)
+    {
         return Vec::new();
     }
     let mut found = Vec::new();
     // Cuts that are open, one behind the other.
     let mut open: Vec<OpenCut> = Vec::new();
     cuts(document, &mut |cut| {
-        let Some(cut) = cut.filter(|cut| cut.run.whole && !cut.closes(document)) else { return open.clear() };
-        let goes_on = |last: &OpenCut| last.cut.single_stop().is_some() && last.cut.run.last[1].to == cut.run.first[0].from;
+        let Some(cut) = cut.filter(|cut| cut.run.whole && !cut.closes(document)) else {
+            return open.clear();
+        };
+        let goes_on = |last: &OpenCut| {
+            last.cut.single_stop().is_some() && last.cut.run.last[1].to == cut.run.first[0].from
+        };
         if !open.last().is_some_and(goes_on) {
             open.clear();
         }
-        open.push(OpenCut { cut, pieces: OnceCell::new() });
+        open.push(OpenCut {
+            cut,
+            pieces: OnceCell::new(),
+        });
         let way = |cuts: Range<usize>| held(document, &open[cuts]);
         let last = open.len() - 1;
-        let moves = |begin: usize| open[begin..].iter().map(|open| open.cut.run.moves).sum::<u32>();
-        let is_tab =
-            |begin: &usize| moves(*begin) > 2 && is_tab(&way(*begin..last), &way(last..last + 1), &way(*begin..last + 1)) == Some(true);
+        let moves = |begin: usize| {
+            open[begin..]
+                .iter()
+                .map(|open| open.cut.run.moves)
+                .sum::<u32>()
+        };
+        let is_tab = |begin: &usize| {
+            moves(*begin) > 2
+                && is_tab(
+                    &way(*begin..last),
+                    &way(last..last + 1),
+                    &way(*begin..last + 1),
+                ) == Some(true)
+        };
         if let Some(begin) = (0..last).find(is_tab) {
-            found.extend(open[begin..last].iter().filter_map(|open| open.cut.single_stop()));
+            found.extend(
+                open[begin..last]
+                    .iter()
+                    .filter_map(|open| open.cut.single_stop()),
+            );
             open.clear();
         }
         if open.len() > MOST_STOPS {
             open.remove(0);
         }
-        if open.last().is_some_and(|last| last.cut.single_stop().is_none()) {
+        if open
+            .last()
+            .is_some_and(|last| last.cut.single_stop().is_none())
+        {
             open.clear();
         }
     });
@@ -190,9 +235,14 @@ fn held(document: &Document, cuts: &[OpenCut]) -> HeldWay {
         if nth > 0 {
             way.stop_here();
         }
-        let own = pieces.get_or_init(|| pieces_of(&CutWay::of(document, &[cut])).unwrap_or_default());
+        let own =
+            pieces.get_or_init(|| pieces_of(&CutWay::of(document, &[cut])).unwrap_or_default());
         let start = cut.run.start();
-        let by = micrometres([start[0].wrapping_sub(begin[0]), start[1].wrapping_sub(begin[1])]).coords;
+        let by = micrometres([
+            start[0].wrapping_sub(begin[0]),
+            start[1].wrapping_sub(begin[1]),
+        ])
+        .coords;
         for piece in own.iter().map(|piece| piece.moved(by)) {
             way.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));
         }
@@ -226,28 +276,74 @@ struct WayPart {
 impl<'a> CutWay<'a> {
     fn of(document: &'a Document, cuts: &[&Cut]) -> CutWay<'a> {
         let begin = cuts.first().map_or([0, 0], |cut| cut.run.start());
-        let seen = |place: Place| micrometres([place[0].wrapping_sub(begin[0]), place[1].wrapping_sub(begin[1])]);
+        let seen = |place: Place| {
+            micrometres([
+                place[0].wrapping_sub(begin[0]),
+                place[1].wrapping_sub(begin[1]),
+            ])
+        };
         let step = |step: &super::machine::Move| [seen(step.from), seen(step.to)];
-        let first = cuts.first().map_or([Point::origin(); 2], |cut| step(&cut.run.first[0]));
-        let last = cuts.last().map_or([Point::origin(); 2], |cut| step(&cut.run.last[1]));
-        let first_cut = cuts.first().and_then(|cut| cut.before_tab.or((cuts.len() > 1).then_some(cut.run.moves)));
+        let first = cuts
+            .first()
+            .map_or([Point::origin(); 2], |cut| step(&cut.run.first[0]));
+        let last = cuts
+            .last()
+            .map_or([Point::origin(); 2], |cut| step(&cut.run.last[1]));
+        let first_cut = cuts
+            .first()
+            .and_then(|cut| cut.before_tab.or((cuts.len() > 1).then_some(cut.run.moves)));
         let stop = first_cut.map(|moves| moves as usize);
-        let parts = cuts.iter().flat_map(|cut| &cut.parts).map(|part| (part.stretch, part.run));
-        CutWay { stop, ends: Some([first, last]), ..CutWay::from(document, begin, parts) }
+        let parts = cuts
+            .iter()
+            .flat_map(|cut| &cut.parts)
+            .map(|part| (part.stretch, part.run));
+        CutWay {
+            stop,
+            ends: Some([first, last]),
+            ..CutWay::from(document, begin, parts)
+        }
     }
 
     /// The way of some parts that go on one behind the other: stretches and their runs.
     pub fn of_parts(document: &'a Document, parts: &[(usize, usize)]) -> CutWay<'a> {
-        let first = parts.first().and_then(|(stretch, run)| document.stretches().get(*stretch)?.extent(*run));
-        CutWay::from(document, first.map_or([0, 0], |(start, ..)| start), parts.iter().copied())
+        let first = parts
+            .first()
+            .and_then(|(stretch, run)| document.stretches().get(*stretch)?.extent(*run));
+        CutWay::from(
+            document,
+            first.map_or([0, 0], |(start, ..)| start),
+            parts.iter().copied(),
+        )
     }
 
-    fn from(document: &'a Document, begin: Place, parts: impl Iterator<Item = (usize, usize)>) -> CutWay<'a> {
-        let seen = |place: Place| micrometres([place[0].wrapping_sub(begin[0]), place[1].wrapping_sub(begin[1])]);
-        let mut way = CutWay { document, parts: Vec::new(), count: 0, arcs: 0, stop: None, ends: None };
+    fn from(
+        document: &'a Document,
+        begin: Place,
+        parts: impl Iterator<Item = (usize, usize)>,
+    ) -> CutWay<'a> {
+        let seen = |place: Place| {
+            micrometres([
+                place[0].wrapping_sub(begin[0]),
+                place[1].wrapping_sub(begin[1]),
+            ])
+        };
+        let mut way = CutWay {
+            document,
+            parts: Vec::new(),
+            count: 0,
+            arcs: 0,
+            stop: None,
+            ends: None,
+        };
         for (index, run) in parts {
-            let Some(stretch) = document.stretches().get(index) else { continue };
-            let (Some((start, moves, arcs)), Some(path)) = (stretch.extent(run), stretch.paths.get(run)) else { continue };
+            let Some(stretch) = document.stretches().get(index) else {
+                continue;
+            };
+            let (Some((start, moves, arcs)), Some(path)) =
+                (stretch.extent(run), stretch.paths.get(run))
+            else {
+                continue;
+            };
             way.parts.push(WayPart {
                 part: (index, run),
                 first: way.count,
@@ -264,7 +360,9 @@ impl<'a> CutWay<'a> {
     fn pieces<'b>(&self, part: &'b WayPart) -> &'b [Segment] {
         part.pieces.get_or_init(|| {
             let own = pieces(self.document, part.part.0, part.part.1).0;
-            own.into_iter().map(|piece| piece.moved(part.start)).collect()
+            own.into_iter()
+                .map(|piece| piece.moved(part.start))
+                .collect()
         })
     }
 }
@@ -303,15 +401,33 @@ impl Way for CutWay<'_> {
     }
 
     fn piece(&self, index: usize) -> Option<Segment> {
-        let part = self.parts.get(self.parts.partition_point(|part| part.first <= index).checked_sub(1)?)?;
+        let part = self.parts.get(
+            self.parts
+                .partition_point(|part| part.first <= index)
+                .checked_sub(1)?,
+        )?;
         self.pieces(part).get(index - part.first).copied()
     }
 
-    fn pieces_about(&self, at: Point, reach: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()> {
+    fn pieces_about(
+        &self,
+        at: Point,
+        reach: f64,
+        each: &mut dyn FnMut(usize, &Segment) -> bool,
+    ) -> Option<()> {
         let place = Bounds::of_disc(at, reach + 1.0);
         for part in &self.parts {
-            let bounds = Bounds { min: part.bounds.min + part.start, max: part.bounds.max + part.start };
-            if bounds.touches(&place) && self.pieces(part).iter().zip(part.first..).any(|(piece, index)| each(index, piece)) {
+            let bounds = Bounds {
+                min: part.bounds.min + part.start,
+                max: part.bounds.max + part.start,
+            };
+            if bounds.touches(&place)
+                && self
+                    .pieces(part)
+                    .iter()
+                    .zip(part.first..)
+                    .any(|(piece, index)| each(index, piece))
+            {
                 break;
             }
         }

@@ -84,23 +84,44 @@ impl Limits {
             known: known_words(settings),
             inch: settings.program_units == Some(UnitSetting::Inch),
             has_unit: settings.program_units.is_some(),
-            center: settings.profile.as_ref().map_or(CenterRule::StartToCenter, |profile| profile.center),
-            profile: settings.profile.as_ref().ok().map(|profile| Arc::new(profile.clone())),
+            center: settings
+                .profile
+                .as_ref()
+                .map_or(CenterRule::StartToCenter, |profile| profile.center),
+            profile: settings
+                .profile
+                .as_ref()
+                .ok()
+                .map(|profile| Arc::new(profile.clone())),
         }
     }
 
     /// The lines that the settings' profile writes besides those that move the wire.
     pub fn lines(&self) -> impl Iterator<Item = &str> {
-        self.profile.iter().flat_map(|profile| lines_of(profile)).map(String::as_str)
+        self.profile
+            .iter()
+            .flat_map(|profile| lines_of(profile))
+            .map(String::as_str)
     }
 }
 
 fn lines_of(profile: &Profile) -> impl Iterator<Item = &String> {
-    [&profile.begin, &profile.contour_begin, &profile.contour_end, &profile.pause, &profile.end].into_iter().flatten()
+    [
+        &profile.begin,
+        &profile.contour_begin,
+        &profile.contour_end,
+        &profile.pause,
+        &profile.end,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 static SHIPPED_WORDS: LazyLock<BTreeSet<Code>> = LazyLock::new(|| {
-    shipped_profiles().filter_map(|name| Profile::of(name, None).ok()).flat_map(|profile| words_of_profile(&profile)).collect()
+    shipped_profiles()
+        .filter_map(|name| Profile::of(name, None).ok())
+        .flat_map(|profile| words_of_profile(&profile))
+        .collect()
 });
 
 fn known_words(settings: &Effective) -> BTreeSet<Code> {
@@ -124,8 +145,10 @@ fn words_of_profile(profile: &Profile) -> Vec<Code> {
 /// M02 or M30, as the settings' profile has it.
 fn end_word(settings: &Effective) -> String {
     let lines = settings.profile.iter().flat_map(|profile| &profile.end);
-    let mut ends = lines.filter(|line| read_line(line.as_bytes(), 1, |_| {}).stop == Some(Stop::End));
-    ends.next_back().map_or_else(|| "M02".into(), |line| line.trim().into())
+    let mut ends =
+        lines.filter(|line| read_line(line.as_bytes(), 1, |_| {}).stop == Some(Stop::End));
+    ends.next_back()
+        .map_or_else(|| "M02".into(), |line| line.trim().into())
 }
 
 /// The last value of each place of the control's table, nm.
@@ -205,7 +228,9 @@ impl Document {
             self.guess_reading();
             return self.run_all();
         }
-        self.stretches.iter_mut().for_each(|stretch| stretch.is_quiet = false);
+        self.stretches
+            .iter_mut()
+            .for_each(|stretch| stretch.is_quiet = false);
         if center {
             self.settle();
         } else {
@@ -225,12 +250,16 @@ impl Document {
 
     /// The slips that may be behind what is wrong, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
-        self.repairs.get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
+        self.repairs
+            .get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
     }
 
     /// A line's bytes, without its end.
     pub(super) fn line_bytes(&self, line: usize) -> &[u8] {
-        self.text.bytes().get(self.text.line_range(line)).unwrap_or_default()
+        self.text
+            .bytes()
+            .get(self.text.line_range(line))
+            .unwrap_or_default()
     }
 
     /// What a line says.
@@ -268,22 +297,43 @@ impl Document {
 
     /// Runs a stretch once more and tells `each` of its moves; gives the byte from which their places count.
     pub(super) fn run_again(&self, index: usize, each: &mut Hears<'_>) -> usize {
-        let Some(Placed { stretch, first_line, offset }) = self.placed().nth(index) else { return 0 };
-        Stretch::run_with(lines_from(&self.text, first_line), stretch.lines as usize, offset, stretch.before, self.reading, each);
+        let Some(Placed {
+            stretch,
+            first_line,
+            offset,
+        }) = self.placed().nth(index)
+        else {
+            return 0;
+        };
+        Stretch::run_with(
+            lines_from(&self.text, first_line),
+            stretch.lines as usize,
+            offset,
+            stretch.before,
+            self.reading,
+            each,
+        );
         offset
     }
 
     /// The stretches in the order in which they run.
     pub(super) fn placed(&self) -> impl Iterator<Item = Placed<'_>> {
         let mut line = 0;
-        self.stretches.iter().enumerate().map(move |(index, stretch)| {
-            let first_line = match &self.order {
-                Some(order) => order.lines.get(index).map_or(0, |lines| lines.start),
-                None => line,
-            };
-            line = first_line + stretch.lines as usize;
-            Placed { stretch, first_line, offset: self.text.line_start(first_line) }
-        })
+        self.stretches
+            .iter()
+            .enumerate()
+            .map(move |(index, stretch)| {
+                let first_line = match &self.order {
+                    Some(order) => order.lines.get(index).map_or(0, |lines| lines.start),
+                    None => line,
+                };
+                line = first_line + stretch.lines as usize;
+                Placed {
+                    stretch,
+                    first_line,
+                    offset: self.text.line_start(first_line),
+                }
+            })
     }
 
     // What is in force at a line.
@@ -292,14 +342,25 @@ impl Document {
     /// does not run.
     fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Stretch)> {
         let mut placed = self.placed().enumerate();
-        let holds = |placed: &Placed<'_>| placed.first_line <= line && line < placed.first_line + placed.stretch.lines as usize;
+        let holds = |placed: &Placed<'_>| {
+            placed.first_line <= line && line < placed.first_line + placed.stretch.lines as usize
+        };
         let (index, placed) = placed.find(|(_, placed)| holds(placed))?;
-        Some((index, run_stretch(&self.text, placed.first_line..line + usize::from(behind), placed.stretch.before, self.reading)))
+        Some((
+            index,
+            run_stretch(
+                &self.text,
+                placed.first_line..line + usize::from(behind),
+                placed.stretch.before,
+                self.reading,
+            ),
+        ))
     }
 
     /// What is in force, and where the wire stands, before a line; `None` for a line that does not run.
     pub(super) fn machine_before(&self, line: usize) -> Option<Machine> {
-        self.run_up_to(line, false).map(|(_, stretch)| stretch.after)
+        self.run_up_to(line, false)
+            .map(|(_, stretch)| stretch.after)
     }
 
     /// What is in force behind a line.
@@ -337,9 +398,16 @@ impl Document {
 
     /// The places of the control's table that the program fills, with their values in nm, and those that its first lines use.
     pub(super) fn table_places(&self, letter: u8) -> Vec<(u32, Option<i64>)> {
-        let mut places: BTreeMap<u32, Option<i64>> =
-            self.used_places().filter(|its| its.letter == letter).map(|its| (its.index, None)).collect();
-        for (offset, &value) in self.table.iter().filter(|(offset, _)| offset.letter == letter) {
+        let mut places: BTreeMap<u32, Option<i64>> = self
+            .used_places()
+            .filter(|its| its.letter == letter)
+            .map(|its| (its.index, None))
+            .collect();
+        for (offset, &value) in self
+            .table
+            .iter()
+            .filter(|(offset, _)| offset.letter == letter)
+        {
             places.insert(offset.index, Some(value));
         }
         places.into_iter().collect()
@@ -347,34 +415,75 @@ impl Document {
 
     /// The corrections that the program itself puts into the control's table: their names, and mm.
     pub(in crate::program) fn stated_corrections(&self) -> Vec<(String, f64)> {
-        let mut places: Vec<_> = self.table.iter().map(|(offset, &value)| (*offset, value)).collect();
+        let mut places: Vec<_> = self
+            .table
+            .iter()
+            .map(|(offset, &value)| (*offset, value))
+            .collect();
         places.sort_by_key(|(offset, _)| (offset.letter, offset.index));
-        places.into_iter().map(|(offset, nm)| (format!("{}{}", offset.letter as char, offset.index), nm as f64 / 1e6)).collect()
+        places
+            .into_iter()
+            .map(|(offset, nm)| {
+                (
+                    format!("{}{}", offset.letter as char, offset.index),
+                    nm as f64 / 1e6,
+                )
+            })
+            .collect()
     }
 
     /// `D` or `H`, as the program names places of the control's table.
     pub(super) fn table_letter(&self) -> u8 {
-        let defined = self.stretches.iter().flat_map(|stretch| &stretch.definitions).map(|definition| definition.offset).next();
-        defined.or_else(|| self.used_places().next()).map_or(b'D', |offset| offset.letter)
+        let defined = self
+            .stretches
+            .iter()
+            .flat_map(|stretch| &stretch.definitions)
+            .map(|definition| definition.offset)
+            .next();
+        defined
+            .or_else(|| self.used_places().next())
+            .map_or(b'D', |offset| offset.letter)
     }
 
     /// The place of the table that a program names, where it names but one.
     pub(super) fn only_offset(&self) -> Option<Offset> {
-        let mut all = self.table.keys().copied().chain(self.used_places().filter(|offset| offset.index > 0));
+        let mut all = self
+            .table
+            .keys()
+            .copied()
+            .chain(self.used_places().filter(|offset| offset.index > 0));
         let first = all.next()?;
         all.all(|offset| offset == first).then_some(first)
     }
 
     fn used_places(&self) -> impl Iterator<Item = Offset> + '_ {
         let lines = 0..self.text.line_count().min(LOOKED_AT);
-        lines.filter_map(|line| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).offset)
+        lines.filter_map(|line| {
+            read_line(
+                self.text.bytes().get(self.text.line_range(line))?,
+                1,
+                |_| {},
+            )
+            .offset
+        })
     }
 
     /// The numbers of the subprograms that some line calls.
     pub(super) fn called(&self) -> BTreeSet<u32> {
         let calling = self.placed().filter(|placed| placed.stretch.calls);
-        let lines = calling.flat_map(|placed| placed.first_line..placed.first_line + placed.stretch.lines as usize);
-        lines.filter_map(|line| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).call).collect()
+        let lines = calling.flat_map(|placed| {
+            placed.first_line..placed.first_line + placed.stretch.lines as usize
+        });
+        lines
+            .filter_map(|line| {
+                read_line(
+                    self.text.bytes().get(self.text.line_range(line))?,
+                    1,
+                    |_| {},
+                )
+                .call
+            })
+            .collect()
     }
 
     /// The line that ends a program without calls: what stands behind it is run by nobody yet.
@@ -385,38 +494,79 @@ impl Document {
         let ending = self.placed().find(|placed| placed.stretch.after.ended)?;
         let mut lines = ending.first_line..ending.first_line + ending.stretch.lines as usize;
         lines.find(|line| {
-            let bytes = self.text.bytes().get(self.text.line_range(*line)).unwrap_or_default();
+            let bytes = self
+                .text
+                .bytes()
+                .get(self.text.line_range(*line))
+                .unwrap_or_default();
             read_line(bytes, 1, |_| {}).stop == Some(Stop::End)
         })
     }
 
     /// The last block number before a line, and the step in which they count there.
     pub(super) fn numbers_before(&self, line: usize) -> Option<(u32, u32)> {
-        let number = |line: usize| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).number;
-        let mut numbers = (line.saturating_sub(LOOKED_BACK)..line).rev().filter_map(number).filter(|number| *number < u32::MAX);
+        let number = |line: usize| {
+            read_line(
+                self.text.bytes().get(self.text.line_range(line))?,
+                1,
+                |_| {},
+            )
+            .number
+        };
+        let mut numbers = (line.saturating_sub(LOOKED_BACK)..line)
+            .rev()
+            .filter_map(number)
+            .filter(|number| *number < u32::MAX);
         let last = numbers.next()?;
-        let step = numbers.next().and_then(|before| last.checked_sub(before)).filter(|step| *step > 0);
-        Some((last, step.unwrap_or(if last.is_multiple_of(10) { 10 } else { 1 })))
+        let step = numbers
+            .next()
+            .and_then(|before| last.checked_sub(before))
+            .filter(|step| *step > 0);
+        Some((
+            last,
+            step.unwrap_or(if last.is_multiple_of(10) { 10 } else { 1 }),
+        ))
     }
 
     /// The number of the next block behind a line that has one.
     pub(super) fn number_behind(&self, line: usize) -> Option<u32> {
-        let number = |line: usize| read_line(self.text.bytes().get(self.text.line_range(line))?, 1, |_| {}).number;
+        let number = |line: usize| {
+            read_line(
+                self.text.bytes().get(self.text.line_range(line))?,
+                1,
+                |_| {},
+            )
+            .number
+        };
         (line + 1..self.text.line_count().min(line + 1 + LOOKED_BACK)).find_map(number)
     }
 
     /// The numbers that the blocks of a stretch lack where the others skip one: each with its line.
     pub(super) fn lacking_numbers(&self, placed: &Placed<'_>) -> Vec<(usize, u32)> {
-        let block = |line: usize| read_line(self.text.bytes().get(self.text.line_range(line)).unwrap_or_default(), 1, |_| {});
+        let block = |line: usize| {
+            read_line(
+                self.text
+                    .bytes()
+                    .get(self.text.line_range(line))
+                    .unwrap_or_default(),
+                1,
+                |_| {},
+            )
+        };
         let mut found = Vec::new();
         for line in placed.first_line..placed.first_line + placed.stretch.lines as usize {
             let own = block(line);
             if own.empty || own.number.is_some() || own.program.is_some() {
                 continue;
             }
-            let Some((last, step)) = self.numbers_before(line) else { continue };
-            let next = (line + 1..self.text.line_count().min(line + 1 + LOOKED_BACK)).map(block).find(|block| !block.empty);
-            if let (Some(expected), Some(next)) = (last.checked_add(step), next.and_then(|next| next.number))
+            let Some((last, step)) = self.numbers_before(line) else {
+                continue;
+            };
+            let next = (line + 1..self.text.line_count().min(line + 1 + LOOKED_BACK))
+                .map(block)
+                .find(|block| !block.empty);
+            if let (Some(expected), Some(next)) =
+                (last.checked_add(step), next.and_then(|next| next.number))
                 && expected.checked_add(step) == Some(next)
             {
                 found.push((line, expected));
@@ -462,7 +612,8 @@ impl Document {
     fn run_touched(&mut self, first: usize, lines_behind: usize) {
         let all_lines = self.text.line_count();
         let (mut from, mut line) = (0, 0);
-        while from + 1 < self.stretches.len() && line + self.stretches[from].lines as usize <= first {
+        while from + 1 < self.stretches.len() && line + self.stretches[from].lines as usize <= first
+        {
             line += self.stretches[from].lines as usize;
             from += 1;
         }
@@ -476,7 +627,10 @@ impl Document {
             to -= 1;
             behind += self.stretches[to].lines as usize;
         }
-        let before = self.stretches.get(from).map_or_else(|| self.begin(), |stretch| stretch.before);
+        let before = self
+            .stretches
+            .get(from)
+            .map_or_else(|| self.begin(), |stretch| stretch.before);
         let fresh = run_lines(&self.text, line..all_lines - behind, before, self.reading);
         let mut next = from + fresh.len();
         self.stretches.splice(from..to, fresh);
@@ -488,9 +642,15 @@ impl Document {
         {
             let lines = line..line + stretch.lines as usize;
             line = lines.end;
-            let moved = Machine { at: stretch.before.at, ..before } == stretch.before;
+            let moved = Machine {
+                at: stretch.before.at,
+                ..before
+            } == stretch.before;
             if moved && stretch.is_loose() {
-                stretch.shift([before.at[0].wrapping_sub(stretch.before.at[0]), before.at[1].wrapping_sub(stretch.before.at[1])]);
+                stretch.shift([
+                    before.at[0].wrapping_sub(stretch.before.at[0]),
+                    before.at[1].wrapping_sub(stretch.before.at[1]),
+                ]);
             } else {
                 *stretch = run_stretch(&self.text, lines, before, self.reading);
             }
@@ -511,12 +671,20 @@ impl Document {
 
     /// The control before the first line.
     pub(super) fn begin(&self) -> Machine {
-        Machine { inch: self.limits.inch, ..Machine::default() }
+        Machine {
+            inch: self.limits.inch,
+            ..Machine::default()
+        }
     }
 
     fn summed(&self, stretches: &[Stretch]) -> Evidence {
-        let mut evidence = Evidence { inch: self.limits.inch, ..Evidence::default() };
-        stretches.iter().for_each(|stretch| evidence.add(&stretch.evidence));
+        let mut evidence = Evidence {
+            inch: self.limits.inch,
+            ..Evidence::default()
+        };
+        stretches
+            .iter()
+            .for_each(|stretch| evidence.add(&stretch.evidence));
         evidence
     }
 
@@ -529,7 +697,12 @@ impl Document {
 
     fn run_stretches(&mut self) {
         self.stretches = match &self.order {
-            None => run_lines(&self.text, 0..self.text.line_count(), self.begin(), self.reading),
+            None => run_lines(
+                &self.text,
+                0..self.text.line_count(),
+                self.begin(),
+                self.reading,
+            ),
             Some(order) => {
                 let mut machine = self.begin();
                 let run = order.lines.iter().map(|lines| {
@@ -562,7 +735,9 @@ impl Document {
         let table = super::report::table(self);
         if table != *self.table {
             *self.table = table;
-            self.stretches.iter_mut().for_each(|stretch| stretch.is_quiet = false);
+            self.stretches
+                .iter_mut()
+                .for_each(|stretch| stretch.is_quiet = false);
         }
         for index in super::report::quiet(self) {
             self.stretches[index].is_quiet = true;
@@ -589,15 +764,24 @@ impl Document {
 
     /// Where the machine goes, move by move.
     pub fn trace(&self) -> Trace {
-        let mut trace = Trace { writing: self.reading.writing(), ..Trace::default() };
+        let mut trace = Trace {
+            writing: self.reading.writing(),
+            ..Trace::default()
+        };
         let mut contour = 0;
         let mut start = None;
         for (index, placed) in self.placed().enumerate() {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
-            self.steps_of(index, lines, &placed, &mut contour, &mut |step, machine, _| {
-                start.get_or_insert((step.start, machine.stated));
-                trace.steps.push(step);
-            });
+            self.steps_of(
+                index,
+                lines,
+                &placed,
+                &mut contour,
+                &mut |step, machine, _| {
+                    start.get_or_insert((step.start, machine.stated));
+                    trace.steps.push(step);
+                },
+            );
         }
         if let Some((start, is_known)) = start {
             (trace.start, trace.start_is_known) = (start, is_known);
@@ -629,11 +813,21 @@ impl Document {
     }
 
     /// A move up to where the corner at its end begins, and that corner.
-    pub(super) fn turned(&self, line: usize, made: Move, machine: &mut Machine) -> (Move, Option<Move>) {
+    pub(super) fn turned(
+        &self,
+        line: usize,
+        made: Move,
+        machine: &mut Machine,
+    ) -> (Move, Option<Move>) {
         if made.corner.is_none() {
             return (made, None);
         }
-        let turned = turned(made, machine, lines_from(&self.text, line + 1).map(|(_, line)| line), &self.reading);
+        let turned = turned(
+            made,
+            machine,
+            lines_from(&self.text, line + 1).map(|(_, line)| line),
+            &self.reading,
+        );
         (turned.made, turned.corner)
     }
 
@@ -647,7 +841,9 @@ impl Document {
         let mut sides = Vec::new();
         for (index, placed) in self.placed().enumerate() {
             let lines = placed.first_line..placed.first_line + placed.stretch.lines as usize;
-            self.steps_of(index, lines, &placed, &mut 0, &mut |_, _, side| sides.push(side));
+            self.steps_of(index, lines, &placed, &mut 0, &mut |_, _, side| {
+                sides.push(side)
+            });
         }
         sides
     }
@@ -668,7 +864,8 @@ impl Document {
                 });
             }
             let before = |stretch: usize| self.tabs.partition_point(|tab| tab.0 < stretch);
-            contour += (placed.stretch.pauses as usize).saturating_sub(before(index + 1) - before(index));
+            contour +=
+                (placed.stretch.pauses as usize).saturating_sub(before(index + 1) - before(index));
         }
         steps
     }
@@ -694,10 +891,16 @@ impl Document {
             if block.empty {
                 continue;
             }
-            let made = machine.run(&block, &self.reading).map(|made| self.turned(line, made, &mut machine));
+            let made = machine
+                .run(&block, &self.reading)
+                .map(|made| self.turned(line, made, &mut machine));
             let words = super::stretch::words_of(bytes, range.start);
             let words = words.0 as usize..words.1 as usize;
-            for made in made.into_iter().flat_map(|(made, corner)| [Some(made), corner]).flatten() {
+            for made in made
+                .into_iter()
+                .flat_map(|(made, corner)| [Some(made), corner])
+                .flatten()
+            {
                 let side = made.side;
                 let kind = match made.motion {
                     Motion::Rapid => Kind::Rapid,
@@ -705,19 +908,43 @@ impl Document {
                     Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
                 };
                 let ideal = match made.course(&self.reading) {
-                    Course::Line => Some(Segment::line(micrometres(made.from), micrometres(made.to))),
+                    Course::Line => {
+                        Some(Segment::line(micrometres(made.from), micrometres(made.to)))
+                    }
                     Course::Arc(arc) => Some(Segment::Arc(arc)),
                     Course::OffRadius { .. } | Course::NoRadius => None,
                 };
                 let (start, end) = (micrometres(made.from), micrometres(made.to));
-                let step = Step { range: words.clone(), line, number: block.number, kind, start, end, ideal, contour: *contour };
+                let step = Step {
+                    range: words.clone(),
+                    line,
+                    number: block.number,
+                    kind,
+                    start,
+                    end,
+                    ideal,
+                    contour: *contour,
+                };
                 each(step, &machine, side);
             }
             if let Some(stop) = block.stop {
-                let kind = if stop == Stop::End { Kind::End } else { Kind::Pause };
+                let kind = if stop == Stop::End {
+                    Kind::End
+                } else {
+                    Kind::Pause
+                };
                 let at = micrometres(machine.at);
                 let is_tab = self.is_tab((index, words.start.saturating_sub(placed.offset) as u32));
-                let step = Step { range: words, line, number: block.number, kind, start: at, end: at, ideal: None, contour: *contour };
+                let step = Step {
+                    range: words,
+                    line,
+                    number: block.number,
+                    kind,
+                    start: at,
+                    end: at,
+                    ideal: None,
+                    contour: *contour,
+                };
                 each(step, &machine, None);
                 *contour += usize::from(stop == Stop::Pause && !is_tab);
             }
@@ -728,12 +955,26 @@ impl Document {
 /// The cut that is under way behind a run, which goes on with what was under way before.
 fn begun_by(before: Option<Begun>, run: &Run) -> Option<Begun> {
     let last = run.last[1];
-    let first = before.unwrap_or(Begun { from: run.first[0].from, to: run.first[0].to, last, moves: 0 });
-    run.open.then_some(Begun { last, moves: first.moves + run.moves, ..first })
+    let first = before.unwrap_or(Begun {
+        from: run.first[0].from,
+        to: run.first[0].to,
+        last,
+        moves: 0,
+    });
+    run.open.then_some(Begun {
+        last,
+        moves: first.moves + run.moves,
+        ..first
+    })
 }
 
 /// Runs lines in stretches of [`STRETCH`] to twice as many, so that lines inserted one by one do not leave ever shorter ones.
-fn run_lines(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Vec<Stretch> {
+fn run_lines(
+    text: &SourceText,
+    lines: Range<usize>,
+    before: Machine,
+    reading: Reading,
+) -> Vec<Stretch> {
     let mut machine = before;
     let pieces = (lines.len() / STRETCH).max(1);
     let at = |piece: usize| lines.start + lines.len() * piece / pieces;
@@ -758,13 +999,29 @@ fn run_lines(text: &SourceText, lines: Range<usize>, before: Machine, reading: R
 /// Stretches whose paths are found side by side.
 const AT_ONCE: usize = 256;
 
-fn run_stretch(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Stretch {
+fn run_stretch(
+    text: &SourceText,
+    lines: Range<usize>,
+    before: Machine,
+    reading: Reading,
+) -> Stretch {
     run_pathless(text, lines, before, reading).with_paths()
 }
 
-fn run_pathless(text: &SourceText, lines: Range<usize>, before: Machine, reading: Reading) -> Pathless {
+fn run_pathless(
+    text: &SourceText,
+    lines: Range<usize>,
+    before: Machine,
+    reading: Reading,
+) -> Pathless {
     let start = text.line_start(lines.start);
-    Stretch::run(lines_from(text, lines.start), lines.len(), start, before, reading)
+    Stretch::run(
+        lines_from(text, lines.start),
+        lines.len(),
+        start,
+        before,
+        reading,
+    )
 }
 
 /// The lines of a text from one on, each with the byte at which it begins.

@@ -57,15 +57,25 @@ pub struct Arcs {
     pub wide: [u32; 3],
 }
 
-const RULES: [CenterRule; 3] = [CenterRule::StartToCenter, CenterRule::CenterToStart, CenterRule::Absolute];
+const RULES: [CenterRule; 3] = [
+    CenterRule::StartToCenter,
+    CenterRule::CenterToStart,
+    CenterRule::Absolute,
+];
 
 const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 impl Arcs {
     fn add(&mut self, other: &Arcs) {
         self.all += other.all;
-        let counts = self.off.iter_mut().chain(&mut self.unclear).chain(&mut self.wide);
-        for (count, more) in counts.zip(other.off.into_iter().chain(other.unclear).chain(other.wide)) {
+        let counts = self
+            .off
+            .iter_mut()
+            .chain(&mut self.unclear)
+            .chain(&mut self.wide);
+        for (count, more) in
+            counts.zip(other.off.into_iter().chain(other.unclear).chain(other.wide))
+        {
             *count += more;
         }
     }
@@ -73,7 +83,9 @@ impl Arcs {
     /// True where two rules fit equally many arcs, more than any other, and lead to unlike circles.
     fn is_open(&self, rules: usize) -> bool {
         let least = self.off[..rules].iter().copied().min().unwrap_or(0);
-        let open = |(&(a, b), &unclear): (&(usize, usize), &u32)| unclear > 0 && b < rules && self.off[a] == least && self.off[b] == least;
+        let open = |(&(a, b), &unclear): (&(usize, usize), &u32)| {
+            unclear > 0 && b < rules && self.off[a] == least && self.off[b] == least
+        };
         PAIRS.iter().zip(&self.unclear).any(open)
     }
 
@@ -90,7 +102,11 @@ impl Arcs {
         if rules.contains(&preferred) && against(preferred) == least {
             return preferred;
         }
-        rules.iter().copied().find(|&rule| against(rule) == least).unwrap_or(CenterRule::StartToCenter)
+        rules
+            .iter()
+            .copied()
+            .find(|&rule| against(rule) == least)
+            .unwrap_or(CenterRule::StartToCenter)
     }
 }
 
@@ -102,7 +118,10 @@ impl Evidence {
         self.inch |= other.inch;
         self.fine += other.fine;
         self.bare += other.bare;
-        self.places.iter_mut().zip(other.places).for_each(|(count, more)| *count += more);
+        self.places
+            .iter_mut()
+            .zip(other.places)
+            .for_each(|(count, more)| *count += more);
         self.long += other.long;
         self.says_unit |= other.says_unit;
         self.absolute.add(&other.absolute);
@@ -111,7 +130,10 @@ impl Evidence {
 
     /// Takes note of a line's numbers.
     pub fn numbers(&mut self, block: &Block) {
-        for number in [block.x, block.y, block.i, block.j, block.r].into_iter().flatten() {
+        for number in [block.x, block.y, block.i, block.j, block.r]
+            .into_iter()
+            .flatten()
+        {
             self.numbers += 1;
             self.with_point += u32::from(number.point);
             self.decimals = self.decimals.max(number.decimals);
@@ -128,7 +150,11 @@ impl Evidence {
 
     /// Takes note of an arc.
     pub fn arc(&mut self, arc: &Move, tolerance: i64) {
-        let arcs = if arc.incremental { &mut self.incremental } else { &mut self.absolute };
+        let arcs = if arc.incremental {
+            &mut self.incremental
+        } else {
+            &mut self.absolute
+        };
         if arc.center(CenterRule::StartToCenter).is_none() {
             return;
         }
@@ -154,16 +180,31 @@ impl Evidence {
         let whole_numbers_are_fine = self.whole_numbers_are_fine();
         let absolute = self.absolute.rule(preferred, &RULES);
         // What the arcs under G90 show, those under G91 of the same program need not show again.
-        let shown = if self.absolute.tells(3) { absolute } else { preferred };
+        let shown = if self.absolute.tells(3) {
+            absolute
+        } else {
+            preferred
+        };
         let incremental = self.incremental.rule(shown, &RULES[..2]);
-        let absolute =
-            if !self.absolute.tells(3) && self.incremental.tells(2) { self.absolute.rule(incremental, &RULES) } else { absolute };
+        let absolute = if !self.absolute.tells(3) && self.incremental.tells(2) {
+            self.absolute.rule(incremental, &RULES)
+        } else {
+            absolute
+        };
         let step = match (whole_numbers_are_fine, self.inch) {
             (true, false) => MICROMETRE,
             (true, true) => 2_540,
-            (false, inch) => (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals.min(7))),
+            (false, inch) => {
+                (if inch { 25_400_000 } else { 1_000_000 })
+                    / 10_i64.pow(u32::from(self.decimals.min(7)))
+            }
         };
-        Reading { whole_numbers_are_fine, absolute, incremental, tolerance: (STEPS * step).clamp(STEPS * MICROMETRE, COARSEST) }
+        Reading {
+            whole_numbers_are_fine,
+            absolute,
+            incremental,
+            tolerance: (STEPS * step).clamp(STEPS * MICROMETRE, COARSEST),
+        }
     }
 
     /// Whole numbers are the finest steps where there are no others, or where one that is not whole stands among many that are too long
@@ -175,7 +216,11 @@ impl Evidence {
     /// How many decimals the numbers have, where all but one or two have as many; and how many those are.
     pub fn usual_places(&self) -> Option<(u8, u32)> {
         let all: u32 = self.places.iter().sum();
-        let (places, count) = self.places.iter().enumerate().max_by_key(|(_, count)| **count)?;
+        let (places, count) = self
+            .places
+            .iter()
+            .enumerate()
+            .max_by_key(|(_, count)| **count)?;
         (*count >= ENOUGH && all - count <= SLIPS).then_some((places as u8, all - count))
     }
 
@@ -196,8 +241,13 @@ impl Evidence {
 
 /// True where an arc about a centre turns by more than a half, and by less than a whole.
 fn turns_widely(arc: &Move, center: Place) -> bool {
-    let from_center = |place: Place| [0, 1].map(|axis| i128::from(place[axis].wrapping_sub(center[axis])));
+    let from_center =
+        |place: Place| [0, 1].map(|axis| i128::from(place[axis].wrapping_sub(center[axis])));
     let ([ax, ay], [bx, by]) = (from_center(arc.from), from_center(arc.to));
     let cross = ax * by - ay * bx;
-    if arc.motion == Motion::CounterClockwise { cross < 0 } else { cross > 0 }
+    if arc.motion == Motion::CounterClockwise {
+        cross < 0
+    } else {
+        cross > 0
+    }
 }

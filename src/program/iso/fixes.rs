@@ -19,11 +19,19 @@ use std::ops::Range;
 pub(super) fn fixes(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
     let own = of_place(document, finding);
     let searched = searched(document, finding);
-    let speaks_for_itself = matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock) && !own.is_empty();
-    let (mut fixes, more) = if speaks_for_itself { (own, searched) } else { (searched, own) };
+    let speaks_for_itself =
+        matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock) && !own.is_empty();
+    let (mut fixes, more) = if speaks_for_itself {
+        (own, searched)
+    } else {
+        (searched, own)
+    };
     let first = fixes.len();
     for mut fix in more {
-        match fixes[..first].iter_mut().find(|other| other.edit == fix.edit) {
+        match fixes[..first]
+            .iter_mut()
+            .find(|other| other.edit == fix.edit)
+        {
             // What the place says by itself names the slip better.
             Some(known) if !speaks_for_itself => known.kind = fix.kind,
             Some(_) => {}
@@ -42,8 +50,16 @@ fn searched(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
     if finding.rule != Rule::SuspectBlock && !is_trouble(finding) {
         return Vec::new();
     }
-    let Some(line) = line_of(document, finding) else { return Vec::new() };
-    let Some((_, repairs)) = document.repairs().iter().find(|(lines, _)| lines.contains(&line)) else { return Vec::new() };
+    let Some(line) = line_of(document, finding) else {
+        return Vec::new();
+    };
+    let Some((_, repairs)) = document
+        .repairs()
+        .iter()
+        .find(|(lines, _)| lines.contains(&line))
+    else {
+        return Vec::new();
+    };
     let fix = |(rank, repair): (usize, &Repair)| Fix {
         kind: repair.kind.clone(),
         preferred: rank == 0,
@@ -55,28 +71,57 @@ fn searched(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
 
 /// What a place says by itself.
 fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
-    let Where::Text { range } = &finding.place else { return Vec::new() };
+    let Where::Text { range } = &finding.place else {
+        return Vec::new();
+    };
     let fault = match &finding.detail {
         Detail::Iso(fault) => fault,
         Detail::Syntax(_) => return character_fixes(document, range),
         _ => return Vec::new(),
     };
-    let fix = |kind: FixKind, in_fix_all: bool, edits: Vec<TextEdit>| Fix { kind, preferred: true, in_fix_all, edit: edits };
+    let fix = |kind: FixKind, in_fix_all: bool, edits: Vec<TextEdit>| Fix {
+        kind,
+        preferred: true,
+        in_fix_all,
+        edit: edits,
+    };
     let line = document.text().line_of(range.start);
     match fault {
         IsoFault::ReversedArc { is_sure } => {
             let before = document.machine_before(line).map(|machine| machine.motion);
-            let Some((found, meant, edit)) = exchanged_word(document, line, before) else { return Vec::new() };
+            let Some((found, meant, edit)) = exchanged_word(document, line, before) else {
+                return Vec::new();
+            };
             vec![fix(FixKind::Rewrite { found, meant }, *is_sure, vec![edit])]
         }
-        IsoFault::DoubledBlock { .. } => vec![fix(FixKind::DeleteBlock, true, vec![whole_line(document, line)])],
+        IsoFault::DoubledBlock { .. } => vec![fix(
+            FixKind::DeleteBlock,
+            true,
+            vec![whole_line(document, line)],
+        )],
         IsoFault::Spur { .. } => spur_fix(document, line).into_iter().collect(),
         IsoFault::NoOffset { .. } => {
-            let Some(offset) = document.only_offset() else { return Vec::new() };
+            let Some(offset) = document.only_offset() else {
+                return Vec::new();
+            };
             let word = format!("{}{}", offset.letter as char, offset.index);
-            let text = if is_parted(document.text()) { format!(" {word}") } else { word.clone() };
-            let edit = TextEdit { range: range.end..range.end, text };
-            vec![fix(FixKind::Rewrite { found: String::new(), meant: word }, false, vec![edit])]
+            let text = if is_parted(document.text()) {
+                format!(" {word}")
+            } else {
+                word.clone()
+            };
+            let edit = TextEdit {
+                range: range.end..range.end,
+                text,
+            };
+            vec![fix(
+                FixKind::Rewrite {
+                    found: String::new(),
+                    meant: word,
+                },
+                false,
+                vec![edit],
+            )]
         }
         IsoFault::SideChange { .. } => {
             let other = match document.text().bytes().get(range.clone()) {
@@ -84,45 +129,114 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 Some(word) if word.ends_with(b"42") => "G41",
                 _ => return Vec::new(),
             };
-            vec![fix(FixKind::SwapSide, false, vec![TextEdit { range: range.clone(), text: other.into() }])]
+            vec![fix(
+                FixKind::SwapSide,
+                false,
+                vec![TextEdit {
+                    range: range.clone(),
+                    text: other.into(),
+                }],
+            )]
         }
         IsoFault::StillOn => {
-            let Some(at) = way_out(document, line) else { return Vec::new() };
+            let Some(at) = way_out(document, line) else {
+                return Vec::new();
+            };
             let start = document.text().line_start(at);
             let text = format!("G40{}", line_end(document, range.end));
-            vec![fix(FixKind::InsertLine { block: "G40".into() }, false, vec![TextEdit { range: start..start, text }])]
+            vec![fix(
+                FixKind::InsertLine {
+                    block: "G40".into(),
+                },
+                false,
+                vec![TextEdit {
+                    range: start..start,
+                    text,
+                }],
+            )]
         }
         IsoFault::NoReturn { .. } => {
             let end = document.text().line_range(line).end;
             let text = format!("{}M99", line_end(document, range.end));
-            vec![fix(FixKind::InsertLine { block: "M99".into() }, true, vec![TextEdit { range: end..end, text }])]
+            vec![fix(
+                FixKind::InsertLine {
+                    block: "M99".into(),
+                },
+                true,
+                vec![TextEdit {
+                    range: end..end,
+                    text,
+                }],
+            )]
         }
         IsoFault::Bare { .. } => bare_fixes(document, range),
         IsoFault::NoEnd { word } => {
-            let end = document.text().line_range(document.text().line_of(range.end)).end;
+            let end = document
+                .text()
+                .line_range(document.text().line_of(range.end))
+                .end;
             let text = format!("{}{word}", line_end(document, range.end));
-            vec![fix(FixKind::AddEnd { word: word.clone() }, true, vec![TextEdit { range: end..end, text }])]
+            vec![fix(
+                FixKind::AddEnd { word: word.clone() },
+                true,
+                vec![TextEdit {
+                    range: end..end,
+                    text,
+                }],
+            )]
         }
-        IsoFault::Switch { on: true, arc: false } => {
+        IsoFault::Switch {
+            on: true,
+            arc: false,
+        } => {
             // The rapid that the correction would go on with is cut instead.
-            let Some(word) = rapid_word(document, range) else { return Vec::new() };
-            vec![fix(FixKind::CutRapid, false, vec![TextEdit { range: word, text: "G01".into() }])]
+            let Some(word) = rapid_word(document, range) else {
+                return Vec::new();
+            };
+            vec![fix(
+                FixKind::CutRapid,
+                false,
+                vec![TextEdit {
+                    range: word,
+                    text: "G01".into(),
+                }],
+            )]
         }
         IsoFault::RoleSide { .. } | IsoFault::EntrySide { .. } => {
-            let bytes = document.text().bytes().get(range.clone()).unwrap_or_default();
+            let bytes = document
+                .text()
+                .bytes()
+                .get(range.clone())
+                .unwrap_or_default();
             let other = match read_line(bytes, 0, |_| {}).compensation {
                 Some(super::block::Compensation::Left) => "G42",
                 Some(super::block::Compensation::Right) => "G41",
                 _ => return Vec::new(),
             };
-            vec![fix(FixKind::SwapSide, false, vec![TextEdit { range: range.clone(), text: other.into() }])]
+            vec![fix(
+                FixKind::SwapSide,
+                false,
+                vec![TextEdit {
+                    range: range.clone(),
+                    text: other.into(),
+                }],
+            )]
         }
         IsoFault::OffRadius { .. } => center_fixes(document, range),
         IsoFault::NotClosed { .. } => closing_fix(document, range).into_iter().collect(),
-        IsoFault::NumberTwice { .. } | IsoFault::Unnumbered { .. } => number_fixes(document, fault, range),
+        IsoFault::NumberTwice { .. } | IsoFault::Unnumbered { .. } => {
+            number_fixes(document, fault, range)
+        }
         IsoFault::BehindEnd => {
             let end = document.text().len();
-            vec![fix(FixKind::DeleteBehindEnd, false, vec![TextEdit { range: range.start..end, text: String::new() }])]
+            vec![fix(
+                FixKind::DeleteBehindEnd,
+                false,
+                vec![TextEdit {
+                    range: range.start..end,
+                    text: String::new(),
+                }],
+            )]
         }
         _ => Vec::new(),
     }
@@ -133,22 +247,53 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<Tex
     let text = document.text();
     let (kind, edit) = match text.bytes().get(range.clone()) {
         Some([b'O' | b'o', rest @ ..]) => {
-            let zeros = rest.iter().map(|byte| if matches!(byte, b'O' | b'o') { '0' } else { char::from(*byte) });
-            (FixKind::ZeroForO, TextEdit { range: range.clone(), text: ['0'].into_iter().chain(zeros).collect() })
+            let zeros = rest.iter().map(|byte| {
+                if matches!(byte, b'O' | b'o') {
+                    '0'
+                } else {
+                    char::from(*byte)
+                }
+            });
+            (
+                FixKind::ZeroForO,
+                TextEdit {
+                    range: range.clone(),
+                    text: ['0'].into_iter().chain(zeros).collect(),
+                },
+            )
         }
-        Some(b",") => (FixKind::DecimalPoints, TextEdit { range: range.clone(), text: ".".into() }),
+        Some(b",") => (
+            FixKind::DecimalPoints,
+            TextEdit {
+                range: range.clone(),
+                text: ".".into(),
+            },
+        ),
         _ => {
             let line = text.line_range(text.line_of(range.start));
-            let plain = text.bytes().get(line.clone()).and_then(plain).and_then(|plain| String::from_utf8(plain).ok());
+            let plain = text
+                .bytes()
+                .get(line.clone())
+                .and_then(plain)
+                .and_then(|plain| String::from_utf8(plain).ok());
             let Some(text) = plain else { return Vec::new() };
             (FixKind::PlainLetters, TextEdit { range: line, text })
         }
     };
-    vec![Fix { kind, preferred: true, in_fix_all: true, edit: vec![edit] }]
+    vec![Fix {
+        kind,
+        preferred: true,
+        in_fix_all: true,
+        edit: vec![edit],
+    }]
 }
 
 /// G02 for G03 of a line, or the other way round: what stands, what is meant, and the edit.
-fn exchanged_word(document: &Document, line: usize, before: Option<Motion>) -> Option<(String, String, TextEdit)> {
+fn exchanged_word(
+    document: &Document,
+    line: usize,
+    before: Option<Motion>,
+) -> Option<(String, String, TextEdit)> {
     let range = document.text().line_range(line);
     let bytes = document.line_bytes(line);
     let other = |motion: Motion| match motion {
@@ -159,10 +304,20 @@ fn exchanged_word(document: &Document, line: usize, before: Option<Motion>) -> O
     let own = read_line(bytes, 1, |_| {}).motion;
     let meant = other(own.or(before)?)?.to_owned();
     if own.is_some() {
-        let word = word_range(bytes, range.start + 1, |letter, number| letter == b'G' && matches!(number.whole(), Some(2 | 3)))?;
+        let word = word_range(bytes, range.start + 1, |letter, number| {
+            letter == b'G' && matches!(number.whole(), Some(2 | 3))
+        })?;
         let word = word.start - 1..word.end - 1;
-        let found = String::from_utf8_lossy(document.text().bytes().get(word.clone())?).into_owned();
-        return Some((found, meant.clone(), TextEdit { range: word, text: meant }));
+        let found =
+            String::from_utf8_lossy(document.text().bytes().get(word.clone())?).into_owned();
+        return Some((
+            found,
+            meant.clone(),
+            TextEdit {
+                range: word,
+                text: meant,
+            },
+        ));
     }
     let text = String::from_utf8(with_word(bytes, &meant, is_parted(document.text()))).ok()?;
     Some((String::new(), meant, TextEdit { range, text }))
@@ -170,7 +325,10 @@ fn exchanged_word(document: &Document, line: usize, before: Option<Motion>) -> O
 
 /// A line with its end.
 fn whole_line(document: &Document, line: usize) -> TextEdit {
-    TextEdit { range: document.text().line_start(line)..document.text().line_start(line + 1), text: String::new() }
+    TextEdit {
+        range: document.text().line_start(line)..document.text().line_start(line + 1),
+        text: String::new(),
+    }
 }
 
 /// Out and back go, where they lead back to where they began.
@@ -180,15 +338,35 @@ fn spur_fix(document: &Document, back: usize) -> Option<Fix<Vec<TextEdit>>> {
         block.has_coordinates() || block.i.is_some() || block.j.is_some()
     };
     let out = (0..back).rev().take(SPUR_REACH).find(|line| moves(*line))?;
-    let (before, behind) = (document.machine_before(out)?, document.machine_behind(back)?);
-    let is_plain = Machine { at: behind.at, trail: behind.trail, moved: behind.moved, ..before } == behind;
+    let (before, behind) = (
+        document.machine_before(out)?,
+        document.machine_behind(back)?,
+    );
+    let is_plain = Machine {
+        at: behind.at,
+        trail: behind.trail,
+        moved: behind.moved,
+        ..before
+    } == behind;
     if distance(before.at, behind.at) > SPUR_CLOSED || !is_plain {
         return None;
     }
-    let shown = |line: usize| String::from_utf8_lossy(document.line_bytes(line)).trim().to_owned();
+    let shown = |line: usize| {
+        String::from_utf8_lossy(document.line_bytes(line))
+            .trim()
+            .to_owned()
+    };
     let found = format!("{} and {}", shown(out), shown(back));
     let edit = vec![whole_line(document, out), whole_line(document, back)];
-    Some(Fix { kind: FixKind::Rewrite { found, meant: String::new() }, preferred: true, in_fix_all: false, edit })
+    Some(Fix {
+        kind: FixKind::Rewrite {
+            found,
+            meant: String::new(),
+        },
+        preferred: true,
+        in_fix_all: false,
+        edit,
+    })
 }
 
 /// Lines before the way back of a spur in which its way out is looked for.
@@ -199,22 +377,51 @@ const SPUR_CLOSED: f64 = 2_000.0;
 
 /// The line before which G40 belongs: the last straight cut before the end, where it leads back to where the cut began.
 fn way_out(document: &Document, end: usize) -> Option<usize> {
-    let last = (0..end).rev().take(SPUR_REACH).find(|line| document.block(*line).has_coordinates())?;
+    let last = (0..end)
+        .rev()
+        .take(SPUR_REACH)
+        .find(|line| document.block(*line).has_coordinates())?;
     let begun = document.begun_cut_with(last)?;
-    let is_out = begun.last.motion == Motion::Line && distance(begun.last.to, begun.from) <= SPUR_CLOSED;
+    let is_out =
+        begun.last.motion == Motion::Line && distance(begun.last.to, begun.from) <= SPUR_CLOSED;
     Some(if is_out { last } else { end })
 }
 
 /// A number without its point, as one of whole units and as one of the finest steps.
 fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
-    let found = String::from_utf8_lossy(document.text().bytes().get(range.clone()).unwrap_or_default()).into_owned();
-    let Some(at) = found.find(|character: char| character.is_ascii_digit()) else { return Vec::new() };
+    let found = String::from_utf8_lossy(
+        document
+            .text()
+            .bytes()
+            .get(range.clone())
+            .unwrap_or_default(),
+    )
+    .into_owned();
+    let Some(at) = found.find(|character: char| character.is_ascii_digit()) else {
+        return Vec::new();
+    };
     let digits = &found[at..];
     let padded = format!("{digits:0>4}");
-    let fine = format!("{}{}.{}", &found[..at], &padded[..padded.len() - 3], &padded[padded.len() - 3..]);
+    let fine = format!(
+        "{}{}.{}",
+        &found[..at],
+        &padded[..padded.len() - 3],
+        &padded[padded.len() - 3..]
+    );
     let fix = |meant: String| {
-        let edit = vec![TextEdit { range: range.clone(), text: meant.clone() }];
-        Fix { kind: FixKind::Rewrite { found: found.clone(), meant }, preferred: false, in_fix_all: false, edit }
+        let edit = vec![TextEdit {
+            range: range.clone(),
+            text: meant.clone(),
+        }];
+        Fix {
+            kind: FixKind::Rewrite {
+                found: found.clone(),
+                meant,
+            },
+            preferred: false,
+            in_fix_all: false,
+            edit,
+        }
     };
     vec![fix(fine), fix(format!("{found}."))]
 }
@@ -223,17 +430,30 @@ fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit
 fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
     let text = document.text();
     let line = text.line_of(range.start);
-    let Some(before) = document.machine_before(line) else { return Vec::new() };
+    let Some(before) = document.machine_before(line) else {
+        return Vec::new();
+    };
     let bytes = text.bytes().get(text.line_range(line)).unwrap_or_default();
     let (mut machine, reading) = (before, document.reading());
-    let Some(made) = machine.run(&read_line(bytes, 1, |_| {}), reading) else { return Vec::new() };
-    let Bend::Center { i, j, absolute } = made.bend else { return Vec::new() };
+    let Some(made) = machine.run(&read_line(bytes, 1, |_| {}), reading) else {
+        return Vec::new();
+    };
+    let Bend::Center { i, j, absolute } = made.bend else {
+        return Vec::new();
+    };
     let rule = reading.rule(made.incremental);
     let own = made.center(rule);
     let mut centers: Vec<(Place, CenterFix)> = Vec::new();
-    for other in [CenterRule::StartToCenter, CenterRule::CenterToStart, CenterRule::Absolute] {
+    for other in [
+        CenterRule::StartToCenter,
+        CenterRule::CenterToStart,
+        CenterRule::Absolute,
+    ] {
         if other != rule && !(made.incremental && other == CenterRule::Absolute) {
-            centers.extend(made.center(other).map(|center| (center, CenterFix::OtherConvention)));
+            centers.extend(
+                made.center(other)
+                    .map(|center| (center, CenterFix::OtherConvention)),
+            );
         }
     }
     // As from the point that I and J count from.
@@ -241,11 +461,22 @@ fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEd
         CenterRule::StartToCenter | CenterRule::CenterToStart => made.from,
         CenterRule::Absolute => [absolute[0].wrapping_sub(i), absolute[1].wrapping_sub(j)],
     };
-    let sign = if rule == CenterRule::CenterToStart { -1 } else { 1 };
-    let at = |i: i64, j: i64| [about[0].wrapping_add(i.wrapping_mul(sign)), about[1].wrapping_add(j.wrapping_mul(sign))];
+    let sign = if rule == CenterRule::CenterToStart {
+        -1
+    } else {
+        1
+    };
+    let at = |i: i64, j: i64| {
+        [
+            about[0].wrapping_add(i.wrapping_mul(sign)),
+            about[1].wrapping_add(j.wrapping_mul(sign)),
+        ]
+    };
     centers.extend([(-i, j), (i, -j), (-i, -j)].map(|(i, j)| (at(i, j), CenterFix::Sign)));
     centers.extend([(j, i), (-j, i), (j, -i), (-j, -i)].map(|(i, j)| (at(i, j), CenterFix::Swap)));
-    let fits = |center: Place| (distance(made.from, center) - distance(made.to, center)).abs() <= reading.tolerance as f64;
+    let fits = |center: Place| {
+        (distance(made.from, center) - distance(made.to, center)).abs() <= reading.tolerance as f64
+    };
     centers.retain(|(center, _)| fits(*center));
     let nearest = own.and_then(|own| nearest_center(document, &made, own, machine.inch));
     centers.extend(nearest.map(|(center, moved)| (center, CenterFix::Nearest { moved })));
@@ -256,17 +487,32 @@ fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEd
             continue;
         }
         seen.push(center);
-        let target = Target { bend: Bent::Center(center), ..Target::of(&made, reading) };
-        let Some(edit) = line_to(document, line, &before, &target) else { continue };
+        let target = Target {
+            bend: Bent::Center(center),
+            ..Target::of(&made, reading)
+        };
+        let Some(edit) = line_to(document, line, &before, &target) else {
+            continue;
+        };
         let radius = distance(made.from, center) / 1e6;
         let kind = FixKind::SetCenter { radius, how };
-        fixes.push(Fix { kind, preferred: fixes.is_empty(), in_fix_all: false, edit: vec![edit] });
+        fixes.push(Fix {
+            kind,
+            preferred: fixes.is_empty(),
+            in_fix_all: false,
+            edit: vec![edit],
+        });
     }
     fixes
 }
 
 /// The centre that is as far from both ends and nearest to the one that stands, and how far from it, mm.
-fn nearest_center(document: &Document, made: &Move, own: Place, inch: bool) -> Option<(Place, f64)> {
+fn nearest_center(
+    document: &Document,
+    made: &Move,
+    own: Place,
+    inch: bool,
+) -> Option<(Place, f64)> {
     let step = Style::of(document, inch).step();
     let scale = 1e3 / step as f64;
     let [from, to, center] = [made.from, made.to, own].map(|place| micrometres(place) * scale);
@@ -286,12 +532,23 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<Fix<Vec<Text
     let begun = document.begun_cut_with(line)?;
     let machine = document.machine_behind(line)?;
     let near = |place: Place| distance(machine.at, place);
-    let target = if begun.moves > 2 && near(begun.to) < near(begun.from) { begun.to } else { begun.from };
-    if machine.lost != [false, false] || machine.at == target || !goes_on_by_itself(document, line, machine.motion) {
+    let target = if begun.moves > 2 && near(begun.to) < near(begun.from) {
+        begun.to
+    } else {
+        begun.from
+    };
+    if machine.lost != [false, false]
+        || machine.at == target
+        || !goes_on_by_itself(document, line, machine.motion)
+    {
         return None;
     }
     let style = Style::of(document, machine.inch);
-    let base = if machine.incremental { machine.at } else { machine.zero };
+    let base = if machine.incremental {
+        machine.at
+    } else {
+        machine.zero
+    };
     let [x, y] = [0, 1].map(|axis| style.number(target[axis].wrapping_sub(base[axis])));
     let separator = if is_parted(text) { " " } else { "" };
     let words = ["G01".to_owned(), format!("X{x}"), format!("Y{y}")].join(separator);
@@ -302,23 +559,46 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<Fix<Vec<Text
         return None;
     }
     let behind = text.line_range(line).end;
-    let edit = TextEdit { range: behind..behind, text: format!("{}{words}", line_end(document, range.end)) };
+    let edit = TextEdit {
+        range: behind..behind,
+        text: format!("{}{words}", line_end(document, range.end)),
+    };
     let length = near(target) / 1e6;
-    Some(Fix { kind: FixKind::Close { length }, preferred: true, in_fix_all: false, edit: vec![edit] })
+    Some(Fix {
+        kind: FixKind::Close { length },
+        preferred: true,
+        in_fix_all: false,
+        edit: vec![edit],
+    })
 }
 
 /// True where the line behind `line` that moves next says itself how, or would cut straight anyway.
 fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
     let text = document.text();
-    let block = |line: usize| read_line(text.bytes().get(text.line_range(line)).unwrap_or_default(), 1, |_| {});
+    let block = |line: usize| {
+        read_line(
+            text.bytes().get(text.line_range(line)).unwrap_or_default(),
+            1,
+            |_| {},
+        )
+    };
     let next = (line + 1..text.line_count()).map(block).find(|block| {
-        block.motion.is_some() || block.stop == Some(Stop::End) || block.has_coordinates() || block.i.is_some() || block.j.is_some()
+        block.motion.is_some()
+            || block.stop == Some(Stop::End)
+            || block.has_coordinates()
+            || block.i.is_some()
+            || block.j.is_some()
     });
-    motion == Motion::Line || next.is_none_or(|block| block.motion.is_some() || block.stop == Some(Stop::End))
+    motion == Motion::Line
+        || next.is_none_or(|block| block.motion.is_some() || block.stop == Some(Stop::End))
 }
 
 /// The number of the block's turn where there is room for it; all blocks numbered anew.
-fn number_fixes(document: &Document, fault: &IsoFault, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
+fn number_fixes(
+    document: &Document,
+    fault: &IsoFault,
+    range: &Range<usize>,
+) -> Vec<Fix<Vec<TextEdit>>> {
     let text = document.text();
     let line = text.line_of(range.start);
     let mut fixes = Vec::new();
@@ -326,25 +606,57 @@ fn number_fixes(document: &Document, fault: &IsoFault, range: &Range<usize>) -> 
     match *fault {
         IsoFault::Unnumbered { expected } if free(expected) => {
             let own = text.line_range(line);
-            let new = with_word(text.bytes().get(own.clone()).unwrap_or_default(), &format!("N{expected}"), is_parted(text));
+            let new = with_word(
+                text.bytes().get(own.clone()).unwrap_or_default(),
+                &format!("N{expected}"),
+                is_parted(text),
+            );
             if let Ok(new) = String::from_utf8(new) {
-                let edit = vec![TextEdit { range: own, text: new }];
-                fixes.push(Fix { kind: FixKind::SetNumber { number: expected }, preferred: true, in_fix_all: true, edit });
+                let edit = vec![TextEdit {
+                    range: own,
+                    text: new,
+                }];
+                fixes.push(Fix {
+                    kind: FixKind::SetNumber { number: expected },
+                    preferred: true,
+                    in_fix_all: true,
+                    edit,
+                });
             }
         }
         IsoFault::NumberTwice { number } if !document.called().contains(&number) => {
-            let turn = document.numbers_before(line).map(|(last, step)| last.saturating_add(step));
+            let turn = document
+                .numbers_before(line)
+                .map(|(last, step)| last.saturating_add(step));
             let next = document.number_behind(line);
-            if let Some(turn) = turn.filter(|turn| free(*turn) && next.is_none_or(|next| next > *turn)) {
-                let edit = vec![TextEdit { range: range.clone(), text: format!("N{turn}") }];
-                fixes.push(Fix { kind: FixKind::SetNumber { number: turn }, preferred: true, in_fix_all: true, edit });
+            if let Some(turn) =
+                turn.filter(|turn| free(*turn) && next.is_none_or(|next| next > *turn))
+            {
+                let edit = vec![TextEdit {
+                    range: range.clone(),
+                    text: format!("N{turn}"),
+                }];
+                fixes.push(Fix {
+                    kind: FixKind::SetNumber { number: turn },
+                    preferred: true,
+                    in_fix_all: true,
+                    edit,
+                });
             }
         }
         _ => {}
     }
     if let Ok(edit) = numbered(document, RENUMBERED) {
-        let kind = FixKind::Renumber { first: RENUMBERED, step: RENUMBERED };
-        fixes.push(Fix { kind, preferred: fixes.is_empty(), in_fix_all: false, edit });
+        let kind = FixKind::Renumber {
+            first: RENUMBERED,
+            step: RENUMBERED,
+        };
+        fixes.push(Fix {
+            kind,
+            preferred: fixes.is_empty(),
+            in_fix_all: false,
+            edit,
+        });
     }
     fixes
 }
@@ -354,9 +666,13 @@ const RENUMBERED: u32 = 10;
 
 /// The G00 of a line.
 fn rapid_word(document: &Document, range: &Range<usize>) -> Option<Range<usize>> {
-    let line = document.text().line_range(document.text().line_of(range.start));
+    let line = document
+        .text()
+        .line_range(document.text().line_of(range.start));
     let bytes = document.text().bytes().get(line.clone())?;
-    word_range(bytes, line.start, |letter, number| letter == b'G' && number.whole() == Some(0))
+    word_range(bytes, line.start, |letter, number| {
+        letter == b'G' && number.whole() == Some(0)
+    })
 }
 
 /// The line end that the text uses before a place.

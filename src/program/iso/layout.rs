@@ -26,17 +26,26 @@ pub fn format(text: &SourceText, layout: Option<Layout>, lines: Range<usize>) ->
     let all = |lines: Range<usize>| lines.filter_map(formed).collect::<Vec<_>>();
     let formed: Vec<Vec<(usize, TextEdit)>> = if lines.len() > 2 * AT_ONCE {
         let firsts: Vec<usize> = lines.clone().step_by(AT_ONCE).collect();
-        firsts.into_par_iter().map(|first| all(first..(first + AT_ONCE).min(lines.end))).collect()
+        firsts
+            .into_par_iter()
+            .map(|first| all(first..(first + AT_ONCE).min(lines.end)))
+            .collect()
     } else {
         vec![all(lines)]
     };
     let mut edits: Vec<TextEdit> = Vec::new();
     let mut last = None;
     for (line, next) in formed.into_iter().flatten() {
-        match edits.last_mut().filter(|_| last.is_some() && last == line.checked_sub(1)) {
+        match edits
+            .last_mut()
+            .filter(|_| last.is_some() && last == line.checked_sub(1))
+        {
             // Lines that follow each other become one edit.
             Some(edit) => {
-                edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..next.range.start]).unwrap_or("\n"));
+                edit.text.push_str(
+                    std::str::from_utf8(&text.bytes()[edit.range.end..next.range.start])
+                        .unwrap_or("\n"),
+                );
                 edit.text.push_str(&next.text);
                 edit.range.end = next.range.end;
             }
@@ -87,7 +96,11 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
             Token::Foreign { .. } | Token::Fault { .. } => return None,
         };
         let bytes = line.get(range.clone())?;
-        if !line.get(covered..range.start)?.iter().all(|byte| matches!(byte, b' ' | b'\t')) {
+        if !line
+            .get(covered..range.start)?
+            .iter()
+            .all(|byte| matches!(byte, b' ' | b'\t'))
+        {
             return None;
         }
         covered = range.end;
@@ -100,9 +113,17 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
         if is_comment {
             out.push_str(text);
         } else if text.is_ascii() {
-            out.extend(text.bytes().filter(|byte| !matches!(byte, b' ' | b'\t')).map(|byte| char::from(byte.to_ascii_uppercase())));
+            out.extend(
+                text.bytes()
+                    .filter(|byte| !matches!(byte, b' ' | b'\t'))
+                    .map(|byte| char::from(byte.to_ascii_uppercase())),
+            );
         } else {
-            out.extend(text.chars().filter(|character| !matches!(character, ' ' | '\t')).map(|character| character.to_ascii_uppercase()));
+            out.extend(
+                text.chars()
+                    .filter(|character| !matches!(character, ' ' | '\t'))
+                    .map(|character| character.to_ascii_uppercase()),
+            );
         }
         // Behind a comment in brackets the next word stands apart in every form.
         may_touch = matches!(token, Token::Skip { .. });
@@ -113,7 +134,14 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
     }
     let again = tokens_of(out.as_bytes());
     let is_same = |(old, new): (&Token, &Token)| match (old, new) {
-        (Token::Word { letter, number, .. }, Token::Word { letter: again, number: its, .. }) => (letter, number) == (again, its),
+        (
+            Token::Word { letter, number, .. },
+            Token::Word {
+                letter: again,
+                number: its,
+                ..
+            },
+        ) => (letter, number) == (again, its),
         _ => meaning(old.clone(), line) == meaning(new.clone(), out.as_bytes()),
     };
     (tokens.len() == again.len() && tokens.iter().zip(&again).all(is_same)).then_some(out)
@@ -125,15 +153,62 @@ fn tokens_of(line: &[u8]) -> Vec<Token> {
     words(line, 1, |token| tokens.push(token));
     let shift = |range: Range<usize>| range.start - 1..range.end - 1;
     let unshifted = |token: Token| match token {
-        Token::Word { letter, number, range } => Token::Word { letter, number, range: shift(range) },
-        Token::Definition { letter, index, value, range } => Token::Definition { letter, index, value, range: shift(range) },
-        Token::Sum { letter, index, terms, range } => Token::Sum { letter, index, terms, range: shift(range) },
-        Token::Corner { round, number, range } => Token::Corner { round, number, range: shift(range) },
-        Token::Foreign { range } => Token::Foreign { range: shift(range) },
-        Token::Comment { range } => Token::Comment { range: shift(range) },
-        Token::Tape { range } => Token::Tape { range: shift(range) },
-        Token::Skip { range } => Token::Skip { range: shift(range) },
-        Token::Fault { fault, range } => Token::Fault { fault, range: shift(range) },
+        Token::Word {
+            letter,
+            number,
+            range,
+        } => Token::Word {
+            letter,
+            number,
+            range: shift(range),
+        },
+        Token::Definition {
+            letter,
+            index,
+            value,
+            range,
+        } => Token::Definition {
+            letter,
+            index,
+            value,
+            range: shift(range),
+        },
+        Token::Sum {
+            letter,
+            index,
+            terms,
+            range,
+        } => Token::Sum {
+            letter,
+            index,
+            terms,
+            range: shift(range),
+        },
+        Token::Corner {
+            round,
+            number,
+            range,
+        } => Token::Corner {
+            round,
+            number,
+            range: shift(range),
+        },
+        Token::Foreign { range } => Token::Foreign {
+            range: shift(range),
+        },
+        Token::Comment { range } => Token::Comment {
+            range: shift(range),
+        },
+        Token::Tape { range } => Token::Tape {
+            range: shift(range),
+        },
+        Token::Skip { range } => Token::Skip {
+            range: shift(range),
+        },
+        Token::Fault { fault, range } => Token::Fault {
+            fault,
+            range: shift(range),
+        },
     };
     tokens.into_iter().map(unshifted).collect()
 }
@@ -141,13 +216,56 @@ fn tokens_of(line: &[u8]) -> Vec<Token> {
 /// A token without its place; what a comment or a definition says is its text.
 fn meaning(token: Token, line: &[u8]) -> (Token, String) {
     let text = |range: Range<usize>| {
-        String::from_utf8_lossy(line.get(range).unwrap_or_default()).trim_end().to_ascii_uppercase().replace([' ', '\t'], "")
+        String::from_utf8_lossy(line.get(range).unwrap_or_default())
+            .trim_end()
+            .to_ascii_uppercase()
+            .replace([' ', '\t'], "")
     };
     match token {
-        Token::Word { letter, number, .. } => (Token::Word { letter, number, range: 0..0 }, String::new()),
-        Token::Definition { letter, index, value, range } => (Token::Definition { letter, index, value, range: 0..0 }, text(range)),
-        Token::Sum { letter, index, terms, range } => (Token::Sum { letter, index, terms, range: 0..0 }, text(range)),
-        Token::Corner { round, number, .. } => (Token::Corner { round, number, range: 0..0 }, String::new()),
+        Token::Word { letter, number, .. } => (
+            Token::Word {
+                letter,
+                number,
+                range: 0..0,
+            },
+            String::new(),
+        ),
+        Token::Definition {
+            letter,
+            index,
+            value,
+            range,
+        } => (
+            Token::Definition {
+                letter,
+                index,
+                value,
+                range: 0..0,
+            },
+            text(range),
+        ),
+        Token::Sum {
+            letter,
+            index,
+            terms,
+            range,
+        } => (
+            Token::Sum {
+                letter,
+                index,
+                terms,
+                range: 0..0,
+            },
+            text(range),
+        ),
+        Token::Corner { round, number, .. } => (
+            Token::Corner {
+                round,
+                number,
+                range: 0..0,
+            },
+            String::new(),
+        ),
         Token::Comment { range } => (Token::Comment { range: 0..0 }, text(range)),
         Token::Tape { .. } => (Token::Tape { range: 0..0 }, String::new()),
         Token::Skip { range } => (Token::Skip { range: 0..0 }, text(range)),
@@ -164,7 +282,10 @@ mod tests {
     fn formatted(text: &str, layout: Option<Layout>) -> String {
         let source = SourceText::new(text.as_bytes().to_vec());
         let mut result = text.to_owned();
-        for edit in format(&source, layout, 0..source.line_count()).into_iter().rev() {
+        for edit in format(&source, layout, 0..source.line_count())
+            .into_iter()
+            .rev()
+        {
             result.replace_range(edit.range, &edit.text);
         }
         result
@@ -173,15 +294,31 @@ mod tests {
     #[track_caller]
     fn check(layout: Option<Layout>, text: &str, expected: &str) {
         assert_eq!(formatted(text, layout), expected, "{layout:?} of {text}");
-        assert_eq!(formatted(expected, layout), expected, "again, {layout:?} of {text}");
+        assert_eq!(
+            formatted(expected, layout),
+            expected,
+            "again, {layout:?} of {text}"
+        );
     }
 
     #[test]
     fn words_are_parted_or_close_up_and_nothing_else_changes() {
         let text = "%\nn10 g01 x1.50  y-0\t(in ) \r\nN20G02X1Y2I0J1;\n/n30 m00\n\nm02\n";
-        check(Some(Layout::Aligned), text, "%\nN10 G01 X1.50 Y-0 (in )\r\nN20 G02 X1 Y2 I0 J1;\n/N30 M00\n\nM02\n");
-        check(Some(Layout::Compact), text, "%\nN10G01X1.50Y-0 (in )\r\nN20G02X1Y2I0J1;\n/N30M00\n\nM02\n");
-        check(None, "G01X1Y2\ng01 x5\nG01X1Y2\n", "G01X1Y2\nG01X5\nG01X1Y2\n");
+        check(
+            Some(Layout::Aligned),
+            text,
+            "%\nN10 G01 X1.50 Y-0 (in )\r\nN20 G02 X1 Y2 I0 J1;\n/N30 M00\n\nM02\n",
+        );
+        check(
+            Some(Layout::Compact),
+            text,
+            "%\nN10G01X1.50Y-0 (in )\r\nN20G02X1Y2I0J1;\n/N30M00\n\nM02\n",
+        );
+        check(
+            None,
+            "G01X1Y2\ng01 x5\nG01X1Y2\n",
+            "G01X1Y2\nG01X5\nG01X1Y2\n",
+        );
     }
 
     #[test]

@@ -32,12 +32,19 @@ pub struct Reading {
 
 impl Reading {
     pub fn rule(&self, incremental: bool) -> CenterRule {
-        if incremental { self.incremental } else { self.absolute }
+        if incremental {
+            self.incremental
+        } else {
+            self.absolute
+        }
     }
 
     /// How the program says where its moves lead.
     pub fn writing(&self) -> Writing {
-        Writing { names_places: true, slack: self.tolerance as f64 / 1e3 }
+        Writing {
+            names_places: true,
+            slack: self.tolerance as f64 / 1e3,
+        }
     }
 
     /// A length as it is written, in nm.
@@ -51,7 +58,11 @@ impl Reading {
         if scaled % divisor == 0 {
             return (scaled / divisor) as i64;
         }
-        let half = if scaled < 0 { -divisor / 2 } else { divisor / 2 };
+        let half = if scaled < 0 {
+            -divisor / 2
+        } else {
+            divisor / 2
+        };
         ((scaled + half) / divisor) as i64
     }
 }
@@ -111,17 +122,25 @@ impl Move {
 
     /// The centre under a rule, nm; `None` where I and J do not stand.
     pub fn center(&self, rule: CenterRule) -> Option<Place> {
-        let Bend::Center { i, j, absolute } = self.bend else { return None };
+        let Bend::Center { i, j, absolute } = self.bend else {
+            return None;
+        };
         Some(match rule {
-            CenterRule::StartToCenter => [self.from[0].wrapping_add(i), self.from[1].wrapping_add(j)],
-            CenterRule::CenterToStart => [self.from[0].wrapping_sub(i), self.from[1].wrapping_sub(j)],
+            CenterRule::StartToCenter => {
+                [self.from[0].wrapping_add(i), self.from[1].wrapping_add(j)]
+            }
+            CenterRule::CenterToStart => {
+                [self.from[0].wrapping_sub(i), self.from[1].wrapping_sub(j)]
+            }
             CenterRule::Absolute => absolute,
         })
     }
 
     /// By how much further the start is from the centre than the end under a rule, nm. 0 where there is no centre.
     pub fn difference(&self, rule: CenterRule) -> f64 {
-        self.center(rule).map_or(0.0, |center| distance(self.from, center) - distance(self.to, center))
+        self.center(rule).map_or(0.0, |center| {
+            distance(self.from, center) - distance(self.to, center)
+        })
     }
 
     /// Where the move runs.
@@ -134,15 +153,26 @@ impl Move {
             Bend::Nothing => Course::NoRadius,
             Bend::Radius(radius) => self.about_radius(radius, counter_clockwise, reading),
             Bend::Center { .. } => {
-                let Some(center) = self.center(reading.rule(self.incremental)) else { return Course::NoRadius };
+                let Some(center) = self.center(reading.rule(self.incremental)) else {
+                    return Course::NoRadius;
+                };
                 let (start, end) = (distance(self.from, center), distance(self.to, center));
                 if start == 0.0 || end == 0.0 {
                     return Course::NoRadius;
                 }
                 if (start - end).abs() > reading.tolerance as f64 {
-                    return Course::OffRadius { start: start / 1e3, end: end / 1e3, center: micrometres(center) };
+                    return Course::OffRadius {
+                        start: start / 1e3,
+                        end: end / 1e3,
+                        center: micrometres(center),
+                    };
                 }
-                Course::Arc(Arc::about(micrometres(center), micrometres(self.from), micrometres(self.to), counter_clockwise))
+                Course::Arc(Arc::about(
+                    micrometres(center),
+                    micrometres(self.from),
+                    micrometres(self.to),
+                    counter_clockwise,
+                ))
             }
         }
     }
@@ -157,12 +187,21 @@ impl Move {
         }
         let middle = from + chord / 2.0;
         if half - given > reading.tolerance as f64 / 1e3 {
-            return Course::OffRadius { start: given, end: half, center: middle };
+            return Course::OffRadius {
+                start: given,
+                end: half,
+                center: middle,
+            };
         }
         let height = (given * given - half * half).max(0.0).sqrt();
         let to_left = counter_clockwise != (radius < 0);
         let normal = crate::geometry::left_normal(chord) / (2.0 * half);
-        Course::Arc(Arc::about(middle + normal * if to_left { height } else { -height }, from, to, counter_clockwise))
+        Course::Arc(Arc::about(
+            middle + normal * if to_left { height } else { -height },
+            from,
+            to,
+            counter_clockwise,
+        ))
     }
 
     /// The line or arc in µm; the chord where an arc does not run.
@@ -357,7 +396,8 @@ impl Machine {
         if !block.has_coordinates() && !full_circle {
             return None;
         }
-        let length = |number: Option<Number>| number.map(|number| reading.length(number, self.inch));
+        let length =
+            |number: Option<Number>| number.map(|number| reading.length(number, self.inch));
         let from = self.at;
         let cut_short = self.cut_short.take();
         let mut to = from;
@@ -389,24 +429,42 @@ impl Machine {
                 j: j.unwrap_or(0),
                 absolute: match self.incremental {
                     true => [0, 0],
-                    false => [i.map_or(from[0], |i| self.zero[0].wrapping_add(i)), j.map_or(from[1], |j| self.zero[1].wrapping_add(j))],
+                    false => [
+                        i.map_or(from[0], |i| self.zero[0].wrapping_add(i)),
+                        j.map_or(from[1], |j| self.zero[1].wrapping_add(j)),
+                    ],
                 },
             },
         };
         let bend = if is_arc { bend } else { Bend::Nothing };
         let corner = match self.motion {
             Motion::Rapid => None,
-            Motion::Line => block.corner.or(block.r.map(|size| Corner { round: true, size })),
+            Motion::Line => block
+                .corner
+                .or(block.r.map(|size| Corner { round: true, size })),
             Motion::Clockwise | Motion::CounterClockwise => block.corner,
         };
         let (incremental, side, offset) = (self.incremental, self.side, self.offset);
-        let mut made = Move { motion: self.motion, from, to, bend, incremental, side, offset, switches, corner };
+        let mut made = Move {
+            motion: self.motion,
+            from,
+            to,
+            bend,
+            incremental,
+            side,
+            offset,
+            switches,
+            corner,
+        };
         if let Some(by) = cut_short {
             // The words of an arc count from the sharp corner.
             if let Course::Arc(arc) = made.course(reading) {
                 let center = match made.center(reading.rule(incremental)) {
                     Some(center) => center,
-                    None => [(arc.center.x * 1e3).round() as i64, (arc.center.y * 1e3).round() as i64],
+                    None => [
+                        (arc.center.x * 1e3).round() as i64,
+                        (arc.center.y * 1e3).round() as i64,
+                    ],
                 };
                 made.bend = bend_about(center, added(from, by), incremental, reading);
             }

@@ -34,8 +34,18 @@ pub struct Order {
 /// Follows the calls of a program that has some.
 pub fn order(text: &SourceText) -> Order {
     let most_lines = MOST_LINES + 2 * text.line_count();
-    let order = Order { most_lines, ..Order::default() };
-    let mut walk = Walk { text, labels: labels(text), order, left: most_lines, calls: MOST_CALLS, called: called(text) };
+    let order = Order {
+        most_lines,
+        ..Order::default()
+    };
+    let mut walk = Walk {
+        text,
+        labels: labels(text),
+        order,
+        left: most_lines,
+        calls: MOST_CALLS,
+        called: called(text),
+    };
     walk.run(0, 0, None);
     walk.order
 }
@@ -87,10 +97,13 @@ impl Walk<'_> {
             let block = read_line(&self.text.bytes()[range], 0, |_| {});
             // Another program begins: what runs into it has no end of its own.
             if let Some(own) = number.filter(|_| line > first)
-                && [block.program, block.number.filter(|number| self.called.contains(number))]
-                    .into_iter()
-                    .flatten()
-                    .any(|other| other != own)
+                && [
+                    block.program,
+                    block.number.filter(|number| self.called.contains(number)),
+                ]
+                .into_iter()
+                .flatten()
+                .any(|other| other != own)
             {
                 self.unreturned(last, own);
                 if block.program.is_some() {
@@ -105,7 +118,11 @@ impl Walk<'_> {
             if let Some(number) = block.call {
                 self.push(begun..line);
                 begun = line;
-                let times = if self.labels.contains_key(&number) { block.repeat.unwrap_or(1) } else { 1 };
+                let times = if self.labels.contains_key(&number) {
+                    block.repeat.unwrap_or(1)
+                } else {
+                    1
+                };
                 for _ in 0..times {
                     if !self.call(number, line - 1, depth) {
                         return false;
@@ -132,7 +149,10 @@ impl Walk<'_> {
 
     /// Lines that run one after another, in stretches: where they lie on themselves is looked for stretch by stretch.
     fn push(&mut self, lines: Range<usize>) {
-        let stretches = lines.clone().step_by(STRETCH).map(|first| first..(first + STRETCH).min(lines.end));
+        let stretches = lines
+            .clone()
+            .step_by(STRETCH)
+            .map(|first| first..(first + STRETCH).min(lines.end));
         self.order.lines.extend(stretches);
     }
 

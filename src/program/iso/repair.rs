@@ -73,8 +73,11 @@ pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
     let text = document.text();
     let mut found: Repairs = Vec::new();
     let mut left = MOST_RUNS;
-    let places: Vec<usize> =
-        findings.iter().filter(|finding| is_trouble(finding)).filter_map(|finding| line_of(document, finding)).collect();
+    let places: Vec<usize> = findings
+        .iter()
+        .filter(|finding| is_trouble(finding))
+        .filter_map(|finding| line_of(document, finding))
+        .collect();
     for &line in &places {
         if found.iter().any(|(lines, _)| lines.contains(&line)) {
             continue;
@@ -82,9 +85,17 @@ pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
         if found.len() == MOST_CUTS || left == 0 {
             break;
         }
-        let Some(lines) = cut_around(document, line) else { continue };
-        let Some(before) = document.machine_before(lines.start) else { continue };
-        let own: Vec<usize> = places.iter().copied().filter(|line| lines.contains(line)).collect();
+        let Some(lines) = cut_around(document, line) else {
+            continue;
+        };
+        let Some(before) = document.machine_before(lines.start) else {
+            continue;
+        };
+        let own: Vec<usize> = places
+            .iter()
+            .copied()
+            .filter(|line| lines.contains(line))
+            .collect();
         // So much does not come of one slip.
         let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
         if own.len() > MOST_TROUBLES || lines.clone().any(is_long) {
@@ -96,14 +107,21 @@ pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
         left = search.left;
         found.push((lines, repairs));
     }
-    debug_assert!(found.iter().flat_map(|(_, repairs)| repairs).all(|repair| repair.line < text.line_count()));
+    debug_assert!(
+        found
+            .iter()
+            .flat_map(|(_, repairs)| repairs)
+            .all(|repair| repair.line < text.line_count())
+    );
     found
 }
 
 /// What one slip may stand behind.
 pub fn is_trouble(finding: &Finding) -> bool {
     match finding.rule {
-        Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => finding.severity <= Severity::Warning,
+        Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => {
+            finding.severity <= Severity::Warning
+        }
         Rule::ArcOffRadius
         | Rule::ArcWithoutRadius
         | Rule::PathCrossesItself
@@ -111,7 +129,10 @@ pub fn is_trouble(finding: &Finding) -> bool {
         | Rule::CenterOnLine
         | Rule::WordTwice
         | Rule::Spur => true,
-        Rule::DoubledBlock => !matches!(finding.detail, Detail::Iso(IsoFault::DoubledBlock { arc: false })),
+        Rule::DoubledBlock => !matches!(
+            finding.detail,
+            Detail::Iso(IsoFault::DoubledBlock { arc: false })
+        ),
         _ => false,
     }
 }
@@ -126,7 +147,10 @@ pub fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
 /// The lines between the stops around a line; `None` where there are too many.
 fn cut_around(document: &Document, line: usize) -> Option<Range<usize>> {
     let is_stop = |line: usize| document.block(line).stop.is_some();
-    let first = (line.saturating_sub(LONGEST)..line).rev().find(|line| is_stop(*line)).map_or(0, |stop| stop + 1);
+    let first = (line.saturating_sub(LONGEST)..line)
+        .rev()
+        .find(|line| is_stop(*line))
+        .map_or(0, |stop| stop + 1);
     let end = (line..document.text().line_count().min(line + LONGEST))
         .find(|line| is_stop(*line))
         .map_or(document.text().line_count(), |stop| stop + 1);
@@ -150,11 +174,25 @@ struct Tried {
 }
 
 impl<'a> Search<'a> {
-    fn new(document: &'a Document, lines: Range<usize>, before: Machine, left: usize) -> Search<'a> {
-        let own: Vec<Line> = lines.clone().map(|line| Line::read(document.line_bytes(line), document)).collect();
+    fn new(
+        document: &'a Document,
+        lines: Range<usize>,
+        before: Machine,
+        left: usize,
+    ) -> Search<'a> {
+        let own: Vec<Line> = lines
+            .clone()
+            .map(|line| Line::read(document.line_bytes(line), document))
+            .collect();
         let pool = Pool::of(document, &own);
         let way = Way::new(document.reading(), own, before);
-        Search { document, lines, way, pool, left }
+        Search {
+            document,
+            lines,
+            way,
+            pool,
+            left,
+        }
     }
 
     /// The best repairs; `places` are the lines at which something is said.
@@ -165,8 +203,16 @@ impl<'a> Search<'a> {
         let mut finalists: Vec<Tried> = Vec::new();
         let is_long = self.lines.len() > MOST_LINES;
         // Those near what is wrong come first.
-        let apart = |index: usize| places.iter().map(|place| place.abs_diff(self.lines.start + index)).min().unwrap_or(0);
-        let mut order: Vec<usize> = (0..self.lines.len()).filter(|index| !is_long || apart(*index) <= NEAR).collect();
+        let apart = |index: usize| {
+            places
+                .iter()
+                .map(|place| place.abs_diff(self.lines.start + index))
+                .min()
+                .unwrap_or(0)
+        };
+        let mut order: Vec<usize> = (0..self.lines.len())
+            .filter(|index| !is_long || apart(*index) <= NEAR)
+            .collect();
         order.sort_by_key(|index| apart(*index));
         for index in order {
             let changes = change::of_line(self.document, &self.way, &self.pool, &self.lines, index);
@@ -174,13 +220,26 @@ impl<'a> Search<'a> {
                 if self.left == 0 {
                     break;
                 }
-                let lines: Vec<Line> = change.lines.iter().map(|bytes| Line::read(bytes, self.document)).collect();
+                let lines: Vec<Line> = change
+                    .lines
+                    .iter()
+                    .map(|bytes| Line::read(bytes, self.document))
+                    .collect();
                 let (scan, runs) = self.way.with(index, change.replaced, &lines);
                 self.left = self.left.saturating_sub(runs + 1);
                 let cost = scan.soft + change.prior;
-                let is_better = scan.hard < hard || (scan.hard == hard && hard == 0 && cost + CLEAR < soft);
+                let is_better =
+                    scan.hard < hard || (scan.hard == hard && hard == 0 && cost + CLEAR < soft);
                 if is_better {
-                    keep(&mut finalists, Tried { change, hard: scan.hard, beside: scan.beside, cost });
+                    keep(
+                        &mut finalists,
+                        Tried {
+                            change,
+                            hard: scan.hard,
+                            beside: scan.beside,
+                            cost,
+                        },
+                    );
                 }
             }
         }
@@ -192,8 +251,15 @@ impl<'a> Search<'a> {
         let mut seen: Vec<u64> = Vec::new();
         let mut different: Vec<Tried> = Vec::new();
         for tried in finalists {
-            let lines: Vec<Line> = tried.change.lines.iter().map(|bytes| Line::read(bytes, self.document)).collect();
-            let mark = self.way.mark_with(tried.change.index, tried.change.replaced, &lines);
+            let lines: Vec<Line> = tried
+                .change
+                .lines
+                .iter()
+                .map(|bytes| Line::read(bytes, self.document))
+                .collect();
+            let mark = self
+                .way
+                .mark_with(tried.change.index, tried.change.replaced, &lines);
             if !seen.contains(&mark) {
                 seen.push(mark);
                 different.push(tried);
@@ -205,11 +271,26 @@ impl<'a> Search<'a> {
             [first, second, ..] => first.hard < second.hard || first.cost + CLEAR <= second.cost,
         };
         let repair = |(rank, tried): (usize, Tried)| {
-            let is_sure = rank == 0 && tried.hard == 0 && tried.beside == 0 && tried.change.is_a_slip && is_clear && total.hard > 0;
+            let is_sure = rank == 0
+                && tried.hard == 0
+                && tried.beside == 0
+                && tried.change.is_a_slip
+                && is_clear
+                && total.hard > 0;
             let repair = tried.change.into_repair(self.document, self.lines.start)?;
-            Some(Repair { closes: total.open > 0, is_sure, explains: total.hard > 0, ..repair })
+            Some(Repair {
+                closes: total.open > 0,
+                is_sure,
+                explains: total.hard > 0,
+                ..repair
+            })
         };
-        different.into_iter().take(OFFERED).enumerate().filter_map(repair).collect()
+        different
+            .into_iter()
+            .take(OFFERED)
+            .enumerate()
+            .filter_map(repair)
+            .collect()
     }
 }
 

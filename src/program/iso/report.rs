@@ -9,7 +9,9 @@ use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
 use super::stretch::{Definition, Fault, Run, RunSide, Stretch, Tight};
 use super::word::{Token, Value, WordFault, words};
-use crate::finding::{Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius};
+use crate::finding::{
+    Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
+};
 use crate::geometry::{Arc, cross};
 use crate::program::closing::tolerance;
 use crate::settings::{Compensation, SideSetting};
@@ -51,18 +53,43 @@ pub(super) fn findings(document: &Document) -> Vec<Finding> {
 
 /// The blocks of which one slip may be all that is wrong, where nothing is said at their place yet.
 fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
-    let is_said = |line: usize| findings.iter().any(|finding| is_trouble(finding) && line_of(document, finding) == Some(line));
+    let is_said = |line: usize| {
+        findings
+            .iter()
+            .any(|finding| is_trouble(finding) && line_of(document, finding) == Some(line))
+    };
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
     let repairs: Vec<Repair> = document.repairs().iter().filter_map(first).collect();
     let suspect = |repair: Repair| {
         let range = document.text().line_range(repair.line);
-        let words = super::stretch::words_of(document.text().bytes().get(range.clone())?, range.start);
-        let fault = IsoFault::Suspect { found: repair.found, meant: repair.meant, closes: repair.closes };
-        let severity = if repair.is_sure { Rule::SuspectBlock.default_severity() } else { Severity::Information };
-        let place = Place::Text { range: words.0 as usize..words.1 as usize };
-        Some(Finding { rule: Rule::SuspectBlock, severity, place, detail: Detail::Iso(fault), related: Vec::new() })
+        let words =
+            super::stretch::words_of(document.text().bytes().get(range.clone())?, range.start);
+        let fault = IsoFault::Suspect {
+            found: repair.found,
+            meant: repair.meant,
+            closes: repair.closes,
+        };
+        let severity = if repair.is_sure {
+            Rule::SuspectBlock.default_severity()
+        } else {
+            Severity::Information
+        };
+        let place = Place::Text {
+            range: words.0 as usize..words.1 as usize,
+        };
+        Some(Finding {
+            rule: Rule::SuspectBlock,
+            severity,
+            place,
+            detail: Detail::Iso(fault),
+            related: Vec::new(),
+        })
     };
-    repairs.into_iter().filter(|repair| repair.explains && !is_said(repair.line)).filter_map(suspect).collect()
+    repairs
+        .into_iter()
+        .filter(|repair| repair.explains && !is_said(repair.line))
+        .filter_map(suspect)
+        .collect()
 }
 
 /// By place.
@@ -94,7 +121,9 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
         }
     }
     report.follow();
-    report.findings.extend(document.crossings().findings(document));
+    report
+        .findings
+        .extend(document.crossings().findings(document));
     report.definitions();
     report.bare_numbers();
     report.odd_places();
@@ -120,7 +149,11 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
 /// What a program puts into the control's table.
 pub(super) fn table(document: &Document) -> Table {
     let mut table = Table::default();
-    for definition in document.stretches().iter().flat_map(|stretch| &stretch.definitions) {
+    for definition in document
+        .stretches()
+        .iter()
+        .flat_map(|stretch| &stretch.definitions)
+    {
         match value(&table, definition, document.reading()) {
             Some(value) => _ = table.insert(definition.offset, value),
             None => _ = table.remove(&definition.offset),
@@ -136,15 +169,25 @@ fn value(table: &Table, definition: &Definition, reading: &Reading) -> Option<i6
             Value::Number(number) => reading.length(number, definition.inch),
             Value::Place { letter, index } => *table.get(&Offset { letter, index })?,
         };
-        Some(if term.is_negative { sum.wrapping_sub(value) } else { sum.wrapping_add(value) })
+        Some(if term.is_negative {
+            sum.wrapping_sub(value)
+        } else {
+            sum.wrapping_add(value)
+        })
     })
 }
 
 /// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
 pub(super) fn quiet(document: &Document) -> Vec<usize> {
     let mut report = Report::new(document);
-    let not_known = document.placed().enumerate().filter(|(_, placed)| !placed.stretch.is_quiet);
-    not_known.filter(|(index, placed)| report.is_quiet(placed, *index)).map(|(index, _)| index).collect()
+    let not_known = document
+        .placed()
+        .enumerate()
+        .filter(|(_, placed)| !placed.stretch.is_quiet);
+    not_known
+        .filter(|(index, placed)| report.is_quiet(placed, *index))
+        .map(|(index, _)| index)
+        .collect()
 }
 
 struct Report<'a> {
@@ -193,7 +236,13 @@ impl<'a> Report<'a> {
     }
 
     fn push(&mut self, rule: Rule, severity: Severity, range: Range<usize>, detail: Detail) {
-        self.findings.push(Finding { rule, severity, place: Place::Text { range }, detail, related: Vec::new() });
+        self.findings.push(Finding {
+            rule,
+            severity,
+            place: Place::Text { range },
+            detail,
+            related: Vec::new(),
+        });
     }
 
     fn line_faults(&mut self, stretch: &Stretch, offset: usize) {
@@ -201,18 +250,38 @@ impl<'a> Report<'a> {
             let range = at(offset, (found.range.start, found.range.end));
             match found.fault {
                 Fault::Word(WordFault::TooManyDigits { .. }) | Fault::Word(_) => {
-                    let Fault::Word(fault) = found.fault else { continue };
+                    let Fault::Word(fault) = found.fault else {
+                        continue;
+                    };
                     let sentence = word_sentence(self.text, fault, &range);
                     let rule = Rule::Syntax;
                     let mild = matches!(fault, WordFault::OpenComment);
-                    let severity = if mild { Severity::Warning } else { rule.default_severity() };
+                    let severity = if mild {
+                        Severity::Warning
+                    } else {
+                        rule.default_severity()
+                    };
                     self.push(rule, severity, range, Detail::Syntax(sentence));
                 }
-                Fault::OffRadius { start, end } => self.add(Rule::ArcOffRadius, range, IsoFault::OffRadius { start, end }),
+                Fault::OffRadius { start, end } => self.add(
+                    Rule::ArcOffRadius,
+                    range,
+                    IsoFault::OffRadius { start, end },
+                ),
                 Fault::NoRadius => self.add(Rule::ArcWithoutRadius, range, IsoFault::NoRadius),
-                Fault::Switch { on, arc } => self.add(Rule::CompensationSwitch, range, IsoFault::Switch { on, arc }),
+                Fault::Switch { on, arc } => self.add(
+                    Rule::CompensationSwitch,
+                    range,
+                    IsoFault::Switch { on, arc },
+                ),
                 Fault::CenterOnLine => self.add(Rule::CenterOnLine, range, IsoFault::CenterOnLine),
-                Fault::WordTwice { letter } => self.add(Rule::WordTwice, range, IsoFault::WordTwice { letter: letter as char }),
+                Fault::WordTwice { letter } => self.add(
+                    Rule::WordTwice,
+                    range,
+                    IsoFault::WordTwice {
+                        letter: letter as char,
+                    },
+                ),
                 Fault::NoOffset => {
                     let range = self.switch_range(range.start);
                     let side = match self.text.bytes().get(range.clone()) {
@@ -223,13 +292,31 @@ impl<'a> Report<'a> {
                 }
                 Fault::StillOn => self.add(Rule::MissingCancel, range, IsoFault::StillOn),
                 Fault::ReversedArc { is_sure } => {
-                    let severity = if is_sure { Rule::ReversedArc.default_severity() } else { Severity::Warning };
-                    self.push(Rule::ReversedArc, severity, range, Detail::Iso(IsoFault::ReversedArc { is_sure }));
+                    let severity = if is_sure {
+                        Rule::ReversedArc.default_severity()
+                    } else {
+                        Severity::Warning
+                    };
+                    self.push(
+                        Rule::ReversedArc,
+                        severity,
+                        range,
+                        Detail::Iso(IsoFault::ReversedArc { is_sure }),
+                    );
                 }
                 Fault::Spur { length } => self.add(Rule::Spur, range, IsoFault::Spur { length }),
                 Fault::DoubledBlock { arc } => {
-                    let severity = if arc { Severity::Error } else { Rule::DoubledBlock.default_severity() };
-                    self.push(Rule::DoubledBlock, severity, range, Detail::Iso(IsoFault::DoubledBlock { arc }));
+                    let severity = if arc {
+                        Severity::Error
+                    } else {
+                        Rule::DoubledBlock.default_severity()
+                    };
+                    self.push(
+                        Rule::DoubledBlock,
+                        severity,
+                        range,
+                        Detail::Iso(IsoFault::DoubledBlock { arc }),
+                    );
                 }
                 Fault::NoCorner => self.add(Rule::CornerWord, range, IsoFault::NoCorner),
             }
@@ -240,14 +327,19 @@ impl<'a> Report<'a> {
     fn note(&mut self, stretch: &Stretch, offset: usize) {
         self.moves = self.moves.saturating_add(stretch.moves);
         for word in &stretch.foreign {
-            let known = self.foreign.entry(word.code).or_insert_with(|| (at(offset, word.range), 0));
+            let known = self
+                .foreign
+                .entry(word.code)
+                .or_insert_with(|| (at(offset, word.range), 0));
             known.1 += word.count as usize;
         }
     }
 
     /// False where a part of the program was not run, since it would have been too much.
     fn is_whole(&self) -> bool {
-        self.document.order().is_none_or(|order| order.left_out.is_none())
+        self.document
+            .order()
+            .is_none_or(|order| order.left_out.is_none())
     }
 
     /// Judges the cuts, each with what goes on behind the stop at its tab.
@@ -276,13 +368,27 @@ impl<'a> Report<'a> {
     fn tight_of(&self, cut: &Cut) -> Vec<(Tight, Range<usize>)> {
         let mut found = Vec::new();
         for part in &cut.parts {
-            let Some(stretch) = self.document.stretches().get(part.stretch) else { continue };
+            let Some(stretch) = self.document.stretches().get(part.stretch) else {
+                continue;
+            };
             // Most programs have no arc as tight as any correction.
             let is_offset_only = self.limits.compensation == Compensation::Path;
-            let tightest = stretch.tightest.offset.min(if is_offset_only { f64::INFINITY } else { stretch.tightest.plain });
-            let may_be_tight = |tight: &Tight| tight.radius < self.tight_below && (tight.arc.side.is_some() || !is_offset_only);
-            let tight = (tightest < self.tight_below).then(|| stretch.tight_of(part.run).filter(may_be_tight));
-            found.extend(tight.into_iter().flatten().map(|tight| (tight, at(part.offset, tight.range))));
+            let tightest = stretch.tightest.offset.min(if is_offset_only {
+                f64::INFINITY
+            } else {
+                stretch.tightest.plain
+            });
+            let may_be_tight = |tight: &Tight| {
+                tight.radius < self.tight_below && (tight.arc.side.is_some() || !is_offset_only)
+            };
+            let tight = (tightest < self.tight_below)
+                .then(|| stretch.tight_of(part.run).filter(may_be_tight));
+            found.extend(
+                tight
+                    .into_iter()
+                    .flatten()
+                    .map(|tight| (tight, at(part.offset, tight.range))),
+            );
         }
         found
     }
@@ -310,11 +416,24 @@ impl<'a> Report<'a> {
         let closed = self.closed(cut);
         if let (Err(distance), true) = (closed, run.whole) {
             let fragment = run.moves < FEWEST_MOVES;
-            let severity = if fragment { Severity::Information } else { Rule::NotClosed.default_severity() };
-            self.push(Rule::NotClosed, severity, cut.last_range.clone(), Detail::Iso(IsoFault::NotClosed { distance }));
+            let severity = if fragment {
+                Severity::Information
+            } else {
+                Rule::NotClosed.default_severity()
+            };
+            self.push(
+                Rule::NotClosed,
+                severity,
+                cut.last_range.clone(),
+                Detail::Iso(IsoFault::NotClosed { distance }),
+            );
         }
         // Contours that are only a line there and back have no inside.
-        let orientation = if closed.is_ok() && run.twice_area.unsigned_abs() > 2_000_000 { run.twice_area.signum() } else { 0 };
+        let orientation = if closed.is_ok() && run.twice_area.unsigned_abs() > 2_000_000 {
+            run.twice_area.signum()
+        } else {
+            0
+        };
         let side = match run.side {
             RunSide::One(side) if run.moves >= FEWEST_MOVES && orientation != 0 => Some(side),
             _ => None,
@@ -328,15 +447,30 @@ impl<'a> Report<'a> {
             };
             let range = || self.switch_range(cut.range.start);
             if is_wrong {
-                self.add(Rule::WrongSide, range(), IsoFault::RoleSide { side, punch: !inside });
+                self.add(
+                    Rule::WrongSide,
+                    range(),
+                    IsoFault::RoleSide {
+                        side,
+                        punch: !inside,
+                    },
+                );
             } else if self.side_of_entry(run).is_some_and(|entry| entry != side) {
-                self.push(Rule::WrongSide, Severity::Warning, range(), Detail::Iso(IsoFault::EntrySide { side }));
+                self.push(
+                    Rule::WrongSide,
+                    Severity::Warning,
+                    range(),
+                    Detail::Iso(IsoFault::EntrySide { side }),
+                );
             }
         }
         if let Some((place, range)) = &cut.flip {
             // The next pass, back along the same contour, has the wire on its other side.
             let begins = [run.first[0].from, run.first[0].to];
-            if !begins.iter().any(|begin| distance(*begin, *place) / 1e3 <= cut.tolerance(self.document)) {
+            if !begins
+                .iter()
+                .any(|begin| distance(*begin, *place) / 1e3 <= cut.tolerance(self.document))
+            {
                 self.side_change(range.clone());
             }
         }
@@ -346,7 +480,16 @@ impl<'a> Report<'a> {
     /// G41 that becomes G42 within a cut, at the word that does so.
     fn side_change(&mut self, line: Range<usize>) {
         let range = self.switch_range(line.start);
-        let side = if self.text.bytes().get(range.clone()).is_some_and(|word| word.ends_with(b"42")) { Side::Right } else { Side::Left };
+        let side = if self
+            .text
+            .bytes()
+            .get(range.clone())
+            .is_some_and(|word| word.ends_with(b"42"))
+        {
+            Side::Right
+        } else {
+            Side::Left
+        };
         self.add(Rule::SideChange, range, IsoFault::SideChange { side });
     }
 
@@ -358,9 +501,13 @@ impl<'a> Report<'a> {
         let run = &cut.run;
         let begins: [Spot; 2] = [run.first[0].from, run.first[0].to];
         let ends: [Spot; 2] = [run.last[1].to, run.last[0].to];
-        let pairs = begins.iter().flat_map(|&begin| ends.iter().map(move |&end| distance(begin, end) / 1e3));
+        let pairs = begins
+            .iter()
+            .flat_map(|&begin| ends.iter().map(move |&end| distance(begin, end) / 1e3));
         // The end of the way in and that of the way out are the same place in a cut of two moves.
-        Err(pairs.take(if run.moves > 2 { 4 } else { 1 }).fold(f64::INFINITY, f64::min))
+        Err(pairs
+            .take(if run.moves > 2 { 4 } else { 1 })
+            .fold(f64::INFINITY, f64::min))
     }
 
     /// The side of the contour from which the way in comes, told by the contour's directions where it begins and ends; `None` where they
@@ -372,7 +519,10 @@ impl<'a> Report<'a> {
         }
         let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= tolerance(run.arcs as usize);
         let last = run.last.iter().rev().find(|step| near(step.to))?;
-        let ahead = run.first[1].at_origin().segment(self.reading).start_tangent();
+        let ahead = run.first[1]
+            .at_origin()
+            .segment(self.reading)
+            .start_tangent();
         let behind = last.at_origin().segment(self.reading).end_tangent();
         let way = micrometres(apart(lead.from, lead.to)).coords;
         // A way in along the contour says nothing.
@@ -392,9 +542,11 @@ impl<'a> Report<'a> {
         let line = self.text.line_of(start);
         for line in (line.saturating_sub(SWITCH_REACH)..=line).rev() {
             let range = self.text.line_range(line);
-            let found = word_range(&self.text.bytes()[range.clone()], range.start, |letter, number| {
-                letter == b'G' && matches!(number.whole(), Some(41 | 42))
-            });
+            let found = word_range(
+                &self.text.bytes()[range.clone()],
+                range.start,
+                |letter, number| letter == b'G' && matches!(number.whole(), Some(41 | 42)),
+            );
             if let Some(found) = found {
                 return found;
             }
@@ -405,8 +557,18 @@ impl<'a> Report<'a> {
 
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
     fn tight_arcs(&mut self, cut: &Cut, orientation: i128) {
-        for (Tight { arc: step, radius, .. }, range) in &self.tight_of(cut) {
-            let side_of_center = if step.motion == Motion::CounterClockwise { Side::Left } else { Side::Right };
+        for (
+            Tight {
+                arc: step, radius, ..
+            },
+            range,
+        ) in &self.tight_of(cut)
+        {
+            let side_of_center = if step.motion == Motion::CounterClockwise {
+                Side::Left
+            } else {
+                Side::Right
+            };
             let wire_side = match step.side {
                 Some(side) => side,
                 None if self.limits.compensation == Compensation::Path => continue,
@@ -433,14 +595,19 @@ impl<'a> Report<'a> {
 
     /// The largest correction that a move may have, µm.
     fn largest_correction(&self) -> f64 {
-        let stated = self.definitions.values().map(|&value| (value as f64 / 1e3).abs());
+        let stated = self
+            .definitions
+            .values()
+            .map(|&value| (value as f64 / 1e3).abs());
         stated.fold(self.limits.correction * 1e3, f64::max)
     }
 
     /// The correction of a move in µm: what the program's own table says, else the settings.
     fn correction(&self, step: &Move) -> f64 {
         let stated = step.offset.and_then(|offset| self.definitions.get(&offset));
-        stated.map_or(self.limits.correction * 1e3, |&value| (value as f64 / 1e3).abs())
+        stated.map_or(self.limits.correction * 1e3, |&value| {
+            (value as f64 / 1e3).abs()
+        })
     }
 
     fn foreign_words(&mut self) {
@@ -450,14 +617,21 @@ impl<'a> Report<'a> {
         words.sort_by_key(|(range, _)| range.start);
         for (range, count) in words {
             let word: String = self.shown(&range);
-            self.add(Rule::MachineDependent, range, IsoFault::Foreign { word, count });
+            self.add(
+                Rule::MachineDependent,
+                range,
+                IsoFault::Foreign { word, count },
+            );
         }
     }
 
     /// The beginning of some bytes of the text.
     fn shown(&self, range: &Range<usize>) -> String {
         let bytes = self.text.bytes().get(range.clone()).unwrap_or_default();
-        String::from_utf8_lossy(&bytes[..bytes.len().min(48)]).chars().take(12).collect()
+        String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
+            .chars()
+            .take(12)
+            .collect()
     }
 
     /// Numbers that stand twice, and blocks that lack the one that the others skip.
@@ -468,7 +642,10 @@ impl<'a> Report<'a> {
         for placed in self.document.placed() {
             blocks += placed.stretch.blocks as usize;
             numbers += placed.stretch.numbers.len();
-            let ends = (placed.stretch.numbers.first(), placed.stretch.numbers.last());
+            let ends = (
+                placed.stretch.numbers.first(),
+                placed.stretch.numbers.last(),
+            );
             if let (Some((first, _)), Some((end, _))) = ends {
                 rising &= placed.stretch.numbers_rise && last.is_none_or(|last| *first > last);
                 last = Some(*end);
@@ -488,8 +665,13 @@ impl<'a> Report<'a> {
             if (placed.stretch.numbers.len() as u32) < placed.stretch.blocks {
                 for (line, expected) in self.document.lacking_numbers(&placed) {
                     let range = self.text.line_range(line);
-                    let words = super::stretch::words_of(&self.text.bytes()[range.clone()], range.start);
-                    self.add(Rule::BlockNumber, words.0 as usize..words.1 as usize, IsoFault::Unnumbered { expected });
+                    let words =
+                        super::stretch::words_of(&self.text.bytes()[range.clone()], range.start);
+                    self.add(
+                        Rule::BlockNumber,
+                        words.0 as usize..words.1 as usize,
+                        IsoFault::Unnumbered { expected },
+                    );
                 }
             }
         }
@@ -501,14 +683,22 @@ impl<'a> Report<'a> {
             let mut programs = placed.stretch.programs.iter().peekable();
             for (index, &(number, place)) in placed.stretch.numbers.iter().enumerate() {
                 // Another program counts for itself.
-                while programs.next_if(|before| **before as usize <= index).is_some() {
+                while programs
+                    .next_if(|before| **before as usize <= index)
+                    .is_some()
+                {
                     seen.clear();
                 }
                 let start = placed.offset + place as usize;
                 if *seen.entry(number).or_insert(start) != start {
                     let line = self.text.line_of(start);
                     let range = self.text.line_range(line);
-                    let word = word_range(&self.text.bytes()[range.clone()], range.start, |letter, _| letter == b'N').unwrap_or(range);
+                    let word = word_range(
+                        &self.text.bytes()[range.clone()],
+                        range.start,
+                        |letter, _| letter == b'N',
+                    )
+                    .unwrap_or(range);
                     self.add(Rule::BlockNumber, word, IsoFault::NumberTwice { number });
                 }
             }
@@ -519,9 +709,15 @@ impl<'a> Report<'a> {
     }
 
     fn calls(&mut self) {
-        let Some(order) = self.document.order() else { return };
+        let Some(order) = self.document.order() else {
+            return;
+        };
         for &(line, number) in &order.missing {
-            self.add(Rule::MachineDependent, self.text.line_range(line), IsoFault::NoSubprogram { number });
+            self.add(
+                Rule::MachineDependent,
+                self.text.line_range(line),
+                IsoFault::NoSubprogram { number },
+            );
         }
         for &(line, number) in &order.unreturned {
             let range = self.words_of(line);
@@ -529,17 +725,33 @@ impl<'a> Report<'a> {
         }
         if let Some(line) = order.endless {
             let range = self.text.line_range(line);
-            self.push(Rule::MachineDependent, Severity::Warning, range, Detail::Iso(IsoFault::EndlessCalls));
+            self.push(
+                Rule::MachineDependent,
+                Severity::Warning,
+                range,
+                Detail::Iso(IsoFault::EndlessCalls),
+            );
         }
         if let Some(line) = order.left_out {
-            let what = NotJudged::Calls { lines: order.most_lines, calls: MOST_CALLS };
-            self.push(Rule::NotJudged, Rule::NotJudged.default_severity(), self.text.line_range(line), Detail::NotJudged(what));
+            let what = NotJudged::Calls {
+                lines: order.most_lines,
+                calls: MOST_CALLS,
+            };
+            self.push(
+                Rule::NotJudged,
+                Rule::NotJudged.default_severity(),
+                self.text.line_range(line),
+                Detail::NotJudged(what),
+            );
         }
     }
 
     fn words_of(&self, line: usize) -> Range<usize> {
         let range = self.text.line_range(line);
-        let words = super::stretch::words_of(self.text.bytes().get(range.clone()).unwrap_or_default(), range.start);
+        let words = super::stretch::words_of(
+            self.text.bytes().get(range.clone()).unwrap_or_default(),
+            range.start,
+        );
         words.0 as usize..words.1 as usize
     }
 
@@ -554,7 +766,11 @@ impl<'a> Report<'a> {
                         table.remove(&definition.offset);
                         let range = at(placed.offset, definition.range);
                         let word = self.shown(&range);
-                        self.add(Rule::MachineDependent, range, IsoFault::UnknownValue { word });
+                        self.add(
+                            Rule::MachineDependent,
+                            range,
+                            IsoFault::UnknownValue { word },
+                        );
                     }
                 }
             }
@@ -565,7 +781,11 @@ impl<'a> Report<'a> {
     fn bare_numbers(&mut self) {
         let evidence = self.document.evidence();
         let usual = evidence.pointed();
-        let count = if usual == Some(false) { evidence.with_point } else { evidence.bare };
+        let count = if usual == Some(false) {
+            evidence.with_point
+        } else {
+            evidence.bare
+        };
         if evidence.with_point == 0 || count == 0 {
             return;
         }
@@ -575,22 +795,33 @@ impl<'a> Report<'a> {
             let own = placed.stretch.lengths[odd].clone();
             own.into_iter().map(move |range| at(placed.offset, range))
         });
-        let places: Vec<Range<usize>> = places.take(if is_few { FEW_BARE as usize } else { 1 }).collect();
+        let places: Vec<Range<usize>> = places
+            .take(if is_few { FEW_BARE as usize } else { 1 })
+            .collect();
         for range in places {
             let word = self.shown(&range);
             let fault = match usual {
                 Some(false) => IsoFault::Pointed { word },
                 Some(true) => IsoFault::Bare { word, count: 1 },
-                None => IsoFault::Bare { word, count: count as usize },
+                None => IsoFault::Bare {
+                    word,
+                    count: count as usize,
+                },
             };
-            let severity = if is_few { Rule::MixedNumbers.default_severity() } else { Severity::Information };
+            let severity = if is_few {
+                Rule::MixedNumbers.default_severity()
+            } else {
+                Severity::Information
+            };
             self.push(Rule::MixedNumbers, severity, range, Detail::Iso(fault));
         }
     }
 
     /// The one or two numbers that have other decimals than all the others.
     fn odd_places(&mut self) {
-        let Some((usual, odd)) = self.document.usual_places().filter(|(_, odd)| *odd > 0) else { return };
+        let Some((usual, odd)) = self.document.usual_places().filter(|(_, odd)| *odd > 0) else {
+            return;
+        };
         let mut found = Vec::new();
         for placed in self.document.placed() {
             let own = &placed.stretch.evidence.places;
@@ -599,15 +830,23 @@ impl<'a> Report<'a> {
             }
             for line in placed.first_line..placed.first_line + placed.stretch.lines as usize {
                 let range = self.text.line_range(line);
-                words(&self.text.bytes()[range.clone()], range.start.max(1), |token| {
-                    if let Token::Word { letter: b'X' | b'Y' | b'I' | b'J' | b'R', number, range: word } = token
-                        && number.point
-                        && number.decimals != usual
-                    {
-                        let by = range.start.max(1) - range.start;
-                        found.push(word.start - by..word.end - by);
-                    }
-                });
+                words(
+                    &self.text.bytes()[range.clone()],
+                    range.start.max(1),
+                    |token| {
+                        if let Token::Word {
+                            letter: b'X' | b'Y' | b'I' | b'J' | b'R',
+                            number,
+                            range: word,
+                        } = token
+                            && number.point
+                            && number.decimals != usual
+                        {
+                            let by = range.start.max(1) - range.start;
+                            found.push(word.start - by..word.end - by);
+                        }
+                    },
+                );
             }
         }
         for range in found.into_iter().take(odd as usize) {
@@ -622,17 +861,33 @@ impl<'a> Report<'a> {
         if evidence.says_unit || evidence.with_point == 0 || self.limits.has_unit {
             return;
         }
-        let sizes = self.document.stretches().iter().flat_map(|stretch| &stretch.paths).map(|path| path.bounds);
-        let size = sizes.filter(|bounds| !bounds.is_empty()).map(|bounds| (bounds.max - bounds.min).amax() / 1e3).fold(0.0, f64::max);
+        let sizes = self
+            .document
+            .stretches()
+            .iter()
+            .flat_map(|stretch| &stretch.paths)
+            .map(|path| path.bounds);
+        let size = sizes
+            .filter(|bounds| !bounds.is_empty())
+            .map(|bounds| (bounds.max - bounds.min).amax() / 1e3)
+            .fold(0.0, f64::max);
         // No wire is as thin as the corrections that the program fills in, or its numbers are as fine as those in inches are.
-        let has_thin_wire = self.definitions.values().any(|value| (1..THINNEST).contains(&value.abs()));
+        let has_thin_wire = self
+            .definitions
+            .values()
+            .any(|value| (1..THINNEST).contains(&value.abs()));
         let has_fine_numbers = evidence.fine * 4 >= evidence.with_point;
         let is_small = size < SMALLEST_PART || (has_fine_numbers && size < SMALL_PART);
         if size > 0.0
             && (is_small || (has_thin_wire && size < LARGE_PART))
             && let Some(range) = self.first_length()
         {
-            self.push(Rule::Units, Severity::Hint, range, Detail::Iso(IsoFault::LooksLikeInches { size }));
+            self.push(
+                Rule::Units,
+                Severity::Hint,
+                range,
+                Detail::Iso(IsoFault::LooksLikeInches { size }),
+            );
         }
     }
 
@@ -640,21 +895,36 @@ impl<'a> Report<'a> {
     fn first_length(&self) -> Option<Range<usize>> {
         let has_length = |line: &usize| {
             let block = read_line(&self.text.bytes()[self.text.line_range(*line)], 1, |_| {});
-            [block.x, block.y].into_iter().flatten().any(|number| number.mantissa != 0)
+            [block.x, block.y]
+                .into_iter()
+                .flatten()
+                .any(|number| number.mantissa != 0)
         };
-        (0..self.text.line_count()).find(has_length).map(|line| self.words_of(line))
+        (0..self.text.line_count())
+            .find(has_length)
+            .map(|line| self.words_of(line))
     }
 
     /// The first I or J of the text.
     fn first_center(&self) -> Option<Range<usize>> {
         for placed in self.document.placed() {
-            let has_arcs = placed.stretch.evidence.absolute.all + placed.stretch.evidence.incremental.all > 0;
-            for line in placed.first_line..placed.first_line + if has_arcs { placed.stretch.lines as usize } else { 0 } {
+            let has_arcs =
+                placed.stretch.evidence.absolute.all + placed.stretch.evidence.incremental.all > 0;
+            for line in placed.first_line
+                ..placed.first_line
+                    + if has_arcs {
+                        placed.stretch.lines as usize
+                    } else {
+                        0
+                    }
+            {
                 let range = self.text.line_range(line);
                 let bytes = &self.text.bytes()[range.clone()];
                 let block = read_line(bytes, range.start, |_| {});
                 if block.i.is_some() || block.j.is_some() {
-                    return word_range(bytes, range.start, |letter, _| matches!(letter, b'I' | b'J'));
+                    return word_range(bytes, range.start, |letter, _| {
+                        matches!(letter, b'I' | b'J')
+                    });
                 }
             }
         }
@@ -670,7 +940,8 @@ impl<'a> Report<'a> {
         };
         if self.document.order().is_some() {
             let mut said = FxHashSet::default();
-            self.findings.retain(|finding| said.insert((start(finding), finding.rule)));
+            self.findings
+                .retain(|finding| said.insert((start(finding), finding.rule)));
         }
         self.findings
     }
@@ -680,8 +951,16 @@ impl<'a> Report<'a> {
 fn small_radius(arc: &Arc, required: f64, side: Side) -> SmallRadius {
     let half = arc.sweep.abs() / 2.0;
     let short = (required - arc.radius) / 1e3;
-    let overcut = if half.to_degrees() >= 90.0 { 2.0 * short } else { short * (1.0 - (2.0 * half).cos()) };
-    let stock_left = if half.to_degrees() >= 90.0 { f64::INFINITY } else { short * (1.0 / half.cos() - 1.0) };
+    let overcut = if half.to_degrees() >= 90.0 {
+        2.0 * short
+    } else {
+        short * (1.0 - (2.0 * half).cos())
+    };
+    let stock_left = if half.to_degrees() >= 90.0 {
+        f64::INFINITY
+    } else {
+        short * (1.0 / half.cos() - 1.0)
+    };
     SmallRadius {
         radius: arc.radius / 1e3,
         required: required / 1e3,
@@ -700,9 +979,14 @@ fn small_radius(arc: &Arc, required: f64, side: Side) -> SmallRadius {
 fn word_sentence(text: &SourceText, fault: WordFault, range: &Range<usize>) -> String {
     let column = range.start - text.line_start(text.line_of(range.start)) + 1;
     let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-    let shown: String = String::from_utf8_lossy(&bytes[..bytes.len().min(48)]).chars().take(12).collect();
+    let shown: String = String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
+        .chars()
+        .take(12)
+        .collect();
     match fault {
-        WordFault::NoNumber { letter } => format!("column {column}: {} has no number", letter as char),
+        WordFault::NoNumber { letter } => {
+            format!("column {column}: {} has no number", letter as char)
+        }
         WordFault::NotANumber { letter } => {
             format!(
                 "column {column}: {} is `{}`, expected a number with one decimal point",
@@ -710,15 +994,25 @@ fn word_sentence(text: &SourceText, fault: WordFault, range: &Range<usize>) -> S
                 shown.get(1..).unwrap_or_default()
             )
         }
-        WordFault::TooManyDigits { digits } => format!("column {column}: found a number of {digits} digits, expected at most 9"),
-        WordFault::OpenComment => format!("column {column}: the comment is not closed, expected `)`"),
-        WordFault::LetterO => format!("column {column}: found the letter O in a number, expected a zero"),
-        WordFault::DecimalComma => format!("column {column}: found a comma in a number, expected a decimal point"),
+        WordFault::TooManyDigits { digits } => {
+            format!("column {column}: found a number of {digits} digits, expected at most 9")
+        }
+        WordFault::OpenComment => {
+            format!("column {column}: the comment is not closed, expected `)`")
+        }
+        WordFault::LetterO => {
+            format!("column {column}: found the letter O in a number, expected a zero")
+        }
+        WordFault::DecimalComma => {
+            format!("column {column}: found a comma in a number, expected a decimal point")
+        }
         WordFault::Lookalike => {
             format!(
                 "column {column}: found `{shown}`, which only looks like what a control reads: expected letters, digits and spaces of ASCII"
             )
         }
-        WordFault::NoWord => format!("column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment"),
+        WordFault::NoWord => format!(
+            "column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment"
+        ),
     }
 }

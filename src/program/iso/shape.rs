@@ -25,7 +25,12 @@ pub enum Joint {
     /// An arc that would go on from the cut before without a corner if it ran the other way round.
     Reversed { made: Move, is_back: bool },
     /// Out, and back on the same way; how the wire came to where that began, and how it went out.
-    Spur { made: Move, came: Vector, out: Vector, length: f64 },
+    Spur {
+        made: Move,
+        came: Vector,
+        out: Vector,
+        length: f64,
+    },
 }
 
 /// How a cut goes on from those before; `None` where nothing is odd about it.
@@ -41,16 +46,26 @@ pub fn joint(trail: &Trail, made: &Move, reading: &Reading) -> Option<Joint> {
     }
     if turned > BACK && before.is_arc() == made.is_arc() {
         let length = distance(before.from, before.to).min(distance(made.from, made.to)) / 1e3;
-        if !made.is_arc() || (distance(before.from, made.to) <= MET && has_one_center(&before, &made, reading)) {
+        if !made.is_arc()
+            || (distance(before.from, made.to) <= MET && has_one_center(&before, &made, reading))
+        {
             let (_, came) = directions(&trail.last[1]?, reading)?;
-            return Some(Joint::Spur { made, came, out, length });
+            return Some(Joint::Spur {
+                made,
+                came,
+                out,
+                length,
+            });
         }
     }
     if !made.is_arc() || made.from == made.to {
         return None;
     }
     let (start, _) = directions(&exchanged(&made), reading)?;
-    (turn(heading, start) < tangent(&made, reading)).then_some(Joint::Reversed { made, is_back: turned > BACK })
+    (turn(heading, start) < tangent(&made, reading)).then_some(Joint::Reversed {
+        made,
+        is_back: turned > BACK,
+    })
 }
 
 impl Joint {
@@ -67,11 +82,18 @@ impl Joint {
                 let is_sure = *is_back && now > BACK && matches!(made.bend, Bend::Center { .. });
                 found.then_some(Fault::ReversedArc { is_sure })
             }
-            Joint::Spur { made, came, out, length } => {
+            Joint::Spur {
+                made,
+                came,
+                out,
+                length,
+            } => {
                 let ahead = ahead?;
                 let (_, end) = directions(made, reading)?;
                 // A way that is gone back all along, as a second pass does, is no spur.
-                let goes_back = turn(-came, ahead) < TANGENT || turn(end, ahead) < TANGENT || turn(*came, *out) < TANGENT;
+                let goes_back = turn(-came, ahead) < TANGENT
+                    || turn(end, ahead) < TANGENT
+                    || turn(*came, *out) < TANGENT;
                 (!goes_back).then_some(Fault::Spur { length: *length })
             }
         }
@@ -120,13 +142,20 @@ pub fn directions(made: &Move, reading: &Reading) -> Option<(Vector, Vector)> {
     if let Some(center) = made.center(reading.rule(made.incremental)) {
         let across = |from: [i64; 2]| {
             let out = micrometres(from) - micrometres(center);
-            if made.motion == Motion::CounterClockwise { Vector::new(-out.y, out.x) } else { Vector::new(out.y, -out.x) }
+            if made.motion == Motion::CounterClockwise {
+                Vector::new(-out.y, out.x)
+            } else {
+                Vector::new(out.y, -out.x)
+            }
         };
         let (start, end) = (across(made.from), across(made.to));
         return (start.norm() > 0.0 && end.norm() > 0.0).then_some((start, end));
     }
     match made.course(reading) {
-        Course::Arc(arc) => Some((Segment::Arc(arc).start_tangent(), Segment::Arc(arc).end_tangent())),
+        Course::Arc(arc) => Some((
+            Segment::Arc(arc).start_tangent(),
+            Segment::Arc(arc).end_tangent(),
+        )),
         _ => None,
     }
 }

@@ -84,7 +84,10 @@ pub struct Tightest {
 
 impl Default for Tightest {
     fn default() -> Self {
-        Tightest { offset: f64::INFINITY, plain: f64::INFINITY }
+        Tightest {
+            offset: f64::INFINITY,
+            plain: f64::INFINITY,
+        }
     }
 }
 
@@ -161,9 +164,17 @@ impl Run {
     /// What a move adds to the area.
     fn term(&self, step: &Move, cap: f64) -> i128 {
         let origin = self.start();
-        let from = [step.from[0].wrapping_sub(origin[0]), step.from[1].wrapping_sub(origin[1])];
-        let to = [step.to[0].wrapping_sub(origin[0]), step.to[1].wrapping_sub(origin[1])];
-        (i128::from(from[0]) * i128::from(to[1])).wrapping_sub(i128::from(from[1]) * i128::from(to[0])).wrapping_add(cap as i128)
+        let from = [
+            step.from[0].wrapping_sub(origin[0]),
+            step.from[1].wrapping_sub(origin[1]),
+        ];
+        let to = [
+            step.to[0].wrapping_sub(origin[0]),
+            step.to[1].wrapping_sub(origin[1]),
+        ];
+        (i128::from(from[0]) * i128::from(to[1]))
+            .wrapping_sub(i128::from(from[1]) * i128::from(to[0]))
+            .wrapping_add(cap as i128)
     }
 
     fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
@@ -185,14 +196,28 @@ impl Run {
     pub fn append(&mut self, next: &Run) {
         // The area of the continuation was taken about its own beginning.
         let (origin, its) = (self.start(), next.start());
-        let shift = [its[0].wrapping_sub(origin[0]), its[1].wrapping_sub(origin[1])];
-        let along = [next.last[1].to[0].wrapping_sub(its[0]), next.last[1].to[1].wrapping_sub(its[1])];
-        let between = (i128::from(shift[0]) * i128::from(along[1])).wrapping_sub(i128::from(shift[1]) * i128::from(along[0]));
-        self.twice_area = self.twice_area.wrapping_add(next.twice_area).wrapping_add(between);
+        let shift = [
+            its[0].wrapping_sub(origin[0]),
+            its[1].wrapping_sub(origin[1]),
+        ];
+        let along = [
+            next.last[1].to[0].wrapping_sub(its[0]),
+            next.last[1].to[1].wrapping_sub(its[1]),
+        ];
+        let between = (i128::from(shift[0]) * i128::from(along[1]))
+            .wrapping_sub(i128::from(shift[1]) * i128::from(along[0]));
+        self.twice_area = self
+            .twice_area
+            .wrapping_add(next.twice_area)
+            .wrapping_add(between);
         if self.moves == 1 {
             self.first[1] = next.first[0];
         }
-        self.last = if next.moves == 1 { [self.last[1], next.last[1]] } else { next.last };
+        self.last = if next.moves == 1 {
+            [self.last[1], next.last[1]]
+        } else {
+            next.last
+        };
         self.moves += next.moves;
         self.arcs += next.arcs;
         self.whole &= next.whole;
@@ -256,12 +281,25 @@ struct Ways(Vec<Move>);
 impl Ways {
     fn path(self, reading: &Reading) -> Path {
         let start = self.0.first().map_or([0, 0], |step| step.from);
-        let ways: Vec<Segment> = self.0.iter().map(|step| step.seen_from(start).segment(reading)).collect();
+        let ways: Vec<Segment> = self
+            .0
+            .iter()
+            .map(|step| step.seen_from(start).segment(reading))
+            .collect();
         let boxes: Vec<Bounds> = ways.iter().map(Segment::bounds).collect();
         let mut near = Vec::new();
-        near_each_other(&ways, &boxes, &mut |first, second| near.push((first as u32, second as u32)));
-        let bounds = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
-        Path { mark: self.mark(reading), bounds, near: near.into(), closes: self.closes(&ways, reading) }
+        near_each_other(&ways, &boxes, &mut |first, second| {
+            near.push((first as u32, second as u32))
+        });
+        let bounds = boxes
+            .iter()
+            .fold(Bounds::EMPTY, |whole, part| whole.merged(part));
+        Path {
+            mark: self.mark(reading),
+            bounds,
+            near: near.into(),
+            closes: self.closes(&ways, reading),
+        }
     }
 
     fn closes(&self, ways: &[Segment], reading: &Reading) -> bool {
@@ -273,16 +311,31 @@ impl Ways {
     }
 
     fn mark(&self, reading: &Reading) -> u64 {
-        let mix = |mark: u64, field: i64| (mark ^ field as u64).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
+        let mix = |mark: u64, field: i64| {
+            (mark ^ field as u64)
+                .wrapping_mul(0x2545_f491_4f6c_dd1d)
+                .rotate_left(23)
+        };
         let with = |mark: u64, step: &Move| {
             let along = step.at_origin();
             let bend = match along.bend {
-                Bend::Center { .. } => along.center(reading.rule(along.incremental)).unwrap_or_default(),
+                Bend::Center { .. } => along
+                    .center(reading.rule(along.incremental))
+                    .unwrap_or_default(),
                 Bend::Radius(radius) => [radius, i64::MIN],
                 Bend::Nothing => [0, i64::MAX],
             };
-            let fields = [along.to[0], along.to[1], bend[0], bend[1], along.motion as i64];
-            fields.into_iter().fold(mark.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1), mix)
+            let fields = [
+                along.to[0],
+                along.to[1],
+                bend[0],
+                bend[1],
+                along.motion as i64,
+            ];
+            fields.into_iter().fold(
+                mark.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1),
+                mix,
+            )
         };
         self.0.iter().fold(0, with)
     }
@@ -303,7 +356,10 @@ impl Pathless {
     /// How each run lies on itself: what takes time, and hangs on nothing but the moves.
     pub fn with_paths(self) -> Stretch {
         let Pathless { mut stretch, ways } = self;
-        stretch.paths = ways.into_iter().map(|ways| ways.path(&stretch.reading)).collect();
+        stretch.paths = ways
+            .into_iter()
+            .map(|ways| ways.path(&stretch.reading))
+            .collect();
         stretch
     }
 }
@@ -387,14 +443,21 @@ pub struct Stretch {
 impl Stretch {
     /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; those behind say how the last of
     /// them run.
-    pub fn run<'a>(lines: impl Lines<'a>, count: usize, start: usize, before: Machine, reading: Reading) -> Pathless {
+    pub fn run<'a>(
+        lines: impl Lines<'a>,
+        count: usize,
+        start: usize,
+        before: Machine,
+        reading: Reading,
+    ) -> Pathless {
         let mut ways: Vec<Ways> = Vec::new();
-        let stretch = Stretch::run_with(lines, count, start, before, reading, &mut |run, step, _| {
-            if ways.len() <= run {
-                ways.resize_with(run + 1, Ways::default);
-            }
-            ways[run].0.push(*step);
-        });
+        let stretch =
+            Stretch::run_with(lines, count, start, before, reading, &mut |run, step, _| {
+                if ways.len() <= run {
+                    ways.resize_with(run + 1, Ways::default);
+                }
+                ways[run].0.push(*step);
+            });
         Pathless { stretch, ways }
     }
 
@@ -441,9 +504,19 @@ impl Stretch {
             fixed: false,
         };
         for left in (0..count).rev() {
-            let Some((offset, line)) = lines.next() else { break };
+            let Some((offset, line)) = lines.next() else {
+                break;
+            };
             let known = stretch.faults.len();
-            stretch.line(line, offset - start, &Ahead { lines: &lines, left }, each);
+            stretch.line(
+                line,
+                offset - start,
+                &Ahead {
+                    lines: &lines,
+                    left,
+                },
+                each,
+            );
             if stretch.faults.len() > known {
                 stretch.mark_fault();
             }
@@ -451,22 +524,53 @@ impl Stretch {
         stretch
     }
 
-    fn line<'a>(&mut self, line: &[u8], offset: usize, ahead: &Ahead<'_, impl Lines<'a>>, each: &mut Hears<'_>) {
+    fn line<'a>(
+        &mut self,
+        line: &[u8],
+        offset: usize,
+        ahead: &Ahead<'_, impl Lines<'a>>,
+        each: &mut Hears<'_>,
+    ) {
         self.lines += 1;
-        let Stretch { faults, foreign, definitions, lengths, after, .. } = &mut *self;
+        let Stretch {
+            faults,
+            foreign,
+            definitions,
+            lengths,
+            after,
+            ..
+        } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
         let block = read_line(line, offset, |note| match note {
             Note::Fault { fault, range } => {
                 // One fault a line is enough: the others may come of it.
                 if faults.len() == known_faults {
-                    faults.push(LineFault { fault: Fault::Word(fault), range: narrow(range) });
+                    faults.push(LineFault {
+                        fault: Fault::Word(fault),
+                        range: narrow(range),
+                    });
                 }
             }
-            Note::Foreign { code, range } => match foreign.iter_mut().find(|word| word.code == code) {
-                Some(word) => word.count += 1,
-                None => foreign.push(Foreign { code, range: pair(range), count: 1 }),
-            },
-            Note::Definition { offset, terms, range } => definitions.push(Definition { offset, terms, inch, range: pair(range) }),
+            Note::Foreign { code, range } => {
+                match foreign.iter_mut().find(|word| word.code == code) {
+                    Some(word) => word.count += 1,
+                    None => foreign.push(Foreign {
+                        code,
+                        range: pair(range),
+                        count: 1,
+                    }),
+                }
+            }
+            Note::Definition {
+                offset,
+                terms,
+                range,
+            } => definitions.push(Definition {
+                offset,
+                terms,
+                inch,
+                range: pair(range),
+            }),
             Note::Length { pointed, range } => {
                 let kept = &mut lengths[usize::from(pointed)];
                 if kept.len() < MOST_LENGTHS {
@@ -475,7 +579,10 @@ impl Stretch {
             }
             Note::Twice { letter, range } => {
                 if faults.len() == known_faults {
-                    faults.push(LineFault { fault: Fault::WordTwice { letter }, range: narrow(range) });
+                    faults.push(LineFault {
+                        fault: Fault::WordTwice { letter },
+                        range: narrow(range),
+                    });
                 }
             }
         });
@@ -489,7 +596,10 @@ impl Stretch {
         }
         self.blocks += u32::from(block.program.is_none());
         if let Some(number) = block.number {
-            self.numbers_rise &= self.numbers.last().is_none_or(|(before, _)| number > *before);
+            self.numbers_rise &= self
+                .numbers
+                .last()
+                .is_none_or(|(before, _)| number > *before);
             self.numbers.push((number, range.0));
         }
         self.calls |= block.call.is_some();
@@ -515,7 +625,12 @@ impl Stretch {
                 if is_free {
                     self.said(&block, &made, range);
                 }
-                let Turned { made, corner, is_fixed, .. } = self.turned(made, range, ahead);
+                let Turned {
+                    made,
+                    corner,
+                    is_fixed,
+                    ..
+                } = self.turned(made, range, ahead);
                 self.fixed |= is_fixed;
                 self.made(made, range, torn, ahead, each);
                 if let Some(corner) = corner {
@@ -529,7 +644,10 @@ impl Stretch {
             self.interrupt(true);
             if stop == Stop::Pause {
                 self.pauses += 1;
-                let known = self.runs.last_mut().map_or(&mut self.stop_before, |run| &mut run.stop);
+                let known = self
+                    .runs
+                    .last_mut()
+                    .map_or(&mut self.stop_before, |run| &mut run.stop);
                 *known = Some(known.map_or(range.0, |_| SEVERAL));
             }
             if stop == Stop::End && self.after.side.is_some() && self.after.switches.is_none() {
@@ -539,22 +657,38 @@ impl Stretch {
     }
 
     fn fault(&mut self, fault: Fault, range: (u32, u32)) {
-        self.faults.push(LineFault { fault, range: range.0..range.1 });
+        self.faults.push(LineFault {
+            fault,
+            range: range.0..range.1,
+        });
     }
 
     /// I or J in a line that makes no arc of them.
     fn has_stray_center(&self, block: &Block) -> bool {
         (block.i.is_some() || block.j.is_some())
-            && !matches!(self.after.motion, Motion::Clockwise | Motion::CounterClockwise)
+            && !matches!(
+                self.after.motion,
+                Motion::Clockwise | Motion::CounterClockwise
+            )
             && !block.takes_coordinates
             && !block.sets_position
             && !block.broken
     }
 
     /// Makes the corner at the end of a move.
-    fn turned<'a>(&mut self, made: Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) -> Turned {
+    fn turned<'a>(
+        &mut self,
+        made: Move,
+        range: (u32, u32),
+        ahead: &Ahead<'_, impl Lines<'a>>,
+    ) -> Turned {
         if made.corner.is_none() {
-            return Turned { made, corner: None, looked_at: 0, is_fixed: false };
+            return Turned {
+                made,
+                corner: None,
+                looked_at: 0,
+                is_fixed: false,
+            };
         }
         self.has_corners = true;
         let turned = turned(made, &mut self.after, ahead.lines(), &self.reading);
@@ -569,7 +703,12 @@ impl Stretch {
     fn said(&mut self, block: &Block, made: &Move, range: (u32, u32)) {
         let said = mark_of(block, made);
         let is_again = std::mem::replace(&mut self.after.trail.said, said) == said;
-        if is_again && !made.incremental && made.is_cut() && made.from == made.to && made.switches.is_none() {
+        if is_again
+            && !made.incremental
+            && made.is_cut()
+            && made.from == made.to
+            && made.switches.is_none()
+        {
             self.fault(Fault::DoubledBlock { arc: made.is_arc() }, range);
         }
     }
@@ -592,7 +731,14 @@ impl Stretch {
         }
     }
 
-    fn made<'a>(&mut self, made: Move, range: (u32, u32), torn: bool, ahead: &Ahead<'_, impl Lines<'a>>, each: &mut Hears<'_>) {
+    fn made<'a>(
+        &mut self,
+        made: Move,
+        range: (u32, u32),
+        torn: bool,
+        ahead: &Ahead<'_, impl Lines<'a>>,
+        each: &mut Hears<'_>,
+    ) {
         self.fixed |= !made.incremental;
         if made.switches == Some(true) && made.offset.is_none() {
             self.fault(Fault::NoOffset, range);
@@ -600,7 +746,13 @@ impl Stretch {
         if let Some(on) = made.switches
             && (made.is_arc() || (on && !made.is_cut()))
         {
-            self.faults.push(LineFault { fault: Fault::Switch { on, arc: made.is_arc() }, range: range.0..range.1 });
+            self.faults.push(LineFault {
+                fault: Fault::Switch {
+                    on,
+                    arc: made.is_arc(),
+                },
+                range: range.0..range.1,
+            });
         }
         let mut cap = 0.0;
         if made.is_arc() {
@@ -612,15 +764,30 @@ impl Stretch {
                     if arc.radius * 1e3 < LARGEST_CORRECTION {
                         let goes_on = self.runs.last().is_some_and(|run| run.open);
                         let run = (self.runs.len() - usize::from(goes_on)) as u32;
-                        let tightest = if made.side.is_some() { &mut self.tightest.offset } else { &mut self.tightest.plain };
+                        let tightest = if made.side.is_some() {
+                            &mut self.tightest.offset
+                        } else {
+                            &mut self.tightest.plain
+                        };
                         *tightest = tightest.min(arc.radius);
-                        self.tight.push(Tight { arc: made, radius: arc.radius, range, run });
+                        self.tight.push(Tight {
+                            arc: made,
+                            radius: arc.radius,
+                            range,
+                            run,
+                        });
                     }
                 }
                 Course::OffRadius { start, end, .. } => {
-                    self.faults.push(LineFault { fault: Fault::OffRadius { start, end }, range: range.0..range.1 });
+                    self.faults.push(LineFault {
+                        fault: Fault::OffRadius { start, end },
+                        range: range.0..range.1,
+                    });
                 }
-                Course::NoRadius => self.faults.push(LineFault { fault: Fault::NoRadius, range: range.0..range.1 }),
+                Course::NoRadius => self.faults.push(LineFault {
+                    fault: Fault::NoRadius,
+                    range: range.0..range.1,
+                }),
                 Course::Line => {}
             }
         }
@@ -636,7 +803,8 @@ impl Stretch {
             Some(run) if run.open => run.push(made, cap, range),
             last => {
                 let continues = last.is_none() && self.ends_run_before.is_none();
-                self.runs.push(Run::begin(made, cap, range, continues, !torn));
+                self.runs
+                    .push(Run::begin(made, cap, range, continues, !torn));
             }
         }
         each(self.runs.len() - 1, &made, range);
@@ -644,7 +812,9 @@ impl Stretch {
 
     /// Whether the way turns back on itself at the beginning of a move.
     fn examine<'a>(&mut self, made: &Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) {
-        let Some(joint) = shape::joint(&self.after.trail, made, &self.reading) else { return };
+        let Some(joint) = shape::joint(&self.after.trail, made, &self.reading) else {
+            return;
+        };
         let (next, looked_at) = corner::next_move(self.after, ahead.lines(), &self.reading);
         self.ahead = self.ahead.max(ahead.beyond(looked_at));
         self.fixed |= next.is_some_and(|next| !next.incremental);
@@ -682,12 +852,18 @@ impl Stretch {
 
     /// Where a run begins, how many moves and arcs it has.
     pub fn extent(&self, index: usize) -> Option<(Place, u32, u32)> {
-        self.runs.get(index).map(|run| (added(run.start(), self.moved), run.moves, run.arcs))
+        self.runs
+            .get(index)
+            .map(|run| (added(run.start(), self.moved), run.moves, run.arcs))
     }
 
     /// How a run is joined to those of other stretches.
     pub fn joints(&self, index: usize) -> Option<Joints> {
-        self.runs.get(index).map(|run| Joints { continues: run.continues, open: run.open, sound: run.whole && !run.faulty })
+        self.runs.get(index).map(|run| Joints {
+            continues: run.continues,
+            open: run.open,
+            sound: run.whole && !run.faulty,
+        })
     }
 
     /// The runs that begin and end here.
@@ -699,9 +875,16 @@ impl Stretch {
 
     /// The arcs of a run that may be tighter than a correction, where they lie.
     pub fn tight_of(&self, run: usize) -> impl Iterator<Item = Tight> + '_ {
-        let first = self.tight.partition_point(|tight| (tight.run as usize) < run);
-        let of_run = self.tight[first..].iter().take_while(move |tight| tight.run as usize == run);
-        of_run.map(|tight| Tight { arc: tight.arc.shifted(self.moved), ..*tight })
+        let first = self
+            .tight
+            .partition_point(|tight| (tight.run as usize) < run);
+        let of_run = self.tight[first..]
+            .iter()
+            .take_while(move |tight| tight.run as usize == run);
+        of_run.map(|tight| Tight {
+            arc: tight.arc.shifted(self.moved),
+            ..*tight
+        })
     }
 }
 
@@ -730,19 +913,45 @@ impl<'a, L: Lines<'a>> Ahead<'_, L> {
 
 /// Lines with a move that say the same have the same mark, whatever their number.
 fn mark_of(block: &Block, made: &Move) -> u64 {
-    let mix = |mark: u64, field: u64| (mark ^ field).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
-    let numbers = [block.x, block.y, block.i, block.j, block.r, block.corner.map(|corner| corner.size)];
-    numbers.into_iter().fold(1 + made.motion as u64, |mark, number| match number {
-        Some(number) => mix(mark, number.mantissa as u64 ^ u64::from(number.decimals) << 56),
-        None => mix(mark, 1 << 55),
-    })
+    let mix = |mark: u64, field: u64| {
+        (mark ^ field)
+            .wrapping_mul(0x2545_f491_4f6c_dd1d)
+            .rotate_left(23)
+    };
+    let numbers = [
+        block.x,
+        block.y,
+        block.i,
+        block.j,
+        block.r,
+        block.corner.map(|corner| corner.size),
+    ];
+    numbers
+        .into_iter()
+        .fold(1 + made.motion as u64, |mark, number| match number {
+            Some(number) => mix(
+                mark,
+                number.mantissa as u64 ^ u64::from(number.decimals) << 56,
+            ),
+            None => mix(mark, 1 << 55),
+        })
 }
 
 /// From the first to the last byte of a line that is no space.
 pub fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
-    let leading = line.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
-    let trailing = line[leading..].iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
-    ((offset + leading) as u32, (offset + line.len() - trailing) as u32)
+    let leading = line
+        .iter()
+        .take_while(|byte| byte.is_ascii_whitespace())
+        .count();
+    let trailing = line[leading..]
+        .iter()
+        .rev()
+        .take_while(|byte| byte.is_ascii_whitespace())
+        .count();
+    (
+        (offset + leading) as u32,
+        (offset + line.len() - trailing) as u32,
+    )
 }
 
 fn pair(range: Range<usize>) -> (u32, u32) {

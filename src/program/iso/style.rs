@@ -34,11 +34,18 @@ impl Style {
             _ => document.reading().whole_numbers_are_fine,
         };
         let unit = usize::from(inch);
-        let decimals = document.evidence().decimals.clamp(LEAST_DECIMALS[unit], MOST_DECIMALS[unit]);
+        let decimals = document
+            .evidence()
+            .decimals
+            .clamp(LEAST_DECIMALS[unit], MOST_DECIMALS[unit]);
         let (mut looked_at, mut padded) = (0, true);
         let text = document.text();
         for line in 0..text.line_count() {
-            let block = read_line(text.bytes().get(text.line_range(line)).unwrap_or_default(), 1, |_| {});
+            let block = read_line(
+                text.bytes().get(text.line_range(line)).unwrap_or_default(),
+                1,
+                |_| {},
+            );
             for number in [block.x, block.y, block.i, block.j].into_iter().flatten() {
                 padded &= number.decimals == decimals;
                 looked_at += 1;
@@ -47,7 +54,12 @@ impl Style {
                 break;
             }
         }
-        Style { fine, decimals, padded: padded || looked_at == 0, inch }
+        Style {
+            fine,
+            decimals,
+            padded: padded || looked_at == 0,
+            inch,
+        }
     }
 
     /// What the last digit stands for, nm.
@@ -55,7 +67,9 @@ impl Style {
         match (self.fine, self.inch) {
             (true, false) => 1_000,
             (true, true) => 2_540,
-            (false, inch) => (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals)),
+            (false, inch) => {
+                (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals))
+            }
         }
     }
 
@@ -66,7 +80,11 @@ impl Style {
 
     fn steps(&self, length: i64) -> i64 {
         let half = self.step() / 2;
-        (if length < 0 { length.wrapping_sub(half) } else { length.wrapping_add(half) }) / self.step()
+        (if length < 0 {
+            length.wrapping_sub(half)
+        } else {
+            length.wrapping_add(half)
+        }) / self.step()
     }
 
     /// The number of a length in nm.
@@ -78,7 +96,16 @@ impl Style {
             return format!("{sign}{steps}");
         }
         let per_unit = 10_u64.pow(u32::from(self.decimals));
-        let text = format!("{sign}{}.{:0width$}", steps / per_unit, steps % per_unit, width = usize::from(self.decimals));
-        if self.padded { text } else { text.trim_end_matches('0').to_owned() }
+        let text = format!(
+            "{sign}{}.{:0width$}",
+            steps / per_unit,
+            steps % per_unit,
+            width = usize::from(self.decimals)
+        );
+        if self.padded {
+            text
+        } else {
+            text.trim_end_matches('0').to_owned()
+        }
     }
 }

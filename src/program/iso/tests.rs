@@ -21,7 +21,11 @@ fn faults(text: &str, settings: &Effective) -> Vec<(usize, &'static str)> {
         crate::finding::Place::Text { range } => document.text().line_of(range.start) + 1,
         _ => 0,
     };
-    document.findings().iter().map(|finding| (line(finding), finding.rule.name())).collect()
+    document
+        .findings()
+        .iter()
+        .map(|finding| (line(finding), finding.rule.name()))
+        .collect()
 }
 
 fn check(text: &str, expected: &[(usize, &str)]) {
@@ -35,11 +39,18 @@ fn words_have_their_numbers_and_places() {
         words(line.as_bytes(), 10, |token| tokens.push(token));
         tokens
     };
-    let word = |letter: u8, mantissa: i64, decimals: u8, point: bool, range: std::ops::Range<usize>| Token::Word {
-        letter,
-        number: Number { mantissa, decimals, point },
-        range,
-    };
+    let word =
+        |letter: u8, mantissa: i64, decimals: u8, point: bool, range: std::ops::Range<usize>| {
+            Token::Word {
+                letter,
+                number: Number {
+                    mantissa,
+                    decimals,
+                    point,
+                },
+                range,
+            }
+        };
     assert_eq!(
         tokens("g01X-1.50y +.5 (up) Z2. ; rest"),
         [
@@ -53,25 +64,74 @@ fn words_have_their_numbers_and_places() {
     );
     let definition = |index: i64, value: Option<i64>, range| Token::Definition {
         letter: b'H',
-        index: Number { mantissa: index, decimals: 0, point: false },
-        value: value.map(|mantissa| Number { mantissa, decimals: 0, point: false }),
+        index: Number {
+            mantissa: index,
+            decimals: 0,
+            point: false,
+        },
+        value: value.map(|mantissa| Number {
+            mantissa,
+            decimals: 0,
+            point: false,
+        }),
         range,
     };
-    assert_eq!(tokens("H001=110  H002 = +105 "), [definition(1, Some(110), 10..18), definition(2, Some(105), 20..31)]);
-    assert_eq!(tokens("H1= 5 2 G40"), [definition(1, None, 10..18), word(b'G', 40, 0, false, 18..21)]);
+    assert_eq!(
+        tokens("H001=110  H002 = +105 "),
+        [
+            definition(1, Some(110), 10..18),
+            definition(2, Some(105), 20..31)
+        ]
+    );
+    assert_eq!(
+        tokens("H1= 5 2 G40"),
+        [
+            definition(1, None, 10..18),
+            word(b'G', 40, 0, false, 18..21)
+        ]
+    );
     let fault = |fault, range| Token::Fault { fault, range };
-    assert_eq!(tokens("X Y1"), [fault(WordFault::NoNumber { letter: b'X' }, 10..11), word(b'Y', 1, 0, false, 12..14)]);
-    assert_eq!(tokens("X1,5"), [word(b'X', 15, 1, true, 10..14), fault(WordFault::DecimalComma, 12..13)]);
-    assert_eq!(tokens("X1.2.5"), [fault(WordFault::NotANumber { letter: b'X' }, 10..16)]);
-    assert_eq!(tokens("X1234567890"), [fault(WordFault::TooManyDigits { digits: 10 }, 10..21)]);
-    assert_eq!(tokens("(a(b)c) (open"), [Token::Comment { range: 10..17 }, fault(WordFault::OpenComment, 18..23)]);
-    assert_eq!(tokens("X#101 STOP"), [Token::Foreign { range: 10..15 }, Token::Foreign { range: 16..20 }]);
+    assert_eq!(
+        tokens("X Y1"),
+        [
+            fault(WordFault::NoNumber { letter: b'X' }, 10..11),
+            word(b'Y', 1, 0, false, 12..14)
+        ]
+    );
+    assert_eq!(
+        tokens("X1,5"),
+        [
+            word(b'X', 15, 1, true, 10..14),
+            fault(WordFault::DecimalComma, 12..13)
+        ]
+    );
+    assert_eq!(
+        tokens("X1.2.5"),
+        [fault(WordFault::NotANumber { letter: b'X' }, 10..16)]
+    );
+    assert_eq!(
+        tokens("X1234567890"),
+        [fault(WordFault::TooManyDigits { digits: 10 }, 10..21)]
+    );
+    assert_eq!(
+        tokens("(a(b)c) (open"),
+        [
+            Token::Comment { range: 10..17 },
+            fault(WordFault::OpenComment, 18..23)
+        ]
+    );
+    assert_eq!(
+        tokens("X#101 STOP"),
+        [
+            Token::Foreign { range: 10..15 },
+            Token::Foreign { range: 16..20 }
+        ]
+    );
     assert_eq!(tokens("é"), [fault(WordFault::NoWord, 10..12)]);
 }
 
 /// A square of 10 mm with one rounded corner, cut from outside: absolute, from start to centre, µm.
-const ROUNDED: &str =
-    "%\nN10 G92 X-5000 Y0\nN20 G90\nG41 D1\nG01 X0 Y0\nY-10000\nX10000\nY-5000\nG03 X5000 Y0 I-5000 J0\nG01 X0\nG40\nX-5000\nM02\n%\n";
+const ROUNDED: &str = "%\nN10 G92 X-5000 Y0\nN20 G90\nG41 D1\nG01 X0 Y0\nY-10000\nX10000\nY-5000\nG03 X5000 Y0 I-5000 J0\nG01 X0\nG40\nX-5000\nM02\n%\n";
 
 #[test]
 fn a_right_program_has_no_fault() {
@@ -82,27 +142,63 @@ fn a_right_program_has_no_fault() {
 fn centres_are_found_from_the_arcs() {
     let check = |text: &str, expected: (CenterRule, CenterRule)| {
         let document = read(text);
-        assert_eq!((document.reading().absolute, document.reading().incremental), expected, "{text}");
-        let faults = document.findings().into_iter().filter(|finding| finding.rule.name() == "arc-off-radius").count();
+        assert_eq!(
+            (document.reading().absolute, document.reading().incremental),
+            expected,
+            "{text}"
+        );
+        let faults = document
+            .findings()
+            .into_iter()
+            .filter(|finding| finding.rule.name() == "arc-off-radius")
+            .count();
         assert_eq!(faults, 0, "{text}");
     };
     use CenterRule::{Absolute, CenterToStart, StartToCenter};
-    check("G90 G03 X5000 Y5000 I0 J5000\nX0 Y10000 I-5000 J0", (StartToCenter, StartToCenter));
-    check("G90 G03 X5000 Y5000 I0 J-5000\nX0 Y10000 I5000 J0", (CenterToStart, CenterToStart));
-    check("G90 G03 X5000 Y5000 I0 J5000\nX0 Y10000 I0 J5000\nX-5000 Y5000 I0 J5000", (Absolute, StartToCenter));
-    check("G91 G03 X5000 Y5000 J5000\nX-5000 Y5000 I-5000", (StartToCenter, StartToCenter));
-    check("G91 G03 X5000 Y5000 J-5000\nX-5000 Y5000 I5000", (CenterToStart, CenterToStart));
+    check(
+        "G90 G03 X5000 Y5000 I0 J5000\nX0 Y10000 I-5000 J0",
+        (StartToCenter, StartToCenter),
+    );
+    check(
+        "G90 G03 X5000 Y5000 I0 J-5000\nX0 Y10000 I5000 J0",
+        (CenterToStart, CenterToStart),
+    );
+    check(
+        "G90 G03 X5000 Y5000 I0 J5000\nX0 Y10000 I0 J5000\nX-5000 Y5000 I0 J5000",
+        (Absolute, StartToCenter),
+    );
+    check(
+        "G91 G03 X5000 Y5000 J5000\nX-5000 Y5000 I-5000",
+        (StartToCenter, StartToCenter),
+    );
+    check(
+        "G91 G03 X5000 Y5000 J-5000\nX-5000 Y5000 I5000",
+        (CenterToStart, CenterToStart),
+    );
     // One wrong arc among right ones changes nothing.
-    let document = read("G90 G03 X5.0 Y5.0 I0 J5.0\nX0 Y10.0 I0 J5.0\nX-5.0 Y5.0 I0 J4.0\nX0 Y0 I0 J5.0");
+    let document =
+        read("G90 G03 X5.0 Y5.0 I0 J5.0\nX0 Y10.0 I0 J5.0\nX-5.0 Y5.0 I0 J4.0\nX0 Y0 I0 J5.0");
     assert_eq!(document.reading().absolute, Absolute);
-    assert_eq!(document.findings().iter().filter(|finding| finding.rule.name() == "arc-off-radius").count(), 1);
+    assert_eq!(
+        document
+            .findings()
+            .iter()
+            .filter(|finding| finding.rule.name() == "arc-off-radius")
+            .count(),
+        1
+    );
 }
 
 #[test]
 fn units_follow_from_the_numbers() {
     let end = |text: &str| read(text).trace().end();
-    let check =
-        |text: &str, x: f64, y: f64| assert!((end(text) - crate::geometry::Point::new(x, y)).norm() < 1e-9, "{text}: {:?}", end(text));
+    let check = |text: &str, x: f64, y: f64| {
+        assert!(
+            (end(text) - crate::geometry::Point::new(x, y)).norm() < 1e-9,
+            "{text}: {:?}",
+            end(text)
+        )
+    };
     check("G01 X1000 Y-5", 1000.0, -5.0);
     check("G01 X1. Y-5", 1000.0, -5000.0);
     check("G01 X1.2345678 Y0", 1234.568, 0.0);
@@ -121,51 +217,120 @@ fn units_follow_from_the_numbers() {
 fn each_fault_is_named_at_its_line() {
     let body = "G92 X0 Y0\nG91\n";
     let with = |text: &str| format!("{body}{text}\nM02\n");
-    check(&with("G01 X1000\nG01 X1000 Y\nG01 Y1000\nG01 X-2000 Y-1000"), &[(4, "syntax")]);
-    check(&with("G01 X1000 Y0\nG02 X1000 Y0 I400 J0\nG01 X-2000 Y0"), &[(4, "arc-off-radius")]);
-    check(&with("G01 X1000\nG02 X1000\nG01 X-2000"), &[(4, "arc-without-radius")]);
-    check(&with("G01 X1000\nG02 X1000 I0 J0\nG01 X-2000"), &[(4, "arc-without-radius")]);
-    check(&with("G01 X1000\nG01 Y1000\nG01 X-500\nG01 X-300"), &[(6, "not-closed")]);
-    check("G92 X0 Y0\nG91\nG01 X1000\nG01 Y1000\nG01 X-1000 Y-1000\n", &[(5, "missing-end")]);
-    check(&(with("G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000") + "G01 X5\nG01 X-5\n%\n"), &[(7, "text-after-end")]);
-    check(&with("N1 G01 X1000\nN2 G01 Y1000\nN1 G01 X-1000 Y-1000"), &[(5, "block-number")]);
+    check(
+        &with("G01 X1000\nG01 X1000 Y\nG01 Y1000\nG01 X-2000 Y-1000"),
+        &[(4, "syntax")],
+    );
+    check(
+        &with("G01 X1000 Y0\nG02 X1000 Y0 I400 J0\nG01 X-2000 Y0"),
+        &[(4, "arc-off-radius")],
+    );
+    check(
+        &with("G01 X1000\nG02 X1000\nG01 X-2000"),
+        &[(4, "arc-without-radius")],
+    );
+    check(
+        &with("G01 X1000\nG02 X1000 I0 J0\nG01 X-2000"),
+        &[(4, "arc-without-radius")],
+    );
+    check(
+        &with("G01 X1000\nG01 Y1000\nG01 X-500\nG01 X-300"),
+        &[(6, "not-closed")],
+    );
+    check(
+        "G92 X0 Y0\nG91\nG01 X1000\nG01 Y1000\nG01 X-1000 Y-1000\n",
+        &[(5, "missing-end")],
+    );
+    check(
+        &(with("G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000") + "G01 X5\nG01 X-5\n%\n"),
+        &[(7, "text-after-end")],
+    );
+    check(
+        &with("N1 G01 X1000\nN2 G01 Y1000\nN1 G01 X-1000 Y-1000"),
+        &[(5, "block-number")],
+    );
     check(
         &with("G61\nG60\nT84\nT85\nM50 G01 X1000\nG01 Y1000\nG01 X-1000 Y-1000"),
-        &[(3, "machine-dependent"), (5, "machine-dependent"), (7, "machine-dependent")],
+        &[
+            (3, "machine-dependent"),
+            (5, "machine-dependent"),
+            (7, "machine-dependent"),
+        ],
     );
-    check(&with("G42 D1\nG03 X1000 I500 J0\nG01 Y1000\nG40\nG01 X-1000 Y-1000"), &[(4, "compensation-switch")]);
-    check(&with("G42 D1\nG00 X1000\nG01 Y1000\nG01 X1000\nG01 X-1000 Y-1000\nG40\nG00 X-1000"), &[(4, "compensation-switch")]);
+    check(
+        &with("G42 D1\nG03 X1000 I500 J0\nG01 Y1000\nG40\nG01 X-1000 Y-1000"),
+        &[(4, "compensation-switch")],
+    );
+    check(
+        &with("G42 D1\nG00 X1000\nG01 Y1000\nG01 X1000\nG01 X-1000 Y-1000\nG40\nG00 X-1000"),
+        &[(4, "compensation-switch")],
+    );
     // A whole turn fits whatever I and J mean.
-    check(&with("G01 X1000\nG03 X0 Y0 I-1000 J0\nG01 X-1000"), &[(4, "ambiguous-center")]);
+    check(
+        &with("G01 X1000\nG03 X0 Y0 I-1000 J0\nG01 X-1000"),
+        &[(4, "ambiguous-center")],
+    );
 }
 
 /// The text after the fix with a title that begins so, of the finding of a rule.
 #[track_caller]
 fn fixed(text: &str, rule: &str, title: &str) -> String {
     let document = read(text);
-    let finding =
-        document.findings().into_iter().find(|finding| finding.rule.name() == rule).unwrap_or_else(|| panic!("no {rule} in {text}"));
+    let finding = document
+        .findings()
+        .into_iter()
+        .find(|finding| finding.rule.name() == rule)
+        .unwrap_or_else(|| panic!("no {rule} in {text}"));
     let fixes = document.fixes(&finding);
     let titles: Vec<String> = fixes.iter().map(|fix| en::title(&fix.kind, 1.0)).collect();
-    let index = titles.iter().position(|its| its.starts_with(title)).unwrap_or_else(|| panic!("no {title:?} in {titles:?}"));
+    let index = titles
+        .iter()
+        .position(|its| its.starts_with(title))
+        .unwrap_or_else(|| panic!("no {title:?} in {titles:?}"));
     let mut after = document.clone();
     for edit in fixes[index].edit.iter().rev() {
         after.edit(edit.range.clone(), &edit.text);
     }
-    assert!(after.findings().iter().all(|left| left.rule.name() != rule), "{:?}", after.findings());
+    assert!(
+        after.findings().iter().all(|left| left.rule.name() != rule),
+        "{:?}",
+        after.findings()
+    );
     String::from_utf8(after.text().bytes().to_vec()).unwrap()
 }
 
 #[test]
 fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
-    let check = |rule: &str, title: &str, text: &str, expected: &str| assert_eq!(fixed(text, rule, title), expected, "{title}");
+    let check = |rule: &str, title: &str, text: &str, expected: &str| {
+        assert_eq!(fixed(text, rule, title), expected, "{title}")
+    };
     let body = "G92 X0. Y0.\nG90\nG01 X5. Y0.\nG03 X0. Y5. I-5. J0.\n";
     let off = |line: &str| format!("{body}{line}\nG01 X0. Y0.\nM02\n");
     let right = off("G03 X-5. Y0. I0. J-5.");
-    check("arc-off-radius", "Take I and J as other controls", &off("G03 X-5. Y0. I0. J5."), &right);
-    check("arc-off-radius", "Swap I and J", &off("G03 X-6. Y3. I-4. J-2."), &off("G03 X-6. Y3. I-2. J-4."));
-    check("arc-off-radius", "Put the sign", &off("G03 X-6. Y3. I2. J-4."), &off("G03 X-6. Y3. I-2. J-4."));
-    check("arc-off-radius", "Move the centre by", &off("G03 X-5. Y0. I0.1 J-5."), &off("G03 X-5. Y0. I0.05 J-5.05"));
+    check(
+        "arc-off-radius",
+        "Take I and J as other controls",
+        &off("G03 X-5. Y0. I0. J5."),
+        &right,
+    );
+    check(
+        "arc-off-radius",
+        "Swap I and J",
+        &off("G03 X-6. Y3. I-4. J-2."),
+        &off("G03 X-6. Y3. I-2. J-4."),
+    );
+    check(
+        "arc-off-radius",
+        "Put the sign",
+        &off("G03 X-6. Y3. I2. J-4."),
+        &off("G03 X-6. Y3. I-2. J-4."),
+    );
+    check(
+        "arc-off-radius",
+        "Move the centre by",
+        &off("G03 X-5. Y0. I0.1 J-5."),
+        &off("G03 X-5. Y0. I0.05 J-5.05"),
+    );
     // A cut of which the last line is missing, absolute and incremental, with and without spaces.
     check(
         "not-closed",
@@ -190,26 +355,58 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
         let [a, b, c, d] = numbers;
         format!("{a}G92 X0 Y0\n{b}G01 X1000\n{c}G01 Y1000\n{d}G01 X0 Y0\nN50 M02\n")
     };
-    check("block-number", "Number the block N30", &numbered(["N10 ", "N20 ", "N20 ", "N40 "]), &numbered(["N10 ", "N20 ", "N30 ", "N40 "]));
-    check("block-number", "Number the block N30", &numbered(["N10 ", "N20 ", "", "N40 "]), &numbered(["N10 ", "N20 ", "N30 ", "N40 "]));
-    check("block-number", "Number all blocks", &numbered(["N1 ", "N1 ", "N2 ", "N3 "]), &numbered(["N10 ", "N20 ", "N30 ", "N40 "]));
+    check(
+        "block-number",
+        "Number the block N30",
+        &numbered(["N10 ", "N20 ", "N20 ", "N40 "]),
+        &numbered(["N10 ", "N20 ", "N30 ", "N40 "]),
+    );
+    check(
+        "block-number",
+        "Number the block N30",
+        &numbered(["N10 ", "N20 ", "", "N40 "]),
+        &numbered(["N10 ", "N20 ", "N30 ", "N40 "]),
+    );
+    check(
+        "block-number",
+        "Number all blocks",
+        &numbered(["N1 ", "N1 ", "N2 ", "N3 "]),
+        &numbered(["N10 ", "N20 ", "N30 ", "N40 "]),
+    );
     check(
         "compensation-switch",
         "Cut there",
         "G92 X0 Y0\nG42 D1\nG00 X1000\nG01 Y1000\nX2000\nX1000 Y0\nM02\n",
         "G92 X0 Y0\nG42 D1\nG01 X1000\nG01 Y1000\nX2000\nX1000 Y0\nM02\n",
     );
-    check("missing-end", "End the program", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\n", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n");
-    check("text-after-end", "Delete", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\nG01 X5\nX0\n", "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n");
+    check(
+        "missing-end",
+        "End the program",
+        "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\n",
+        "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n",
+    );
+    check(
+        "text-after-end",
+        "Delete",
+        "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\nG01 X5\nX0\n",
+        "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n",
+    );
 }
 
 #[test]
 fn a_cut_that_goes_through_itself_is_told_at_both_places() {
     // A bow tie, absolute and incremental, cut by the wire's own path and by the part's contour.
-    let bow = |side: &str| format!("G92 X0. Y0.\nG90\n{side}\nG01 X10. Y0.\nX20. Y10.\nX20. Y0.\nX10. Y10.\nX10. Y0.\nG40\nX0. Y0.\nM02\n");
+    let bow = |side: &str| {
+        format!(
+            "G92 X0. Y0.\nG90\n{side}\nG01 X10. Y0.\nX20. Y10.\nX20. Y0.\nX10. Y10.\nX10. Y0.\nG40\nX0. Y0.\nM02\n"
+        )
+    };
     check(&bow("G40"), &[(7, "path-crosses-itself")]);
     check(&bow("G41 D1"), &[(7, "path-crosses-itself")]);
-    check("G92 X0 Y0\nG91\nG01 X10000\nX10000 Y10000\nY-10000\nX-10000 Y10000\nY-10000\nX-10000\nM02\n", &[(6, "path-crosses-itself")]);
+    check(
+        "G92 X0 Y0\nG91\nG01 X10000\nX10000 Y10000\nY-10000\nX-10000 Y10000\nY-10000\nX-10000\nM02\n",
+        &[(6, "path-crosses-itself")],
+    );
     let document = read(&bow("G40"));
     let finding = &document.findings()[0];
     assert_eq!(
@@ -217,25 +414,51 @@ fn a_cut_that_goes_through_itself_is_told_at_both_places() {
         "the wire crosses its own path of line 5 here, at (15.000, 5.000) mm from the contour's start: it cuts the part in two"
     );
     // An arc through a line; a line that only touches; the same contour twice, as in a second pass.
-    check("G92 X0. Y0.\nG91\nG01 X5.\nX10.\nG03 X-4. Y4. I-4. J0.\nG01 X-4. Y-8.\nX-7. Y4.\nM02\n", &[(6, "path-crosses-itself")]);
-    check("G92 X0. Y0.\nG90\nG01 X10. Y0.\nX20. Y10.\nX10. Y20.\nX15. Y10.\nX10. Y0.\nX0. Y0.\nM02\n", &[]);
-    check("G92 X0. Y0.\nG90\nG01 X5. Y0.\nY5.\nX0.\nY0.\nX5. Y0.\nY5.\nX0.\nY0.\nM02\n", &[]);
+    check(
+        "G92 X0. Y0.\nG91\nG01 X5.\nX10.\nG03 X-4. Y4. I-4. J0.\nG01 X-4. Y-8.\nX-7. Y4.\nM02\n",
+        &[(6, "path-crosses-itself")],
+    );
+    check(
+        "G92 X0. Y0.\nG90\nG01 X10. Y0.\nX20. Y10.\nX10. Y20.\nX15. Y10.\nX10. Y0.\nX0. Y0.\nM02\n",
+        &[],
+    );
+    check(
+        "G92 X0. Y0.\nG90\nG01 X5. Y0.\nY5.\nX0.\nY0.\nX5. Y0.\nY5.\nX0.\nY0.\nM02\n",
+        &[],
+    );
     // Other cuts lie elsewhere, whatever lies between them in the text; a cut with a wrong arc is not told anything of.
-    check("G92 X0. Y0.\nG90\nG01 X9. Y9.\nX0.\nY0.\nM00\nG00 X0. Y5.\nG01 X9.\nY0.\nX0. Y5.\nM02\n", &[]);
-    check(&bow("G40").replace("X20. Y0.\n", "X20. Y0.\nG02 X20. Y0. R0\nG01 "), &[(7, "arc-without-radius")]);
+    check(
+        "G92 X0. Y0.\nG90\nG01 X9. Y9.\nX0.\nY0.\nM00\nG00 X0. Y5.\nG01 X9.\nY0.\nX0. Y5.\nM02\n",
+        &[],
+    );
+    check(
+        &bow("G40").replace("X20. Y0.\n", "X20. Y0.\nG02 X20. Y0. R0\nG01 "),
+        &[(7, "arc-without-radius")],
+    );
     // Far apart in the text, and across the borders of what is run together.
     let mut long = String::from("G92 X0 Y0\nG91\nG01 X1000\n");
     (0..700).for_each(|step| long += if step % 2 == 0 { "X10\n" } else { "Y10\n" });
     long += "Y3000\nX-2000\nY-5000\nX700 Y-3000\nX1000 Y6000\nX-700\nM02\n";
     let found = faults(&long, &Effective::default());
-    assert!(found.iter().any(|(line, rule)| *rule == "path-crosses-itself" && *line == 708), "{found:?}");
+    assert!(
+        found
+            .iter()
+            .any(|(line, rule)| *rule == "path-crosses-itself" && *line == 708),
+        "{found:?}"
+    );
 }
 
 #[test]
 fn programs_and_subprograms_number_their_blocks_for_themselves() {
     let body = "N10 G01 X1000\nN20 Y1000\nN30 X0 Y0\n";
-    check(&format!("G92 X0 Y0\n{body}M98 P2\nM02\nO2\n{body}M99\n"), &[]);
-    check(&format!("G92 X0 Y0\n{body}N20 X1000\nN40 X0\nM02\n"), &[(5, "block-number")]);
+    check(
+        &format!("G92 X0 Y0\n{body}M98 P2\nM02\nO2\n{body}M99\n"),
+        &[],
+    );
+    check(
+        &format!("G92 X0 Y0\n{body}N20 X1000\nN40 X0\nM02\n"),
+        &[(5, "block-number")],
+    );
     // Heads and ends without numbers are usual, and so are programs that number some lines only.
     check(&format!("%\nG92 X0 Y0\n{body}M02\n%\n"), &[]);
     check("G92 X0 Y0\nN1 G01 X1000\nY1000\nN2 X0 Y0\nM02\n", &[]);
@@ -243,11 +466,23 @@ fn programs_and_subprograms_number_their_blocks_for_themselves() {
 
 #[test]
 fn the_wire_runs_where_the_role_and_its_way_in_say() {
-    let opening = Effective { side: SideSetting::Opening, ..Effective::default() };
-    let punch = Effective { side: SideSetting::Punch, ..Effective::default() };
+    let opening = Effective {
+        side: SideSetting::Opening,
+        ..Effective::default()
+    };
+    let punch = Effective {
+        side: SideSetting::Punch,
+        ..Effective::default()
+    };
     // From the middle of a square hole, counter-clockwise, the wire on the left.
-    let hole = |word: &str| format!("G92 X0 Y0\nG90\n{word} D1\nG01 X5000 Y0\nY5000\nX-5000\nY-5000\nX5000\nY0\nG40\nX0\nM02\n");
-    let check = |text: &str, settings: &Effective, expected: &[(usize, &str)]| assert_eq!(faults(text, settings), expected, "{text}");
+    let hole = |word: &str| {
+        format!(
+            "G92 X0 Y0\nG90\n{word} D1\nG01 X5000 Y0\nY5000\nX-5000\nY-5000\nX5000\nY0\nG40\nX0\nM02\n"
+        )
+    };
+    let check = |text: &str, settings: &Effective, expected: &[(usize, &str)]| {
+        assert_eq!(faults(text, settings), expected, "{text}")
+    };
     check(&hole("G41"), &Effective::default(), &[]);
     check(&hole("G41"), &opening, &[]);
     check(&hole("G41"), &punch, &[(3, "wrong-side")]);
@@ -274,16 +509,33 @@ fn arcs_are_held_against_the_correction_under_compensation_only() {
             "{table}G92 X0 Y0\nG90\n{word}\nG01 X90 Y0\nY1000\nG03 X-90 Y1000 I-90 J0\nG01 Y-1000\nG03 X90 Y-1000 I90\nG01 Y0\nG40\nG01 X0\nM02\n"
         )
     };
-    check(&program("G41 D1", ""), &[(6, "small-radius"), (8, "small-radius")]);
+    check(
+        &program("G41 D1", ""),
+        &[(6, "small-radius"), (8, "small-radius")],
+    );
     // The wire outside.
-    let outside = program("G42 D1", "").replace("X0 Y0\nG90", "X500 Y0\nG90").replace("G01 X0\n", "G01 X500\n");
+    let outside = program("G42 D1", "")
+        .replace("X0 Y0\nG90", "X500 Y0\nG90")
+        .replace("G01 X0\n", "G01 X500\n");
     check(&outside, &[]);
     check(&program("G41 H1", "H1=80\n"), &[]);
-    check(&program("G41 H1", "H1=95\n"), &[(7, "small-radius"), (9, "small-radius")]);
+    check(
+        &program("G41 H1", "H1=95\n"),
+        &[(7, "small-radius"), (9, "small-radius")],
+    );
     check(&program("G40", ""), &[]);
-    let none = Effective { compensation: crate::settings::Compensation::None, ..Effective::default() };
-    assert_eq!(faults(&program("G40", ""), &none), [(6, "small-radius"), (8, "small-radius")]);
-    let punch = Effective { side: SideSetting::Punch, ..none };
+    let none = Effective {
+        compensation: crate::settings::Compensation::None,
+        ..Effective::default()
+    };
+    assert_eq!(
+        faults(&program("G40", ""), &none),
+        [(6, "small-radius"), (8, "small-radius")]
+    );
+    let punch = Effective {
+        side: SideSetting::Punch,
+        ..none
+    };
     assert_eq!(faults(&program("G40", ""), &punch), []);
 }
 
@@ -292,11 +544,28 @@ fn subprograms_are_followed_where_they_are_called() {
     let text = "H001=110\nG92X0Y0\nG90\nH001\nM98 P0001\nM00\nH001\nM98 P0001\nM00\nM02\n\nN0001\nG01X0Y2000\nG42\nG01X0Y5000\nX5000\nY-5000\nX-5000\nY5000\nX0\nG50\nG40\nG01X0Y2000\nG01X0Y0\nM99\n";
     check(text, &[(21, "machine-dependent")]);
     let trace = read(text).trace();
-    assert_eq!(trace.steps.iter().filter(|step| step.kind == Kind::Line).count(), 2 * 9);
+    assert_eq!(
+        trace
+            .steps
+            .iter()
+            .filter(|step| step.kind == Kind::Line)
+            .count(),
+        2 * 9
+    );
     assert_eq!(trace.end(), crate::geometry::Point::origin());
-    check("G92 X0 Y0\nM98 P7\nG01 X1000\nG01 X0\nM02\n", &[(2, "machine-dependent")]);
+    check(
+        "G92 X0 Y0\nM98 P7\nG01 X1000\nG01 X0\nM02\n",
+        &[(2, "machine-dependent")],
+    );
     // Calls without end are cut off.
-    check("M98 P1\nM02\nN1 G91 G01 X1\nM98 P1\nM99\n", &[(3, "not-closed"), (4, "machine-dependent"), (4, "missing-end")]);
+    check(
+        "M98 P1\nM02\nN1 G91 G01 X1\nM98 P1\nM99\n",
+        &[
+            (3, "not-closed"),
+            (4, "machine-dependent"),
+            (4, "missing-end"),
+        ],
+    );
 }
 
 /// Programs in the forms that the machines of the field have, found in programs and manuals of theirs: nothing is said of them but which
@@ -334,17 +603,36 @@ fn slip(line: usize, with: &str, expected: &[(usize, &str)]) {
     faulty[line - 1] = with;
     let faulty = faulty.join("\n") + "\n";
     let found = faults(&faulty, &Effective::default());
-    assert!(expected.iter().all(|one| found.contains(one)), "{with}: {found:?}");
+    assert!(
+        expected.iter().all(|one| found.contains(one)),
+        "{with}: {found:?}"
+    );
     let document = read(&faulty);
     let mut findings = document.findings();
     findings.sort_by_key(|finding| finding.severity);
-    let fix = findings.iter().find_map(|finding| document.fixes(finding).into_iter().next()).unwrap_or_else(|| panic!("no fix: {with}"));
+    let fix = findings
+        .iter()
+        .find_map(|finding| document.fixes(finding).into_iter().next())
+        .unwrap_or_else(|| panic!("no fix: {with}"));
     let mut fixed = document.clone();
-    fix.edit.iter().rev().for_each(|edit| fixed.edit(edit.range.clone(), &edit.text));
+    fix.edit
+        .iter()
+        .rev()
+        .for_each(|edit| fixed.edit(edit.range.clone(), &edit.text));
     assert_eq!(fixed.findings(), [], "{with}: {:?}", fix.kind);
     assert_eq!(
-        fixed.trace().steps.iter().map(|step| step.ideal).collect::<Vec<_>>(),
-        read(PLATE).trace().steps.iter().map(|step| step.ideal).collect::<Vec<_>>(),
+        fixed
+            .trace()
+            .steps
+            .iter()
+            .map(|step| step.ideal)
+            .collect::<Vec<_>>(),
+        read(PLATE)
+            .trace()
+            .steps
+            .iter()
+            .map(|step| step.ideal)
+            .collect::<Vec<_>>(),
         "{with}: {:?}",
         fix.kind
     );
@@ -359,23 +647,57 @@ fn one_slip_is_found_where_it_stands_and_turned_back() {
         (4, "Ｇ０１ Ｘ３８．０００ Ｙ０．０００", &[(4, "syntax")]),
         (4, "G01\u{a0}X38.000\u{3000}Y0.000", &[(4, "syntax")]),
         (4, "G01 Х38.000 Y0.000", &[(4, "syntax")]),
-        (5, "G01 X40.000 Y2.000 I0.000 J2.000", &[(5, "center-on-line")]),
-        (5, "G02 X40.000 Y2.000 I0.000 J2.000", &[(5, "reversed-arc")]),
+        (
+            5,
+            "G01 X40.000 Y2.000 I0.000 J2.000",
+            &[(5, "center-on-line")],
+        ),
+        (
+            5,
+            "G02 X40.000 Y2.000 I0.000 J2.000",
+            &[(5, "reversed-arc")],
+        ),
         (4, "G01 X38.000 X0.000", &[(4, "word-twice")]),
-        (5, "G03 X40.000 Y2.000 I0.000 J-2.000", &[(5, "arc-off-radius")]),
-        (5, "G03 X40.000 Y2000 I0.000 J2.000", &[(5, "mixed-numbers")]),
+        (
+            5,
+            "G03 X40.000 Y2.000 I0.000 J-2.000",
+            &[(5, "arc-off-radius")],
+        ),
+        (
+            5,
+            "G03 X40.000 Y2000 I0.000 J2.000",
+            &[(5, "mixed-numbers")],
+        ),
         (6, "G01 X40.000 Y81.000", &[]),
         (8, "G01 X2.000\nG01 X2.000 Y20.000", &[]),
-        (5, "G03 X40.000 Y2.000 I0.000 J2.000\nG03 X40.000 Y2.000 I0.000 J2.000", &[(6, "doubled-block")]),
-        (6, "G01 X40.000 Y18.000\nG01 X40.000 Y18.000", &[(7, "doubled-block")]),
-        (6, "G01 X40.000 Y9.000\nG01 X50.000 Y9.000\nG01 X40.000 Y9.000\nG01 X40.000 Y18.000", &[(8, "spur")]),
+        (
+            5,
+            "G03 X40.000 Y2.000 I0.000 J2.000\nG03 X40.000 Y2.000 I0.000 J2.000",
+            &[(6, "doubled-block")],
+        ),
+        (
+            6,
+            "G01 X40.000 Y18.000\nG01 X40.000 Y18.000",
+            &[(7, "doubled-block")],
+        ),
+        (
+            6,
+            "G01 X40.000 Y9.000\nG01 X50.000 Y9.000\nG01 X40.000 Y9.000\nG01 X40.000 Y18.000",
+            &[(8, "spur")],
+        ),
     ] {
         if with.contains("X2.000\nG01") || with.contains("Y9.000") {
             // What goes leaves a node on a straight wall.
-            let faulty =
-                PLATE.lines().enumerate().map(|(at, own)| format!("{}\n", if at + 1 == line { with } else { own })).collect::<String>();
+            let faulty = PLATE
+                .lines()
+                .enumerate()
+                .map(|(at, own)| format!("{}\n", if at + 1 == line { with } else { own }))
+                .collect::<String>();
             let found = faults(&faulty, &Effective::default());
-            assert!(expected.iter().all(|one| found.contains(one)), "{with}: {found:?}");
+            assert!(
+                expected.iter().all(|one| found.contains(one)),
+                "{with}: {found:?}"
+            );
             continue;
         }
         slip(line, with, expected);
@@ -385,28 +707,67 @@ fn one_slip_is_found_where_it_stands_and_turned_back() {
 #[test]
 fn compensation_and_subprograms_are_ended_and_complete() {
     let hole = |on: &str, mid: &str, off: &str| {
-        format!("G92 X0 Y0\nG90\n{on}\nG01 X5000 Y0\nY5000\n{mid}X-5000\nY-5000\nX5000\nY0\n{off}X0\nM02\n")
+        format!(
+            "G92 X0 Y0\nG90\n{on}\nG01 X5000 Y0\nY5000\n{mid}X-5000\nY-5000\nX5000\nY0\n{off}X0\nM02\n"
+        )
     };
     check(&hole("G41 D1", "", "G40\n"), &[]);
     check(&hole("G41", "", "G40\n"), &[(3, "missing-offset")]);
     check(&hole("D3\nG41", "", "G40\n"), &[]);
     check(&hole("G41 D1", "G42\n", "G40\n"), &[(6, "side-change")]);
     check(&hole("G41 D1", "", ""), &[(11, "missing-cancel")]);
-    assert_eq!(fixed(&hole("G41 D1", "G42\n", "G40\n"), "side-change", "Let the wire"), hole("G41 D1", "G41\n", "G40\n"));
-    assert_eq!(fixed(&hole("G41 D1", "", ""), "missing-cancel", "Insert the block G40"), hole("G41 D1", "", "G40\n"));
-    let two = |on: &str| hole(on, "", "G40\n").replace("M02\n", "") + "M00\n" + &hole("G41 D1", "", "G40\n");
-    assert_eq!(fixed(&two("G41"), "missing-offset", "Write D1"), two("G41 D1"));
+    assert_eq!(
+        fixed(
+            &hole("G41 D1", "G42\n", "G40\n"),
+            "side-change",
+            "Let the wire"
+        ),
+        hole("G41 D1", "G41\n", "G40\n")
+    );
+    assert_eq!(
+        fixed(
+            &hole("G41 D1", "", ""),
+            "missing-cancel",
+            "Insert the block G40"
+        ),
+        hole("G41 D1", "", "G40\n")
+    );
+    let two = |on: &str| {
+        hole(on, "", "G40\n").replace("M02\n", "") + "M00\n" + &hole("G41 D1", "", "G40\n")
+    };
+    assert_eq!(
+        fixed(&two("G41"), "missing-offset", "Write D1"),
+        two("G41 D1")
+    );
     let sub = |end: &str| format!("G92 X0 Y0\nM98 P1\nM02\nO1\nG01 X1000\nY1000\nX0 Y0{end}\n");
     check(&sub("\nM99"), &[]);
     check(&sub(""), &[(7, "missing-return")]);
-    assert_eq!(fixed(&sub(""), "missing-return", "Insert the block M99"), sub("\nM99"));
+    assert_eq!(
+        fixed(&sub(""), "missing-return", "Insert the block M99"),
+        sub("\nM99")
+    );
 }
 
 #[test]
 fn corner_words_are_followed() {
-    let way = |text: &str| read(text).trace().steps.into_iter().filter_map(|step| step.ideal).collect::<Vec<_>>();
-    let square = |first: &str, second: &str| format!("G92 X0. Y0.\nG90\nG01 X10. Y0.{first}\nX10. Y10.{second}\nX0. Y10.\nX0. Y0.\nM02\n");
-    let rounded = |i: &str| format!("G92 X0. Y0.\nG90\nG01 X8. Y0.\nG03 X10. Y2. {i}\nG01 X10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n");
+    let way = |text: &str| {
+        read(text)
+            .trace()
+            .steps
+            .into_iter()
+            .filter_map(|step| step.ideal)
+            .collect::<Vec<_>>()
+    };
+    let square = |first: &str, second: &str| {
+        format!(
+            "G92 X0. Y0.\nG90\nG01 X10. Y0.{first}\nX10. Y10.{second}\nX0. Y10.\nX0. Y0.\nM02\n"
+        )
+    };
+    let rounded = |i: &str| {
+        format!(
+            "G92 X0. Y0.\nG90\nG01 X8. Y0.\nG03 X10. Y2. {i}\nG01 X10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n"
+        )
+    };
     for (text, meant) in [
         (square(" R2.", ""), rounded("I0. J2.")),
         (square(" ,R2.", ""), rounded("I0. J2.")),
@@ -422,13 +783,28 @@ fn corner_words_are_followed() {
     }
     // Between an arc and a line both foot points lie on them, and the joints are tangent.
     let text = "G92 X0. Y0.\nG90\nG03 X10. Y0. R8. ,R1.\nG01 X10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n";
-    let [first, corner, next, ..] = way(text)[..] else { panic!("{text}") };
-    assert!((corner.as_arc().unwrap().radius - 1000.0).abs() < 0.01, "{corner:?}");
+    let [first, corner, next, ..] = way(text)[..] else {
+        panic!("{text}")
+    };
+    assert!(
+        (corner.as_arc().unwrap().radius - 1000.0).abs() < 0.01,
+        "{corner:?}"
+    );
     for (one, other) in [(first, corner), (corner, next)] {
-        assert!((one.end_tangent() - other.start_tangent()).norm() < 1e-5 && (one.end() - other.start()).norm() < 1e-9, "{text}");
+        assert!(
+            (one.end_tangent() - other.start_tangent()).norm() < 1e-5
+                && (one.end() - other.start()).norm() < 1e-9,
+            "{text}"
+        );
     }
-    check("G92 X0. Y0.\nG90\nG01 X10. Y0. R20.\nX10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n", &[(3, "corner-word")]);
-    check("G92 X0. Y0.\nG90\nG01 X5. Y0. ,C2.\nX10. Y0.\nX10. Y10.\nX0. Y0.\nM02\n", &[(3, "corner-word")]);
+    check(
+        "G92 X0. Y0.\nG90\nG01 X10. Y0. R20.\nX10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n",
+        &[(3, "corner-word")],
+    );
+    check(
+        "G92 X0. Y0.\nG90\nG01 X5. Y0. ,C2.\nX10. Y0.\nX10. Y10.\nX0. Y0.\nM02\n",
+        &[(3, "corner-word")],
+    );
 }
 
 #[test]
@@ -439,18 +815,42 @@ fn tables_are_reckoned_and_units_are_what_is_said() {
         )
     };
     check(&slot("H175=.05\nH1 = .03 + H175\n"), &[]);
-    check(&slot("H175=.05\nH1 = .08 + H175 - .02\n"), &[(8, "small-radius"), (10, "small-radius")]);
-    check(&slot("H1 = .03 + H175\n"), &[(1, "machine-dependent"), (7, "small-radius"), (9, "small-radius")]);
+    check(
+        &slot("H175=.05\nH1 = .08 + H175 - .02\n"),
+        &[(8, "small-radius"), (10, "small-radius")],
+    );
+    check(
+        &slot("H1 = .03 + H175\n"),
+        &[
+            (1, "machine-dependent"),
+            (7, "small-radius"),
+            (9, "small-radius"),
+        ],
+    );
     let inch = Effective::of(&crate::settings::from_toml("[program]\nunits = \"inch\"\n").0);
     let text = "G92 X0. Y0.\nG90\nG01 X1.5748 Y0.\nY.7874\nX0.\nY0.\nM02\n";
-    let end = |settings: &Effective| Document::read_with(text.into(), settings).trace().steps[0].end.x;
-    assert_eq!((end(&inch), end(&Effective::default())), (39_999.92, 1574.8));
+    let end = |settings: &Effective| {
+        Document::read_with(text.into(), settings).trace().steps[0]
+            .end
+            .x
+    };
+    assert_eq!(
+        (end(&inch), end(&Effective::default())),
+        (39_999.92, 1574.8)
+    );
     assert_eq!(faults(text, &inch), []);
     check(text, &[(3, "units")]);
-    check("G92 X0. Y0.\nG90\nG01 X1.5748 Y0. D1=.0065\nX0.\nM02\n", &[(3, "units")]);
+    check(
+        "G92 X0. Y0.\nG90\nG01 X1.5748 Y0. D1=.0065\nX0.\nM02\n",
+        &[(3, "units")],
+    );
     // Sodick's planes, and what the upper end of the wire does.
-    let faults_of =
-        |text: &str| faults(text, &Effective::default()).into_iter().filter(|(_, rule)| *rule != "machine-dependent").collect::<Vec<_>>();
+    let faults_of = |text: &str| {
+        faults(text, &Effective::default())
+            .into_iter()
+            .filter(|(_, rule)| *rule != "machine-dependent")
+            .collect::<Vec<_>>()
+    };
     assert_eq!(
         faults_of(
             "TP0.0; TN20.0;\nG92 X0. Y0.\nG90\nG01 X20. Y0. : G01 X20. Y0.;\nG01 X20. Y20. : G01 X19. Y19.;\nG01 X0. Y0. : G01 X0. Y0.;\nM02\n"

@@ -27,13 +27,31 @@ impl Number {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Token {
     /// `G01`, `X-1.5`: the letter in upper case.
-    Word { letter: u8, number: Number, range: Range<usize> },
+    Word {
+        letter: u8,
+        number: Number,
+        range: Range<usize>,
+    },
     /// `H001=110`, a value for the control's table; what stands behind the sign may be a list.
-    Definition { letter: u8, index: Number, value: Option<Number>, range: Range<usize> },
+    Definition {
+        letter: u8,
+        index: Number,
+        value: Option<Number>,
+        range: Range<usize>,
+    },
     /// `H001=.0085+H175`: a value for the control's table that is reckoned from numbers and other places of it.
-    Sum { letter: u8, index: Number, terms: Vec<Term>, range: Range<usize> },
+    Sum {
+        letter: u8,
+        index: Number,
+        terms: Vec<Term>,
+        range: Range<usize>,
+    },
     /// `,R2.` or `,C1.`: the corner at the end of the move is rounded, or chamfered.
-    Corner { round: bool, number: Number, range: Range<usize> },
+    Corner {
+        round: bool,
+        number: Number,
+        range: Range<usize>,
+    },
     /// `STOP`, or a word with a variable or an expression in the place of its number: a matter of the machine.
     Foreign { range: Range<usize> },
     /// `( … )`, or `;` to the end of the line.
@@ -43,7 +61,10 @@ pub enum Token {
     /// `/`: a block that the operator may have left out.
     Skip { range: Range<usize> },
     /// Not readable; the rest of the line is read all the same.
-    Fault { fault: WordFault, range: Range<usize> },
+    Fault {
+        fault: WordFault,
+        range: Range<usize>,
+    },
 }
 
 /// A term of a sum, with its sign.
@@ -92,7 +113,13 @@ pub enum WordFault {
 impl WordFault {
     /// What it means is read all the same.
     pub fn is_read(self) -> bool {
-        matches!(self, WordFault::OpenComment | WordFault::LetterO | WordFault::DecimalComma | WordFault::Lookalike)
+        matches!(
+            self,
+            WordFault::OpenComment
+                | WordFault::LetterO
+                | WordFault::DecimalComma
+                | WordFault::Lookalike
+        )
     }
 }
 
@@ -101,15 +128,25 @@ pub fn words(line: &[u8], offset: usize, mut each: impl FnMut(Token)) {
     if !line.is_ascii()
         && let Some(plain) = Plain::of(line)
     {
-        each(Token::Fault { fault: WordFault::Lookalike, range: offset + plain.first.start..offset + plain.first.end });
-        scan(&plain.bytes, 0, offset == 0, |token| each(plain.placed(token, offset)));
+        each(Token::Fault {
+            fault: WordFault::Lookalike,
+            range: offset + plain.first.start..offset + plain.first.end,
+        });
+        scan(&plain.bytes, 0, offset == 0, |token| {
+            each(plain.placed(token, offset))
+        });
         return;
     }
     scan(line, offset, offset == 0, each);
 }
 
 fn scan(line: &[u8], offset: usize, is_first: bool, mut each: impl FnMut(Token)) {
-    let mut cursor = Cursor { line, at: 0, offset, fault: None };
+    let mut cursor = Cursor {
+        line,
+        at: 0,
+        offset,
+        fault: None,
+    };
     if is_first && line.starts_with(b"\xef\xbb\xbf") {
         cursor.at = 3;
     }
@@ -160,18 +197,28 @@ impl Cursor<'_> {
             b'(' => self.comment(start),
             b';' => {
                 self.at = self.line.len();
-                Token::Comment { range: self.range(start) }
+                Token::Comment {
+                    range: self.range(start),
+                }
             }
-            b'%' => Token::Tape { range: self.range(start) },
+            b'%' => Token::Tape {
+                range: self.range(start),
+            },
             b'/' => {
                 if self.peek().is_some_and(|byte| byte.is_ascii_digit()) {
                     self.at += 1;
                 }
-                Token::Skip { range: self.range(start) }
+                Token::Skip {
+                    range: self.range(start),
+                }
             }
             // A program's number as Fanuc's tapes have it.
             b':' => match self.number(b'O') {
-                Ok(Some(number)) => Token::Word { letter: b'O', number, range: self.range(start) },
+                Ok(Some(number)) => Token::Word {
+                    letter: b'O',
+                    number,
+                    range: self.range(start),
+                },
                 _ => self.other_plane(start),
             },
             b',' => self.corner(start),
@@ -181,7 +228,9 @@ impl Cursor<'_> {
             }
             b'#' => {
                 self.skip_to_space();
-                Token::Foreign { range: self.range(start) }
+                Token::Foreign {
+                    range: self.range(start),
+                }
             }
             _ => self.stray(start),
         })
@@ -189,10 +238,15 @@ impl Cursor<'_> {
 
     /// What begins no word, up to the next space or letter.
     fn stray(&mut self, start: usize) -> Token {
-        while self.peek().is_some_and(|byte| !byte.is_ascii_alphabetic() && !matches!(byte, b' ' | b'\t' | b'(' | b';' | b'%')) {
+        while self.peek().is_some_and(|byte| {
+            !byte.is_ascii_alphabetic() && !matches!(byte, b' ' | b'\t' | b'(' | b';' | b'%')
+        }) {
             self.at += 1;
         }
-        Token::Fault { fault: WordFault::NoWord, range: self.range(start) }
+        Token::Fault {
+            fault: WordFault::NoWord,
+            range: self.range(start),
+        }
     }
 
     /// `: G01 X… Y…`: what the wire's upper end does meanwhile.
@@ -202,13 +256,18 @@ impl Cursor<'_> {
             self.at = start + 1;
             return self.stray(start);
         }
-        while self.peek().is_some_and(|byte| !matches!(byte, b'(' | b';' | b'%')) {
+        while self
+            .peek()
+            .is_some_and(|byte| !matches!(byte, b'(' | b';' | b'%'))
+        {
             self.at += 1;
         }
         while self.at > start && matches!(self.line[self.at - 1], b' ' | b'\t') {
             self.at -= 1;
         }
-        Token::Foreign { range: self.range(start) }
+        Token::Foreign {
+            range: self.range(start),
+        }
     }
 
     /// `,R2.` behind its comma.
@@ -218,7 +277,11 @@ impl Cursor<'_> {
             self.at += 1;
             self.skip_space();
             if let Ok(Some(number)) = self.number(letter) {
-                return Token::Corner { round: letter == b'R', number, range: self.range(start) };
+                return Token::Corner {
+                    round: letter == b'R',
+                    number,
+                    range: self.range(start),
+                };
             }
         }
         self.at = start + 1;
@@ -226,7 +289,10 @@ impl Cursor<'_> {
     }
 
     fn skip_to_space(&mut self) {
-        while self.peek().is_some_and(|byte| !matches!(byte, b' ' | b'\t' | b'(' | b';')) {
+        while self
+            .peek()
+            .is_some_and(|byte| !matches!(byte, b' ' | b'\t' | b'(' | b';'))
+        {
             self.at += 1;
         }
     }
@@ -242,15 +308,22 @@ impl Cursor<'_> {
                 _ => {}
             }
             if depth == 0 {
-                return Token::Comment { range: self.range(start) };
+                return Token::Comment {
+                    range: self.range(start),
+                };
             }
         }
         // Writers that nest an opening bracket without closing it mean the first closing one.
         if let Some(closing) = self.line[start..].iter().position(|&byte| byte == b')') {
             self.at = start + closing + 1;
-            return Token::Comment { range: self.range(start) };
+            return Token::Comment {
+                range: self.range(start),
+            };
         }
-        Token::Fault { fault: WordFault::OpenComment, range: self.range(start) }
+        Token::Fault {
+            fault: WordFault::OpenComment,
+            range: self.range(start),
+        }
     }
 
     #[inline]
@@ -260,13 +333,22 @@ impl Cursor<'_> {
         self.skip_space();
         match self.number(letter) {
             Ok(Some(number)) => {
-                if matches!(letter, b'C' | b'D' | b'E' | b'H' | b'T' | b'S' | b'F') && self.is_definition() {
+                if matches!(letter, b'C' | b'D' | b'E' | b'H' | b'T' | b'S' | b'F')
+                    && self.is_definition()
+                {
                     return self.definition(letter, number, start);
                 }
-                Token::Word { letter, number, range: self.range(start) }
+                Token::Word {
+                    letter,
+                    number,
+                    range: self.range(start),
+                }
             }
             Ok(None) => self.without_number(letter, start),
-            Err(fault) => Token::Fault { fault, range: self.range(start) },
+            Err(fault) => Token::Fault {
+                fault,
+                range: self.range(start),
+            },
         }
     }
 
@@ -275,27 +357,47 @@ impl Cursor<'_> {
         match self.peek() {
             Some(b'#' | b'[' | b'=') => {
                 self.skip_to_space();
-                return Token::Foreign { range: self.range(start) };
+                return Token::Foreign {
+                    range: self.range(start),
+                };
             }
             _ => self.at = start + 1,
         }
-        let letters = self.line[start..].iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        let letters = self.line[start..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_alphabetic())
+            .count();
         // `TP0.0`: a name of two letters that no word of the path begins with.
-        if letters == 2 && matches!(letter, b'A' | b'B' | b'C' | b'E' | b'Q' | b'S' | b'T' | b'U' | b'V' | b'W' | b'Z') {
+        if letters == 2
+            && matches!(
+                letter,
+                b'A' | b'B' | b'C' | b'E' | b'Q' | b'S' | b'T' | b'U' | b'V' | b'W' | b'Z'
+            )
+        {
             self.at = start + 2;
             if matches!(self.number(letter), Ok(Some(_))) {
-                return Token::Foreign { range: self.range(start) };
+                return Token::Foreign {
+                    range: self.range(start),
+                };
             }
             self.at = start + 1;
         }
         if letters >= 3 {
             self.at = start;
-            while self.peek().is_some_and(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b',' | b'.' | b'-' | b'+' | b'=')) {
+            while self.peek().is_some_and(|byte| {
+                byte.is_ascii_alphanumeric()
+                    || matches!(byte, b'_' | b',' | b'.' | b'-' | b'+' | b'=')
+            }) {
                 self.at += 1;
             }
-            return Token::Foreign { range: self.range(start) };
+            return Token::Foreign {
+                range: self.range(start),
+            };
         }
-        Token::Fault { fault: WordFault::NoNumber { letter }, range: self.range(start) }
+        Token::Fault {
+            fault: WordFault::NoNumber { letter },
+            range: self.range(start),
+        }
     }
 
     fn is_definition(&mut self) -> bool {
@@ -313,19 +415,34 @@ impl Cursor<'_> {
         self.at += 1;
         self.skip_space();
         if let Some(terms) = self.sum(letter) {
-            return Token::Sum { letter, index, terms, range: self.range(start) };
+            return Token::Sum {
+                letter,
+                index,
+                terms,
+                range: self.range(start),
+            };
         }
         let value = self.number(letter).ok().flatten();
         let end = self.at;
         let mut listed = false;
-        while self.peek().is_some_and(|byte| !byte.is_ascii_alphabetic() && !matches!(byte, b'(' | b';')) {
-            listed |= self.peek().is_some_and(|byte| !matches!(byte, b' ' | b'\t'));
+        while self
+            .peek()
+            .is_some_and(|byte| !byte.is_ascii_alphabetic() && !matches!(byte, b'(' | b';'))
+        {
+            listed |= self
+                .peek()
+                .is_some_and(|byte| !matches!(byte, b' ' | b'\t'));
             self.at += 1;
         }
         if !listed {
             self.at = end;
         }
-        Token::Definition { letter, index, value: value.filter(|_| !listed), range: self.range(start) }
+        Token::Definition {
+            letter,
+            index,
+            value: value.filter(|_| !listed),
+            range: self.range(start),
+        }
     }
 
     /// Numbers and places of the table with signs between them; `None` where one number stands alone, or something else.
@@ -345,8 +462,16 @@ impl Cursor<'_> {
             let value = match self.peek().map(|byte| byte.to_ascii_uppercase()) {
                 Some(place @ (b'D' | b'H')) => {
                     self.at += 1;
-                    let index = self.number(place).ok().flatten().and_then(Number::whole).and_then(|whole| u32::try_from(whole).ok());
-                    index.map(|index| Value::Place { letter: place, index })
+                    let index = self
+                        .number(place)
+                        .ok()
+                        .flatten()
+                        .and_then(Number::whole)
+                        .and_then(|whole| u32::try_from(whole).ok());
+                    index.map(|index| Value::Place {
+                        letter: place,
+                        index,
+                    })
                 }
                 Some(b'+' | b'-') => None,
                 _ => self.number(letter).ok().flatten().map(Value::Number),
@@ -363,7 +488,10 @@ impl Cursor<'_> {
                 break;
             }
         }
-        let is_sum = terms.len() > 1 || terms.iter().any(|term| matches!(term.value, Value::Place { .. }));
+        let is_sum = terms.len() > 1
+            || terms
+                .iter()
+                .any(|term| matches!(term.value, Value::Place { .. }));
         if !is_sum {
             self.at = begun;
         }
@@ -373,13 +501,28 @@ impl Cursor<'_> {
     /// The letter O at `at` stands for a zero of the number of `letter`, of which so many digits have been read.
     fn is_zero(&self, letter: u8, at: usize, digits: usize) -> bool {
         let behind = self.line.get(at + 1).copied();
-        let is_number = |byte: Option<u8>| byte.is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'O' | b'o'));
+        let is_number = |byte: Option<u8>| {
+            byte.is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'O' | b'o'))
+        };
         // `N10O0001`: the number of a program behind that of a block.
-        if letter == b'N' && digits > 0 && self.line[at + 1..].iter().take_while(|byte| byte.is_ascii_digit()).count() >= 2 {
+        if letter == b'N'
+            && digits > 0
+            && self.line[at + 1..]
+                .iter()
+                .take_while(|byte| byte.is_ascii_digit())
+                .count()
+                >= 2
+        {
             return false;
         }
-        let is_word = matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'R' | b'G' | b'M' | b'N' | b'D' | b'H' | b'P' | b'L');
-        is_word && (digits > 0 || is_number(behind) || !behind.is_some_and(|byte| byte.is_ascii_alphabetic()))
+        let is_word = matches!(
+            letter,
+            b'X' | b'Y' | b'I' | b'J' | b'R' | b'G' | b'M' | b'N' | b'D' | b'H' | b'P' | b'L'
+        );
+        is_word
+            && (digits > 0
+                || is_number(behind)
+                || !behind.is_some_and(|byte| byte.is_ascii_alphabetic()))
     }
 
     /// The number at the cursor; `None` where there is none, and the cursor stays.
@@ -409,21 +552,40 @@ impl Cursor<'_> {
                 // From the first to the last of them.
                 let own = self.offset + at..self.offset + at + 1;
                 match &mut self.fault {
-                    Some(Token::Fault { fault: WordFault::LetterO, range }) => range.end = own.end,
+                    Some(Token::Fault {
+                        fault: WordFault::LetterO,
+                        range,
+                    }) => range.end = own.end,
                     Some(_) => {}
-                    None => self.fault = Some(Token::Fault { fault: WordFault::LetterO, range: own }),
+                    None => {
+                        self.fault = Some(Token::Fault {
+                            fault: WordFault::LetterO,
+                            range: own,
+                        })
+                    }
                 }
                 if point && decimals < MOST_DIGITS {
                     mantissa *= 10;
                     decimals += 1;
                 } else if !point {
                     whole += u32::from(whole > 0);
-                    mantissa = if whole <= MOST_DIGITS { mantissa * 10 } else { mantissa };
+                    mantissa = if whole <= MOST_DIGITS {
+                        mantissa * 10
+                    } else {
+                        mantissa
+                    };
                 }
-            } else if byte == b',' && !point && at > digits_from && self.line.get(at + 1).is_some_and(u8::is_ascii_digit) {
+            } else if byte == b','
+                && !point
+                && at > digits_from
+                && self.line.get(at + 1).is_some_and(u8::is_ascii_digit)
+            {
                 point = true;
                 let own = self.offset + at..self.offset + at + 1;
-                self.fault.get_or_insert(Token::Fault { fault: WordFault::DecimalComma, range: own });
+                self.fault.get_or_insert(Token::Fault {
+                    fault: WordFault::DecimalComma,
+                    range: own,
+                });
             } else {
                 break;
             }
@@ -442,13 +604,26 @@ impl Cursor<'_> {
             self.fault = None;
             return Err(WordFault::TooManyDigits { digits: whole });
         }
-        let mantissa = if sign == Some(b'-') { -mantissa } else { mantissa };
-        Ok(Some(Number { mantissa, decimals: decimals as u8, point }))
+        let mantissa = if sign == Some(b'-') {
+            -mantissa
+        } else {
+            mantissa
+        };
+        Ok(Some(Number {
+            mantissa,
+            decimals: decimals as u8,
+            point,
+        }))
     }
 
     /// A corner's word stands behind the comma at the cursor.
     fn is_corner(&self) -> bool {
-        let mut rest = self.line.get(self.at + 1..).unwrap_or_default().iter().skip_while(|byte| matches!(byte, b' ' | b'\t'));
+        let mut rest = self
+            .line
+            .get(self.at + 1..)
+            .unwrap_or_default()
+            .iter()
+            .skip_while(|byte| matches!(byte, b' ' | b'\t'));
         matches!(rest.next(), Some(b'R' | b'r' | b'C' | b'c'))
     }
 }
@@ -466,10 +641,15 @@ impl Plain {
     /// `None` where no word of the line is written in other characters.
     fn of(line: &[u8]) -> Option<Plain> {
         let is_utf8 = std::str::from_utf8(line).is_ok();
-        let mut plain = Plain { bytes: Vec::with_capacity(line.len()), places: Vec::with_capacity(line.len() + 1), first: 0..0 };
+        let mut plain = Plain {
+            bytes: Vec::with_capacity(line.len()),
+            places: Vec::with_capacity(line.len() + 1),
+            first: 0..0,
+        };
         let (mut at, mut depth, mut is_wide) = (0, 0_usize, false);
         while at < line.len() {
-            let alike = lookalike(&line[at..], is_utf8).filter(|(_, byte)| depth == 0 || (is_wide && *byte == b')'));
+            let alike = lookalike(&line[at..], is_utf8)
+                .filter(|(_, byte)| depth == 0 || (is_wide && *byte == b')'));
             let (length, byte) = alike.unwrap_or((1, line[at]));
             if alike.is_some() {
                 if plain.first.is_empty() {
@@ -499,15 +679,62 @@ impl Plain {
             offset + at(range.start)..offset + at(range.end)
         };
         match token {
-            Token::Word { letter, number, range } => Token::Word { letter, number, range: place(range) },
-            Token::Definition { letter, index, value, range } => Token::Definition { letter, index, value, range: place(range) },
-            Token::Sum { letter, index, terms, range } => Token::Sum { letter, index, terms, range: place(range) },
-            Token::Corner { round, number, range } => Token::Corner { round, number, range: place(range) },
-            Token::Foreign { range } => Token::Foreign { range: place(range) },
-            Token::Comment { range } => Token::Comment { range: place(range) },
-            Token::Tape { range } => Token::Tape { range: place(range) },
-            Token::Skip { range } => Token::Skip { range: place(range) },
-            Token::Fault { fault, range } => Token::Fault { fault, range: place(range) },
+            Token::Word {
+                letter,
+                number,
+                range,
+            } => Token::Word {
+                letter,
+                number,
+                range: place(range),
+            },
+            Token::Definition {
+                letter,
+                index,
+                value,
+                range,
+            } => Token::Definition {
+                letter,
+                index,
+                value,
+                range: place(range),
+            },
+            Token::Sum {
+                letter,
+                index,
+                terms,
+                range,
+            } => Token::Sum {
+                letter,
+                index,
+                terms,
+                range: place(range),
+            },
+            Token::Corner {
+                round,
+                number,
+                range,
+            } => Token::Corner {
+                round,
+                number,
+                range: place(range),
+            },
+            Token::Foreign { range } => Token::Foreign {
+                range: place(range),
+            },
+            Token::Comment { range } => Token::Comment {
+                range: place(range),
+            },
+            Token::Tape { range } => Token::Tape {
+                range: place(range),
+            },
+            Token::Skip { range } => Token::Skip {
+                range: place(range),
+            },
+            Token::Fault { fault, range } => Token::Fault {
+                fault,
+                range: place(range),
+            },
         }
     }
 }
@@ -573,7 +800,10 @@ fn lookalike(bytes: &[u8], is_utf8: bool) -> Option<(usize, u8)> {
         0xe0..=0xef => 3,
         _ => 4,
     };
-    let character = std::str::from_utf8(bytes.get(..length)?).ok()?.chars().next()?;
+    let character = std::str::from_utf8(bytes.get(..length)?)
+        .ok()?
+        .chars()
+        .next()?;
     let code = u32::from(character);
     if (0xff01..=0xff5e).contains(&code) {
         return Some((length, (code - 0xfee0) as u8));
@@ -581,5 +811,8 @@ fn lookalike(bytes: &[u8], is_utf8: bool) -> Option<(usize, u8)> {
     if matches!(code, 0x2000..=0x200a | 0x202f) {
         return Some((length, b' '));
     }
-    LETTERS.iter().find(|(other, _)| *other == character).map(|&(_, byte)| (length, byte))
+    LETTERS
+        .iter()
+        .find(|(other, _)| *other == character)
+        .map(|&(_, byte)| (length, byte))
 }

@@ -6,13 +6,19 @@ use super::machine::{CenterRule, Course, MICROMETRE, Machine, Move, Place, Readi
 use crate::finding::Side;
 use crate::geometry::Segment;
 use crate::program::grid::{Node, largest_distance, point_of};
-use crate::program::write::{NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, scaled, walk, way};
+use crate::program::write::{
+    NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, scaled, walk, way,
+};
 use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. The error of a profile that is not there, or
 /// whose lines do not do what they should, is a refusal.
-pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Result<ProvedProgram, ProofError> {
+pub fn write(
+    paths: &[WirePath],
+    unit_mm: f64,
+    settings: &Effective,
+) -> Result<ProvedProgram, ProofError> {
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
@@ -23,10 +29,19 @@ pub fn write_with(
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<ProvedProgram, ProofError> {
-    let profile = settings.profile.as_ref().map_err(|sentence| ProofError::Refused(sentence.clone()))?;
+    let profile = settings
+        .profile
+        .as_ref()
+        .map_err(|sentence| ProofError::Refused(sentence.clone()))?;
     let per_mm = 10_i64.pow(u32::from(profile.decimals.clamp(3, 6)));
     let mut lines = Lines::new(profile, settings.jumps, 1_000_000 / per_mm);
-    walk(paths, unit_mm * per_mm as f64, lines.step_um(), go_on, &mut lines)?;
+    walk(
+        paths,
+        unit_mm * per_mm as f64,
+        lines.step_um(),
+        go_on,
+        &mut lines,
+    )?;
     lines.finish(cuts(paths))
 }
 
@@ -55,7 +70,12 @@ struct Lines<'a> {
 }
 
 impl Writer for Lines<'_> {
-    fn begin(&mut self, from: Option<Node>, first: Node, side: Option<Side>) -> Result<(), ProofError> {
+    fn begin(
+        &mut self,
+        from: Option<Node>,
+        first: Node,
+        side: Option<Side>,
+    ) -> Result<(), ProofError> {
         match from {
             None => {
                 if self.profile.zero == Zero::Start {
@@ -74,19 +94,38 @@ impl Writer for Lines<'_> {
         (self.side, self.is_switched_off) = (side, false);
         self.fixed(&self.profile.contour_begin, first)?;
         if side.is_some() && self.machine.side != side {
-            return Err(self.refused("its contour-begin does not switch the correction on: expected a line with {side}"));
+            return Err(self.refused(
+                "its contour-begin does not switch the correction on: expected a line with {side}",
+            ));
         }
         Ok(())
     }
 
-    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Result<(), ProofError> {
+    fn piece(
+        &mut self,
+        piece: &Segment,
+        from: Node,
+        to: Node,
+        source: Source,
+    ) -> Result<(), ProofError> {
         if source == Source::LeadOut {
             self.switch_off(from)?;
         }
         let mut encoded = std::mem::take(&mut self.encoded);
         encoded.clear();
-        encode(piece, from, to, self.step_um(), self.profile.full_circles, &mut encoded)
-            .ok_or_else(|| ProofError::Mismatch(format!("no moves within tolerance lead from {from:?} to {to:?}")))?;
+        encode(
+            piece,
+            from,
+            to,
+            self.step_um(),
+            self.profile.full_circles,
+            &mut encoded,
+        )
+        .ok_or_else(|| {
+            ProofError::Mismatch(format!(
+                "no moves within tolerance lead from {from:?} to {to:?}"
+            ))
+        })?;
         for step in &encoded {
             self.step_out(step)?;
         }
@@ -97,7 +136,9 @@ impl Writer for Lines<'_> {
 
     fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError> {
         if closed && first != last {
-            return Err(ProofError::Mismatch(format!("the cut begins at {first:?} and ends at {last:?}")));
+            return Err(ProofError::Mismatch(format!(
+                "the cut begins at {first:?} and ends at {last:?}"
+            )));
         }
         self.switch_off(last)
     }
@@ -108,7 +149,11 @@ impl<'a> Lines<'a> {
         let reading = Reading {
             whole_numbers_are_fine: profile.unit == NumberUnit::Um,
             absolute: profile.center,
-            incremental: if profile.center == CenterRule::Absolute { CenterRule::StartToCenter } else { profile.center },
+            incremental: if profile.center == CenterRule::Absolute {
+                CenterRule::StartToCenter
+            } else {
+                profile.center
+            },
             tolerance: 3 * MICROMETRE,
         };
         Lines {
@@ -136,7 +181,10 @@ impl<'a> Lines<'a> {
 
     /// Where the control stands at a node.
     fn place(&self, node: Node) -> Place {
-        [(node.x - self.zero.x) * self.step, (node.y - self.zero.y) * self.step]
+        [
+            (node.x - self.zero.x) * self.step,
+            (node.y - self.zero.y) * self.step,
+        ]
     }
 
     fn refused(&self, why: &str) -> ProofError {
@@ -151,14 +199,21 @@ impl<'a> Lines<'a> {
         }
         match self.jumps {
             Jumps::Blocks => {
-                self.step_out(&Encoded { motion: Motion::Rapid, from, to, center: from, piece: way(from, to) })?;
+                self.step_out(&Encoded {
+                    motion: Motion::Rapid,
+                    from,
+                    to,
+                    center: from,
+                    piece: way(from, to),
+                })?;
                 self.length += way(from, to).length();
                 self.fixed(&self.profile.pause, to)
             }
             Jumps::None => {
                 self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
                 if self.machine.at != self.place(to) {
-                    return Err(self.refused("without jumps its pause has to stop the machine: expected M00"));
+                    return Err(self
+                        .refused("without jumps its pause has to stop the machine: expected M00"));
                 }
                 Ok(())
             }
@@ -187,7 +242,9 @@ impl<'a> Lines<'a> {
                 self.push_length(&mut x, at.x - self.zero.x);
                 self.push_length(&mut y, at.y - self.zero.y);
                 let (x, y) = (String::from_utf8_lossy(&x), String::from_utf8_lossy(&y));
-                line.replace("{side}", word).replace("{x}", &x).replace("{y}", &y)
+                line.replace("{side}", word)
+                    .replace("{x}", &x)
+                    .replace("{y}", &y)
             } else {
                 line.clone()
             };
@@ -235,7 +292,10 @@ impl<'a> Lines<'a> {
 
     fn push_move(&mut self, step: &Encoded) {
         let modal = self.profile.modal;
-        let mut separate = Separator { wanted: self.profile.spaces, first: true };
+        let mut separate = Separator {
+            wanted: self.profile.spaces,
+            first: true,
+        };
         let mut out = std::mem::take(&mut self.out);
         if self.profile.numbers > 0 {
             self.number = self.number.saturating_add(self.profile.numbers);
@@ -270,9 +330,16 @@ impl<'a> Lines<'a> {
             self.push_length(&mut out, step.to.y - from.y);
         }
         if is_arc {
-            let (i, j) = match self.reading.rule(self.profile.coordinates == Coordinates::Incremental) {
-                CenterRule::StartToCenter => (step.center.x - step.from.x, step.center.y - step.from.y),
-                CenterRule::CenterToStart => (step.from.x - step.center.x, step.from.y - step.center.y),
+            let (i, j) = match self
+                .reading
+                .rule(self.profile.coordinates == Coordinates::Incremental)
+            {
+                CenterRule::StartToCenter => {
+                    (step.center.x - step.from.x, step.center.y - step.from.y)
+                }
+                CenterRule::CenterToStart => {
+                    (step.from.x - step.center.x, step.from.y - step.center.y)
+                }
                 CenterRule::Absolute => (step.center.x - self.zero.x, step.center.y - self.zero.y),
             };
             separate.push(&mut out, b"I");
@@ -285,7 +352,12 @@ impl<'a> Lines<'a> {
 
     /// Holds what the control does with the line against the node and the piece of the path; how far it lies from that at most, µm.
     fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
-        let Some(made) = made else { return Err(ProofError::Mismatch(format!("a written move to {:?} does not move", step.to))) };
+        let Some(made) = made else {
+            return Err(ProofError::Mismatch(format!(
+                "a written move to {:?} does not move",
+                step.to
+            )));
+        };
         let (from, to) = (self.place(step.from), self.place(step.to));
         if made.from != from || made.to != to || made.motion != step.motion {
             // Only the profile can have changed what coordinates count from, or in which unit.
@@ -302,15 +374,30 @@ impl<'a> Lines<'a> {
             Course::Line => Segment::line(micrometres(made.from), micrometres(made.to)),
             Course::Arc(arc) => Segment::Arc(arc),
             Course::OffRadius { start, end, .. } => {
-                return Err(ProofError::Mismatch(format!("the arc to {:?} has ends {start:.3} and {end:.3} µm from its centre", step.to)));
+                return Err(ProofError::Mismatch(format!(
+                    "the arc to {:?} has ends {start:.3} and {end:.3} µm from its centre",
+                    step.to
+                )));
             }
-            Course::NoRadius => return Err(ProofError::Mismatch(format!("the arc to {:?} has no radius", step.to))),
+            Course::NoRadius => {
+                return Err(ProofError::Mismatch(format!(
+                    "the arc to {:?} has no radius",
+                    step.to
+                )));
+            }
         };
-        let piece = scaled(&step.piece.moved(-point_of(self.zero).coords), self.step_um());
+        let piece = scaled(
+            &step.piece.moved(-point_of(self.zero).coords),
+            self.step_um(),
+        );
         let middles = (decoded.point_at(0.5) - piece.point_at(0.5)).norm();
         let aside = largest_distance(&decoded, &piece);
         if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
-            return Err(ProofError::Mismatch(format!("the move to {:?} runs {:.3} µm beside the path", step.to, aside.max(middles))));
+            return Err(ProofError::Mismatch(format!(
+                "the move to {:?} runs {:.3} µm beside the path",
+                step.to,
+                aside.max(middles)
+            )));
         }
         Ok(aside)
     }
@@ -342,9 +429,16 @@ impl<'a> Lines<'a> {
         self.side = None;
         self.fixed(&self.profile.end, self.zero)?;
         let (step_um, blocks) = (self.step_um(), self.blocks);
-        let text = String::from_utf8(self.out).map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
+        let text = String::from_utf8(self.out)
+            .map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
         let deviation = self.deviation;
-        Ok(ProvedProgram { text, blocks, length: self.length * step_um / 1000.0, closure: [0.0, 0.0], deviation })
+        Ok(ProvedProgram {
+            text,
+            blocks,
+            length: self.length * step_um / 1000.0,
+            closure: [0.0, 0.0],
+            deviation,
+        })
     }
 }
 

@@ -22,7 +22,11 @@ pub fn folds(document: &Document, limit: usize) -> Vec<Fold> {
         if let (Some(first), Some(last)) = (lines().min(), lines().max())
             && last > first
         {
-            found.push(Fold { first, last, is_comment: false });
+            found.push(Fold {
+                first,
+                last,
+                is_comment: false,
+            });
         }
     }
     found.truncate(limit);
@@ -40,12 +44,17 @@ fn comments(document: &Document) -> Vec<Fold> {
     let mut run: Option<(usize, usize)> = None;
     for line in 0..text.line_count() {
         let range = text.line_range(line);
-        let begins = bytes.get(range).and_then(|line| line.iter().find(|byte| !matches!(byte, b' ' | b'\t')));
+        let begins = bytes
+            .get(range)
+            .and_then(|line| line.iter().find(|byte| !matches!(byte, b' ' | b'\t')));
         // Nearly every line begins with a letter of its language: only the others are cut into pieces.
         let may_be_comment = begins.is_some_and(|byte| !byte.is_ascii_alphanumeric());
         let is_comment = may_be_comment && {
             let parts = words_of(document, line);
-            !parts.is_empty() && parts.iter().all(|part| matches!(part.kind, WordKind::Comment | WordKind::Stated))
+            !parts.is_empty()
+                && parts
+                    .iter()
+                    .all(|part| matches!(part.kind, WordKind::Comment | WordKind::Stated))
         };
         match (&mut run, is_comment) {
             (Some((_, last)), true) => *last = line,
@@ -54,5 +63,13 @@ fn comments(document: &Document) -> Vec<Fold> {
         }
     }
     found.extend(run);
-    found.into_iter().filter(|(first, last)| last > first).map(|(first, last)| Fold { first, last, is_comment: true }).collect()
+    found
+        .into_iter()
+        .filter(|(first, last)| last > first)
+        .map(|(first, last)| Fold {
+            first,
+            last,
+            is_comment: true,
+        })
+        .collect()
 }

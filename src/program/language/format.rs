@@ -10,7 +10,12 @@ use std::ops::Range;
 /// They are sorted and disjoint, and change nothing that the machine does: each line is read again before it is taken.
 pub fn format(document: &Document, settings: &Effective, lines: Range<usize>) -> Vec<TextEdit> {
     match document {
-        Document::ThreeB(program) => three_b::language::format(program.text(), settings.stated_layout, &program.words(), lines),
+        Document::ThreeB(program) => three_b::language::format(
+            program.text(),
+            settings.stated_layout,
+            &program.words(),
+            lines,
+        ),
         Document::Iso(program) => iso::format(program.text(), settings.stated_layout, lines),
     }
 }

@@ -22,7 +22,9 @@ pub struct Hint {
 /// An end point that the text itself states is not said again, and neither is that of an ISO block under G90, whose words it is.
 pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
     let text = document.text();
-    let end = text.line_start(text.line_of(range.start) + HINT_LINES).min(range.end);
+    let end = text
+        .line_start(text.line_of(range.start) + HINT_LINES)
+        .min(range.end);
     let looked_at = range.start..end.max(range.start);
     let unsaid = match document {
         Document::ThreeB(_) => None,
@@ -38,12 +40,24 @@ pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
         if let Segment::Arc(arc) = ideal {
             parts.push(format!("R {}, {}", mm(arc.radius), degrees(arc.sweep)));
         }
-        let is_stated = || words_of(document, step.line).iter().any(|part| part.kind == WordKind::Stated);
-        if unsaid.as_ref().is_none_or(|lines| lines.contains(&step.line)) && !is_stated() && step.kind != Kind::Pause {
+        let is_stated = || {
+            words_of(document, step.line)
+                .iter()
+                .any(|part| part.kind == WordKind::Stated)
+        };
+        if unsaid
+            .as_ref()
+            .is_none_or(|lines| lines.contains(&step.line))
+            && !is_stated()
+            && step.kind != Kind::Pause
+        {
             parts.push(format!("→ {}, {}", mm(step.end.x), mm(step.end.y)));
         }
         if !parts.is_empty() {
-            found.push(Hint { offset: step.range.end, text: parts.join(" ") });
+            found.push(Hint {
+                offset: step.range.end,
+                text: parts.join(" "),
+            });
         }
     }
     found

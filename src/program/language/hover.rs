@@ -22,31 +22,57 @@ pub fn hover(document: &Document, offset: usize) -> Option<Hover> {
     let text = document.text();
     let line = text.line_of(offset);
     let parts = words_of(document, line);
-    let part = parts.iter().find(|part| part.range.start <= offset && offset < part.range.end);
+    let part = parts
+        .iter()
+        .find(|part| part.range.start <= offset && offset < part.range.end);
     // Behind the last letter the cursor still means it.
     let part = part.or_else(|| parts.iter().rev().find(|part| part.range.end == offset))?;
     let steps = document.steps_in(text.line_range(line));
-    let step = steps.iter().find(|step| step.range.start <= part.range.start && part.range.end <= step.range.end);
+    let step = steps
+        .iter()
+        .find(|step| step.range.start <= part.range.start && part.range.end <= step.range.end);
     // A block number and the end point stand outside of their block.
-    let step = step.or_else(|| steps.iter().rfind(|step| step.range.end <= part.range.start)).or(steps.first());
+    let step = step
+        .or_else(|| {
+            steps
+                .iter()
+                .rfind(|step| step.range.end <= part.range.start)
+        })
+        .or(steps.first());
     let word = match document {
         Document::ThreeB(program) => three_b::language::meaning(program, part.range.clone()),
         Document::Iso(program) => iso::language::meaning(program, part.range.clone()),
     };
     let block = step.map(|step| about_step(step, steps.len() > 1));
-    let text = [word, block].into_iter().flatten().collect::<Vec<_>>().join("\n\n");
-    (!text.is_empty()).then(|| Hover { range: part.range.clone(), text })
+    let text = [word, block]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join("\n\n");
+    (!text.is_empty()).then(|| Hover {
+        range: part.range.clone(),
+        text,
+    })
 }
 
 fn about_step(step: &Step, one_of_many: bool) -> String {
-    let name = step.number.map_or_else(String::new, |number| format!("N{number}: "));
+    let name = step
+        .number
+        .map_or_else(String::new, |number| format!("N{number}: "));
     let mut lines = Vec::new();
     match (step.kind, &step.ideal) {
         (Kind::Pause, _) => lines.push(format!("**{name}pause** at {} mm", point(step.start))),
         (Kind::End, _) => lines.push(format!("**{name}end** at {} mm", point(step.start))),
-        (_, None) => lines.push(format!("**{name}block that leads nowhere**: the machine stays at {} mm", point(step.start))),
+        (_, None) => lines.push(format!(
+            "**{name}block that leads nowhere**: the machine stays at {} mm",
+            point(step.start)
+        )),
         (kind, Some(Segment::Line(line))) => {
-            let what = if kind == Kind::Rapid { "way without the wire" } else { "line" };
+            let what = if kind == Kind::Rapid {
+                "way without the wire"
+            } else {
+                "line"
+            };
             let along = line.end - line.start;
             lines.push(format!("**{name}{what}** to {} mm", point(step.end)));
             lines.push(format!(
@@ -57,7 +83,11 @@ fn about_step(step: &Step, one_of_many: bool) -> String {
             ));
         }
         (_, Some(Segment::Arc(arc))) => {
-            let turn = if arc.sweep > 0.0 { "counter-clockwise" } else { "clockwise" };
+            let turn = if arc.sweep > 0.0 {
+                "counter-clockwise"
+            } else {
+                "clockwise"
+            };
             let what = if arc.is_full_turn() { "circle" } else { "arc" };
             lines.push(format!(
                 "**{name}{what}** {turn} about {} mm, R {} mm, {}",
@@ -65,7 +95,12 @@ fn about_step(step: &Step, one_of_many: bool) -> String {
                 mm(arc.radius),
                 degrees(arc.sweep.abs())
             ));
-            lines.push(format!("from {} to {}, length {} mm", point(step.start), point(step.end), mm(arc.length())));
+            lines.push(format!(
+                "from {} to {}, length {} mm",
+                point(step.start),
+                point(step.end),
+                mm(arc.length())
+            ));
         }
     }
     if step.moves() && step.deviation() > SHOWN_DEVIATION {

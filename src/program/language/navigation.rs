@@ -15,13 +15,24 @@ pub fn match_of(document: &Document, offset: usize) -> Option<Range<usize>> {
 
 /// The place at a byte and the one that belongs to it.
 pub fn highlights(document: &Document, offset: usize) -> Vec<Range<usize>> {
-    pair(document, offset).map_or_else(Vec::new, |(own, other)| if own == other { vec![own] } else { vec![own, other] })
+    pair(document, offset).map_or_else(Vec::new, |(own, other)| {
+        if own == other {
+            vec![own]
+        } else {
+            vec![own, other]
+        }
+    })
 }
 
 /// All pauses and ends.
 pub fn pauses(document: &Document) -> Vec<Range<usize>> {
     let trace = document.trace();
-    trace.steps.into_iter().filter(|step| !step.moves()).map(|step| step.range).collect()
+    trace
+        .steps
+        .into_iter()
+        .filter(|step| !step.moves())
+        .map(|step| step.range)
+        .collect()
 }
 
 fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
@@ -31,7 +42,10 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
         return Some(pair);
     }
     let touching = document.steps_in(offset..offset);
-    let own = touching.iter().find(|step| offset < step.range.end).or(touching.first())?;
+    let own = touching
+        .iter()
+        .find(|step| offset < step.range.end)
+        .or(touching.first())?;
     let other = match own.kind {
         Kind::Pause => document.stop_behind(own.range.start)?,
         Kind::End => document.first_move()?,
@@ -41,7 +55,15 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
             let lead_out = contour.end..passage.steps.end;
             let target = if index < contour.start {
                 // The n-th block of the way in has the n-th from the end of the way out.
-                if lead_out.is_empty() { contour.start } else { passage.steps.end.checked_sub(1 + index)?.max(lead_out.start) }
+                if lead_out.is_empty() {
+                    contour.start
+                } else {
+                    passage
+                        .steps
+                        .end
+                        .checked_sub(1 + index)?
+                        .max(lead_out.start)
+                }
             } else if lead_out.contains(&index) {
                 (passage.steps.end - 1 - index).min(contour.start.saturating_sub(1))
             } else if index + 1 == contour.end {

@@ -25,7 +25,12 @@ pub struct Passage {
 impl Passage {
     /// Indices of the steps of the contour itself.
     pub fn contour_steps(&self) -> Range<usize> {
-        self.steps.start + self.lead_in..self.steps.end.saturating_sub(self.lead_out).max(self.steps.start + self.lead_in)
+        self.steps.start + self.lead_in
+            ..self
+                .steps
+                .end
+                .saturating_sub(self.lead_out)
+                .max(self.steps.start + self.lead_in)
     }
 }
 
@@ -38,10 +43,16 @@ pub fn passages(trace: &Trace) -> Vec<Passage> {
             index += 1;
             continue;
         }
-        let is_same = |step: &Step| step.moves() && (step.kind == Kind::Rapid) == (first.kind == Kind::Rapid);
-        let is_within = |step: &&Step| step.contour == first.contour && (is_same(step) || step.kind == Kind::Pause);
+        let is_same =
+            |step: &Step| step.moves() && (step.kind == Kind::Rapid) == (first.kind == Kind::Rapid);
+        let is_within = |step: &&Step| {
+            step.contour == first.contour && (is_same(step) || step.kind == Kind::Pause)
+        };
         let count = trace.steps[index..].iter().take_while(is_within).count();
-        let count = trace.steps[index..index + count].iter().rposition(is_same).map_or(1, |last| last + 1);
+        let count = trace.steps[index..index + count]
+            .iter()
+            .rposition(is_same)
+            .map_or(1, |last| last + 1);
         found.push(passage_in(trace, index..index + count));
         index += count;
     }
@@ -50,12 +61,24 @@ pub fn passages(trace: &Trace) -> Vec<Passage> {
 
 fn passage_in(trace: &Trace, steps: Range<usize>) -> Passage {
     let own = trace.steps.get(steps.clone()).unwrap_or_default();
-    let places: Vec<usize> = own.iter().enumerate().filter(|(_, step)| step.moves()).map(|(index, _)| index).collect();
+    let places: Vec<usize> = own
+        .iter()
+        .enumerate()
+        .filter(|(_, step)| step.moves())
+        .map(|(index, _)| index)
+        .collect();
     let chain = if places.len() == own.len() {
         Chain::of(own, trace.writing)
     } else {
         let stop = own.iter().position(|step| !step.moves());
-        Chain::of(own.iter().filter(|step| step.moves()).cloned().collect::<Vec<_>>(), trace.writing).stopping(stop)
+        Chain::of(
+            own.iter()
+                .filter(|step| step.moves())
+                .cloned()
+                .collect::<Vec<_>>(),
+            trace.writing,
+        )
+        .stopping(stop)
     };
     // A chain of all its steps lacks none.
     let passage = passage_of(&chain).unwrap_or_default();
@@ -63,7 +86,12 @@ fn passage_in(trace: &Trace, steps: Range<usize>) -> Passage {
     let place = |nth: usize| places.get(nth).copied().unwrap_or(own.len());
     let contour = passage.contour_steps();
     let end = contour.end.checked_sub(1).map_or(0, |last| place(last) + 1);
-    Passage { steps, lead_in: place(contour.start), lead_out: own.len() - end.max(place(contour.start)), ..passage }
+    Passage {
+        steps,
+        lead_in: place(contour.start),
+        lead_out: own.len() - end.max(place(contour.start)),
+        ..passage
+    }
 }
 
 /// The chain of moves that touches a byte, what it comes to, and the number of the touching one.
@@ -81,10 +109,25 @@ pub fn passage_at(document: &Document, offset: usize) -> Option<(Chain<'static>,
 pub fn passage_of(chain: &Chain<'_>) -> Option<Passage> {
     let first = chain.step(0);
     let contour = first.map_or(0, |step| step.contour);
-    let all = Passage { contour, steps: 0..chain.count(), lead_in: 0, lead_out: 0, closed: false, is_way: false };
+    let all = Passage {
+        contour,
+        steps: 0..chain.count(),
+        lead_in: 0,
+        lead_out: 0,
+        closed: false,
+        is_way: false,
+    };
     if first.is_some_and(|step| step.kind == Kind::Rapid) {
-        return Some(Passage { is_way: true, ..all });
+        return Some(Passage {
+            is_way: true,
+            ..all
+        });
     }
     let closing = closing(chain)?;
-    Some(Passage { lead_in: closing.lead_in, lead_out: closing.lead_out, closed: closing.closed, ..all })
+    Some(Passage {
+        lead_in: closing.lead_in,
+        lead_out: closing.lead_out,
+        closed: closing.closed,
+        ..all
+    })
 }

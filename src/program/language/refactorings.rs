@@ -16,17 +16,31 @@ pub struct Proposal {
 }
 
 /// What can be done with a program at a selection of bytes; what would change nothing is left out. `wanted` chooses by id.
-pub fn refactorings(document: &Document, settings: &Effective, selection: Range<usize>, wanted: impl Fn(&str) -> bool) -> Vec<Proposal> {
+pub fn refactorings(
+    document: &Document,
+    settings: &Effective,
+    selection: Range<usize>,
+    wanted: impl Fn(&str) -> bool,
+) -> Vec<Proposal> {
     match document {
-        Document::ThreeB(program) => three_b::refactor::proposals(program, settings, selection, wanted),
+        Document::ThreeB(program) => {
+            three_b::refactor::proposals(program, settings, selection, wanted)
+        }
         Document::Iso(program) => iso::refactor::proposals(program, settings, selection, wanted),
     }
 }
 
 /// The edits that scale a program.
-pub fn scaled(document: &Document, settings: &Effective, factor: f64) -> Result<Vec<TextEdit>, String> {
+pub fn scaled(
+    document: &Document,
+    settings: &Effective,
+    factor: f64,
+) -> Result<Vec<TextEdit>, String> {
     match document {
-        Document::ThreeB(program) => three_b::refactor::scaled(&three_b::refactor::Sheet::new(program, settings, 0..0), factor),
+        Document::ThreeB(program) => three_b::refactor::scaled(
+            &three_b::refactor::Sheet::new(program, settings, 0..0),
+            factor,
+        ),
         Document::Iso(program) => iso::refactor::scaled(program, settings, factor),
     }
 }

@@ -19,23 +19,36 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
             found.push(range);
         }
     };
-    if let Some(part) = words_of(document, line).into_iter().find(|part| part.range.start <= offset && offset <= part.range.end) {
+    if let Some(part) = words_of(document, line)
+        .into_iter()
+        .find(|part| part.range.start <= offset && offset <= part.range.end)
+    {
         wider(part.range);
     }
     let own = document.steps_in(text.line_range(line));
-    let touching = own.iter().find(|step| step.range.start <= offset && offset <= step.range.end);
+    let touching = own
+        .iter()
+        .find(|step| step.range.start <= offset && offset <= step.range.end);
     if let Some(step) = touching {
         wider(step.range.clone());
     }
     wider(text.line_range(line));
     let step = touching.or_else(|| own.iter().find(|step| step.line == line));
-    if let Some((chain, passage, index)) = step.filter(|step| step.moves()).and_then(|step| passage_at(document, step.range.start)) {
+    if let Some((chain, passage, index)) = step
+        .filter(|step| step.moves())
+        .and_then(|step| passage_at(document, step.range.start))
+    {
         let lines = |steps: Range<usize>| {
-            let (first, last) = (chain.step(steps.start)?, chain.step(steps.end.checked_sub(1)?)?);
+            let (first, last) = (
+                chain.step(steps.start)?,
+                chain.step(steps.end.checked_sub(1)?)?,
+            );
             Some(text.line_start(first.line)..text.line_range(last.line).end)
         };
         if passage.contour_steps().contains(&index) {
-            lines(passage.contour_steps()).into_iter().for_each(&mut wider);
+            lines(passage.contour_steps())
+                .into_iter()
+                .for_each(&mut wider);
         }
         lines(passage.steps).into_iter().for_each(&mut wider);
     }

@@ -41,8 +41,16 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
     let trace = document.trace();
     let text = document.text();
     let whole_lines = |steps: &[Step]| {
-        let first = steps.iter().map(|step| text.line_start(step.line)).min().unwrap_or(0);
-        let last = steps.iter().map(|step| text.line_range(step.line).end.max(step.range.end)).max().unwrap_or(0);
+        let first = steps
+            .iter()
+            .map(|step| text.line_start(step.line))
+            .min()
+            .unwrap_or(0);
+        let last = steps
+            .iter()
+            .map(|step| text.line_range(step.line).end.max(step.range.end))
+            .max()
+            .unwrap_or(0);
         first..last.max(first)
     };
     let mut found = Vec::new();
@@ -50,7 +58,10 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
     let mut ordinal = 0;
     let (mut next, mut index) = (0, 0);
     while index < trace.steps.len() && found.len() < LISTED_PASSAGES {
-        match passages.get(next).filter(|passage| passage.steps.start == index) {
+        match passages
+            .get(next)
+            .filter(|passage| passage.steps.start == index)
+        {
             Some(passage) => {
                 ordinal += usize::from(!passage.is_way);
                 found.push(of_passage(&trace, passage, ordinal, &whole_lines));
@@ -59,7 +70,11 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
             }
             None => {
                 let step = &trace.steps[index];
-                found.push(of_step(step, SymbolKind::Word, whole_lines(std::slice::from_ref(step))));
+                found.push(of_step(
+                    step,
+                    SymbolKind::Word,
+                    whole_lines(std::slice::from_ref(step)),
+                ));
                 index += 1;
             }
         }
@@ -69,23 +84,46 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
     found
 }
 
-fn of_passage(trace: &Trace, passage: &Passage, ordinal: usize, whole_lines: &dyn Fn(&[Step]) -> Range<usize>) -> Symbol {
+fn of_passage(
+    trace: &Trace,
+    passage: &Passage,
+    ordinal: usize,
+    whole_lines: &dyn Fn(&[Step]) -> Range<usize>,
+) -> Symbol {
     let steps = trace.steps.get(passage.steps.clone()).unwrap_or_default();
     let contour = trace.steps.get(passage.contour_steps()).unwrap_or_default();
-    let length: f64 = contour.iter().filter_map(|step| step.ideal.as_ref()).map(Segment::length).sum();
+    let length: f64 = contour
+        .iter()
+        .filter_map(|step| step.ideal.as_ref())
+        .map(Segment::length)
+        .sum();
     let (kind, name, mut detail) = if passage.is_way {
-        let name = format!("way to {}", point(steps.last().map_or(trace.start, |step| step.end)));
+        let name = format!(
+            "way to {}",
+            point(steps.last().map_or(trace.start, |step| step.end))
+        );
         (SymbolKind::Way, name, String::new())
     } else {
         let state = if passage.closed { "closed" } else { "open" };
-        let blocks = if contour.len() == 1 { "1 block".into() } else { format!("{} blocks", contour.len()) };
-        (SymbolKind::Contour, format!("contour {ordinal}"), format!("{state}, {blocks}, {} mm", mm(length)))
+        let blocks = if contour.len() == 1 {
+            "1 block".into()
+        } else {
+            format!("{} blocks", contour.len())
+        };
+        (
+            SymbolKind::Contour,
+            format!("contour {ordinal}"),
+            format!("{state}, {blocks}, {} mm", mm(length)),
+        )
     };
     if let (true, Some(turn)) = (passage.closed, direction(contour)) {
         detail = format!("{detail}, {turn}");
     }
     let range = whole_lines(steps);
-    let (lead_in, lead_out) = (&steps[..passage.lead_in.min(steps.len())], &steps[steps.len() - passage.lead_out.min(steps.len())..]);
+    let (lead_in, lead_out) = (
+        &steps[..passage.lead_in.min(steps.len())],
+        &steps[steps.len() - passage.lead_out.min(steps.len())..],
+    );
     let mut children = Vec::new();
     for (name, part) in [("lead-in", lead_in), ("", contour), ("lead-out", lead_out)] {
         if name.is_empty() {
@@ -101,20 +139,46 @@ fn of_passage(trace: &Trace, passage: &Passage, ordinal: usize, whole_lines: &dy
             });
         }
     }
-    let selection = steps.first().map_or(range.clone(), |step| step.range.clone());
-    Symbol { kind, name, detail, range, selection, children }
+    let selection = steps
+        .first()
+        .map_or(range.clone(), |step| step.range.clone());
+    Symbol {
+        kind,
+        name,
+        detail,
+        range,
+        selection,
+        children,
+    }
 }
 
 /// Which way round a closed contour is cut.
 fn direction(contour: &[Step]) -> Option<&'static str> {
     let origin = contour.first()?.start;
-    let area: f64 = contour.iter().filter_map(|step| step.ideal.as_ref()).map(|ideal| ideal.twice_area(origin)).sum();
-    (area != 0.0).then_some(if area > 0.0 { "counter-clockwise" } else { "clockwise" })
+    let area: f64 = contour
+        .iter()
+        .filter_map(|step| step.ideal.as_ref())
+        .map(|ideal| ideal.twice_area(origin))
+        .sum();
+    (area != 0.0).then_some(if area > 0.0 {
+        "counter-clockwise"
+    } else {
+        "clockwise"
+    })
 }
 
 fn blocks(steps: &[Step], whole_lines: &dyn Fn(&[Step]) -> Range<usize>) -> Vec<Symbol> {
     if steps.len() <= LISTED {
-        return steps.iter().map(|step| of_step(step, SymbolKind::Block, whole_lines(std::slice::from_ref(step)))).collect();
+        return steps
+            .iter()
+            .map(|step| {
+                of_step(
+                    step,
+                    SymbolKind::Block,
+                    whole_lines(std::slice::from_ref(step)),
+                )
+            })
+            .collect();
     }
     let size = steps.len().div_ceil(RUNS);
     let run = |(index, run): (usize, &[Step])| {
@@ -142,5 +206,12 @@ fn of_step(step: &Step, kind: SymbolKind, range: Range<usize>) -> Symbol {
             (name.to_owned(), detail.to_owned())
         }
     };
-    Symbol { kind, name, detail, range, selection: step.range.clone(), children: Vec::new() }
+    Symbol {
+        kind,
+        name,
+        detail,
+        range,
+        selection: step.range.clone(),
+        children: Vec::new(),
+    }
 }

@@ -75,7 +75,10 @@ fn of_three_b(program: &three_b::Document, line: &[u8], offset: usize) -> Vec<Pa
         kind: kind_of(piece.field),
         range: offset + piece.range.start..offset + piece.range.end,
     };
-    pieces(line, &program.words()).into_iter().map(part).collect()
+    pieces(line, &program.words())
+        .into_iter()
+        .map(part)
+        .collect()
 }
 
 fn of_iso(line: &[u8], offset: usize) -> Vec<Part> {
@@ -83,7 +86,9 @@ fn of_iso(line: &[u8], offset: usize) -> Vec<Part> {
     iso_words(line, 0, |token| {
         // Part of a word that is read all the same.
         if let Token::Fault { range, .. } = &token
-            && parts.last().is_some_and(|last: &Part| offset + range.start < last.range.end)
+            && parts
+                .last()
+                .is_some_and(|last: &Part| offset + range.start < last.range.end)
         {
             return;
         }
@@ -99,13 +104,18 @@ fn of_iso(line: &[u8], offset: usize) -> Vec<Part> {
                 range,
             ),
             Token::Corner { range, .. } => (WordKind::Length, range),
-            Token::Definition { range, .. } | Token::Sum { range, .. } | Token::Foreign { range } => (WordKind::Setting, range),
+            Token::Definition { range, .. }
+            | Token::Sum { range, .. }
+            | Token::Foreign { range } => (WordKind::Setting, range),
             Token::Comment { range } => (WordKind::Comment, range),
             Token::Tape { range } | Token::Skip { range } => (WordKind::Lead, range),
             Token::Fault { range, .. } => (WordKind::Strange, range),
         };
         if !range.is_empty() {
-            parts.push(Part { kind, range: offset + range.start..offset + range.end });
+            parts.push(Part {
+                kind,
+                range: offset + range.start..offset + range.end,
+            });
         }
     });
     parts

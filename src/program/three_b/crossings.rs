@@ -108,10 +108,20 @@ pub(in crate::program) fn search(
     let (mut pairs, is_all) = touching(stretches, 1024 + 256 * stretches.len());
     // In the order of the later one: the pieces that count are the first ones along the way, so the search may end where these are found.
     pairs.sort_unstable_by_key(|&(a, b)| (b, a));
-    let key = |a: usize, b: usize| (stretches[a].mark, stretches[b].mark, stretches[b].start.minus(stretches[a].start).meant, b == a + 1);
+    let key = |a: usize, b: usize| {
+        (
+            stretches[a].mark,
+            stretches[b].mark,
+            stretches[b].start.minus(stretches[a].start).meant,
+            b == a + 1,
+        )
+    };
     let look = |&(a, b): &(usize, usize)| -> (Pair, Near) {
         let [x, y] = stretches[b].start.minus(stretches[a].start).meant_um();
-        (key(a, b), prepared(a).near(prepared(b), Vector::new(x, y), b == a + 1))
+        (
+            key(a, b),
+            prepared(a).near(prepared(b), Vector::new(x, y), b == a + 1),
+        )
     };
     let mut near: Vec<(usize, usize)> = Vec::new();
     let mut left = most_looks(count);
@@ -119,16 +129,31 @@ pub(in crate::program) fn search(
     // Pairs and stretches that have been gone through.
     let (mut gone, mut behind) = (0, 0);
     while behind < stretches.len() && near.len() <= MOST_PAIRS {
-        let next = pairs.get(gone + AT_ONCE).map_or(stretches.len(), |pair| pair.1).max(behind + 1);
+        let next = pairs
+            .get(gone + AT_ONCE)
+            .map_or(stretches.len(), |pair| pair.1)
+            .max(behind + 1);
         let end = gone + pairs[gone..].partition_point(|pair| pair.1 < next);
         let some = if left > 0 { &pairs[gone..end] } else { &[] };
         is_crowded |= some.len() < end - gone;
-        let unknown: Vec<(usize, usize)> = some.iter().copied().filter(|&(a, b)| !known.pairs.contains_key(&key(a, b))).collect();
-        let found: Vec<(Pair, Near)> =
-            if unknown.len() > 64 { unknown.par_iter().map(look).collect() } else { unknown.iter().map(look).collect() };
+        let unknown: Vec<(usize, usize)> = some
+            .iter()
+            .copied()
+            .filter(|&(a, b)| !known.pairs.contains_key(&key(a, b)))
+            .collect();
+        let found: Vec<(Pair, Near)> = if unknown.len() > 64 {
+            unknown.par_iter().map(look).collect()
+        } else {
+            unknown.iter().map(look).collect()
+        };
         known.pairs.extend(found);
         for (stretch, first) in stretches[behind..next].iter().zip(&firsts[behind..next]) {
-            near.extend(stretch.near.iter().map(|&(a, b)| (first + a as usize, first + b as usize)));
+            near.extend(
+                stretch
+                    .near
+                    .iter()
+                    .map(|&(a, b)| (first + a as usize, first + b as usize)),
+            );
         }
         for &(a, b) in some {
             // What was known before counts as well: how much of a contour is looked at must not hang on that.
@@ -136,33 +161,66 @@ pub(in crate::program) fn search(
                 is_crowded = true;
                 break;
             };
-            near.extend(found.iter().map(|&(i, j)| (firsts[a] + i as usize, firsts[b] + j as usize)));
+            near.extend(
+                found
+                    .iter()
+                    .map(|&(i, j)| (firsts[a] + i as usize, firsts[b] + j as usize)),
+            );
             left = left.saturating_sub(*cost);
         }
         (gone, behind) = (end, next);
     }
     if near.is_empty() {
-        return Found { crossings: Vec::new(), is_crowded, pairs: pairs.len() };
+        return Found {
+            crossings: Vec::new(),
+            is_crowded,
+            pairs: pairs.len(),
+        };
     }
     let piece = |index: usize| {
-        let stretch = firsts.partition_point(|first| *first <= index).checked_sub(1)?;
+        let stretch = firsts
+            .partition_point(|first| *first <= index)
+            .checked_sub(1)?;
         let [x, y] = stretches.get(stretch)?.start.meant_um();
         let own = prepared(stretch).pieces.get(index - firsts[stretch])?;
         Some(own.moved(Vector::new(x, y)))
     };
-    let (found, is_all) = Way { piece: &piece, count, margin: margin(arcs), steps: Cell::new(0) }.crossings(near);
-    Found { crossings: found, is_crowded: is_crowded || !is_all, pairs: pairs.len() }
+    let (found, is_all) = Way {
+        piece: &piece,
+        count,
+        margin: margin(arcs),
+        steps: Cell::new(0),
+    }
+    .crossings(near);
+    Found {
+        crossings: found,
+        is_crowded: is_crowded || !is_all,
+        pairs: pairs.len(),
+    }
 }
 
 /// Where the passes of a contour cross themselves, each for itself: one may lie on another, and ways in and out cross others.
-pub(in crate::program) fn crossings_of_passes(pieces: &[Segment], passes: &[Range<usize>]) -> Found {
+pub(in crate::program) fn crossings_of_passes(
+    pieces: &[Segment],
+    passes: &[Range<usize>],
+) -> Found {
     let crossings = passes.iter().flat_map(|pass| {
         let own = pieces.get(pass.clone()).unwrap_or_default();
         let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
-        let placed = |one: Crossing| Crossing { first: one.first + pass.start, second: one.second + pass.start, ..one };
-        crossings(own, arcs).into_iter().map(placed).collect::<Vec<_>>()
+        let placed = |one: Crossing| Crossing {
+            first: one.first + pass.start,
+            second: one.second + pass.start,
+            ..one
+        };
+        crossings(own, arcs)
+            .into_iter()
+            .map(placed)
+            .collect::<Vec<_>>()
     });
-    Found { crossings: crossings.collect(), ..Found::default() }
+    Found {
+        crossings: crossings.collect(),
+        ..Found::default()
+    }
 }
 
 /// The pieces of a stretch from the origin, with boxes about them, about pairs of boxes, and so on up to one.
@@ -173,7 +231,12 @@ struct Prepared {
 
 impl Prepared {
     fn of(pieces: Vec<Segment>) -> Prepared {
-        let levels = levels_over(pieces.iter().map(|piece| piece.bounds().grown(SLACK)).collect());
+        let levels = levels_over(
+            pieces
+                .iter()
+                .map(|piece| piece.bounds().grown(SLACK))
+                .collect(),
+        );
         Prepared { pieces, levels }
     }
 
@@ -184,7 +247,11 @@ impl Prepared {
         let mut waiting = vec![((self.levels.len() - 1, 0), (other.levels.len() - 1, 0))];
         while let Some(((level_a, a), (level_b, b))) = waiting.pop() {
             cost += 1;
-            let (Some(ours), Some(theirs)) = (self.levels[level_a].get(a), other.levels[level_b].get(b)) else { continue };
+            let (Some(ours), Some(theirs)) =
+                (self.levels[level_a].get(a), other.levels[level_b].get(b))
+            else {
+                continue;
+            };
             let theirs = placed(theirs, by);
             if !ours.touches(&theirs) {
                 continue;
@@ -197,7 +264,9 @@ impl Prepared {
                         found.push((a as u32, b as u32));
                     }
                 }
-                _ if level_a >= level_b => waiting.extend([2 * a, 2 * a + 1].map(|a| ((level_a - 1, a), (level_b, b)))),
+                _ if level_a >= level_b => {
+                    waiting.extend([2 * a, 2 * a + 1].map(|a| ((level_a - 1, a), (level_b, b))))
+                }
                 _ => waiting.extend([2 * b, 2 * b + 1].map(|b| ((level_a, a), (level_b - 1, b)))),
             }
         }
@@ -209,14 +278,23 @@ impl Prepared {
 const SLACK: f64 = 1.0;
 
 fn placed(bounds: &Bounds, by: Vector) -> Bounds {
-    Bounds { min: bounds.min + by, max: bounds.max + by }
+    Bounds {
+        min: bounds.min + by,
+        max: bounds.max + by,
+    }
 }
 
 /// Boxes about pairs of boxes, and so on up to one.
 fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
     let mut levels = vec![boxes];
     while let Some(last) = levels.last().filter(|level| level.len() > 1) {
-        let next = last.chunks(2).map(|pair| pair.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part))).collect();
+        let next = last
+            .chunks(2)
+            .map(|pair| {
+                pair.iter()
+                    .fold(Bounds::EMPTY, |whole, part| whole.merged(part))
+            })
+            .collect();
         levels.push(next);
     }
     levels
@@ -224,7 +302,12 @@ fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
 
 /// Pairs of stretches whose boxes touch, the earlier first; at most so many, and whether those are all.
 fn touching(stretches: &[Stretch<'_>], most: usize) -> (Vec<(usize, usize)>, bool) {
-    let levels = levels_over(stretches.iter().map(|stretch| stretch.placed().grown(SLACK)).collect());
+    let levels = levels_over(
+        stretches
+            .iter()
+            .map(|stretch| stretch.placed().grown(SLACK))
+            .collect(),
+    );
     let mut found = Vec::new();
     let mut waiting = vec![(levels.len() - 1, 0, 0)];
     while let Some((level, a, b)) = waiting.pop() {
@@ -252,7 +335,9 @@ fn touching(stretches: &[Stretch<'_>], most: usize) -> (Vec<(usize, usize)>, boo
 }
 
 /// The pieces of blocks from the origin on; a block that leads nowhere is a piece of no length.
-pub(super) fn pieces_of<'a>(blocks: impl Iterator<Item = &'a super::run::BlockEntry>) -> Vec<Segment> {
+pub(super) fn pieces_of<'a>(
+    blocks: impl Iterator<Item = &'a super::run::BlockEntry>,
+) -> Vec<Segment> {
     let mut at = Move::default();
     blocks
         .map(|entry| {

@@ -44,11 +44,22 @@ pub(super) fn meant(block: &Block, start: Point) -> Option<Segment> {
         Err(DecodeFault::WrongLength) => {
             let larger = block.x.max(block.y);
             let scaled = |value: i64| value as f64 * block.j as f64;
-            let counted = if block.axis == CountingAxis::X { block.x } else { block.y };
-            let Motion::Line(quadrant) = block.motion else { return None };
+            let counted = if block.axis == CountingAxis::X {
+                block.x
+            } else {
+                block.y
+            };
+            let Motion::Line(quadrant) = block.motion else {
+                return None;
+            };
             let (sign_x, sign_y) = quadrant.signs();
             let (counted, x, y) = (counted as f64, scaled(block.x), scaled(block.y));
-            (larger > 0 && counted > 0.0).then(|| Segment::line(start, start + Vector::new(sign_x * x / counted, sign_y * y / counted)))
+            (larger > 0 && counted > 0.0).then(|| {
+                Segment::line(
+                    start,
+                    start + Vector::new(sign_x * x / counted, sign_y * y / counted),
+                )
+            })
         }
         Err(_) => None,
     }
@@ -77,10 +88,18 @@ fn line(block: &Block, quadrant: Quadrant, start: Point) -> Result<Segment, Deco
     } else {
         return Err(DecodeFault::WrongLength);
     };
-    Ok(Segment::line(start, start + Vector::new(along_x * sign_x, along_y * sign_y)))
+    Ok(Segment::line(
+        start,
+        start + Vector::new(along_x * sign_x, along_y * sign_y),
+    ))
 }
 
-fn arc(block: &Block, quadrant: Quadrant, start: Point, counter_clockwise: bool) -> Result<Segment, DecodeFault> {
+fn arc(
+    block: &Block,
+    quadrant: Quadrant,
+    start: Point,
+    counter_clockwise: bool,
+) -> Result<Segment, DecodeFault> {
     let (sign_x, sign_y) = quadrant.signs();
     let from_center = Vector::new(block.x as f64 * sign_x, block.y as f64 * sign_y);
     let radius = from_center.norm();
@@ -95,7 +114,14 @@ fn arc(block: &Block, quadrant: Quadrant, start: Point, counter_clockwise: bool)
     let start_angle = from_center.y.atan2(from_center.x);
     let turn = if counter_clockwise { 1.0 } else { -1.0 };
     if (j - 4.0 * radius).abs() <= TOLERANCE {
-        return Ok(Segment::Arc(Arc { center, radius, start_angle, sweep: TAU * turn, start, end: start }));
+        return Ok(Segment::Arc(Arc {
+            center,
+            radius,
+            start_angle,
+            sweep: TAU * turn,
+            start,
+            end: start,
+        }));
     }
     if j > 4.0 * radius {
         return Err(DecodeFault::OverTurn);
@@ -103,7 +129,14 @@ fn arc(block: &Block, quadrant: Quadrant, start: Point, counter_clockwise: bool)
     let phase = phase(block.axis, start_angle, counter_clockwise);
     let sweep = turn * (phase_after(travelled(phase) + j / radius) - phase);
     let end = center + direction(start_angle + sweep) * radius;
-    Ok(Segment::Arc(Arc { center, radius, start_angle, sweep, start, end }))
+    Ok(Segment::Arc(Arc {
+        center,
+        radius,
+        start_angle,
+        sweep,
+        start,
+        end,
+    }))
 }
 
 /// The start angle as a phase in 0 … 2π that grows with the travel and whose cosine is the counted coordinate over R.
@@ -112,7 +145,11 @@ pub(super) fn phase(axis: CountingAxis, start_angle: f64, counter_clockwise: boo
         CountingAxis::X => start_angle,
         CountingAxis::Y => start_angle - FRAC_PI_2,
     };
-    positive_angle(if counter_clockwise { from_axis } else { -from_axis })
+    positive_angle(if counter_clockwise {
+        from_axis
+    } else {
+        -from_axis
+    })
 }
 
 /// What a unit circle's coordinate travels while the phase grows from 0: 2 for each half turn, `1 − cos` within one.
@@ -124,5 +161,8 @@ fn travelled(phase: f64) -> f64 {
 /// The inverse of [`travelled`].
 fn phase_after(travelled: f64) -> f64 {
     let half_turns = (travelled / 2.0).floor();
-    half_turns * PI + (1.0 - (travelled - 2.0 * half_turns)).clamp(-1.0, 1.0).acos()
+    half_turns * PI
+        + (1.0 - (travelled - 2.0 * half_turns))
+            .clamp(-1.0, 1.0)
+            .acos()
 }

@@ -43,11 +43,17 @@ struct OwnWords {
 
 impl OwnWords {
     fn of(settings: &Effective) -> OwnWords {
-        OwnWords { pause: settings.pause.trim().into(), end: settings.end.trim().into() }
+        OwnWords {
+            pause: settings.pause.trim().into(),
+            end: settings.end.trim().into(),
+        }
     }
 
     fn words(&self) -> Words<'_> {
-        Words { pause: &self.pause, end: &self.end }
+        Words {
+            pause: &self.pause,
+            end: &self.end,
+        }
     }
 }
 
@@ -100,10 +106,28 @@ impl Document {
         let text = SourceText::new(bytes);
         let (words, limits) = (OwnWords::of(settings), Limits::of(settings));
         let count = text.line_count();
-        let read = |first: usize| run_of(&text, first..(first + LINES).min(count), &words.words(), &limits);
+        let read = |first: usize| {
+            run_of(
+                &text,
+                first..(first + LINES).min(count),
+                &words.words(),
+                &limits,
+            )
+        };
         let firsts: Vec<usize> = (0..count).step_by(LINES).collect();
-        let runs = if count > 20 * LINES { firsts.into_par_iter().map(read).collect() } else { firsts.into_iter().map(read).collect() };
-        let mut document = Document { text, words, limits, runs, view: Box::default(), known: Box::default() };
+        let runs = if count > 20 * LINES {
+            firsts.into_par_iter().map(read).collect()
+        } else {
+            firsts.into_iter().map(read).collect()
+        };
+        let mut document = Document {
+            text,
+            words,
+            limits,
+            runs,
+            view: Box::default(),
+            known: Box::default(),
+        };
         document.look_again();
         document
     }
@@ -139,24 +163,41 @@ impl Document {
         let starts = &self.view.starts;
         let first_byte = starts.get(first).map_or(0, |start| start.0);
         let first_line = starts.get(first).map_or(0, |start| start.1);
-        let behind = starts.get(last + 1).map_or(self.text.len(), |start| start.0);
+        let behind = starts
+            .get(last + 1)
+            .map_or(self.text.len(), |start| start.0);
         let tail = self.text.len() - behind;
         self.text.replace(start..end, replacement);
         let new_behind = self.text.len() - tail;
         debug_assert_eq!(self.text.line_start(first_line), first_byte);
-        let last_line = if tail == 0 { self.text.line_count() } else { self.text.line_of(new_behind) };
+        let last_line = if tail == 0 {
+            self.text.line_count()
+        } else {
+            self.text.line_of(new_behind)
+        };
         let words = self.words.words();
         let fresh: Vec<Run> = (first_line..last_line)
             .step_by(LINES)
-            .map(|line| run_of(&self.text, line..(line + LINES).min(last_line), &words, &self.limits))
+            .map(|line| {
+                run_of(
+                    &self.text,
+                    line..(line + LINES).min(last_line),
+                    &words,
+                    &self.limits,
+                )
+            })
             .collect();
-        self.runs.splice(first..(last + 1).min(self.runs.len()), fresh);
+        self.runs
+            .splice(first..(last + 1).min(self.runs.len()), fresh);
         self.look_again();
     }
 
     /// The run that holds a byte; the last one for bytes past the end.
     fn run_at(&self, byte: usize) -> usize {
-        self.view.starts.partition_point(|start| start.0 <= byte).saturating_sub(1)
+        self.view
+            .starts
+            .partition_point(|start| start.0 <= byte)
+            .saturating_sub(1)
     }
 
     fn base(&self, run: usize) -> usize {
@@ -170,7 +211,9 @@ impl Document {
     /// Bytes of an entry in the text.
     fn range_of(&self, at: At, starts: &[(usize, usize)]) -> Range<usize> {
         let base = starts.get(at.run).map_or(0, |start| start.0);
-        self.entry(at).map_or(0..0, |entry| entry.range().start + base..entry.range().end + base)
+        self.entry(at).map_or(0..0, |entry| {
+            entry.range().start + base..entry.range().end + base
+        })
     }
 
     fn look_again(&mut self) {
@@ -181,15 +224,23 @@ impl Document {
         // What a contour within one run comes to hangs on nothing else: it is not asked again.
         for of_run in calm.chunk_by(|a, b| a.0 == b.0) {
             let run = of_run.first().and_then(|(run, _)| self.runs.get_mut(*run));
-            let is_calm = |part: &usize| of_run.binary_search_by_key(part, |(_, part)| *part).is_ok();
-            run.into_iter().for_each(|run| run.tangled.retain(|part| !is_calm(part)));
+            let is_calm =
+                |part: &usize| of_run.binary_search_by_key(part, |(_, part)| *part).is_ok();
+            run.into_iter()
+                .for_each(|run| run.tangled.retain(|part| !is_calm(part)));
         }
     }
 }
 
 fn run_of(text: &SourceText, lines: Range<usize>, words: &Words<'_>, limits: &Limits) -> Run {
     let whole = text.line_start(lines.start)..text.line_start(lines.end);
-    Run::read(text.bytes(), whole, lines.map(|line| text.line_range(line)), words, limits)
+    Run::read(
+        text.bytes(),
+        whole,
+        lines.map(|line| text.line_range(line)),
+        words,
+        limits,
+    )
 }
 
 #[cfg(test)]
@@ -201,7 +252,11 @@ mod tests {
 
     /// Findings in one order, whatever runs the lines lie in.
     fn sorted(document: &Document) -> Vec<String> {
-        let mut findings: Vec<String> = document.findings().iter().map(|finding| format!("{finding:?}")).collect();
+        let mut findings: Vec<String> = document
+            .findings()
+            .iter()
+            .map(|finding| format!("{finding:?}"))
+            .collect();
         findings.sort();
         findings
     }

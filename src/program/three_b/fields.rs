@@ -56,7 +56,11 @@ pub fn fields_of(text: &[u8], range: Range<usize>) -> Option<Fields> {
 pub(super) fn strict(text: &[u8]) -> Option<(Block, Option<PartArc>, usize)> {
     let mut reader = Reader { text, at: 0 };
     let numbers = [reader.number()?, reader.number()?, reader.number()?];
-    let radius = if reader.next_is(b'B') { Some(reader.number()?.unwrap_or(0)) } else { None };
+    let radius = if reader.next_is(b'B') {
+        Some(reader.number()?.unwrap_or(0))
+    } else {
+        None
+    };
     let j = numbers[2]?;
     let axis = reader.axis()?;
     let side = reader.side();
@@ -64,8 +68,20 @@ pub(super) fn strict(text: &[u8]) -> Option<(Block, Option<PartArc>, usize)> {
         return None;
     }
     let motion = reader.motion()?;
-    let part = radius.zip(side).map(|(radius, concave)| PartArc { radius, concave });
-    Some((Block { x: numbers[0].unwrap_or(0), y: numbers[1].unwrap_or(0), j, axis, motion }, part, reader.at))
+    let part = radius
+        .zip(side)
+        .map(|(radius, concave)| PartArc { radius, concave });
+    Some((
+        Block {
+            x: numbers[0].unwrap_or(0),
+            y: numbers[1].unwrap_or(0),
+            j,
+            axis,
+            motion,
+        },
+        part,
+        reader.at,
+    ))
 }
 
 struct Reader<'a> {
@@ -79,7 +95,9 @@ impl Reader<'_> {
         while let Some(byte) = self.text.get(self.at) {
             match byte {
                 b' ' | b'\t' | b'|' => self.at += 1,
-                0xc2.. if wide_space(&self.text[self.at..]) > 0 => self.at += wide_space(&self.text[self.at..]),
+                0xc2.. if wide_space(&self.text[self.at..]) > 0 => {
+                    self.at += wide_space(&self.text[self.at..])
+                }
                 _ => break,
             }
         }
@@ -88,7 +106,9 @@ impl Reader<'_> {
     #[inline]
     fn next_is(&mut self, letter: u8) -> bool {
         self.skip();
-        self.text.get(self.at).is_some_and(|byte| byte.to_ascii_uppercase() == letter)
+        self.text
+            .get(self.at)
+            .is_some_and(|byte| byte.to_ascii_uppercase() == letter)
     }
 
     #[inline]
@@ -108,7 +128,9 @@ impl Reader<'_> {
         let start = self.at;
         let mut value: i64 = 0;
         while let Some(digit @ b'0'..=b'9') = self.text.get(self.at) {
-            value = value.checked_mul(10)?.checked_add(i64::from(digit - b'0'))?;
+            value = value
+                .checked_mul(10)?
+                .checked_add(i64::from(digit - b'0'))?;
             self.at += 1;
         }
         if value >= 10_i64.pow(MOST_DIGITS as u32) {
@@ -136,9 +158,11 @@ impl Reader<'_> {
         let kind: fn(Quadrant) -> Motion = if self.take(b'L') {
             Motion::Line
         } else if self.take(b'S') {
-            self.take(b'R').then_some(Motion::Clockwise as fn(Quadrant) -> Motion)?
+            self.take(b'R')
+                .then_some(Motion::Clockwise as fn(Quadrant) -> Motion)?
         } else {
-            (self.take(b'N') && self.take(b'R')).then_some(Motion::CounterClockwise as fn(Quadrant) -> Motion)?
+            (self.take(b'N') && self.take(b'R'))
+                .then_some(Motion::CounterClockwise as fn(Quadrant) -> Motion)?
         };
         self.skip();
         let quadrant = Quadrant::from_number(self.text.get(self.at)?.wrapping_sub(b'0'))?;
@@ -194,14 +218,23 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
     let own = if side.is_some() { 4 } else { 3 };
     let first_has_b = numbers.first().is_some_and(|number| number.b.is_some());
     if !first_has_b && numbers.len() == own + 1 && with_b + 1 >= own {
-        row = numbers.remove(0).value.and_then(|value| u32::try_from(value).ok());
+        row = numbers
+            .remove(0)
+            .value
+            .and_then(|value| u32::try_from(value).ok());
     }
     let mut radius = None;
     if numbers.len() == 4 && side.is_none() {
         let meant = &numbers[0];
         let number = meant.value.and_then(|value| u32::try_from(value).ok());
-        let Some((b, number)) = meant.b.zip(number) else { return Err((meant.digits.start, "B before the number".into())) };
-        faults.push(SyntaxFault { range: b..meant.digits.end, flaw: Flaw::BlockNumberAsB { number }, number: None });
+        let Some((b, number)) = meant.b.zip(number) else {
+            return Err((meant.digits.start, "B before the number".into()));
+        };
+        faults.push(SyntaxFault {
+            range: b..meant.digits.end,
+            flaw: Flaw::BlockNumberAsB { number },
+            number: None,
+        });
         row = Some(number);
         numbers.remove(0);
     } else if numbers.len() == 4 {
@@ -211,19 +244,41 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
         numbers = split_numbers(text, numbers, axis, motion, axis_at, &mut faults)?;
     }
     let [x, y, j] = &numbers[..] else {
-        let at = numbers.get(3).map_or(axis_at, |number| number.b.unwrap_or(number.digits.start));
+        let at = numbers
+            .get(3)
+            .map_or(axis_at, |number| number.b.unwrap_or(number.digits.start));
         return Err((at, "G and the counting axis, GX or GY".into()));
     };
     for number in [x, y, j].into_iter().filter(|number| number.b.is_none()) {
         // What was split has been said already.
-        if !faults.iter().any(|fault| matches!(fault.flaw, Flaw::MissingB { .. })) {
-            faults.push(SyntaxFault { range: number.digits.clone(), flaw: Flaw::MissingB { at: number.digits.start }, number: None });
+        if !faults
+            .iter()
+            .any(|fault| matches!(fault.flaw, Flaw::MissingB { .. }))
+        {
+            faults.push(SyntaxFault {
+                range: number.digits.clone(),
+                flaw: Flaw::MissingB {
+                    at: number.digits.start,
+                },
+                number: None,
+            });
         }
     }
-    let Some(length) = j.value else { return Err((j.digits.start, "the counting length J in \u{b5}m".into())) };
+    let Some(length) = j.value else {
+        return Err((j.digits.start, "the counting length J in \u{b5}m".into()));
+    };
     let first = x.b.unwrap_or(x.digits.start);
-    let block = Block { x: x.value.unwrap_or(0), y: y.value.unwrap_or(0), j: length, axis, motion };
-    let part = side.map(|concave| PartArc { radius: radius.as_ref().and_then(|radius| radius.value).unwrap_or(0), concave });
+    let block = Block {
+        x: x.value.unwrap_or(0),
+        y: y.value.unwrap_or(0),
+        j: length,
+        axis,
+        motion,
+    };
+    let part = side.map(|concave| PartArc {
+        radius: radius.as_ref().and_then(|radius| radius.value).unwrap_or(0),
+        concave,
+    });
     let fields = Fields {
         first,
         x: x.digits.clone(),
@@ -235,11 +290,20 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
         motion: motion_at..reader.at,
         end: reader.at,
     };
-    Ok(Found { block, part, fields, row, faults })
+    Ok(Found {
+        block,
+        part,
+        fields,
+        row,
+        faults,
+    })
 }
 
 /// Numbers with and without `B` up to the counting axis.
-fn numbers(reader: &mut Reader<'_>, faults: &mut Vec<SyntaxFault>) -> Result<Vec<Number>, (usize, String)> {
+fn numbers(
+    reader: &mut Reader<'_>,
+    faults: &mut Vec<SyntaxFault>,
+) -> Result<Vec<Number>, (usize, String)> {
     let mut numbers: Vec<Number> = Vec::new();
     loop {
         reader.skip();
@@ -253,7 +317,11 @@ fn numbers(reader: &mut Reader<'_>, faults: &mut Vec<SyntaxFault>) -> Result<Vec
             let digit = match reader.text.get(reader.at) {
                 Some(digit @ b'0'..=b'9') => *digit,
                 Some(b'O' | b'o') => {
-                    faults.push(SyntaxFault { range: reader.at..reader.at + 1, flaw: Flaw::LetterO, number: None });
+                    faults.push(SyntaxFault {
+                        range: reader.at..reader.at + 1,
+                        flaw: Flaw::LetterO,
+                        number: None,
+                    });
                     b'0'
                 }
                 _ => break,
@@ -272,9 +340,16 @@ fn numbers(reader: &mut Reader<'_>, faults: &mut Vec<SyntaxFault>) -> Result<Vec
         }
         if numbers.len() == 5 {
             let fourth = &numbers[3];
-            return Err((fourth.b.unwrap_or(fourth.digits.start), "G and the counting axis, GX or GY".into()));
+            return Err((
+                fourth.b.unwrap_or(fourth.digits.start),
+                "G and the counting axis, GX or GY".into(),
+            ));
         }
-        numbers.push(Number { b, digits: start..reader.at, value: (reader.at > start).then_some(value) });
+        numbers.push(Number {
+            b,
+            digits: start..reader.at,
+            value: (reader.at > start).then_some(value),
+        });
     }
 }
 
@@ -312,8 +387,13 @@ fn motion_of(reader: &mut Reader<'_>) -> Result<Motion, (usize, String)> {
         return Err((reader.at, "L, SR or NR and a quadrant".into()));
     };
     reader.skip();
-    let quadrant = reader.text.get(reader.at).and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
-    let Some(quadrant) = quadrant else { return Err((reader.at, "a quadrant from 1 to 4".into())) };
+    let quadrant = reader
+        .text
+        .get(reader.at)
+        .and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
+    let Some(quadrant) = quadrant else {
+        return Err((reader.at, "a quadrant from 1 to 4".into()));
+    };
     reader.at += 1;
     Ok(kind(quadrant))
 }
@@ -328,8 +408,12 @@ fn split_numbers(
     faults: &mut Vec<SyntaxFault>,
 ) -> Result<Vec<Number>, (usize, String)> {
     let expected = || (axis_at, "digits of Y, or B before J".to_owned());
-    let [first, second] = &numbers[..] else { return Err(expected()) };
-    let value = |range: Range<usize>| -> Option<i64> { std::str::from_utf8(text.get(range)?).ok()?.parse().ok() };
+    let [first, second] = &numbers[..] else {
+        return Err(expected());
+    };
+    let value = |range: Range<usize>| -> Option<i64> {
+        std::str::from_utf8(text.get(range)?).ok()?.parse().ok()
+    };
     let mut ways: Vec<Vec<Number>> = Vec::new();
     for (index, number) in [first, second].into_iter().enumerate() {
         for cut in number.digits.start + 1..number.digits.end {
@@ -339,15 +423,25 @@ fn split_numbers(
                 continue;
             }
             let halves = [
-                Number { b: number.b, value: value(left.clone()), digits: left },
-                Number { b: None, value: value(right.clone()), digits: right },
+                Number {
+                    b: number.b,
+                    value: value(left.clone()),
+                    digits: left,
+                },
+                Number {
+                    b: None,
+                    value: value(right.clone()),
+                    digits: right,
+                },
             ];
             let all: Vec<Number> = if index == 0 {
                 halves.into_iter().chain([second.clone()]).collect()
             } else {
                 [first.clone()].into_iter().chain(halves).collect()
             };
-            let [Some(x), Some(y), Some(j)] = [all[0].value, all[1].value, all[2].value] else { continue };
+            let [Some(x), Some(y), Some(j)] = [all[0].value, all[1].value, all[2].value] else {
+                continue;
+            };
             let counted = if axis == CountingAxis::X { x } else { y };
             if matches!(motion, Motion::Line(_)) && counted == j && counted >= x.max(y) && j > 0 {
                 ways.push(all);
@@ -356,9 +450,16 @@ fn split_numbers(
     }
     match ways.pop() {
         Some(way) if ways.is_empty() => {
-            let at = way.iter().find(|number| number.b.is_none()).map_or(axis_at, |number| number.digits.start);
+            let at = way
+                .iter()
+                .find(|number| number.b.is_none())
+                .map_or(axis_at, |number| number.digits.start);
             let start = first.b.unwrap_or(first.digits.start);
-            faults.push(SyntaxFault { range: start..axis_at, flaw: Flaw::MissingB { at }, number: None });
+            faults.push(SyntaxFault {
+                range: start..axis_at,
+                flaw: Flaw::MissingB { at },
+                number: None,
+            });
             Ok(way)
         }
         _ => Err(expected()),

@@ -4,7 +4,14 @@ use super::block::{Block, CountingAxis, Motion, Node, PartArc};
 use crate::settings::Layout;
 
 /// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point stand in the checking layout only.
-pub(super) fn push_block(out: &mut Vec<u8>, layout: Layout, number: usize, block: &Block, part: Option<&PartArc>, end: Node) {
+pub(super) fn push_block(
+    out: &mut Vec<u8>,
+    layout: Layout,
+    number: usize,
+    block: &Block,
+    part: Option<&PartArc>,
+    end: Node,
+) {
     if layout == Layout::Checking {
         push_block_number(out, number as u64);
     }
@@ -24,10 +31,18 @@ pub(super) fn push_block_number(out: &mut Vec<u8>, number: u64) {
 }
 
 /// Appends the block itself, from its first `B` to the quadrant; with `part` it is one of 4B.
-pub(super) fn push_fields(out: &mut Vec<u8>, layout: Layout, block: &Block, part: Option<&PartArc>) {
+pub(super) fn push_fields(
+    out: &mut Vec<u8>,
+    layout: Layout,
+    block: &Block,
+    part: Option<&PartArc>,
+) {
     let width = if layout == Layout::Compact { 0 } else { 6 };
     let between: &[u8] = if layout == Layout::Compact { b"" } else { b" " };
-    for value in [block.x, block.y, block.j].into_iter().chain(part.map(|part| part.radius)) {
+    for value in [block.x, block.y, block.j]
+        .into_iter()
+        .chain(part.map(|part| part.radius))
+    {
         out.push(b'B');
         out.extend_from_slice(between);
         push_number(out, value.unsigned_abs(), width);
@@ -53,7 +68,11 @@ pub(super) fn push_fields(out: &mut Vec<u8>, layout: Layout, block: &Block, part
 
 /// Appends the spaces behind a block in columns, so that what follows lines and arcs stands in one column.
 pub(super) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
-    out.extend_from_slice(if matches!(block.motion, Motion::Line(_)) { b"  " } else { b" " });
+    out.extend_from_slice(if matches!(block.motion, Motion::Line(_)) {
+        b"  "
+    } else {
+        b" "
+    });
 }
 
 /// Appends `; x , y`, the absolute end point in mm.

@@ -39,7 +39,10 @@ fn signed(quadrant: Quadrant, along_x: i64, along_y: i64) -> Node {
         Quadrant::Third => (-1, -1),
         Quadrant::Fourth => (1, -1),
     };
-    Node { x: sign_x * along_x, y: sign_y * along_y }
+    Node {
+        x: sign_x * along_x,
+        y: sign_y * along_y,
+    }
 }
 
 /// True where the first axis of a quadrant's own is Y.
@@ -68,11 +71,19 @@ fn ramp(block: &Block, quadrant: Quadrant) -> Option<Ramp> {
     }
     let turned = is_turned(quadrant);
     let (first, second) = if turned { (y, x) } else { (x, y) };
-    Some(Ramp { first, second, first_counts: (block.axis == CountingAxis::X) != turned })
+    Some(Ramp {
+        first,
+        second,
+        first_counts: (block.axis == CountingAxis::X) != turned,
+    })
 }
 
 fn line(block: &Block, quadrant: Quadrant) -> Option<Node> {
-    let Ramp { first, second, first_counts } = ramp(block, quadrant)?;
+    let Ramp {
+        first,
+        second,
+        first_counts,
+    } = ramp(block, quadrant)?;
     let j = block.j;
     let (a, b) = match (first, second) {
         // Along an axis there is nothing to compare.
@@ -89,10 +100,14 @@ fn line(block: &Block, quadrant: Quadrant) -> Option<Node> {
 
 /// `count · over / under`, rounded up or down.
 fn ratio(count: i64, over: i64, under: i64, up: bool) -> i64 {
-    match count.checked_mul(over).and_then(|product| product.checked_add(if up { under - 1 } else { 0 })) {
+    match count
+        .checked_mul(over)
+        .and_then(|product| product.checked_add(if up { under - 1 } else { 0 }))
+    {
         Some(product) => product / under,
         None => {
-            let product = i128::from(count) * i128::from(over) + if up { i128::from(under) - 1 } else { 0 };
+            let product =
+                i128::from(count) * i128::from(over) + if up { i128::from(under) - 1 } else { 0 };
             i64::try_from(product / i128::from(under)).unwrap_or(i64::MAX)
         }
     }
@@ -116,8 +131,19 @@ impl Round {
         if square == 0 {
             return None;
         }
-        let mut round = Round { square, quadrant, counter_clockwise, axis: block.axis, left: 0, done: 0 };
-        (round.left, round.done) = if round.x_is_left() { (block.x, block.y) } else { (block.y, block.x) };
+        let mut round = Round {
+            square,
+            quadrant,
+            counter_clockwise,
+            axis: block.axis,
+            left: 0,
+            done: 0,
+        };
+        (round.left, round.done) = if round.x_is_left() {
+            (block.x, block.y)
+        } else {
+            (block.y, block.x)
+        };
         Some(round)
     }
 
@@ -146,7 +172,11 @@ impl Round {
     }
 
     fn point(&self) -> Node {
-        let (x, y) = if self.x_is_left() { (self.left, self.done) } else { (self.done, self.left) };
+        let (x, y) = if self.x_is_left() {
+            (self.left, self.done)
+        } else {
+            (self.done, self.left)
+        };
         signed(self.quadrant, x, y)
     }
 
@@ -171,8 +201,17 @@ fn arc(block: &Block, quadrant: Quadrant, counter_clockwise: bool) -> Option<Nod
             reach = (round.done == 0).then_some(round.left);
         }
         // At a radius of 1 µm the machine steps into the centre, and out of it.
-        let done_at_axis = if round.left == 0 { round.done } else { round.done_at(1) }.max(1);
-        let in_quadrant = if round.left_counts() { round.left } else { done_at_axis - round.done };
+        let done_at_axis = if round.left == 0 {
+            round.done
+        } else {
+            round.done_at(1)
+        }
+        .max(1);
+        let in_quadrant = if round.left_counts() {
+            round.left
+        } else {
+            done_at_axis - round.done
+        };
         if count <= in_quadrant {
             break;
         }
@@ -189,7 +228,10 @@ fn arc(block: &Block, quadrant: Quadrant, counter_clockwise: bool) -> Option<Nod
         (round.left, round.done) = (round.left.min(inside.max(0)), round.done + count);
     }
     let end = round.point();
-    Some(Node { x: end.x - start.x, y: end.y - start.y })
+    Some(Node {
+        x: end.x - start.x,
+        y: end.y - start.y,
+    })
 }
 
 /// The least whole number whose square is not below `square`; 0 for what is not above 0.
@@ -238,7 +280,10 @@ pub fn interpolate(block: &Block, most: usize, mut each: impl FnMut(Node)) -> Op
                 !round.left_counts()
             };
             let point = round.point();
-            at = Node { x: point.x - start.x, y: point.y - start.y };
+            at = Node {
+                x: point.x - start.x,
+                y: point.y - start.y,
+            };
             each(at);
             left_to_count -= i64::from(counts);
             if left_to_count == 0 {
@@ -247,7 +292,11 @@ pub fn interpolate(block: &Block, most: usize, mut each: impl FnMut(Node)) -> Op
         }
         return None;
     }
-    let Ramp { first, second, first_counts } = ramp(block, quadrant)?;
+    let Ramp {
+        first,
+        second,
+        first_counts,
+    } = ramp(block, quadrant)?;
     let (mut a, mut b) = (0_i64, 0_i64);
     for _ in 0..most {
         let is_above = i128::from(b) * i128::from(first) >= i128::from(a) * i128::from(second);
@@ -308,15 +357,31 @@ mod tests {
 
     #[test]
     fn a_line_at_45_degrees_ends_exactly_on_the_axis_that_the_convention_names() {
-        for (text, exact) in [("GYL1", true), ("GXL2", true), ("GYL3", true), ("GXL4", true), ("GXL1", false), ("GYL2", false)] {
+        for (text, exact) in [
+            ("GYL1", true),
+            ("GXL2", true),
+            ("GYL3", true),
+            ("GXL4", true),
+            ("GXL1", false),
+            ("GYL2", false),
+        ] {
             let end = travel(&block(&format!("B7B7B7{text}"))).unwrap();
-            assert_eq!((end.x.abs(), end.y.abs()) == (7, 7), exact, "{text}: {end:?}");
+            assert_eq!(
+                (end.x.abs(), end.y.abs()) == (7, 7),
+                exact,
+                "{text}: {end:?}"
+            );
         }
     }
 
     #[test]
     fn where_the_machine_would_not_stop_there_is_no_end() {
-        for text in ["B0B5000B5000GXL1", "B5000B0B5000GYL1", "B0B0B5000GXNR1", "B3000000000B0B5GXL1"] {
+        for text in [
+            "B0B5000B5000GXL1",
+            "B5000B0B5000GYL1",
+            "B0B0B5000GXNR1",
+            "B3000000000B0B5GXL1",
+        ] {
             assert_eq!(travel(&block(text)), None, "{text}");
         }
         assert_eq!(travel(&block("B5B5B0GXL1")), Some(Node { x: 0, y: 0 }));
@@ -324,29 +389,60 @@ mod tests {
 
     fn any_block() -> impl Strategy<Value = Block> {
         let size = prop_oneof![0_i64..12, 0_i64..400];
-        (size.clone(), size, 1_i64..1600, any::<bool>(), 0_u8..3, 1_u8..5).prop_map(|(x, y, j, counts_x, kind, quadrant)| {
-            let quadrant = Quadrant::from_number(quadrant).unwrap_or(Quadrant::First);
-            let motion = match kind {
-                0 => Motion::Line(quadrant),
-                1 => Motion::Clockwise(quadrant),
-                _ => Motion::CounterClockwise(quadrant),
-            };
-            Block { x, y, j, axis: if counts_x { CountingAxis::X } else { CountingAxis::Y }, motion }
-        })
+        (
+            size.clone(),
+            size,
+            1_i64..1600,
+            any::<bool>(),
+            0_u8..3,
+            1_u8..5,
+        )
+            .prop_map(|(x, y, j, counts_x, kind, quadrant)| {
+                let quadrant = Quadrant::from_number(quadrant).unwrap_or(Quadrant::First);
+                let motion = match kind {
+                    0 => Motion::Line(quadrant),
+                    1 => Motion::Clockwise(quadrant),
+                    _ => Motion::CounterClockwise(quadrant),
+                };
+                Block {
+                    x,
+                    y,
+                    j,
+                    axis: if counts_x {
+                        CountingAxis::X
+                    } else {
+                        CountingAxis::Y
+                    },
+                    motion,
+                }
+            })
     }
 
     /// How many µm the counted axis moves from the ideal end to that of the machine along the arc, and for a line how far they are apart.
     fn counted_miss(ideal: &Segment, axis: CountingAxis, machine: Node) -> f64 {
         let machine = Point::new(machine.x as f64, machine.y as f64);
-        let Some(arc) = ideal.as_arc() else { return (ideal.end() - machine).norm() };
+        let Some(arc) = ideal.as_arc() else {
+            return (ideal.end() - machine).norm();
+        };
         let (ideal, machine) = (arc.end - arc.center, machine - arc.center);
         let turn = crate::geometry::cross(ideal, machine).atan2(ideal.dot(&machine));
         let counted = |share: f64| {
             let angle = ideal.y.atan2(ideal.x) + share * turn;
-            arc.radius * if axis == CountingAxis::X { angle.cos() } else { angle.sin() }
+            arc.radius
+                * if axis == CountingAxis::X {
+                    angle.cos()
+                } else {
+                    angle.sin()
+                }
         };
         const PARTS: i32 = 256;
-        (0..PARTS).map(|part| (counted(f64::from(part + 1) / f64::from(PARTS)) - counted(f64::from(part) / f64::from(PARTS))).abs()).sum()
+        (0..PARTS)
+            .map(|part| {
+                (counted(f64::from(part + 1) / f64::from(PARTS))
+                    - counted(f64::from(part) / f64::from(PARTS)))
+                .abs()
+            })
+            .sum()
     }
 
     /// Twice at an end of the counted axis the machine steps to 12 where the circle turns at 11.18: 3.28 of the 42 counts are used up there,
@@ -358,7 +454,11 @@ mod tests {
         let machine = travel(&block).unwrap();
         assert_eq!((machine.x, machine.y), (-6, -10));
         assert_eq!(interpolate(&block, 1000, |_| {}), Some(machine));
-        assert!((ideal.end() - Point::new(-2.721, -1.914)).norm() < 0.001, "{:?}", ideal.end());
+        assert!(
+            (ideal.end() - Point::new(-2.721, -1.914)).norm() < 0.001,
+            "{:?}",
+            ideal.end()
+        );
         assert!((counted_miss(&ideal, block.axis, machine) - 3.459).abs() < 0.01);
     }
 

@@ -24,7 +24,9 @@ mod tests;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
-pub(in crate::program) use crossings::{Found, Known, Stretch as PathStretch, crossings_of_passes, search};
+pub(in crate::program) use crossings::{
+    Found, Known, Stretch as PathStretch, crossings_of_passes, search,
+};
 pub(in crate::program) use rules::path_crosses_itself::near_each_other;
 pub(in crate::program) use run::Move as Displacement;
 

@@ -26,7 +26,10 @@ pub struct Words<'a> {
 
 impl Default for Words<'_> {
     fn default() -> Self {
-        Words { pause: "D", end: "DD" }
+        Words {
+            pause: "D",
+            end: "DD",
+        }
     }
 }
 
@@ -51,12 +54,17 @@ impl Words<'_> {
     pub(super) fn letters_of<'t>(&self, text: &'t [u8]) -> &'t [u8] {
         let longest = self.pause.len().max(self.end.len()).max(2);
         let near = &text[..text.len().min(longest + 1)];
-        &near[..near.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(near.len())]
+        &near[..near
+            .iter()
+            .position(|byte| !byte.is_ascii_alphanumeric())
+            .unwrap_or(near.len())]
     }
 
     /// True for the two words that the settings name.
     fn is_own(&self, word: &[u8]) -> bool {
-        [self.pause, self.end].iter().any(|own| word.eq_ignore_ascii_case(own.as_bytes()))
+        [self.pause, self.end]
+            .iter()
+            .any(|own| word.eq_ignore_ascii_case(own.as_bytes()))
     }
 }
 
@@ -138,9 +146,14 @@ impl SyntaxFault {
     pub fn sentence(&self) -> String {
         match &self.flaw {
             Flaw::Unreadable(sentence) | Flaw::NotPlain(sentence) => sentence.clone(),
-            Flaw::DecimalCommas => "the coordinates have decimal commas and are not read, expected decimal points".into(),
+            Flaw::DecimalCommas => {
+                "the coordinates have decimal commas and are not read, expected decimal points"
+                    .into()
+            }
             Flaw::MissingB { .. } => "a B of the block is missing".into(),
-            Flaw::BlockNumberAsB { number } => format!("B{number} stands where N{number} was meant"),
+            Flaw::BlockNumberAsB { number } => {
+                format!("B{number} stands where N{number} was meant")
+            }
             Flaw::LetterO => "the letter O stands where a zero was meant".into(),
         }
     }
@@ -154,7 +167,9 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
         let start = range.start;
         read_line(&text[range], start, words, |item| match item {
             Item::Fault(fault) => faults.push(fault),
-            Item::Text { range, column } if has_block => faults.push(unexpected(text, range, column)),
+            Item::Text { range, column } if has_block => {
+                faults.push(unexpected(text, range, column))
+            }
             Item::Text { .. } | Item::CommentedBlock { .. } => {}
             item => {
                 has_block |= matches!(item, Item::Block { .. });
@@ -169,10 +184,15 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
 pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> SyntaxFault {
     let found = shown(text.get(range.clone()).unwrap_or_default());
     let sentence = format!("column {column}: found `{found}`, expected {BLOCK_OR_WORD}");
-    SyntaxFault { range, flaw: Flaw::Unreadable(sentence), number: None }
+    SyntaxFault {
+        range,
+        flaw: Flaw::Unreadable(sentence),
+        number: None,
+    }
 }
 
-const BLOCK_OR_WORD: &str = "a block (B X B Y B J G Z), a pause or end word, or a comment after `;`";
+const BLOCK_OR_WORD: &str =
+    "a block (B X B Y B J G Z), a pause or end word, or a comment after `;`";
 
 /// The bytes of each line without its end.
 fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
@@ -186,7 +206,13 @@ fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
             }
             Some(length) => {
                 let end = start + length;
-                next = Some(end + if text[end..].starts_with(b"\r\n") { 2 } else { 1 });
+                next = Some(
+                    end + if text[end..].starts_with(b"\r\n") {
+                        2
+                    } else {
+                        1
+                    },
+                );
                 Some(start..end)
             }
         }
@@ -201,7 +227,11 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
     if line.is_ascii() {
         return read_plain_line(line, offset, words, &mut each);
     }
-    let from = if offset == 0 && line.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+    let from = if offset == 0 && line.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
+    };
     let with_plain_marks = with_plain_marks(&line[from..]);
     let readable = match &with_plain_marks {
         Some(plain) => plain,
@@ -218,7 +248,9 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
 fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFault> {
     let alike = alike(line);
     let code = before_comment(readable).len();
-    let first = alike.iter().find(|found| found.likeness.is_letter() && found.at < code)?;
+    let first = alike
+        .iter()
+        .find(|found| found.likeness.is_letter() && found.at < code)?;
     let says = |line: &[u8]| {
         let (mut says, mut number) = (false, None);
         read_plain_line(line, 1, words, &mut |item| match item {
@@ -234,15 +266,31 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
         return None;
     }
     let end = line[..code].trim_ascii_end().len();
-    let script = if matches!(first.likeness, Likeness::Foreign(_)) { "Cyrillic or Greek" } else { "full-width" };
+    let script = if matches!(first.likeness, Likeness::Foreign(_)) {
+        "Cyrillic or Greek"
+    } else {
+        "full-width"
+    };
     let found = shown(&line[first.at..]);
     let expected = "a block in plain letters and digits";
-    let sentence = format!("column {}: found `{found}`, expected {expected}, these are {script} ones", first.at + 1);
-    Some(SyntaxFault { range: first.at..end.max(first.at + first.length), flaw: Flaw::NotPlain(sentence), number })
+    let sentence = format!(
+        "column {}: found `{found}`, expected {expected}, these are {script} ones",
+        first.at + 1
+    );
+    Some(SyntaxFault {
+        range: first.at..end.max(first.at + first.length),
+        flaw: Flaw::NotPlain(sentence),
+        number,
+    })
 }
 
 fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn FnMut(Item)) {
-    let mut cursor = Cursor { line, at: 0, offset, behind_block: false };
+    let mut cursor = Cursor {
+        line,
+        at: 0,
+        offset,
+        behind_block: false,
+    };
     // A block waits for the next token, because its coordinates stand behind it.
     let mut waiting: Option<Item> = None;
     let mut number = None;
@@ -254,15 +302,36 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
                     *stated_end = Some(end);
                 }
             }
-            Ok(Some(Token::Block { block, part, range, row, faults })) => {
+            Ok(Some(Token::Block {
+                block,
+                part,
+                range,
+                row,
+                faults,
+            })) => {
                 waiting.take().into_iter().for_each(&mut *each);
                 faults.into_iter().map(Item::Fault).for_each(&mut *each);
-                waiting = Some(Item::Block { block, range, number: number.take().or(row), stated_end: None, part });
+                waiting = Some(Item::Block {
+                    block,
+                    range,
+                    number: number.take().or(row),
+                    stated_end: None,
+                    part,
+                });
                 cursor.behind_block = true;
             }
-            Ok(Some(Token::Word { word, is_own, range })) => {
+            Ok(Some(Token::Word {
+                word,
+                is_own,
+                range,
+            })) => {
                 waiting.take().into_iter().for_each(&mut *each);
-                each(Item::Word { word, is_own, range, number: number.take() });
+                each(Item::Word {
+                    word,
+                    is_own,
+                    range,
+                    number: number.take(),
+                });
             }
             Ok(Some(Token::Other(item))) => {
                 waiting.take().into_iter().for_each(&mut *each);
@@ -271,7 +340,10 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
             Ok(None) => break,
             Err(fault) => {
                 waiting.take().into_iter().for_each(&mut *each);
-                each(Item::Fault(SyntaxFault { number: number.take(), ..fault }));
+                each(Item::Fault(SyntaxFault {
+                    number: number.take(),
+                    ..fault
+                }));
                 if !cursor.skip_broken_block() {
                     break;
                 }
@@ -316,7 +388,10 @@ impl Cursor<'_> {
 
     fn skip_space(&mut self) {
         // 0x1A ends a text of DOS; bars and commas part the columns of a table.
-        while matches!(self.peek(), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|' | b',')) {
+        while matches!(
+            self.peek(),
+            Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|' | b',')
+        ) {
             self.at += 1;
         }
     }
@@ -324,22 +399,31 @@ impl Cursor<'_> {
     fn token(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
         self.skip_space();
         let start = self.at;
-        let Some(byte) = self.peek() else { return Ok(None) };
+        let Some(byte) = self.peek() else {
+            return Ok(None);
+        };
         let rest = &self.line[start..];
         match byte {
             b'B' | b'b' => {}
             // A column of names before the blocks: `AB`, `1-2`, a word in another script.
-            _ if !self.behind_block && !matches!(byte, b'N' | b'n') && label(rest, words).is_some() => {
+            _ if !self.behind_block
+                && !matches!(byte, b'N' | b'n')
+                && label(rest, words).is_some() =>
+            {
                 self.at += label(rest, words).unwrap_or(0)
             }
             b';' => {
                 self.at = self.line.len();
                 if let Some(at) = start_point(&rest[1..]) {
-                    return Ok(Some(Token::Other(Item::StartPoint { at, range: self.range(start) })));
+                    return Ok(Some(Token::Other(Item::StartPoint {
+                        at,
+                        range: self.range(start),
+                    })));
                 }
                 // Nothing else of the line is looked at behind this: the numbers may be as long as they are.
                 let comment = &rest[1..];
-                let coordinates = &comment[..memchr::memchr(b';', comment).unwrap_or(comment.len())];
+                let coordinates =
+                    &comment[..memchr::memchr(b';', comment).unwrap_or(comment.len())];
                 if has_decimal_commas(coordinates) {
                     return Ok(Some(Token::Other(self.decimal_commas(start + 1))));
                 }
@@ -350,7 +434,9 @@ impl Cursor<'_> {
             }
             // Some writers open with a heading between rows of stars; brackets and slashes open comments elsewhere.
             b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' => return Ok(self.comment_at(start)),
-            0x80.. if looks_like_a_block(before_comment(rest)) => return Err(self.fault("a block in plain letters and digits")),
+            0x80.. if looks_like_a_block(before_comment(rest)) => {
+                return Err(self.fault("a block in plain letters and digits"));
+            }
             0x80.. => return Ok(self.comment()),
             b'(' => match row_number(rest) {
                 Some((number, length)) if !self.behind_block => {
@@ -370,7 +456,8 @@ impl Cursor<'_> {
                     return Ok(Some(Token::Other(self.decimal_commas(start))));
                 }
                 if !self.behind_block
-                    && let Some((number, length)) = row_number(rest).or_else(|| row_of_word(rest, words))
+                    && let Some((number, length)) =
+                        row_number(rest).or_else(|| row_of_word(rest, words))
                 {
                     self.at += length;
                     return Ok(Some(Token::Number(number)));
@@ -391,8 +478,13 @@ impl Cursor<'_> {
         self.at = self.line.len();
         let rest = &self.line[start..];
         let end = start + rest.trim_ascii_end().len();
-        let holds_block = memchr::memchr2_iter(b'B', b'b', rest).take(MOST_LOOKS).any(|at| fields::strict(&rest[at..]).is_some());
-        let comment = Item::CommentedBlock { range: self.offset + start..self.offset + end, column: start + 1 };
+        let holds_block = memchr::memchr2_iter(b'B', b'b', rest)
+            .take(MOST_LOOKS)
+            .any(|at| fields::strict(&rest[at..]).is_some());
+        let comment = Item::CommentedBlock {
+            range: self.offset + start..self.offset + end,
+            column: start + 1,
+        };
         holds_block.then_some(Token::Other(comment))
     }
 
@@ -400,8 +492,15 @@ impl Cursor<'_> {
     fn decimal_commas(&mut self, from: usize) -> Item {
         self.at = self.line.len();
         let code = before_comment(&self.line[from..]);
-        let (start, end) = (from + code.len() - code.trim_ascii_start().len(), from + code.trim_ascii_end().len());
-        Item::Fault(SyntaxFault { range: self.offset + start..self.offset + end, flaw: Flaw::DecimalCommas, number: None })
+        let (start, end) = (
+            from + code.len() - code.trim_ascii_start().len(),
+            from + code.trim_ascii_end().len(),
+        );
+        Item::Fault(SyntaxFault {
+            range: self.offset + start..self.offset + end,
+            flaw: Flaw::DecimalCommas,
+            number: None,
+        })
     }
 
     fn word_or_block(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
@@ -409,19 +508,35 @@ impl Cursor<'_> {
         let rest = &self.line[start..];
         if let Some((block, part, length)) = fields::strict(rest) {
             self.at += length;
-            return Ok(Some(Token::Block { block, part, range: self.range(start), row: None, faults: Vec::new() }));
+            return Ok(Some(Token::Block {
+                block,
+                part,
+                range: self.range(start),
+                row: None,
+                faults: Vec::new(),
+            }));
         }
-        let length = rest.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(rest.len());
+        let length = rest
+            .iter()
+            .position(|byte| !byte.is_ascii_alphanumeric())
+            .unwrap_or(rest.len());
         if length > 0
             && let Some(word) = words.meaning(&rest[..length])
         {
             let is_own = words.is_own(&rest[..length]);
             self.at += length;
-            return Ok(Some(Token::Word { word, is_own, range: self.range(start) }));
+            return Ok(Some(Token::Word {
+                word,
+                is_own,
+                range: self.range(start),
+            }));
         }
         if let Some(at) = start_point(rest) {
             self.at = self.line.len();
-            return Ok(Some(Token::Other(Item::StartPoint { at, range: self.range(start) })));
+            return Ok(Some(Token::Other(Item::StartPoint {
+                at,
+                range: self.range(start),
+            })));
         }
         if matches!(rest.first(), Some(b'N' | b'n'))
             && let Some((number, length)) = n_word(rest)
@@ -438,15 +553,28 @@ impl Cursor<'_> {
                 return Ok(None);
             }
             let end = start + rest.trim_ascii_end().len();
-            return Ok(Some(Token::Other(Item::Text { range: self.offset + start..self.offset + end, column: start + 1 })));
+            return Ok(Some(Token::Other(Item::Text {
+                range: self.offset + start..self.offset + end,
+                column: start + 1,
+            })));
         }
         match fields::lenient(rest) {
             Ok(found) => {
                 self.at += found.fields.end;
-                let faults = found.faults.into_iter().map(|fault| self.placed(fault, start)).collect();
+                let faults = found
+                    .faults
+                    .into_iter()
+                    .map(|fault| self.placed(fault, start))
+                    .collect();
                 let (Fields { first, .. }, end) = (&found.fields, self.at);
                 let range = self.offset + start + first..self.offset + end;
-                Ok(Some(Token::Block { block: found.block, part: found.part, range, row: found.row, faults }))
+                Ok(Some(Token::Block {
+                    block: found.block,
+                    part: found.part,
+                    range,
+                    row: found.row,
+                    faults,
+                }))
             }
             Err((at, expected)) => {
                 self.at = start + at;
@@ -461,7 +589,11 @@ impl Cursor<'_> {
             Flaw::MissingB { at } => Flaw::MissingB { at: at + shift },
             flaw => flaw,
         };
-        SyntaxFault { range: fault.range.start + shift..fault.range.end + shift, flaw, number: fault.number }
+        SyntaxFault {
+            range: fault.range.start + shift..fault.range.end + shift,
+            flaw,
+            number: fault.number,
+        }
     }
 
     fn range(&self, start: usize) -> Range<usize> {
@@ -475,19 +607,39 @@ impl Cursor<'_> {
         if rest.is_empty() {
             // There is nothing to underline behind the end, so the last byte stands for it.
             let range = self.offset + self.at.saturating_sub(1)..self.offset + self.at;
-            let flaw = Flaw::Unreadable(format!("column {column}: the line ends, expected {expected}"));
-            return SyntaxFault { range, flaw, number: None };
+            let flaw = Flaw::Unreadable(format!(
+                "column {column}: the line ends, expected {expected}"
+            ));
+            return SyntaxFault {
+                range,
+                flaw,
+                number: None,
+            };
         }
-        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len()).max(1);
+        let length = rest
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(rest.len())
+            .max(1);
         let range = self.offset + self.at..self.offset + self.at + length;
-        let flaw = Flaw::Unreadable(format!("column {column}: found `{}`, expected {expected}", shown(&rest[..length])));
-        SyntaxFault { range, flaw, number: None }
+        let flaw = Flaw::Unreadable(format!(
+            "column {column}: found `{}`, expected {expected}",
+            shown(&rest[..length])
+        ));
+        SyntaxFault {
+            range,
+            flaw,
+            number: None,
+        }
     }
 
     /// Goes behind the quadrant that the broken block ends in, where more blocks may stand; false where there is none.
     fn skip_broken_block(&mut self) -> bool {
         let rest = &self.line[self.at..];
-        let comment = rest.iter().position(|&byte| byte == b';').unwrap_or(rest.len());
+        let comment = rest
+            .iter()
+            .position(|&byte| byte == b';')
+            .unwrap_or(rest.len());
         let is_end = |window: &[u8]| matches!(window, [b'L' | b'R' | b'l' | b'r', b'1'..=b'4']);
         match rest[..comment].windows(2).position(is_end) {
             Some(at) => {
@@ -502,8 +654,14 @@ impl Cursor<'_> {
 
 /// The first characters of what was found.
 fn shown(bytes: &[u8]) -> String {
-    let word = bytes.split(u8::is_ascii_whitespace).next().unwrap_or_default();
-    String::from_utf8_lossy(&word[..word.len().min(48)]).chars().take(12).collect()
+    let word = bytes
+        .split(u8::is_ascii_whitespace)
+        .next()
+        .unwrap_or_default();
+    String::from_utf8_lossy(&word[..word.len().min(48)])
+        .chars()
+        .take(12)
+        .collect()
 }
 
 /// Places in a comment at which a block is looked for.
@@ -511,10 +669,16 @@ const MOST_LOOKS: usize = 64;
 
 /// `N12`, `N 12`, `N12:`: the number, and how many bytes it takes.
 fn n_word(text: &[u8]) -> Option<(u32, usize)> {
-    let digits = 1 + text[1..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    let digits = 1 + text[1..]
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
     let (number, length) = digits_of(&text[digits..])?;
     let mut end = digits + length;
-    let space = text[end..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    let space = text[end..]
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
     if text.get(end + space) == Some(&b':') {
         end += space + 1;
     }
@@ -523,11 +687,20 @@ fn n_word(text: &[u8]) -> Option<(u32, usize)> {
 
 /// A number of a row that is marked as one: `(1)`, `1)`, `1.`, `1:`, `1、`.
 fn row_number(text: &[u8]) -> Option<(u32, usize)> {
-    let spaces = |at: usize| text[at..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    let spaces = |at: usize| {
+        text[at..]
+            .iter()
+            .take_while(|byte| matches!(byte, b' ' | b'\t'))
+            .count()
+    };
     let opens = text.first() == Some(&b'(');
     let open = if opens { 1 + spaces(1) } else { 0 };
     let (number, length) = digits_of(&text[open..])?;
-    let length = if opens { length + spaces(open + length) } else { length };
+    let length = if opens {
+        length + spaces(open + length)
+    } else {
+        length
+    };
     let behind = &text[open + length..];
     let mark = match (opens, behind.first()?) {
         (_, b')') => 1,
@@ -543,20 +716,31 @@ fn row_number(text: &[u8]) -> Option<(u32, usize)> {
 fn row_of_word(text: &[u8], words: &Words<'_>) -> Option<(u32, usize)> {
     let (number, length) = digits_of(text)?;
     let behind = &text[length..];
-    let behind = &behind[behind.iter().take_while(|byte| matches!(byte, b' ' | b'\t' | b'|' | b',')).count()..];
-    let word = &behind[..behind.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(behind.len())];
-    (behind.len() < text.len() - length && words.meaning(word).is_some()).then_some((number, length))
+    let behind = &behind[behind
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t' | b'|' | b','))
+        .count()..];
+    let word = &behind[..behind
+        .iter()
+        .position(|byte| !byte.is_ascii_alphanumeric())
+        .unwrap_or(behind.len())];
+    (behind.len() < text.len() - length && words.meaning(word).is_some())
+        .then_some((number, length))
 }
 
 fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
     let length = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
-    let digits = std::str::from_utf8(text.get(..length)?).ok().filter(|digits| !digits.is_empty())?;
+    let digits = std::str::from_utf8(text.get(..length)?)
+        .ok()
+        .filter(|digits| !digits.is_empty())?;
     Some((digits.parse().unwrap_or(u32::MAX), length))
 }
 
 /// Two numbers with commas in the place of their points, as some languages write them.
 fn has_decimal_commas(text: &[u8]) -> bool {
-    let Ok(text) = std::str::from_utf8(text) else { return false };
+    let Ok(text) = std::str::from_utf8(text) else {
+        return false;
+    };
     if text.bytes().filter(|byte| *byte == b',').count() < 2 || text.contains('.') {
         return false;
     }
@@ -567,29 +751,37 @@ fn has_decimal_commas(text: &[u8]) -> bool {
             !whole.is_empty() && !places.is_empty() && all(whole) && all(places)
         })
     };
-    let words: Vec<&str> =
-        text.split(|c: char| c.is_ascii_whitespace() || c == ';').filter(|word| !word.is_empty() && *word != ",").collect();
+    let words: Vec<&str> = text
+        .split(|c: char| c.is_ascii_whitespace() || c == ';')
+        .filter(|word| !word.is_empty() && *word != ",")
+        .collect();
     matches!(words[..], [x, y] if is_number(x.trim_end_matches(',')) && is_number(y))
 }
 
 /// The bytes before a sound block where they are a name for it: nothing of them belongs to a block, and they are no word.
 fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
     // What opens a comment comments a block out.
-    let opens_comment = matches!(text.first(), Some(b';' | b'*' | b'#' | b'%' | b'\'' | b'"' | b'/'))
-        || [";", "(", "\u{ff1b}", "\u{ff08}"].iter().any(|mark| text.starts_with(mark.as_bytes()));
+    let opens_comment = matches!(
+        text.first(),
+        Some(b';' | b'*' | b'#' | b'%' | b'\'' | b'"' | b'/')
+    ) || [";", "(", "\u{ff1b}", "\u{ff08}"]
+        .iter()
+        .any(|mark| text.starts_with(mark.as_bytes()));
     if opens_comment {
         return None;
     }
     let code = before_comment(text);
-    let at = memchr::memchr2_iter(b'B', b'b', code).take(4).find(|&at| fields::strict(&code[at..]).is_some())?;
+    let at = memchr::memchr2_iter(b'B', b'b', code)
+        .take(4)
+        .find(|&at| fields::strict(&code[at..]).is_some())?;
     let name = code.get(..at)?.trim_ascii();
-    let is_word = name.split(|byte| !byte.is_ascii_alphanumeric()).any(|word| !word.is_empty() && words.meaning(word).is_some());
+    let is_word = name
+        .split(|byte| !byte.is_ascii_alphanumeric())
+        .any(|word| !word.is_empty() && words.meaning(word).is_some());
     // A number alone is that of the row, or of the block.
-    let is_number = name
-        .strip_suffix(b",")
-        .unwrap_or(name)
-        .iter()
-        .all(|byte| byte.is_ascii_digit() || matches!(byte, b'N' | b'n' | b' ' | b'|' | b':' | b'.' | b')'));
+    let is_number = name.strip_suffix(b",").unwrap_or(name).iter().all(|byte| {
+        byte.is_ascii_digit() || matches!(byte, b'N' | b'n' | b' ' | b'|' | b':' | b'.' | b')')
+    });
     (at > 0 && !is_word && !is_number && !has_block_parts(name)).then_some(at)
 }
 
@@ -608,10 +800,20 @@ fn has_block_parts(text: &[u8]) -> bool {
 /// nothing of a block begins with, and space before them.
 pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
     let rest = line.get(at..).unwrap_or_default();
-    let letters = rest.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
-    let stands_apart = at.checked_sub(1).and_then(|before| line.get(before)).is_some_and(|byte| matches!(byte, b' ' | b'\t' | b'|'));
-    let is_bare = stands_apart && letters >= 2 && !rest.get(letters).is_some_and(u8::is_ascii_digit);
-    is_bare && words.meaning(&rest[..letters]).is_none() && !wants_to_be_a_block(rest) && fields::strict(rest).is_none()
+    let letters = rest
+        .iter()
+        .take_while(|byte| byte.is_ascii_alphabetic())
+        .count();
+    let stands_apart = at
+        .checked_sub(1)
+        .and_then(|before| line.get(before))
+        .is_some_and(|byte| matches!(byte, b' ' | b'\t' | b'|'));
+    let is_bare =
+        stands_apart && letters >= 2 && !rest.get(letters).is_some_and(u8::is_ascii_digit);
+    is_bare
+        && words.meaning(&rest[..letters]).is_none()
+        && !wants_to_be_a_block(rest)
+        && fields::strict(rest).is_none()
 }
 
 /// Whether text has enough of a block to be taken for a broken one.
@@ -620,26 +822,50 @@ fn wants_to_be_a_block(text: &[u8]) -> bool {
     let followed_by = |first: &[u8], fits: fn(u8) -> bool| {
         let mut count = 0;
         for (at, byte) in code.iter().enumerate() {
-            let next = code[at + 1..].iter().find(|byte| !matches!(byte, b' ' | b'\t' | b'|'));
-            count += usize::from(first.contains(&byte.to_ascii_uppercase()) && next.is_some_and(|&next| fits(next)));
+            let next = code[at + 1..]
+                .iter()
+                .find(|byte| !matches!(byte, b' ' | b'\t' | b'|'));
+            count += usize::from(
+                first.contains(&byte.to_ascii_uppercase()) && next.is_some_and(|&next| fits(next)),
+            );
         }
         count
     };
     let numbers = followed_by(b"B", |byte| byte.is_ascii_digit());
-    let axes = followed_by(b"G", |byte| matches!(byte.to_ascii_uppercase(), b'X' | b'Y'));
+    let axes = followed_by(b"G", |byte| {
+        matches!(byte.to_ascii_uppercase(), b'X' | b'Y')
+    });
     let ends = followed_by(b"LR", |byte| byte.is_ascii_digit());
-    let begins = matches!(code.first().map(u8::to_ascii_uppercase), Some(b'B' | b'0'..=b'9'));
+    let begins = matches!(
+        code.first().map(u8::to_ascii_uppercase),
+        Some(b'B' | b'0'..=b'9')
+    );
     let kinds = usize::from(numbers > 0) + usize::from(axes > 0) + usize::from(ends > 0);
-    kinds >= 2 || (begins && (numbers >= 2 || kinds == 1 && code.iter().filter(|byte| byte.eq_ignore_ascii_case(&b'B')).count() >= 2))
+    kinds >= 2
+        || (begins
+            && (numbers >= 2
+                || kinds == 1
+                    && code
+                        .iter()
+                        .filter(|byte| byte.eq_ignore_ascii_case(&b'B'))
+                        .count()
+                        >= 2))
 }
 
 /// Whether a text in other letters has what a block has: three numbers, an axis and a quadrant.
 fn looks_like_a_block(text: &[u8]) -> bool {
     let text = &text[..text.len().min(160)];
-    let follows =
-        |first: &[u8], second: fn(u8) -> bool| text.windows(2).any(|pair| first.contains(&pair[0].to_ascii_uppercase()) && second(pair[1]));
-    let numbers = text.chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit()).filter(|run| run[0].is_ascii_digit()).count();
-    numbers >= 4 && follows(b"G", |byte| matches!(byte, b'X' | b'x' | b'Y' | b'y')) && follows(b"LR", |byte| matches!(byte, b'1'..=b'4'))
+    let follows = |first: &[u8], second: fn(u8) -> bool| {
+        text.windows(2)
+            .any(|pair| first.contains(&pair[0].to_ascii_uppercase()) && second(pair[1]))
+    };
+    let numbers = text
+        .chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit())
+        .filter(|run| run[0].is_ascii_digit())
+        .count();
+    numbers >= 4
+        && follows(b"G", |byte| matches!(byte, b'X' | b'x' | b'Y' | b'y'))
+        && follows(b"LR", |byte| matches!(byte, b'1'..=b'4'))
 }
 
 /// The point of `Start Point = x , y`.
@@ -650,7 +876,9 @@ pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
         return None;
     }
     let value = text[name.len()..].trim_ascii_start();
-    let value = value.strip_prefix(b"=").or_else(|| value.strip_prefix(b":"))?;
+    let value = value
+        .strip_prefix(b"=")
+        .or_else(|| value.strip_prefix(b":"))?;
     two_numbers(before_comment(value))
 }
 
@@ -671,13 +899,21 @@ pub(super) fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
 
 /// `x , y`, `x y`, `X=x Y=y`, in brackets or not, and nothing else.
 fn stated_point(text: &[u8]) -> Option<StatedPoint> {
-    if text.len() < FARTHEST { point_in(text) } else { None }
+    if text.len() < FARTHEST {
+        point_in(text)
+    } else {
+        None
+    }
 }
 
 fn point_in(text: &[u8]) -> Option<StatedPoint> {
     let text = std::str::from_utf8(text).ok()?;
-    let is_between =
-        |c: char| matches!(c, ',' | '(' | ')' | '[' | ']' | '=' | ':' | 'X' | 'Y' | 'x' | 'y' | '|') || c.is_ascii_whitespace();
+    let is_between = |c: char| {
+        matches!(
+            c,
+            ',' | '(' | ')' | '[' | ']' | '=' | ':' | 'X' | 'Y' | 'x' | 'y' | '|'
+        ) || c.is_ascii_whitespace()
+    };
     let mut fields = text.split(is_between).filter(|field| !field.is_empty());
     let mut decimals = usize::MAX;
     let mut number = || {
@@ -686,7 +922,10 @@ fn point_in(text: &[u8]) -> Option<StatedPoint> {
         field.parse::<f64>().ok().filter(|value| value.is_finite())
     };
     let at = [number()?, number()?];
-    fields.next().is_none().then_some(StatedPoint { at, decimals: decimals.min(9) as u8 })
+    fields.next().is_none().then_some(StatedPoint {
+        at,
+        decimals: decimals.min(9) as u8,
+    })
 }
 
 #[cfg(test)]
@@ -699,23 +938,55 @@ mod tests {
         let mut said = Vec::new();
         read_line(line.as_bytes(), 100, &Words::default(), |item| {
             said.push(match item {
-                Item::Block { block, number, stated_end, part, .. } => {
+                Item::Block {
+                    block,
+                    number,
+                    stated_end,
+                    part,
+                    ..
+                } => {
                     let motion = match block.motion {
                         Motion::Line(quadrant) => format!("L{}", quadrant.number()),
                         Motion::Clockwise(quadrant) => format!("SR{}", quadrant.number()),
                         Motion::CounterClockwise(quadrant) => format!("NR{}", quadrant.number()),
                     };
                     let number = number.map_or_else(String::new, |number| format!("N{number} "));
-                    let end = stated_end.map_or_else(String::new, |end| format!(" at {:?}", end.at));
-                    let axis = if block.axis == CountingAxis::X { 'X' } else { 'Y' };
-                    let part = part.map_or_else(String::new, |part| format!(" R{} {}", part.radius, if part.concave { "DD" } else { "D" }));
-                    format!("{number}{},{},{} {axis} {motion}{part}{end}", block.x, block.y, block.j)
+                    let end =
+                        stated_end.map_or_else(String::new, |end| format!(" at {:?}", end.at));
+                    let axis = if block.axis == CountingAxis::X {
+                        'X'
+                    } else {
+                        'Y'
+                    };
+                    let part = part.map_or_else(String::new, |part| {
+                        format!(
+                            " R{} {}",
+                            part.radius,
+                            if part.concave { "DD" } else { "D" }
+                        )
+                    });
+                    format!(
+                        "{number}{},{},{} {axis} {motion}{part}{end}",
+                        block.x, block.y, block.j
+                    )
                 }
-                Item::Word { word, number, .. } => format!("{}{word:?}", number.map_or_else(String::new, |number| format!("N{number} "))),
+                Item::Word { word, number, .. } => format!(
+                    "{}{word:?}",
+                    number.map_or_else(String::new, |number| format!("N{number} "))
+                ),
                 Item::StartPoint { at, .. } => format!("start {at:?}"),
-                Item::Text { range, .. } => format!("text {}..{}", range.start - 100, range.end - 100),
-                Item::CommentedBlock { range, .. } => format!("commented {}..{}", range.start - 100, range.end - 100),
-                Item::Fault(fault) => format!("! {}..{} {}", fault.range.start - 100, fault.range.end - 100, fault.sentence()),
+                Item::Text { range, .. } => {
+                    format!("text {}..{}", range.start - 100, range.end - 100)
+                }
+                Item::CommentedBlock { range, .. } => {
+                    format!("commented {}..{}", range.start - 100, range.end - 100)
+                }
+                Item::Fault(fault) => format!(
+                    "! {}..{} {}",
+                    fault.range.start - 100,
+                    fault.range.end - 100,
+                    fault.sentence()
+                ),
             });
         });
         assert_eq!(said.join(" / "), expected, "{line}");
@@ -749,16 +1020,30 @@ mod tests {
             "BBB021500GYL2 ; X=1.5, Y=21.5",
             "B B B21500 GY L2 (1.5,21.5)",
         ] {
-            let ratio = if line.contains("B0B2") { "0,21500" } else { "0,0" };
-            let point = if line.contains('(') { String::new() } else { " at [1.5, 21.5]".into() };
+            let ratio = if line.contains("B0B2") {
+                "0,21500"
+            } else {
+                "0,0"
+            };
+            let point = if line.contains('(') {
+                String::new()
+            } else {
+                " at [1.5, 21.5]".into()
+            };
             check(line, &format!("{ratio},21500 Y L2{point}"));
         }
-        check("B40000BB040000GXL1 B1B9B090000GYL1 DD", "40000,0,40000 X L1 / 1,9,90000 Y L1 / End");
+        check(
+            "B40000BB040000GXL1 B1B9B090000GYL1 DD",
+            "40000,0,40000 X L1 / 1,9,90000 Y L1 / End",
+        );
         check("N13: DD ; the end", "N13 End");
         check("Start Point = -1.5 , 2", "start [-1.5, 2.0]");
         check("; Start Point = 1.50000 , 2.0 ; X , Y", "start [1.5, 2.0]");
         check("B0B5000B10000B5000GXDDNR1", "0,5000,10000 X NR1 R5000 DD");
-        check("B 3000 B 4000 B 6000 B 5000 GX D SR 1", "3000,4000,6000 X SR1 R5000 D");
+        check(
+            "B 3000 B 4000 B 6000 B 5000 GX D SR 1",
+            "3000,4000,6000 X SR1 R5000 D",
+        );
     }
 
     #[test]
@@ -774,10 +1059,20 @@ mod tests {
             "| 1 | B9900 | B0 | B9900 | GX | L1 |",
             "│",
         ] {
-            let expected = if line == "│" { "" } else { "N1 9900,0,9900 X L1" };
+            let expected = if line == "│" {
+                ""
+            } else {
+                "N1 9900,0,9900 X L1"
+            };
             check(line, expected);
         }
-        for line in ["N8：DD", "| 8 | DD |", "8 | DD | |", "N8\u{3000}DD", "（8）DD"] {
+        for line in [
+            "N8：DD",
+            "| 8 | DD |",
+            "8 | DD | |",
+            "N8\u{3000}DD",
+            "（8）DD",
+        ] {
             check(line, "N8 End");
         }
         check("B9900B0B9900GXL1；往", "9900,0,9900 X L1");
@@ -798,52 +1093,120 @@ mod tests {
             check(line, "");
         }
         check("CAXAWEDM -Version 2.0 , Name : 1.3B", "text 0..35");
-        check("Conner R= 0.00000    , Offset F= 0.10000 ,Length= 125.000 mm", "text 0..60");
+        check(
+            "Conner R= 0.00000    , Offset F= 0.10000 ,Length= 125.000 mm",
+            "text 0..60",
+        );
         check("START", "text 0..5");
         check(",", "");
         // A block that is commented out is not cut, and that is said.
-        for line in ["* B9900B0B9900GXL1", "/ B9900B0B9900GXL1", "(B9900B0B9900GXL1)", "\u{ff1b}B9900B0B9900GXL1", "; was B9900B0B9900GXL1"]
-        {
+        for line in [
+            "* B9900B0B9900GXL1",
+            "/ B9900B0B9900GXL1",
+            "(B9900B0B9900GXL1)",
+            "\u{ff1b}B9900B0B9900GXL1",
+            "; was B9900B0B9900GXL1",
+        ] {
             check(line, &format!("commented 0..{}", line.len()));
         }
         check("B9900B0B9900GXL1 ,", "9900,0,9900 X L1");
         check("B9900B0B9900GXL1 line AB, R3", "9900,0,9900 X L1");
-        for line in
-            ["OA: B9900B0B9900GXL1", "1-2 B9900B0B9900GXL1 ; in", "\u{76f4}\u{7ebf}OA B 9900 B 0 B 9900 GX L1", "\u{2460} B9900B0B9900GXL1"]
-        {
+        for line in [
+            "OA: B9900B0B9900GXL1",
+            "1-2 B9900B0B9900GXL1 ; in",
+            "\u{76f4}\u{7ebf}OA B 9900 B 0 B 9900 GX L1",
+            "\u{2460} B9900B0B9900GXL1",
+        ] {
             check(line, "9900,0,9900 X L1");
         }
     }
 
     #[test]
     fn what_was_meant_is_read_and_the_fault_said() {
-        check("9900B0B9900GXL1", "! 0..4 a B of the block is missing / 9900,0,9900 X L1");
-        check("N3 9900B0B9900GXL1", "! 3..7 a B of the block is missing / N3 9900,0,9900 X L1");
-        check("B9900 0B9900GXL1", "! 6..7 a B of the block is missing / 9900,0,9900 X L1");
-        check("B9900B0 9900GXL1", "! 8..12 a B of the block is missing / 9900,0,9900 X L1");
-        check("12 9900B0B9900GXL1", "! 3..7 a B of the block is missing / N12 9900,0,9900 X L1");
-        check("12 B9900 0B9900GXL1", "! 9..10 a B of the block is missing / N12 9900,0,9900 X L1");
-        check("12 B9900B0 9900GXL1", "! 11..15 a B of the block is missing / N12 9900,0,9900 X L1");
-        check("0B5000B10000B5000GXDDNR1", "! 0..1 a B of the block is missing / 0,5000,10000 X NR1 R5000 DD");
-        check("B99000B9900GXL1", "! 0..11 a B of the block is missing / 9900,0,9900 X L1");
-        check("B25B9900B0B9900GXL1", "! 0..3 B25 stands where N25 was meant / N25 9900,0,9900 X L1");
-        check("B 25 B 9900 B 0 B 39600 GY NR1", "! 0..4 B25 stands where N25 was meant / N25 9900,0,39600 Y NR1");
-        check("B9900BOB9900GXL1", "! 6..7 the letter O stands where a zero was meant / 9900,0,9900 X L1");
+        check(
+            "9900B0B9900GXL1",
+            "! 0..4 a B of the block is missing / 9900,0,9900 X L1",
+        );
+        check(
+            "N3 9900B0B9900GXL1",
+            "! 3..7 a B of the block is missing / N3 9900,0,9900 X L1",
+        );
+        check(
+            "B9900 0B9900GXL1",
+            "! 6..7 a B of the block is missing / 9900,0,9900 X L1",
+        );
+        check(
+            "B9900B0 9900GXL1",
+            "! 8..12 a B of the block is missing / 9900,0,9900 X L1",
+        );
+        check(
+            "12 9900B0B9900GXL1",
+            "! 3..7 a B of the block is missing / N12 9900,0,9900 X L1",
+        );
+        check(
+            "12 B9900 0B9900GXL1",
+            "! 9..10 a B of the block is missing / N12 9900,0,9900 X L1",
+        );
+        check(
+            "12 B9900B0 9900GXL1",
+            "! 11..15 a B of the block is missing / N12 9900,0,9900 X L1",
+        );
+        check(
+            "0B5000B10000B5000GXDDNR1",
+            "! 0..1 a B of the block is missing / 0,5000,10000 X NR1 R5000 DD",
+        );
+        check(
+            "B99000B9900GXL1",
+            "! 0..11 a B of the block is missing / 9900,0,9900 X L1",
+        );
+        check(
+            "B25B9900B0B9900GXL1",
+            "! 0..3 B25 stands where N25 was meant / N25 9900,0,9900 X L1",
+        );
+        check(
+            "B 25 B 9900 B 0 B 39600 GY NR1",
+            "! 0..4 B25 stands where N25 was meant / N25 9900,0,39600 Y NR1",
+        );
+        check(
+            "B9900BOB9900GXL1",
+            "! 6..7 the letter O stands where a zero was meant / 9900,0,9900 X L1",
+        );
     }
 
     #[test]
     fn a_broken_block_is_said_with_its_column_and_hides_no_other() {
-        check("B1B2GXL1", "! 4..8 column 5: found `GXL1`, expected digits of Y, or B before J");
-        check("B1000B0B1000GX", "! 13..14 column 15: the line ends, expected L, SR or NR and a quadrant");
-        check("B1000B0B1000GXL5", "! 15..16 column 16: found `5`, expected a quadrant from 1 to 4");
-        check("B1000B0B1000GZL1", "! 13..16 column 14: found `ZL1`, expected X or Y after G");
-        check("B1000B0BGXL1", "! 8..12 column 9: found `GXL1`, expected the counting length J in \u{b5}m");
-        check("B-5B0B5GXL1", "! 1..11 column 2: found `-5B0B5GXL1`, expected digits of X, or B before Y");
+        check(
+            "B1B2GXL1",
+            "! 4..8 column 5: found `GXL1`, expected digits of Y, or B before J",
+        );
+        check(
+            "B1000B0B1000GX",
+            "! 13..14 column 15: the line ends, expected L, SR or NR and a quadrant",
+        );
+        check(
+            "B1000B0B1000GXL5",
+            "! 15..16 column 16: found `5`, expected a quadrant from 1 to 4",
+        );
+        check(
+            "B1000B0B1000GZL1",
+            "! 13..16 column 14: found `ZL1`, expected X or Y after G",
+        );
+        check(
+            "B1000B0BGXL1",
+            "! 8..12 column 9: found `GXL1`, expected the counting length J in \u{b5}m",
+        );
+        check(
+            "B-5B0B5GXL1",
+            "! 1..11 column 2: found `-5B0B5GXL1`, expected digits of X, or B before Y",
+        );
         check(
             "B1000B0B1000 B5B0B5GXL1 B7B0B7GXL1",
             "! 13..23 column 14: found `B5B0B5GXL1`, expected G and the counting axis, GX or GY / 7,0,7 X L1",
         );
-        check("B1x2B0B12GXL1 DD", "! 2..13 column 3: found `x2B0B12GXL1`, expected digits of X, or B before Y / End");
+        check(
+            "B1x2B0B12GXL1 DD",
+            "! 2..13 column 3: found `x2B0B12GXL1`, expected digits of X, or B before Y / End",
+        );
         check("B1B0B1GXL1 5", "1,0,1 X L1 / text 11..12");
         check("B1B0B1GXL1hello", "1,0,1 X L1 / text 10..15");
         check(
@@ -858,7 +1221,10 @@ mod tests {
             "\u{411}9900\u{411}0\u{411}39600GYNR1",
             "! 0..21 column 1: found `\u{411}9900\u{411}0\u{411}3960`, expected a block in plain letters and digits",
         );
-        check("Ｄ", "! 0..3 column 1: found `Ｄ`, expected a block in plain letters and digits, these are full-width ones");
+        check(
+            "Ｄ",
+            "! 0..3 column 1: found `Ｄ`, expected a block in plain letters and digits, these are full-width ones",
+        );
         check(
             "\u{ff22}9900B0B9900GXL1",
             "! 0..18 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits, these are full-width ones",

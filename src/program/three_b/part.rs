@@ -5,7 +5,9 @@
 //! it. The ways in and out are lines: they lead to where the wire's path begins, beside the contour.
 
 use crate::finding::Side;
-use crate::geometry::{Arc, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line, turn};
+use crate::geometry::{
+    Arc, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line, turn,
+};
 use crate::program::grid::{best_center, point_of, snap};
 use crate::program::write::{ProofError, scaled, too_far_out};
 use crate::toolpath::{PathSegment, Source, WirePath};
@@ -15,14 +17,29 @@ use std::f64::consts::PI;
 const TANGENT: f64 = 1e-3;
 
 /// The path of a part's contour in µm: rounded at its corners with `radius`, moved beside the contour by the correction, µm both.
-pub(super) fn rounded(path: &WirePath, scale: f64, correction: f64, radius: f64) -> Result<WirePath, ProofError> {
+pub(super) fn rounded(
+    path: &WirePath,
+    scale: f64,
+    correction: f64,
+    radius: f64,
+) -> Result<WirePath, ProofError> {
     let refused = |sentence: String| Err(ProofError::Refused(sentence));
     let Some(side) = path.side else {
-        return refused("4B holds the part's contour: set compensation to controller, and say opening or punch".into());
+        return refused(
+            "4B holds the part's contour: set compensation to controller, and say opening or punch"
+                .into(),
+        );
     };
     let is_lead = |piece: &PathSegment| matches!(piece.source, Source::LeadIn | Source::LeadOut);
-    let mut contour: Vec<PathSegment> = path.segments.iter().filter(|piece| !is_lead(piece)).copied().collect();
-    contour.iter_mut().for_each(|piece| piece.geometry = scaled(&piece.geometry, scale));
+    let mut contour: Vec<PathSegment> = path
+        .segments
+        .iter()
+        .filter(|piece| !is_lead(piece))
+        .copied()
+        .collect();
+    contour
+        .iter_mut()
+        .for_each(|piece| piece.geometry = scaled(&piece.geometry, scale));
     let (Some(first), Some(last)) = (contour.first().copied(), contour.last().copied()) else {
         return refused("there is no contour to cut".into());
     };
@@ -59,10 +76,24 @@ pub(super) fn rounded(path: &WirePath, scale: f64, correction: f64, radius: f64)
     let begin = entry + by;
     let mut segments = Vec::with_capacity(contour.len() + 2);
     let leads = (thread - begin).norm() > 1.0;
-    segments.extend(leads.then(|| PathSegment { geometry: Segment::line(thread, begin), source: Source::LeadIn }));
-    segments.extend(contour.iter().map(|piece| PathSegment { geometry: moved(&piece.geometry, by), ..*piece }));
-    segments.extend(leads.then(|| PathSegment { geometry: Segment::line(begin, thread), source: Source::LeadOut }));
-    Ok(WirePath { segments, thread_hole: thread, correction: 0.0, ..path.clone() })
+    segments.extend(leads.then(|| PathSegment {
+        geometry: Segment::line(thread, begin),
+        source: Source::LeadIn,
+    }));
+    segments.extend(contour.iter().map(|piece| PathSegment {
+        geometry: moved(&piece.geometry, by),
+        ..*piece
+    }));
+    segments.extend(leads.then(|| PathSegment {
+        geometry: Segment::line(begin, thread),
+        source: Source::LeadOut,
+    }));
+    Ok(WirePath {
+        segments,
+        thread_hole: thread,
+        correction: 0.0,
+        ..path.clone()
+    })
 }
 
 /// The wire runs inside of an arc when the centre lies on its side.
@@ -77,22 +108,35 @@ const LEAST_LEFT: f64 = 1.0;
 const LARGER: i32 = 3;
 
 /// Transition arcs of `radius` at the corners, between lines and arcs alike.
-fn with_transitions(contour: &[PathSegment], radius: f64, correction: f64) -> Result<Vec<PathSegment>, ProofError> {
+fn with_transitions(
+    contour: &[PathSegment],
+    radius: f64,
+    correction: f64,
+) -> Result<Vec<PathSegment>, ProofError> {
     let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
     for piece in contour {
         let Some(before) = rounded.last_mut() else {
             rounded.push(*piece);
             continue;
         };
-        let angle = turn(before.geometry.end_tangent(), piece.geometry.start_tangent());
+        let angle = turn(
+            before.geometry.end_tangent(),
+            piece.geometry.start_tangent(),
+        );
         if angle.abs() <= TANGENT {
             rounded.push(*piece);
             continue;
         }
         let corner = piece.geometry.start();
         let sizes = (0..=LARGER).map(|more| radius + f64::from(more));
-        let mut fitting = sizes.filter_map(|radius| transition(&before.geometry, &piece.geometry, angle, radius));
-        let Some(Transition { before: cut, arc, behind }) = fitting.find(|made| on_grid(&made.arc) > correction) else {
+        let mut fitting =
+            sizes.filter_map(|radius| transition(&before.geometry, &piece.geometry, angle, radius));
+        let Some(Transition {
+            before: cut,
+            arc,
+            behind,
+        }) = fitting.find(|made| on_grid(&made.arc) > correction)
+        else {
             return Err(ProofError::Refused(format!(
                 "4B needs a transition arc of R {:.3} mm at the corner ({:.3}, {:.3}) of {:.1}°: none that is tangent to both sides fits in there",
                 radius / 1e3,
@@ -102,15 +146,25 @@ fn with_transitions(contour: &[PathSegment], radius: f64, correction: f64) -> Re
             )));
         };
         before.geometry = cut;
-        rounded.push(PathSegment { geometry: Segment::Arc(arc), ..*piece });
-        rounded.push(PathSegment { geometry: behind, ..*piece });
+        rounded.push(PathSegment {
+            geometry: Segment::Arc(arc),
+            ..*piece
+        });
+        rounded.push(PathSegment {
+            geometry: behind,
+            ..*piece
+        });
     }
     Ok(rounded)
 }
 
 /// The radius of the block that an arc becomes, µm: between nodes of the grid it may be a micrometre smaller.
 fn on_grid(arc: &Arc) -> f64 {
-    let radius = |from, to| (point_of(from) - point_of(best_center(arc, from, to))).norm().round();
+    let radius = |from, to| {
+        (point_of(from) - point_of(best_center(arc, from, to)))
+            .norm()
+            .round()
+    };
     match (snap(arc.start), snap(arc.end)) {
         (Some(from), Some(to)) => radius(from, to),
         _ => 0.0,
@@ -131,9 +185,13 @@ struct Transition {
 fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Option<Transition> {
     let side = angle.signum();
     let corner = behind.start();
-    let centers = match (Locus::of(before, side, radius)?, Locus::of(behind, side, radius)?) {
+    let centers = match (
+        Locus::of(before, side, radius)?,
+        Locus::of(behind, side, radius)?,
+    ) {
         (Locus::Line(p, u), Locus::Line(q, v)) => line_line(p, u, q, v).into_iter().collect(),
-        (Locus::Line(p, u), Locus::Circle(center, far)) | (Locus::Circle(center, far), Locus::Line(p, u)) => line_circle(p, u, center, far),
+        (Locus::Line(p, u), Locus::Circle(center, far))
+        | (Locus::Circle(center, far), Locus::Line(p, u)) => line_circle(p, u, center, far),
         (Locus::Circle(a, far_a), Locus::Circle(b, far_b)) => circle_circle(a, far_a, b, far_b),
     };
     let fitting = centers.into_iter().filter_map(|center| {
@@ -141,15 +199,23 @@ fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Op
         let left = [before.length() * leaves, behind.length() * (1.0 - meets)];
         let is_on = leaves < 1.0 && meets > 0.0 && left.iter().all(|left| *left >= LEAST_LEFT);
         let (start, end) = (before.point_at(leaves), behind.point_at(meets));
-        let arc = Arc { radius, ..Arc::about(center, start, end, side > 0.0) };
-        let is_tangent = is_on && (before.tangent_at(leaves) - arc.tangent_at(0.0)).norm() <= TANGENT;
+        let arc = Arc {
+            radius,
+            ..Arc::about(center, start, end, side > 0.0)
+        };
+        let is_tangent =
+            is_on && (before.tangent_at(leaves) - arc.tangent_at(0.0)).norm() <= TANGENT;
         (is_tangent && arc.sweep.abs() < PI - TANGENT).then(|| Transition {
             before: before.part(0.0, leaves),
             arc,
             behind: behind.part(meets, 1.0),
         })
     });
-    fitting.min_by(|a, b| (a.arc.center - corner).norm().total_cmp(&(b.arc.center - corner).norm()))
+    fitting.min_by(|a, b| {
+        (a.arc.center - corner)
+            .norm()
+            .total_cmp(&(b.arc.center - corner).norm())
+    })
 }
 
 /// Where the centre of an arc lies that touches a piece from one side.
@@ -163,10 +229,17 @@ impl Locus {
     /// On the left where `side` is 1, on the right where it is −1. `None` inside of an arc that is as small.
     fn of(piece: &Segment, side: f64, radius: f64) -> Option<Locus> {
         match piece {
-            Segment::Line(line) => Some(Locus::Line(line.start + left_normal(line.direction()) * (side * radius), line.direction())),
+            Segment::Line(line) => Some(Locus::Line(
+                line.start + left_normal(line.direction()) * (side * radius),
+                line.direction(),
+            )),
             Segment::Arc(arc) => {
                 let is_inside = (arc.sweep > 0.0) == (side > 0.0);
-                let far = if is_inside { arc.radius - radius } else { arc.radius + radius };
+                let far = if is_inside {
+                    arc.radius - radius
+                } else {
+                    arc.radius + radius
+                };
                 (far > 0.0).then_some(Locus::Circle(arc.center, far))
             }
         }
@@ -176,6 +249,11 @@ impl Locus {
 fn moved(segment: &Segment, by: Vector) -> Segment {
     match segment {
         Segment::Line(line) => Segment::line(line.start + by, line.end + by),
-        Segment::Arc(arc) => Segment::Arc(Arc { center: arc.center + by, start: arc.start + by, end: arc.end + by, ..*arc }),
+        Segment::Arc(arc) => Segment::Arc(Arc {
+            center: arc.center + by,
+            start: arc.start + by,
+            end: arc.end + by,
+            ..*arc
+        }),
     }
 }

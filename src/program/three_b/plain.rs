@@ -45,8 +45,16 @@ pub(super) fn alike(line: &[u8]) -> Vec<Alike> {
             at += 1;
             continue;
         }
-        let (likeness, length) = if is_utf_8 { in_utf_8(rest) } else { in_gbk(rest) };
-        found.extend(likeness.map(|likeness| Alike { at, length, likeness }));
+        let (likeness, length) = if is_utf_8 {
+            in_utf_8(rest)
+        } else {
+            in_gbk(rest)
+        };
+        found.extend(likeness.map(|likeness| Alike {
+            at,
+            length,
+            likeness,
+        }));
         at += length;
     }
     found
@@ -58,10 +66,17 @@ fn in_utf_8(rest: &[u8]) -> (Option<Likeness>, usize) {
         0xe0.. => 3,
         _ => 2,
     };
-    let character = rest.get(..length).and_then(|bytes| std::str::from_utf8(bytes).ok()).and_then(|text| text.chars().next());
+    let character = rest
+        .get(..length)
+        .and_then(|bytes| std::str::from_utf8(bytes).ok())
+        .and_then(|text| text.chars().next());
     let likeness = match character {
-        Some(wide @ '\u{ff01}'..='\u{ff5e}') => Some(Likeness::FullWidth((wide as u32 - 0xff01 + 0x21) as u8)),
-        Some('\u{a0}' | '\u{2000}'..='\u{200b}' | '\u{202f}' | '\u{205f}' | '\u{3000}' | '\u{feff}') => Some(Likeness::Space),
+        Some(wide @ '\u{ff01}'..='\u{ff5e}') => {
+            Some(Likeness::FullWidth((wide as u32 - 0xff01 + 0x21) as u8))
+        }
+        Some(
+            '\u{a0}' | '\u{2000}'..='\u{200b}' | '\u{202f}' | '\u{205f}' | '\u{3000}' | '\u{feff}',
+        ) => Some(Likeness::Space),
         Some('\u{3001}') => Some(Likeness::FullWidth(b',')),
         Some(letter) => foreign(letter).map(Likeness::Foreign),
         None => None,
@@ -113,7 +128,10 @@ fn foreign_in_gbk(row: u8, low: u8) -> Option<u8> {
 /// The line with marks and spaces as a controller has them, each in the place of the other one; `None` where there is none. Letters and
 /// digits stay.
 pub(super) fn with_plain_marks(line: &[u8]) -> Option<Vec<u8>> {
-    let marks: Vec<Alike> = alike(line).into_iter().filter(|found| !found.likeness.is_letter()).collect();
+    let marks: Vec<Alike> = alike(line)
+        .into_iter()
+        .filter(|found| !found.likeness.is_letter())
+        .collect();
     (!marks.is_empty()).then(|| {
         let mut plain = line.to_vec();
         for mark in marks {
@@ -153,7 +171,10 @@ mod tests {
     #[test]
     fn characters_are_told_by_their_looks() {
         let plain = |line: &[u8]| String::from_utf8(in_plain_letters(line, &alike(line))).unwrap();
-        assert_eq!(plain("（１）Ｂ９９00В0\u{3000}\u{a0}N8：ＤＤ".as_bytes()), "(1)B9900B0  N8:DD");
+        assert_eq!(
+            plain("（１）Ｂ９９00В0\u{3000}\u{a0}N8：ＤＤ".as_bytes()),
+            "(1)B9900B0  N8:DD"
+        );
         // The same in GBK.
         assert_eq!(plain(b"\xa7\xa39900\xa6\xa2"), "B9900B");
         assert_eq!(plain(b"\xa3\xa81\xa3\xa9\xa3\xc29\xa1\xa1"), "(1)B9 ");

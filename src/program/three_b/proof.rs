@@ -22,7 +22,13 @@ pub(super) struct Proof {
 
 impl Proof {
     /// Reads `line` again, decodes it from its own node and compares it with its piece of the path.
-    pub fn check_line(&mut self, line: &[u8], words: &Words<'_>, encoded: &Encoded, part: Option<PartArc>) -> Result<(), String> {
+    pub fn check_line(
+        &mut self,
+        line: &[u8],
+        words: &Words<'_>,
+        encoded: &Encoded,
+        part: Option<PartArc>,
+    ) -> Result<(), String> {
         let mut read: Option<(Block, Option<PartArc>)> = None;
         let mut fault = None;
         read_line(line, 0, words, |item| match item {
@@ -31,25 +37,41 @@ impl Proof {
             _ => {}
         });
         if let Some(fault) = fault {
-            return Err(format!("a written block cannot be read again: {}", fault.sentence()));
+            return Err(format!(
+                "a written block cannot be read again: {}",
+                fault.sentence()
+            ));
         }
         match read {
-            Some((block, read)) if block == encoded.block && read == part => self.check_block(&block, encoded),
-            _ => Err(format!("a written block reads as {read:?}, not as {:?}", encoded.block)),
+            Some((block, read)) if block == encoded.block && read == part => {
+                self.check_block(&block, encoded)
+            }
+            _ => Err(format!(
+                "a written block reads as {read:?}, not as {:?}",
+                encoded.block
+            )),
         }
     }
 
     fn check_block(&mut self, block: &Block, encoded: &Encoded) -> Result<(), String> {
-        let decoded = decode(block, point_of(encoded.from)).map_err(|fault| format!("{block:?} cannot be decoded: {fault:?}"))?;
+        let decoded = decode(block, point_of(encoded.from))
+            .map_err(|fault| format!("{block:?} cannot be decoded: {fault:?}"))?;
         let miss = decoded.end() - point_of(encoded.to);
         let distance = miss.norm();
         if distance > END_TOLERANCE {
-            return Err(format!("{block:?} ends {distance:.3} µm from its node {:?}", encoded.to));
+            return Err(format!(
+                "{block:?} ends {distance:.3} µm from its node {:?}",
+                encoded.to
+            ));
         }
         let aside = largest_distance(&decoded, &encoded.piece);
         let middles = (decoded.point_at(0.5) - encoded.piece.point_at(0.5)).norm();
         if aside.max(middles) > ASIDE_TOLERANCE || aside.is_nan() || middles.is_nan() {
-            return Err(format!("{block:?} runs {:.3} µm beside the path at {:?}", aside.max(middles), encoded.from));
+            return Err(format!(
+                "{block:?} runs {:.3} µm beside the path at {:?}",
+                aside.max(middles),
+                encoded.from
+            ));
         }
         self.drift += miss;
         self.deviation = self.deviation.max(aside);
@@ -69,7 +91,9 @@ impl Proof {
         if drifted(&encoded.block) <= allowed {
             return *encoded;
         }
-        let best = alternatives(encoded, largest).into_iter().min_by(|a, b| drifted(a).total_cmp(&drifted(b)));
+        let best = alternatives(encoded, largest)
+            .into_iter()
+            .min_by(|a, b| drifted(a).total_cmp(&drifted(b)));
         match best.filter(|block| drifted(block) < drifted(&encoded.block)) {
             Some(block) => Encoded { block, ..*encoded },
             None => *encoded,
@@ -86,7 +110,9 @@ impl Proof {
         let drift = (self.drift - self.drift_at_start).norm();
         let allowed = tolerance(self.arcs - self.arcs_at_start);
         if drift > allowed {
-            return Err(format!("a controller that counts J drifts by {drift:.3} µm, {allowed:.0} µm are allowed"));
+            return Err(format!(
+                "a controller that counts J drifts by {drift:.3} µm, {allowed:.0} µm are allowed"
+            ));
         }
         (self.drift_at_start, self.arcs_at_start) = (self.drift, self.arcs);
         Ok(())

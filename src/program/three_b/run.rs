@@ -24,17 +24,25 @@ pub(in crate::program) struct Move {
 impl Move {
     pub fn plus(self, other: Move) -> Move {
         let sum = |a: [i64; 2], b: [i64; 2]| [a[0].saturating_add(b[0]), a[1].saturating_add(b[1])];
-        Move { machine: sum(self.machine, other.machine), meant: sum(self.meant, other.meant) }
+        Move {
+            machine: sum(self.machine, other.machine),
+            meant: sum(self.meant, other.meant),
+        }
     }
 
     pub fn minus(self, other: Move) -> Move {
-        let difference = |a: [i64; 2], b: [i64; 2]| [a[0].saturating_sub(b[0]), a[1].saturating_sub(b[1])];
-        Move { machine: difference(self.machine, other.machine), meant: difference(self.meant, other.meant) }
+        let difference =
+            |a: [i64; 2], b: [i64; 2]| [a[0].saturating_sub(b[0]), a[1].saturating_sub(b[1])];
+        Move {
+            machine: difference(self.machine, other.machine),
+            meant: difference(self.meant, other.meant),
+        }
     }
 
     /// True where machine or meaning come back within `tolerance` µm.
     pub fn is_within(&self, tolerance: f64) -> bool {
-        let near = |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
+        let near =
+            |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
         near(self.machine, 1.0) || near(self.meant, 1e-3)
     }
 
@@ -61,8 +69,13 @@ pub(super) struct Extra {
 
 impl BlockEntry {
     pub fn new(block: Block, part: Option<PartArc>, stated_end: Option<StatedPoint>) -> BlockEntry {
-        let extra = (part.is_some() || stated_end.is_some()).then(|| Box::new(Extra { part, stated_end }));
-        BlockEntry { block, travel: travel_of(&block), extra }
+        let extra =
+            (part.is_some() || stated_end.is_some()).then(|| Box::new(Extra { part, stated_end }));
+        BlockEntry {
+            block,
+            travel: travel_of(&block),
+            extra,
+        }
     }
 
     /// What a 4B block says beside a 3B block.
@@ -190,7 +203,11 @@ impl Sum {
     /// This stretch and then the next.
     pub fn then(&self, next: &Sum) -> Sum {
         if next.blocks == 0 {
-            return Sum { errors: self.errors + next.errors, unread: self.unread + next.unread, ..*self };
+            return Sum {
+                errors: self.errors + next.errors,
+                unread: self.unread + next.unread,
+                ..*self
+            };
         }
         let (a, b) = (self.travel.meant_um(), next.travel.meant_um());
         Sum {
@@ -200,7 +217,10 @@ impl Sum {
             twice_area: self.twice_area + next.twice_area + a[0] * b[1] - a[1] * b[0],
             errors: self.errors + next.errors,
             unread: self.unread + next.unread,
-            mark: self.mark.wrapping_mul(POLYNOMIAL.wrapping_pow(next.blocks as u32)).wrapping_add(next.mark),
+            mark: self
+                .mark
+                .wrapping_mul(POLYNOMIAL.wrapping_pow(next.blocks as u32))
+                .wrapping_add(next.mark),
             first: self.first.or(next.first),
             second: self.second.or(if self.blocks == 1 {
                 next.first
@@ -219,7 +239,9 @@ impl Sum {
             blocks: 1,
             arcs: usize::from(!entry.is_line()),
             travel: entry.travel,
-            twice_area: segment.and_then(Segment::as_arc).map_or(0.0, |arc| Segment::Arc(*arc).twice_area(origin)),
+            twice_area: segment
+                .and_then(Segment::as_arc)
+                .map_or(0.0, |arc| Segment::Arc(*arc).twice_area(origin)),
             errors: 0,
             unread: 0,
             mark: mark_of(entry),
@@ -234,14 +256,29 @@ impl Sum {
 const POLYNOMIAL: u64 = 0x9e37_79b9_7f4a_7c15;
 
 fn mark_of(entry: &BlockEntry) -> u64 {
-    let Block { x, y, j, axis, motion } = entry.block;
+    let Block {
+        x,
+        y,
+        j,
+        axis,
+        motion,
+    } = entry.block;
     let (kind, quadrant) = match motion {
         Motion::Line(quadrant) => (0, quadrant),
         Motion::Clockwise(quadrant) => (1, quadrant),
         Motion::CounterClockwise(quadrant) => (2, quadrant),
     };
-    let fields = [x as u64, y as u64, j as u64, axis as u64 * 16 + kind * 4 + u64::from(quadrant.number())];
-    fields.into_iter().fold(POLYNOMIAL, |mark, field| (mark ^ field).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23))
+    let fields = [
+        x as u64,
+        y as u64,
+        j as u64,
+        axis as u64 * 16 + kind * 4 + u64::from(quadrant.number()),
+    ];
+    fields.into_iter().fold(POLYNOMIAL, |mark, field| {
+        (mark ^ field)
+            .wrapping_mul(0x2545_f491_4f6c_dd1d)
+            .rotate_left(23)
+    })
 }
 
 /// Blocks up to a word or to the end of the run.
@@ -266,15 +303,27 @@ struct Open {
 
 impl Open {
     fn at(entry: usize) -> Open {
-        let part = Part { entries: entry..entry, sum: Sum::default(), word: None, bounds: Bounds::EMPTY, near: Box::default() };
-        Open { part, ways: Vec::new(), boxes: Vec::new() }
+        let part = Part {
+            entries: entry..entry,
+            sum: Sum::default(),
+            word: None,
+            bounds: Bounds::EMPTY,
+            near: Box::default(),
+        };
+        Open {
+            part,
+            ways: Vec::new(),
+            boxes: Vec::new(),
+        }
     }
 
     fn push(&mut self, entry: &BlockEntry) {
         let segment = meant(&entry.block, Point::origin());
         let [x, y] = self.part.sum.travel.meant_um();
         let (start, by) = (Point::new(x, y), Vector::new(x, y));
-        let way = segment.as_ref().map_or(Segment::line(start, start), |segment| segment.moved(by));
+        let way = segment
+            .as_ref()
+            .map_or(Segment::line(start, start), |segment| segment.moved(by));
         let bounds = way.bounds();
         self.part.bounds.merge(&bounds);
         self.ways.push(way);
@@ -284,7 +333,9 @@ impl Open {
 
     fn closed(mut self) -> Part {
         let mut near = Vec::new();
-        near_each_other(&self.ways, &self.boxes, &mut |first, second| near.push((first as u32, second as u32)));
+        near_each_other(&self.ways, &self.boxes, &mut |first, second| {
+            near.push((first as u32, second as u32))
+        });
         self.part.near = near.into();
         self.part
     }
@@ -336,9 +387,19 @@ impl Numbering {
     fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
         match (self, number) {
             (same, None) if !is_block => same,
-            (Numbering::Empty, Some(number)) => Numbering::Regular { first: number, last: number, step: 0 },
-            (Numbering::Regular { first, last, step }, Some(number)) if number > last && (step == 0 || number - last == step) => {
-                Numbering::Regular { first, last: number, step: number - last }
+            (Numbering::Empty, Some(number)) => Numbering::Regular {
+                first: number,
+                last: number,
+                step: 0,
+            },
+            (Numbering::Regular { first, last, step }, Some(number))
+                if number > last && (step == 0 || number - last == step) =>
+            {
+                Numbering::Regular {
+                    first,
+                    last: number,
+                    step: number - last,
+                }
             }
             _ => Numbering::Irregular,
         }
@@ -348,10 +409,32 @@ impl Numbering {
     pub fn then(self, next: Numbering) -> Numbering {
         match (self, next) {
             (Numbering::Empty, other) | (other, Numbering::Empty) => other,
-            (Numbering::Regular { first, last: a, step }, Numbering::Regular { first: b, last, step: next_step }) => {
+            (
+                Numbering::Regular {
+                    first,
+                    last: a,
+                    step,
+                },
+                Numbering::Regular {
+                    first: b,
+                    last,
+                    step: next_step,
+                },
+            ) => {
                 let between = b.saturating_sub(a);
-                let agree = between > 0 && [step, next_step].iter().all(|step| *step == 0 || *step == between);
-                if agree { Numbering::Regular { first, last, step: between } } else { Numbering::Irregular }
+                let agree = between > 0
+                    && [step, next_step]
+                        .iter()
+                        .all(|step| *step == 0 || *step == between);
+                if agree {
+                    Numbering::Regular {
+                        first,
+                        last,
+                        step: between,
+                    }
+                } else {
+                    Numbering::Irregular
+                }
             }
             _ => Numbering::Irregular,
         }
@@ -377,7 +460,8 @@ impl Positions {
         match (self.anchor, stated) {
             (Some(Some(before)), Some(stated)) => {
                 self.compared += 1;
-                self.off.extend(mismatch(&before, &block.travel, &stated).map(|by| (nth, entry, by)));
+                self.off
+                    .extend(mismatch(&before, &block.travel, &stated).map(|by| (nth, entry, by)));
             }
             (None, Some(stated)) => self.first = Some((entry, stated, block.travel)),
             _ => {}
@@ -404,7 +488,13 @@ pub(super) const LINES: usize = 96;
 
 impl Run {
     /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it.
-    pub fn read(text: &[u8], whole: Range<usize>, lines: impl Iterator<Item = Range<usize>>, words: &Words<'_>, limits: &Limits) -> Run {
+    pub fn read(
+        text: &[u8],
+        whole: Range<usize>,
+        lines: impl Iterator<Item = Range<usize>>,
+        words: &Words<'_>,
+        limits: &Limits,
+    ) -> Run {
         let mut run = Run {
             bytes: whole.len(),
             lines: 0,
@@ -430,7 +520,9 @@ impl Run {
             let line = run.lines as u32;
             run.lines += 1;
             let start = range.start;
-            read_line(&text[range], start, words, |item| run.take(item, line, whole.start, &mut open, limits));
+            read_line(&text[range], start, words, |item| {
+                run.take(item, line, whole.start, &mut open, limits)
+            });
         }
         open.part.entries.end = run.entries.len();
         run.parts.push(open.closed());
@@ -451,7 +543,8 @@ impl Run {
                 }
             }
             if index > 0 && index < last {
-                self.open.extend((!is_jump(&part.sum) && !is_closed(&part.sum)).then_some(index));
+                self.open
+                    .extend((!is_jump(&part.sum) && !is_closed(&part.sum)).then_some(index));
                 let may_cross = !part.near.is_empty() && may_cross_itself(&part.sum);
                 self.tangled.extend(may_cross.then_some(index));
             }
@@ -461,28 +554,51 @@ impl Run {
     fn take(&mut self, item: Item, line: u32, base: usize, open: &mut Open, limits: &Limits) {
         let local = |range: Range<usize>| range.start - base..range.end - base;
         match item {
-            Item::Block { block, range, number, stated_end, part } => {
+            Item::Block {
+                block,
+                range,
+                number,
+                stated_end,
+                part,
+            } => {
                 let entry = BlockEntry::new(block, part, stated_end);
                 let range = local(range);
                 let part_index = self.parts.len();
                 for sight in rules::look(&block, part, limits) {
                     // What is only unusual, or too tight, leads where it says.
-                    open.part.sum.errors += usize::from(sight.counts == Counts::Always && sight.rule != Rule::SmallRadius);
-                    let (rule, spot, counts, detail) = (sight.rule, sight.spot, sight.counts, sight.detail);
-                    self.faults.push(Local { range: range.clone(), rule, detail, spot, counts, part: part_index });
+                    open.part.sum.errors += usize::from(
+                        sight.counts == Counts::Always && sight.rule != Rule::SmallRadius,
+                    );
+                    let (rule, spot, counts, detail) =
+                        (sight.rule, sight.spot, sight.counts, sight.detail);
+                    self.faults.push(Local {
+                        range: range.clone(),
+                        rule,
+                        detail,
+                        spot,
+                        counts,
+                        part: part_index,
+                    });
                 }
                 self.stated += usize::from(entry.stated_end().is_some());
                 open.push(&entry);
-                self.positions.block(self.blocks, self.entries.len(), &entry);
+                self.positions
+                    .block(self.blocks, self.entries.len(), &entry);
                 self.blocks += 1;
                 self.push(range, line, number, What::Block(entry));
             }
-            Item::Word { word, is_own, range, number } => {
+            Item::Word {
+                word,
+                is_own,
+                range,
+                number,
+            } => {
                 open.part.entries.end = self.entries.len();
                 open.part.word = Some((word, is_own));
                 self.push(local(range), line, number, What::Word { word, is_own });
                 let next = self.entries.len();
-                self.parts.push(std::mem::replace(open, Open::at(next)).closed());
+                self.parts
+                    .push(std::mem::replace(open, Open::at(next)).closed());
             }
             Item::StartPoint { at, range } => {
                 self.positions.anchor = Some(Some(StatedPoint { at, decimals: 3 }));
@@ -509,9 +625,15 @@ impl Run {
                 let sentence = || Detail::Syntax(fault.sentence());
                 let program = |fault| Detail::Program(Box::new(fault));
                 let (rule, detail) = match fault.flaw {
-                    Flaw::Unreadable(_) | Flaw::LetterO | Flaw::NotPlain(_) | Flaw::DecimalCommas => (Rule::Syntax, sentence()),
+                    Flaw::Unreadable(_)
+                    | Flaw::LetterO
+                    | Flaw::NotPlain(_)
+                    | Flaw::DecimalCommas => (Rule::Syntax, sentence()),
                     Flaw::MissingB { .. } => (Rule::MissingB, program(ProgramFault::MissingB)),
-                    Flaw::BlockNumberAsB { number } => (Rule::BlockNumberAsB, program(ProgramFault::BlockNumberAsB { number })),
+                    Flaw::BlockNumberAsB { number } => (
+                        Rule::BlockNumberAsB,
+                        program(ProgramFault::BlockNumberAsB { number }),
+                    ),
                 };
                 let part = self.parts.len();
                 self.faults.push(Local {
@@ -528,7 +650,15 @@ impl Run {
 
     fn push(&mut self, range: Range<usize>, line: u32, number: Option<u32>, what: What) {
         self.numbered += usize::from(number.is_some());
-        self.numbering = self.numbering.with(number, matches!(what, What::Block(_) | What::Unread));
-        self.entries.push(Entry { start: range.start as u32, length: range.len() as u32, line, number: number.unwrap_or(NO_NUMBER), what });
+        self.numbering = self
+            .numbering
+            .with(number, matches!(what, What::Block(_) | What::Unread));
+        self.entries.push(Entry {
+            start: range.start as u32,
+            length: range.len() as u32,
+            line,
+            number: number.unwrap_or(NO_NUMBER),
+            what,
+        });
     }
 }

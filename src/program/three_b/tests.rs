@@ -14,10 +14,22 @@ use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 fn path_of(segments: Vec<Segment>) -> WirePath {
-    let source = Source::Segment { entity: EntityId(0), segment: 0 };
+    let source = Source::Segment {
+        entity: EntityId(0),
+        segment: 0,
+    };
     let thread_hole = segments.first().map_or_else(Point::origin, Segment::start);
-    let segments = segments.into_iter().map(|geometry| PathSegment { geometry, source }).collect();
-    WirePath { outline: 0, correction: 0.0, thread_hole, side: None, segments }
+    let segments = segments
+        .into_iter()
+        .map(|geometry| PathSegment { geometry, source })
+        .collect();
+    WirePath {
+        outline: 0,
+        correction: 0.0,
+        thread_hole,
+        side: None,
+        segments,
+    }
 }
 
 fn written(segments: Vec<Segment>) -> ProvedProgram {
@@ -27,7 +39,16 @@ fn written(segments: Vec<Segment>) -> ProvedProgram {
 fn blocks(text: &str) -> Vec<Block> {
     let (items, faults) = read(text.as_bytes(), &Words::default());
     assert_eq!(faults, [], "{text}");
-    items.iter().filter_map(|item| if let Item::Block { block, .. } = item { Some(*block) } else { None }).collect()
+    items
+        .iter()
+        .filter_map(|item| {
+            if let Item::Block { block, .. } = item {
+                Some(*block)
+            } else {
+                None
+            }
+        })
+        .collect()
 }
 
 fn line(from: [f64; 2], to: [f64; 2]) -> Segment {
@@ -35,7 +56,12 @@ fn line(from: [f64; 2], to: [f64; 2]) -> Segment {
 }
 
 fn arc(center: [f64; 2], from: [f64; 2], to: [f64; 2], counter_clockwise: bool) -> Segment {
-    Segment::Arc(Arc::about(center.into(), from.into(), to.into(), counter_clockwise))
+    Segment::Arc(Arc::about(
+        center.into(),
+        from.into(),
+        to.into(),
+        counter_clockwise,
+    ))
 }
 
 /// One piece of path in mm and its compact block.
@@ -59,11 +85,26 @@ fn lines_of_every_quadrant_and_axis() {
 
 #[test]
 fn arcs_of_the_textbook() {
-    check(arc([0.0, 0.0], [-2.0, 9.0], [9.0, -2.0], true), "B2000B9000B25439GYNR2");
-    check(arc([0.0, 0.0], [9.0, -2.0], [-2.0, 9.0], false), "B9000B2000B25439GXSR4");
-    check(arc([20.0, 50.0], [50.0, 90.0], [-10.0, 90.0], true), "B30000B40000B60000GXNR1");
-    check(arc([0.0, 0.0], [9.9, 0.0], [9.9, 0.0], true), "B9900B0B39600GYNR1");
-    check(arc([0.0, 0.0], [-4.0, -3.0], [-4.0, -3.0], false), "B4000B3000B20000GYSR3");
+    check(
+        arc([0.0, 0.0], [-2.0, 9.0], [9.0, -2.0], true),
+        "B2000B9000B25439GYNR2",
+    );
+    check(
+        arc([0.0, 0.0], [9.0, -2.0], [-2.0, 9.0], false),
+        "B9000B2000B25439GXSR4",
+    );
+    check(
+        arc([20.0, 50.0], [50.0, 90.0], [-10.0, 90.0], true),
+        "B30000B40000B60000GXNR1",
+    );
+    check(
+        arc([0.0, 0.0], [9.9, 0.0], [9.9, 0.0], true),
+        "B9900B0B39600GYNR1",
+    );
+    check(
+        arc([0.0, 0.0], [-4.0, -3.0], [-4.0, -3.0], false),
+        "B4000B3000B20000GYSR3",
+    );
 }
 
 #[test]
@@ -93,16 +134,30 @@ fn long_pieces_are_split_below_the_digit_limit() {
         line([-1e5, 3.0], [1e5, -7.0]),
         arc([0.0, 0.0], [400.0, 0.0], [400.0, 0.0], true),
         arc([0.0, 0.0], [0.0, 700.0], [0.001, 700.0], true),
-        arc([0.0, -5000.0], [0.0, 0.0], [100.0, (5000.0_f64.powi(2) - 1e4).sqrt() - 5000.0], false),
+        arc(
+            [0.0, -5000.0],
+            [0.0, 0.0],
+            [100.0, (5000.0_f64.powi(2) - 1e4).sqrt() - 5000.0],
+            false,
+        ),
     ] {
         for digits in [5, 6, 7, 9] {
-            let settings = Effective { digits, ..Effective::default() };
+            let settings = Effective {
+                digits,
+                ..Effective::default()
+            };
             let program = write(&[path_of(vec![segment])], 1.0, &settings).expect("a program");
             let blocks = blocks(&program.text);
             let largest = settings.largest_number();
-            assert!(blocks.iter().all(|b| b.x.max(b.y).max(b.j) <= largest), "{segment:?}: {blocks:?}");
+            assert!(
+                blocks.iter().all(|b| b.x.max(b.y).max(b.j) <= largest),
+                "{segment:?}: {blocks:?}"
+            );
             let counted: i64 = blocks.iter().map(|b| b.j).sum();
-            assert!(blocks.len() > 1 || counted <= largest, "{segment:?} with {digits} digits: {blocks:?}");
+            assert!(
+                blocks.len() > 1 || counted <= largest,
+                "{segment:?} with {digits} digits: {blocks:?}"
+            );
             assert!((program.length - segment.length()).abs() < 1e-6);
         }
     }
@@ -112,14 +167,27 @@ fn long_pieces_are_split_below_the_digit_limit() {
 fn how_many_digits_a_controller_has_is_a_setting() {
     let text = "B1500000B0B1500000GXL1\nB0B1500000B1500000GYL2\nB1500000B0B1500000GXL3\nB0B1500000B1500000GYL4\nDD\n";
     let faults = |digits: u32| {
-        let settings = Effective { digits, ..Effective::default() };
+        let settings = Effective {
+            digits,
+            ..Effective::default()
+        };
         let document = Document::read_with(text.as_bytes().to_vec(), &settings);
         let findings = document.findings();
-        assert!(findings.iter().all(|finding| finding.rule.name() == "too-many-digits"), "{findings:?}");
-        let pieces = findings.iter().map(|finding| document.fixes(finding)[0].edit[0].text.lines().count());
+        assert!(
+            findings
+                .iter()
+                .all(|finding| finding.rule.name() == "too-many-digits"),
+            "{findings:?}"
+        );
+        let pieces = findings
+            .iter()
+            .map(|finding| document.fixes(finding)[0].edit[0].text.lines().count());
         (findings.len(), pieces.max())
     };
-    assert_eq!([5, 6, 7].map(faults), [(4, Some(16)), (4, Some(2)), (0, None)]);
+    assert_eq!(
+        [5, 6, 7].map(faults),
+        [(4, Some(16)), (4, Some(2)), (0, None)]
+    );
 }
 
 #[test]
@@ -135,10 +203,27 @@ fn pieces_without_length_on_the_grid_are_left_out() {
 
 #[test]
 fn several_contours_are_joined_by_pauses_and_a_jump() {
-    let paths = [path_of(vec![line([0.0, 0.0], [1.0, 0.0])]), path_of(vec![line([5.0, 2.0], [5.0, 3.0])])];
-    let text = |jumps, layout| write(&paths, 1.0, &Effective { jumps, layout, ..Effective::default() }).expect("a program");
+    let paths = [
+        path_of(vec![line([0.0, 0.0], [1.0, 0.0])]),
+        path_of(vec![line([5.0, 2.0], [5.0, 3.0])]),
+    ];
+    let text = |jumps, layout| {
+        write(
+            &paths,
+            1.0,
+            &Effective {
+                jumps,
+                layout,
+                ..Effective::default()
+            },
+        )
+        .expect("a program")
+    };
     let with = text(Jumps::Blocks, Layout::Compact);
-    assert_eq!(with.text, "B1000B0B1000GXL1\nD\nB4000B2000B4000GXL1\nD\nB0B1000B1000GYL2\nDD\n");
+    assert_eq!(
+        with.text,
+        "B1000B0B1000GXL1\nD\nB4000B2000B4000GXL1\nD\nB0B1000B1000GYL2\nDD\n"
+    );
     assert_eq!((with.blocks, with.length), (3, 2.0 + 20.0_f64.sqrt()));
     let without = text(Jumps::None, Layout::Compact);
     assert_eq!(without.text, "B1000B0B1000GXL1\nD\nB0B1000B1000GYL2\nDD\n");
@@ -152,17 +237,38 @@ fn several_contours_are_joined_by_pauses_and_a_jump() {
          N    3: B      0 B   1000 B   1000 GY L2  ;      5.000 ,      3.000\n\
          DD\n"
     );
-    assert!(text(Jumps::Blocks, Layout::Aligned).text.starts_with("; Start Point = 0.000 , 0.000\nB   1000 B      0 B   1000 GX L1\nD\n"));
+    assert!(
+        text(Jumps::Blocks, Layout::Aligned)
+            .text
+            .starts_with("; Start Point = 0.000 , 0.000\nB   1000 B      0 B   1000 GX L1\nD\n")
+    );
 }
 
 /// A plate of 20 by 10 mm, entered in the middle of its lower side, and its 4B program for a wire on `side` of the travel.
 fn four_b(side: crate::finding::Side, last: [f64; 2]) -> Result<String, ProofError> {
-    let corners = [[10.0, 0.0], [20.0, 0.0], [20.0, 10.0], last, [0.0, 0.0], [10.0, 0.0]];
-    let out = if side == crate::finding::Side::Left { 3.0 } else { -3.0 };
-    let mut path = path_of(corners.windows(2).map(|pair| line(pair[0], pair[1])).collect());
+    let corners = [
+        [10.0, 0.0],
+        [20.0, 0.0],
+        [20.0, 10.0],
+        last,
+        [0.0, 0.0],
+        [10.0, 0.0],
+    ];
+    let out = if side == crate::finding::Side::Left {
+        3.0
+    } else {
+        -3.0
+    };
+    let mut path = path_of(
+        corners
+            .windows(2)
+            .map(|pair| line(pair[0], pair[1]))
+            .collect(),
+    );
     path.thread_hole = Point::new(10.0, out);
     path.side = Some(side);
-    super::write_four_b(&[path], 1.0, &Effective::default(), &mut |_, _| true).map(|program| program.text)
+    super::write_four_b(&[path], 1.0, &Effective::default(), &mut |_, _| true)
+        .map(|program| program.text)
 }
 
 #[test]
@@ -172,34 +278,72 @@ fn the_parts_contour_in_four_b_turns_in_arcs_only() {
         let text = four_b(side, [0.0, 10.0]).unwrap();
         let (items, faults) = read(text.as_bytes(), &Words::default());
         assert_eq!(faults, [], "{text}");
-        let parts = items.iter().filter_map(|item| if let Item::Block { block, part, .. } = item { Some((*block, *part)) } else { None });
+        let parts = items.iter().filter_map(|item| {
+            if let Item::Block { block, part, .. } = item {
+                Some((*block, *part))
+            } else {
+                None
+            }
+        });
         let parts: Vec<_> = parts.collect();
         let arcs: Vec<_> = parts.iter().filter_map(|(_, part)| *part).collect();
         assert_eq!((parts.len(), arcs.len()), (11, 4), "{text}");
-        assert!(arcs.iter().all(|part| part.radius == 101 && part.concave == concave), "{text}");
+        assert!(
+            arcs.iter()
+                .all(|part| part.radius == 101 && part.concave == concave),
+            "{text}"
+        );
         // The blocks lead back to the thread hole, and the contour is as long as the plate's without its corners.
-        let end = parts.iter().fold(Point::origin(), |at, (block, _)| decode(block, at).unwrap().end());
+        let end = parts.iter().fold(Point::origin(), |at, (block, _)| {
+            decode(block, at).unwrap().end()
+        });
         assert!(end.coords.norm() <= 4.0, "{end:?} {text}");
-        assert_eq!((parts[0].0.j, parts[1].0.j, parts[5].0.j), (2900, 9899, 19_798), "{text}");
+        assert_eq!(
+            (parts[0].0.j, parts[1].0.j, parts[5].0.j),
+            (2900, 9899, 19_798),
+            "{text}"
+        );
     }
     // A corner that its lines are too short for, and a path whose side nobody knows.
     let refused = |program: Result<String, ProofError>, expected: &str| match program {
         Err(ProofError::Refused(sentence)) => assert!(sentence.contains(expected), "{sentence}"),
         other => panic!("{other:?}"),
     };
-    refused(four_b(Side::Left, [19.95, 10.0]), "needs a transition arc of R 0.101 mm at the corner (20.000, 10.000) of 90.0°: none");
-    let unknown = super::write_four_b(&[path_of(vec![line([0.0, 0.0], [1.0, 0.0])])], 1.0, &Effective::default(), &mut |_, _| true);
+    refused(
+        four_b(Side::Left, [19.95, 10.0]),
+        "needs a transition arc of R 0.101 mm at the corner (20.000, 10.000) of 90.0°: none",
+    );
+    let unknown = super::write_four_b(
+        &[path_of(vec![line([0.0, 0.0], [1.0, 0.0])])],
+        1.0,
+        &Effective::default(),
+        &mut |_, _| true,
+    );
     refused(unknown.map(|program| program.text), "say opening or punch");
     let mut tight = path_of(vec![arc([0.0, 0.0], [0.1, 0.0], [0.1, 0.0], true)]);
     tight.side = Some(Side::Left);
     let tight = super::write_four_b(&[tight], 1.0, &Effective::default(), &mut |_, _| true);
-    refused(tight.map(|program| program.text), "expected more than the correction 0.100 mm");
+    refused(
+        tight.map(|program| program.text),
+        "expected more than the correction 0.100 mm",
+    );
 }
 
 /// Contours from vertices with bulges, the first of them in the middle of a straight side, as 4B; the arcs of the program with their side.
-fn part_of(vertices: &[[f64; 3]], side: crate::finding::Side, settings: &Effective) -> Result<Vec<(Segment, Option<bool>)>, ProofError> {
-    let next = |index: usize| Point::new(vertices[(index + 1) % vertices.len()][0], vertices[(index + 1) % vertices.len()][1]);
-    let piece = |(index, &[x, y, bulge]): (usize, &[f64; 3])| Segment::from_bulge(Point::new(x, y), next(index), bulge);
+fn part_of(
+    vertices: &[[f64; 3]],
+    side: crate::finding::Side,
+    settings: &Effective,
+) -> Result<Vec<(Segment, Option<bool>)>, ProofError> {
+    let next = |index: usize| {
+        Point::new(
+            vertices[(index + 1) % vertices.len()][0],
+            vertices[(index + 1) % vertices.len()][1],
+        )
+    };
+    let piece = |(index, &[x, y, bulge]): (usize, &[f64; 3])| {
+        Segment::from_bulge(Point::new(x, y), next(index), bulge)
+    };
     let mut path = path_of(vertices.iter().enumerate().map(piece).collect());
     path.side = Some(side);
     let program = super::write_four_b(&[path], 1.0, settings, &mut |_, _| true)?;
@@ -221,16 +365,44 @@ fn part_of(vertices: &[[f64; 3]], side: crate::finding::Side, settings: &Effecti
 fn corners_beside_arcs_get_their_transition_in_four_b() {
     use crate::finding::Side;
     // A side that ends in a half turn, with a corner at both ends of it: line to arc, arc to line; two arcs that meet in a corner.
-    let tongue =
-        [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 4.0, 0.0], [8.0, 4.0, 1.0], [2.0, 4.0, 0.0], [-10.0, 4.0, 0.0], [-10.0, 0.0, 0.0]];
-    let lens = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.5], [0.0, 8.0, 0.5], [-10.0, 0.0, 0.0]];
-    let bites = [[0.0, 0.0, 0.0], [10.0, 0.0, -0.3], [0.0, 8.0, -0.3], [-10.0, 0.0, 0.0]];
+    let tongue = [
+        [0.0, 0.0, 0.0],
+        [10.0, 0.0, 0.0],
+        [10.0, 4.0, 0.0],
+        [8.0, 4.0, 1.0],
+        [2.0, 4.0, 0.0],
+        [-10.0, 4.0, 0.0],
+        [-10.0, 0.0, 0.0],
+    ];
+    let lens = [
+        [0.0, 0.0, 0.0],
+        [10.0, 0.0, 0.5],
+        [0.0, 8.0, 0.5],
+        [-10.0, 0.0, 0.0],
+    ];
+    let bites = [
+        [0.0, 0.0, 0.0],
+        [10.0, 0.0, -0.3],
+        [0.0, 8.0, -0.3],
+        [-10.0, 0.0, 0.0],
+    ];
     for (vertices, corners) in [(&tongue[..], 6), (&lens, 3), (&bites, 3)] {
         for side in [Side::Left, Side::Right] {
-            let settings = Effective { correction: 0.2, ..Effective::default() };
+            let settings = Effective {
+                correction: 0.2,
+                ..Effective::default()
+            };
             let pieces = part_of(vertices, side, &settings).unwrap();
-            let transitions = pieces.iter().filter(|(piece, _)| piece.as_arc().is_some_and(|arc| (200.5..206.0).contains(&arc.radius)));
-            assert_eq!(transitions.count(), corners, "{vertices:?} {side:?}: {pieces:?}");
+            let transitions = pieces.iter().filter(|(piece, _)| {
+                piece
+                    .as_arc()
+                    .is_some_and(|arc| (200.5..206.0).contains(&arc.radius))
+            });
+            assert_eq!(
+                transitions.count(),
+                corners,
+                "{vertices:?} {side:?}: {pieces:?}"
+            );
             // Between the ways in and out the wire's path joins: every joint is tangent, as far as the grid goes.
             for pair in pieces[1..pieces.len() - 1].windows(2) {
                 let kink = turn(pair[0].0.end_tangent(), pair[1].0.start_tangent()).abs();
@@ -238,14 +410,25 @@ fn corners_beside_arcs_get_their_transition_in_four_b() {
             }
             // A transition is concave where the wire runs inside of it.
             for (piece, concave) in &pieces {
-                let inside = piece.as_arc().map(|arc| (arc.sweep > 0.0) == (side == Side::Left));
+                let inside = piece
+                    .as_arc()
+                    .map(|arc| (arc.sweep > 0.0) == (side == Side::Left));
                 assert_eq!(*concave, inside, "{piece:?}");
             }
         }
     }
     // No arc of 0.6 mm is tangent to both sides within 0.5 mm of them.
-    let narrow = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 0.5, 0.4], [0.0, 8.0, 0.0], [-10.0, 0.0, 0.0]];
-    let wide = Effective { correction: 0.6, ..Effective::default() };
+    let narrow = [
+        [0.0, 0.0, 0.0],
+        [10.0, 0.0, 0.0],
+        [10.0, 0.5, 0.4],
+        [0.0, 8.0, 0.0],
+        [-10.0, 0.0, 0.0],
+    ];
+    let wide = Effective {
+        correction: 0.6,
+        ..Effective::default()
+    };
     assert!(
         matches!(part_of(&narrow, Side::Left, &wide), Err(ProofError::Refused(sentence)) if sentence.contains("tangent to both sides"))
     );
@@ -255,40 +438,94 @@ fn corners_beside_arcs_get_their_transition_in_four_b() {
 /// correction all the same.
 #[test]
 fn tight_arcs_of_four_b_are_found_whatever_the_compensation() {
-    let arc = |radius: i64, side: &str| format!("B0B1000B1000GYL2\nB{radius}B0B{radius}B{radius}GY{side}NR1\nB1000B0B1000GXL3\nDD\n");
-    for compensation in [Compensation::None, Compensation::Controller, Compensation::Path] {
-        let settings = Effective { compensation, ..Effective::default() };
+    let arc = |radius: i64, side: &str| {
+        format!(
+            "B0B1000B1000GYL2\nB{radius}B0B{radius}B{radius}GY{side}NR1\nB1000B0B1000GXL3\nDD\n"
+        )
+    };
+    for compensation in [
+        Compensation::None,
+        Compensation::Controller,
+        Compensation::Path,
+    ] {
+        let settings = Effective {
+            compensation,
+            ..Effective::default()
+        };
         let tight = |text: &str| {
             let document = Document::read_with(text.as_bytes().to_vec(), &settings);
-            document.findings().iter().filter(|finding| finding.rule.name() == "small-radius").count()
+            document
+                .findings()
+                .iter()
+                .filter(|finding| finding.rule.name() == "small-radius")
+                .count()
         };
-        assert_eq!((tight(&arc(90, "DD")), tight(&arc(100, "DD")), tight(&arc(101, "DD")), tight(&arc(90, "D"))), (1, 1, 0, 0));
+        assert_eq!(
+            (
+                tight(&arc(90, "DD")),
+                tight(&arc(100, "DD")),
+                tight(&arc(101, "DD")),
+                tight(&arc(90, "D"))
+            ),
+            (1, 1, 0, 0)
+        );
     }
     let three_b = |compensation| {
-        let settings = Effective { compensation, ..Effective::default() };
+        let settings = Effective {
+            compensation,
+            ..Effective::default()
+        };
         let document = Document::read_with(b"B90B0B90GYNR1\nDD\n".to_vec(), &settings);
-        document.findings().iter().filter(|finding| finding.rule.name() == "small-radius").count()
+        document
+            .findings()
+            .iter()
+            .filter(|finding| finding.rule.name() == "small-radius")
+            .count()
     };
-    assert_eq!([Compensation::None, Compensation::Controller, Compensation::Path].map(three_b), [1, 1, 0]);
+    assert_eq!(
+        [
+            Compensation::None,
+            Compensation::Controller,
+            Compensation::Path
+        ]
+        .map(three_b),
+        [1, 1, 0]
+    );
 }
 
 #[test]
 fn what_is_not_a_path_is_never_a_program() {
-    let gap = [path_of(vec![line([0.0, 0.0], [1.0, 0.0]), line([1.1, 0.0], [2.0, 0.0])])];
+    let gap = [path_of(vec![
+        line([0.0, 0.0], [1.0, 0.0]),
+        line([1.1, 0.0], [2.0, 0.0]),
+    ])];
     let far = [path_of(vec![line([0.0, 0.0], [1e12, 0.0])])];
     let lost = [path_of(vec![line([0.0, 0.0], [f64::NAN, 0.0])])];
-    assert!(matches!(write(&gap, 1.0, &Effective::default()), Err(ProofError::Mismatch(_))));
+    assert!(matches!(
+        write(&gap, 1.0, &Effective::default()),
+        Err(ProofError::Mismatch(_))
+    ));
     // No number holds these: the drawing's fault, not ours.
     for paths in [&far[..], &lost, &[]] {
-        assert!(matches!(write(paths, 1.0, &Effective::default()), Err(ProofError::Refused(_))));
+        assert!(matches!(
+            write(paths, 1.0, &Effective::default()),
+            Err(ProofError::Refused(_))
+        ));
     }
-    let odd = Effective { end: "B1B2\nDD".into(), ..Effective::default() };
+    let odd = Effective {
+        end: "B1B2\nDD".into(),
+        ..Effective::default()
+    };
     assert!(write(&[path_of(vec![line([0.0, 0.0], [1.0, 0.0])])], 1.0, &odd).is_err());
 }
 
 #[test]
 fn a_program_that_is_not_wanted_any_more_ends() {
-    let paths = [path_of((0..10_000).map(|i| line([f64::from(i), 0.0], [f64::from(i + 1), 0.0])).collect())];
+    let paths = [path_of(
+        (0..10_000)
+            .map(|i| line([f64::from(i), 0.0], [f64::from(i + 1), 0.0]))
+            .collect(),
+    )];
     let mut heard = Vec::new();
     let outcome = write_with(&paths, 1.0, &Effective::default(), &mut |done, total| {
         heard.push((done, total));
@@ -301,8 +538,20 @@ fn a_program_that_is_not_wanted_any_more_ends() {
 #[test]
 fn text_of_every_writer_is_read() {
     let hole = [
-        Block { x: 9900, y: 0, j: 9900, axis: CountingAxis::X, motion: Motion::Line(Quadrant::First) },
-        Block { x: 9900, y: 0, j: 39600, axis: CountingAxis::Y, motion: Motion::CounterClockwise(Quadrant::First) },
+        Block {
+            x: 9900,
+            y: 0,
+            j: 9900,
+            axis: CountingAxis::X,
+            motion: Motion::Line(Quadrant::First),
+        },
+        Block {
+            x: 9900,
+            y: 0,
+            j: 39600,
+            axis: CountingAxis::Y,
+            motion: Motion::CounterClockwise(Quadrant::First),
+        },
     ];
     for text in [
         "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nDD",
@@ -314,20 +563,40 @@ fn text_of_every_writer_is_read() {
     ] {
         assert_eq!(blocks(text), hole, "{text}");
     }
-    let (items, _) = read(b"; Start Point = 1.5 , -2\nN7: B5BB5GXL1 ; 1.505 , -2.0\nD\n", &Words::default());
-    let block = Block { x: 5, y: 0, j: 5, axis: CountingAxis::X, motion: Motion::Line(Quadrant::First) };
+    let (items, _) = read(
+        b"; Start Point = 1.5 , -2\nN7: B5BB5GXL1 ; 1.505 , -2.0\nD\n",
+        &Words::default(),
+    );
+    let block = Block {
+        x: 5,
+        y: 0,
+        j: 5,
+        axis: CountingAxis::X,
+        motion: Motion::Line(Quadrant::First),
+    };
     assert_eq!(
         items,
         [
-            Item::StartPoint { at: [1.5, -2.0], range: 0..24 },
+            Item::StartPoint {
+                at: [1.5, -2.0],
+                range: 0..24
+            },
             Item::Block {
                 block,
                 range: 29..38,
                 number: Some(7),
-                stated_end: Some(StatedPoint { at: [1.505, -2.0], decimals: 1 }),
+                stated_end: Some(StatedPoint {
+                    at: [1.505, -2.0],
+                    decimals: 1
+                }),
                 part: None
             },
-            Item::Word { word: Word::Pause, is_own: true, range: 54..55, number: None },
+            Item::Word {
+                word: Word::Pause,
+                is_own: true,
+                range: 54..55,
+                number: None
+            },
         ]
     );
 }
@@ -335,17 +604,47 @@ fn text_of_every_writer_is_read() {
 #[test]
 fn a_damaged_line_says_what_was_expected_where() {
     for (text, sentence) in [
-        ("B9900B0B9900GXL5", "column 16: found `5`, expected a quadrant from 1 to 4"),
-        ("B9900B0B9900GZL1", "column 14: found `ZL1`, expected X or Y after G"),
-        ("B9900B0B9900", "column 13: the line ends, expected G and the counting axis, GX or GY"),
-        ("B9900B0BGXL1", "column 9: found `GXL1`, expected the counting length J in µm"),
-        ("B-9900B0B9900GXL1", "column 2: found `-9900B0B9900`, expected digits of X, or B before Y"),
-        ("B1B1B99999999999999999999GXL1", "column 6: found `999999999999`, expected at most 12 digits"),
-        ("B1B1B5GXMR1", "column 9: found `MR1`, expected L, SR or NR and a quadrant"),
-        ("B1B0B1GXL1\nXY", "column 1: found `XY`, expected a block (B X B Y B J G Z), a pause or end word, or a comment after `;`"),
+        (
+            "B9900B0B9900GXL5",
+            "column 16: found `5`, expected a quadrant from 1 to 4",
+        ),
+        (
+            "B9900B0B9900GZL1",
+            "column 14: found `ZL1`, expected X or Y after G",
+        ),
+        (
+            "B9900B0B9900",
+            "column 13: the line ends, expected G and the counting axis, GX or GY",
+        ),
+        (
+            "B9900B0BGXL1",
+            "column 9: found `GXL1`, expected the counting length J in µm",
+        ),
+        (
+            "B-9900B0B9900GXL1",
+            "column 2: found `-9900B0B9900`, expected digits of X, or B before Y",
+        ),
+        (
+            "B1B1B99999999999999999999GXL1",
+            "column 6: found `999999999999`, expected at most 12 digits",
+        ),
+        (
+            "B1B1B5GXMR1",
+            "column 9: found `MR1`, expected L, SR or NR and a quadrant",
+        ),
+        (
+            "B1B0B1GXL1\nXY",
+            "column 1: found `XY`, expected a block (B X B Y B J G Z), a pause or end word, or a comment after `;`",
+        ),
     ] {
         let (_, faults) = read(text.as_bytes(), &Words::default());
-        assert_eq!(faults.iter().map(|fault| fault.sentence()).collect::<Vec<_>>(), [sentence]);
+        assert_eq!(
+            faults
+                .iter()
+                .map(|fault| fault.sentence())
+                .collect::<Vec<_>>(),
+            [sentence]
+        );
     }
 }
 
@@ -366,7 +665,10 @@ fn a_block_that_leads_nowhere_says_why() {
     ] {
         let end = decode(&blocks(text)[0], Point::origin()).map(|segment| segment.end());
         match (end, expected) {
-            (Ok(end), Ok(expected)) => assert!((end - Point::from(expected)).norm() < 1e-6, "{text}: {end:?}"),
+            (Ok(end), Ok(expected)) => assert!(
+                (end - Point::from(expected)).norm() < 1e-6,
+                "{text}: {end:?}"
+            ),
             (end, expected) => assert_eq!(end, expected.map(Point::from), "{text}"),
         }
     }
@@ -374,21 +676,46 @@ fn a_block_that_leads_nowhere_says_why() {
 
 /// A closed path of lines and arcs about the origin, in mm: vertices on a wavy ring, a bulge for each side.
 fn closed_path() -> impl Strategy<Value = Vec<Segment>> {
-    prop::collection::vec((0.3_f64..40.0, prop_oneof![Just(0.0), -1.5_f64..1.5, -1e-3..1e-3]), 3..24).prop_map(|sides| {
+    prop::collection::vec(
+        (
+            0.3_f64..40.0,
+            prop_oneof![Just(0.0), -1.5_f64..1.5, -1e-3..1e-3],
+        ),
+        3..24,
+    )
+    .prop_map(|sides| {
         let count = sides.len();
-        let vertex = |index: usize| Point::origin() + direction(TAU * index as f64 / count as f64) * sides[index].0;
-        (0..count).map(|index| Segment::from_bulge(vertex(index), vertex((index + 1) % count), sides[index].1)).collect()
+        let vertex = |index: usize| {
+            Point::origin() + direction(TAU * index as f64 / count as f64) * sides[index].0
+        };
+        (0..count)
+            .map(|index| {
+                Segment::from_bulge(vertex(index), vertex((index + 1) % count), sides[index].1)
+            })
+            .collect()
     })
 }
 
 /// The path turned, mirrored, shifted and travelled backwards.
-fn moved(path: &[Segment], angle: f64, mirror: bool, shift: Vector, backwards: bool) -> Vec<Segment> {
+fn moved(
+    path: &[Segment],
+    angle: f64,
+    mirror: bool,
+    shift: Vector,
+    backwards: bool,
+) -> Vec<Segment> {
     let (cos, sin) = (angle.cos(), angle.sin());
     let place = |p: Point| {
         let y = if mirror { -p.y } else { p.y };
         Point::new(p.x * cos - y * sin, p.x * sin + y * cos) + shift
     };
-    let segment = |s: &Segment| Segment::from_bulge(place(s.start()), place(s.end()), if mirror { -s.bulge() } else { s.bulge() });
+    let segment = |s: &Segment| {
+        Segment::from_bulge(
+            place(s.start()),
+            place(s.end()),
+            if mirror { -s.bulge() } else { s.bulge() },
+        )
+    };
     let mut moved: Vec<Segment> = path.iter().map(segment).collect();
     if backwards {
         moved.reverse();
@@ -400,26 +727,72 @@ fn moved(path: &[Segment], angle: f64, mirror: bool, shift: Vector, backwards: b
 /// Each arc misses its end by the same part of a micrometre: a controller that counts would drift on and on.
 #[test]
 fn equal_arcs_in_a_row_do_not_drift() {
-    for (pitch, bulge) in [(1.0, 0.37), (0.777, -0.61), (2.5, 1.0), (0.3, 0.9), (1.001, 0.173)] {
+    for (pitch, bulge) in [
+        (1.0, 0.37),
+        (0.777, -0.61),
+        (2.5, 1.0),
+        (0.3, 0.9),
+        (1.001, 0.173),
+    ] {
         let count = 600;
         let at = |index: usize| Point::new(index as f64 * pitch, 0.0);
-        let mut path: Vec<Segment> = (0..count).map(|index| Segment::from_bulge(at(index), at(index + 1), bulge)).collect();
-        let corners = [at(count), Point::new(count as f64 * pitch, 50.0), Point::new(0.0, 50.0), at(0)];
-        path.extend(corners.windows(2).map(|pair| Segment::line(pair[0], pair[1])));
+        let mut path: Vec<Segment> = (0..count)
+            .map(|index| Segment::from_bulge(at(index), at(index + 1), bulge))
+            .collect();
+        let corners = [
+            at(count),
+            Point::new(count as f64 * pitch, 50.0),
+            Point::new(0.0, 50.0),
+            at(0),
+        ];
+        path.extend(
+            corners
+                .windows(2)
+                .map(|pair| Segment::line(pair[0], pair[1])),
+        );
         let program = written(path);
         let drift = program.closure[0].hypot(program.closure[1]);
-        assert!(drift <= crate::program::closing::tolerance(count), "{pitch} {bulge}: {drift}");
-        assert!(program.deviation <= 2.0, "{pitch} {bulge}: {}", program.deviation);
+        assert!(
+            drift <= crate::program::closing::tolerance(count),
+            "{pitch} {bulge}: {drift}"
+        );
+        assert!(
+            program.deviation <= 2.0,
+            "{pitch} {bulge}: {}",
+            program.deviation
+        );
     }
 }
 
 fn any_block() -> impl Strategy<Value = Block> {
     let number = || prop_oneof![0_i64..20, 0_i64..1_000_000, 0_i64..1_000_000_000_000];
-    (number(), number(), number(), any::<bool>(), 1_u8..=4, 0_usize..3).prop_map(|(x, y, j, on_x, quadrant, kind)| {
-        let quadrant = Quadrant::from_number(quadrant).expect("1 to 4");
-        let motion = [Motion::Line(quadrant), Motion::Clockwise(quadrant), Motion::CounterClockwise(quadrant)][kind];
-        Block { x, y, j, axis: if on_x { CountingAxis::X } else { CountingAxis::Y }, motion }
-    })
+    (
+        number(),
+        number(),
+        number(),
+        any::<bool>(),
+        1_u8..=4,
+        0_usize..3,
+    )
+        .prop_map(|(x, y, j, on_x, quadrant, kind)| {
+            let quadrant = Quadrant::from_number(quadrant).expect("1 to 4");
+            let motion = [
+                Motion::Line(quadrant),
+                Motion::Clockwise(quadrant),
+                Motion::CounterClockwise(quadrant),
+            ][kind];
+            Block {
+                x,
+                y,
+                j,
+                axis: if on_x {
+                    CountingAxis::X
+                } else {
+                    CountingAxis::Y
+                },
+                motion,
+            }
+        })
 }
 
 proptest! {

@@ -16,7 +16,11 @@ use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm.
-pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Result<ProvedProgram, ProofError> {
+pub fn write(
+    paths: &[WirePath],
+    unit_mm: f64,
+    settings: &Effective,
+) -> Result<ProvedProgram, ProofError> {
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
@@ -43,8 +47,18 @@ pub fn write_four_b(
     let correction = settings.correction * 1000.0;
     // Whole micrometres, and above the correction whatever the margin.
     let radius = (correction + (settings.margin * 1000.0).max(1.0)).ceil();
-    let paths: Vec<WirePath> = paths.iter().map(|path| rounded(path, unit_mm * 1000.0, correction, radius)).collect::<Result<_, _>>()?;
-    let mut blocks = Blocks::new(settings, Some(Part { correction, side: Side::Left, direction: None }));
+    let paths: Vec<WirePath> = paths
+        .iter()
+        .map(|path| rounded(path, unit_mm * 1000.0, correction, radius))
+        .collect::<Result<_, _>>()?;
+    let mut blocks = Blocks::new(
+        settings,
+        Some(Part {
+            correction,
+            side: Side::Left,
+            direction: None,
+        }),
+    );
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(&paths))
 }
@@ -75,7 +89,12 @@ struct Blocks<'a> {
 
 impl Writer for Blocks<'_> {
     /// From one contour to the next the wire is taken out, the table moves, the wire is threaded.
-    fn begin(&mut self, from: Option<Node>, first: Node, side: Option<Side>) -> Result<(), ProofError> {
+    fn begin(
+        &mut self,
+        from: Option<Node>,
+        first: Node,
+        side: Option<Side>,
+    ) -> Result<(), ProofError> {
         if let (Some(part), Some(side)) = (&mut self.part, side) {
             (part.side, part.direction) = (side, None);
         } else if side.is_some() {
@@ -97,20 +116,49 @@ impl Writer for Blocks<'_> {
         Ok(())
     }
 
-    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Result<(), ProofError> {
+    fn piece(
+        &mut self,
+        piece: &Segment,
+        from: Node,
+        to: Node,
+        source: Source,
+    ) -> Result<(), ProofError> {
         let mut encoded = std::mem::take(&mut self.encoded);
         encoded.clear();
-        encode(piece, from, to, self.settings.largest_number(), &mut encoded)
-            .ok_or_else(|| ProofError::Mismatch(format!("no blocks within tolerance lead from {from:?} to {to:?}")))?;
+        encode(
+            piece,
+            from,
+            to,
+            self.settings.largest_number(),
+            &mut encoded,
+        )
+        .ok_or_else(|| {
+            ProofError::Mismatch(format!(
+                "no blocks within tolerance lead from {from:?} to {to:?}"
+            ))
+        })?;
         for block in &encoded {
             // 4B's radius is the block's own.
-            let block = &if self.part.is_none() { self.proof.steadied(block, self.settings.largest_number()) } else { *block };
+            let block = &if self.part.is_none() {
+                self.proof.steadied(block, self.settings.largest_number())
+            } else {
+                *block
+            };
             self.blocks += 1;
             let start = self.out.len();
             let part = self.part_of(block, source)?;
-            push_block(&mut self.out, self.settings.layout, self.blocks, &block.block, part.as_ref(), block.to);
+            push_block(
+                &mut self.out,
+                self.settings.layout,
+                self.blocks,
+                &block.block,
+                part.as_ref(),
+                block.to,
+            );
             let line = &self.out[start..self.out.len() - 1];
-            self.proof.check_line(line, &self.words, block, part).map_err(ProofError::Mismatch)?;
+            self.proof
+                .check_line(line, &self.words, block, part)
+                .map_err(ProofError::Mismatch)?;
         }
         self.length += piece.length();
         self.encoded = encoded;
@@ -118,7 +166,9 @@ impl Writer for Blocks<'_> {
     }
 
     fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError> {
-        self.proof.finish_contour(closed, first, last).map_err(ProofError::Mismatch)
+        self.proof
+            .finish_contour(closed, first, last)
+            .map_err(ProofError::Mismatch)
     }
 }
 
@@ -127,7 +177,10 @@ impl<'a> Blocks<'a> {
         Blocks {
             part,
             settings,
-            words: Words { pause: settings.pause.trim(), end: settings.end.trim() },
+            words: Words {
+                pause: settings.pause.trim(),
+                end: settings.end.trim(),
+            },
             out: Vec::new(),
             blocks: 0,
             length: 0.0,
@@ -137,22 +190,36 @@ impl<'a> Blocks<'a> {
     }
 
     /// What 4B says beside the block of an arc, proved: the wire's arc has a radius, and the wire's path joins before it.
-    fn part_of(&mut self, encoded: &Encoded, source: Source) -> Result<Option<PartArc>, ProofError> {
-        let Some(part) = &mut self.part else { return Ok(None) };
+    fn part_of(
+        &mut self,
+        encoded: &Encoded,
+        source: Source,
+    ) -> Result<Option<PartArc>, ProofError> {
+        let Some(part) = &mut self.part else {
+            return Ok(None);
+        };
         if matches!(source, Source::LeadIn | Source::LeadOut) {
             part.direction = None;
             return Ok(None);
         }
-        let decoded = decode(&encoded.block, point_of(encoded.from))
-            .map_err(|fault| ProofError::Mismatch(format!("{:?} cannot be decoded: {fault:?}", encoded.block)))?;
+        let decoded = decode(&encoded.block, point_of(encoded.from)).map_err(|fault| {
+            ProofError::Mismatch(format!("{:?} cannot be decoded: {fault:?}", encoded.block))
+        })?;
         if let Some(direction) = part.direction {
-            let gap = 2.0 * part.correction * (turn(direction, decoded.start_tangent()) / 2.0).sin().abs();
+            let gap = 2.0
+                * part.correction
+                * (turn(direction, decoded.start_tangent()) / 2.0).sin().abs();
             if gap > WIRE_GAP {
-                return Err(ProofError::Mismatch(format!("the wire's path has a gap of {gap:.3} µm at {:?}", encoded.from)));
+                return Err(ProofError::Mismatch(format!(
+                    "the wire's path has a gap of {gap:.3} µm at {:?}",
+                    encoded.from
+                )));
             }
         }
         part.direction = Some(decoded.end_tangent());
-        let Segment::Arc(arc) = decoded else { return Ok(None) };
+        let Segment::Arc(arc) = decoded else {
+            return Ok(None);
+        };
         let concave = is_concave(&arc, part.side);
         let radius = arc.radius.round();
         if concave && radius <= part.correction {
@@ -162,7 +229,10 @@ impl<'a> Blocks<'a> {
                 part.correction / 1e3
             )));
         }
-        Ok(Some(PartArc { radius: radius as i64, concave }))
+        Ok(Some(PartArc {
+            radius: radius as i64,
+            concave,
+        }))
     }
 
     /// Writes a pause or end word, and reads it again: it comes from the settings.
@@ -173,7 +243,8 @@ impl<'a> Blocks<'a> {
         };
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
-        let sound = matches!(read[..], [Item::Word { .. }]) && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
+        let sound = matches!(read[..], [Item::Word { .. }])
+            && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
         if !sound {
             return Err(ProofError::Mismatch(format!(
                 "the word {word:?} between blocks cannot be read again, expected letters and digits"
@@ -190,7 +261,8 @@ impl<'a> Blocks<'a> {
             return Err(ProofError::Refused(NOTHING_TO_WRITE.into()));
         }
         self.word(Word::End)?;
-        let text = String::from_utf8(self.out).map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
+        let text = String::from_utf8(self.out)
+            .map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
         Ok(ProvedProgram {
             text,
             blocks: self.blocks,

@@ -18,19 +18,26 @@ enum Fate {
 ///
 /// The longest arc of each run becomes the new arc, its neighbours are cut back to the feet, what lies between goes.
 /// `None` where a run has no arc that could carry the new one.
-pub fn drawing_edit(drawing: &Drawing, replacements: &[(Travel, Replacement)]) -> Option<DrawingEdit> {
+pub fn drawing_edit(
+    drawing: &Drawing,
+    replacements: &[(Travel, Replacement)],
+) -> Option<DrawingEdit> {
     let mut fates: BTreeMap<(EntityId, usize), Fate> = BTreeMap::new();
     for (travel, replacement) in replacements {
         let carrier = carrier(travel, replacement)?;
         for position in replacement.before + 1..replacement.after {
             let segment = travel.segment(position)?;
-            let fate =
-                if position == carrier { Fate::Kept(in_own_direction(&segment, Segment::Arc(replacement.arc))) } else { Fate::Removed };
+            let fate = if position == carrier {
+                Fate::Kept(in_own_direction(&segment, Segment::Arc(replacement.arc)))
+            } else {
+                Fate::Removed
+            };
             fates.insert((segment.entity, segment.segment), fate);
         }
-        for (position, point, at_end) in
-            [(replacement.before, replacement.arc.start, true), (replacement.after, replacement.arc.end, false)]
-        {
+        for (position, point, at_end) in [
+            (replacement.before, replacement.arc.start, true),
+            (replacement.after, replacement.arc.end, false),
+        ] {
             let segment = travel.segment(position)?;
             let own = drawing.segment(segment.entity, segment.segment)?;
             let known = match fates.get(&(segment.entity, segment.segment)) {
@@ -72,21 +79,53 @@ pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<Drawing
     {
         let entity = one.entity;
         let ((early, early_cut), (late, late_cut), own_arc) = match one.reversed {
-            false => ((one.segment, first), (other.segment, second), Segment::Arc(arc)),
-            true => ((other.segment, second), (one.segment, first), Segment::Arc(arc.reversed())),
+            false => (
+                (one.segment, first),
+                (other.segment, second),
+                Segment::Arc(arc),
+            ),
+            true => (
+                (other.segment, second),
+                (one.segment, first),
+                Segment::Arc(arc.reversed()),
+            ),
         };
         // The two ends of an open polyline may touch in a corner: that joint is no vertex of its own.
         if (early + 1) % vertices.len() == late {
-            let bulge_of = |segment: Segment, old: Vertex| if segment.as_arc().is_some() { segment.bulge() } else { old.bulge };
+            let bulge_of = |segment: Segment, old: Vertex| {
+                if segment.as_arc().is_some() {
+                    segment.bulge()
+                } else {
+                    old.bulge
+                }
+            };
             let mut changes = Vec::new();
             let start = *vertices.get(early)?;
             let bulge = bulge_of(early_cut, start);
             if bulge != start.bulge {
-                changes.push(Change::SetVertex { entity, index: early, vertex: Vertex { bulge, ..start } });
+                changes.push(Change::SetVertex {
+                    entity,
+                    index: early,
+                    vertex: Vertex { bulge, ..start },
+                });
             }
-            changes.push(Change::SetVertex { entity, index: late, vertex: Vertex { point: own_arc.start(), bulge: own_arc.bulge() } });
+            changes.push(Change::SetVertex {
+                entity,
+                index: late,
+                vertex: Vertex {
+                    point: own_arc.start(),
+                    bulge: own_arc.bulge(),
+                },
+            });
             let bulge = bulge_of(late_cut, *vertices.get(late)?);
-            changes.push(Change::InsertVertex { entity, index: late + 1, vertex: Vertex { point: own_arc.end(), bulge } });
+            changes.push(Change::InsertVertex {
+                entity,
+                index: late + 1,
+                vertex: Vertex {
+                    point: own_arc.end(),
+                    bulge,
+                },
+            });
             return Some(DrawingEdit { changes });
         }
     }
@@ -95,9 +134,17 @@ pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<Drawing
     }
     let mut changes = Vec::new();
     for (place, cut) in [(&one, first), (&other, second)] {
-        changes.extend(entity_changes(drawing, place.entity, &BTreeMap::from([(place.segment, Fate::Kept(cut))]))?);
+        changes.extend(entity_changes(
+            drawing,
+            place.entity,
+            &BTreeMap::from([(place.segment, Fate::Kept(cut))]),
+        )?);
     }
-    let after = if travel.side == crate::finding::Side::Left { one.entity } else { other.entity };
+    let after = if travel.side == crate::finding::Side::Left {
+        one.entity
+    } else {
+        other.entity
+    };
     let geometry = Geometry::Arc {
         center: arc.center,
         radius: arc.radius,
@@ -111,9 +158,15 @@ pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<Drawing
 /// The edit of the original "R minimum" tool: the arc's end points stay, its radius becomes the fix radius; and the angle
 /// (radians) by which the contour kinks at each end. `None` past a half turn, where it would remove a bulb, and where the
 /// arc is no entity's own.
-pub fn keep_end_points(drawing: &Drawing, segment: &ContourSegment, limits: &Limits) -> Option<(DrawingEdit, f64)> {
+pub fn keep_end_points(
+    drawing: &Drawing,
+    segment: &ContourSegment,
+    limits: &Limits,
+) -> Option<(DrawingEdit, f64)> {
     let entity = drawing.get(segment.entity)?;
-    let Segment::Arc(own) = drawing.segment(segment.entity, segment.segment)? else { return None };
+    let Segment::Arc(own) = drawing.segment(segment.entity, segment.segment)? else {
+        return None;
+    };
     let chord = own.end - own.start;
     let half = chord.norm() / (2.0 * limits.fix_radius);
     if own.bulge().abs() > 1.0 + 1e-9 || half <= 0.0 || half > 1.0 {
@@ -122,17 +175,34 @@ pub fn keep_end_points(drawing: &Drawing, segment: &ContourSegment, limits: &Lim
     let sweep = 2.0 * half.asin() * own.sweep.signum();
     let change = match &entity.geometry {
         Geometry::Polyline { vertices, .. } => {
-            let vertex = Vertex { bulge: (sweep / 4.0).tan(), ..*vertices.get(segment.segment)? };
-            Change::SetVertex { entity: segment.entity, index: segment.segment, vertex }
+            let vertex = Vertex {
+                bulge: (sweep / 4.0).tan(),
+                ..*vertices.get(segment.segment)?
+            };
+            Change::SetVertex {
+                entity: segment.entity,
+                index: segment.segment,
+                vertex,
+            }
         }
         Geometry::Arc { .. } => {
             let to_center = limits.fix_radius * (sweep / 2.0).cos();
             let center = own.start + chord * 0.5 + left_normal(chord).normalize() * to_center;
-            set_arc(segment.entity, &Arc::about(center, own.start, own.end, true), limits.fix_radius, None)
+            set_arc(
+                segment.entity,
+                &Arc::about(center, own.start, own.end, true),
+                limits.fix_radius,
+                None,
+            )
         }
         _ => return None,
     };
-    Some((DrawingEdit { changes: vec![change] }, (own.sweep.abs() - sweep.abs()) / 2.0))
+    Some((
+        DrawingEdit {
+            changes: vec![change],
+        },
+        (own.sweep.abs() - sweep.abs()) / 2.0,
+    ))
 }
 
 /// The position whose segment becomes the new arc: the longest arc that curves as it does.
@@ -141,12 +211,18 @@ fn carrier(travel: &Travel, replacement: &Replacement) -> Option<isize> {
         Segment::Arc(arc) if arc.sweep > 0.0 => Some(arc.length()),
         _ => None,
     };
-    let arcs = (replacement.before + 1..replacement.after).filter_map(|position| Some((length(position)?, position)));
-    arcs.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|(_, position)| position)
+    let arcs = (replacement.before + 1..replacement.after)
+        .filter_map(|position| Some((length(position)?, position)));
+    arcs.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
+        .map(|(_, position)| position)
 }
 
 fn in_own_direction(place: &ContourSegment, geometry: Segment) -> Segment {
-    if place.reversed { geometry.reversed() } else { geometry }
+    if place.reversed {
+        geometry.reversed()
+    } else {
+        geometry
+    }
 }
 
 /// The segment with another end point (or start point) on its own line or circle.
@@ -159,34 +235,67 @@ fn with_end(segment: Segment, point: Point, at_end: bool) -> Segment {
             let share = arc.share_of(point);
             let turned = arc.sweep * share;
             Segment::Arc(if at_end {
-                Arc { sweep: turned, end: point, ..arc }
+                Arc {
+                    sweep: turned,
+                    end: point,
+                    ..arc
+                }
             } else {
-                Arc { start_angle: arc.start_angle + turned, sweep: arc.sweep - turned, start: point, ..arc }
+                Arc {
+                    start_angle: arc.start_angle + turned,
+                    sweep: arc.sweep - turned,
+                    start: point,
+                    ..arc
+                }
             })
         }
     }
 }
 
-fn entity_changes(drawing: &Drawing, id: EntityId, fates: &BTreeMap<usize, Fate>) -> Option<Vec<Change>> {
+fn entity_changes(
+    drawing: &Drawing,
+    id: EntityId,
+    fates: &BTreeMap<usize, Fate>,
+) -> Option<Vec<Change>> {
     let geometry = &drawing.get(id)?.geometry;
     let count = geometry.segment_count();
     if fates.len() == count && fates.values().all(|fate| *fate == Fate::Removed) {
         return Some(vec![Change::RemoveEntity { entity: id }]);
     }
     match geometry {
-        Geometry::Polyline { closed, vertices } => Some(polyline_changes(id, vertices, *closed, count, fates)),
+        Geometry::Polyline { closed, vertices } => {
+            Some(polyline_changes(id, vertices, *closed, count, fates))
+        }
         Geometry::Line { start, end } => match fates.get(&0)? {
-            Fate::Kept(Segment::Line(line)) if (line.start, line.end) == (*start, *end) => Some(Vec::new()),
-            Fate::Kept(Segment::Line(line)) => Some(vec![Change::SetLine { entity: id, start: line.start, end: line.end }]),
+            Fate::Kept(Segment::Line(line)) if (line.start, line.end) == (*start, *end) => {
+                Some(Vec::new())
+            }
+            Fate::Kept(Segment::Line(line)) => Some(vec![Change::SetLine {
+                entity: id,
+                start: line.start,
+                end: line.end,
+            }]),
             _ => None,
         },
-        Geometry::Arc { start_angle, end_angle, .. } => match (fates.get(&0)?, drawing.segment(id, 0)?) {
+        Geometry::Arc {
+            start_angle,
+            end_angle,
+            ..
+        } => match (fates.get(&0)?, drawing.segment(id, 0)?) {
             (Fate::Kept(Segment::Arc(arc)), Segment::Arc(old)) => {
                 // An angle that stays is kept as the drawing has it, to the last digit.
-                let kept = (arc.center == old.center)
-                    .then(|| ((arc.start == old.start).then_some(*start_angle), (arc.end == old.end).then_some(*end_angle)));
+                let kept = (arc.center == old.center).then(|| {
+                    (
+                        (arc.start == old.start).then_some(*start_angle),
+                        (arc.end == old.end).then_some(*end_angle),
+                    )
+                });
                 let radius = arc.radius;
-                Some(if *arc == old { Vec::new() } else { vec![set_arc(id, arc, radius, kept)] })
+                Some(if *arc == old {
+                    Vec::new()
+                } else {
+                    vec![set_arc(id, arc, radius, kept)]
+                })
             }
             _ => None,
         },
@@ -194,42 +303,94 @@ fn entity_changes(drawing: &Drawing, id: EntityId, fates: &BTreeMap<usize, Fate>
     }
 }
 
-fn set_arc(entity: EntityId, arc: &Arc, radius: f64, kept: Option<(Option<f64>, Option<f64>)>) -> Change {
+fn set_arc(
+    entity: EntityId,
+    arc: &Arc,
+    radius: f64,
+    kept: Option<(Option<f64>, Option<f64>)>,
+) -> Change {
     let (start, end) = kept.unwrap_or((None, None));
     let start_angle = start.unwrap_or_else(|| positive_angle(arc.start_angle));
     let end_angle = end.unwrap_or_else(|| positive_angle(arc.start_angle + arc.sweep));
-    Change::SetArc { entity, center: arc.center, radius, start_angle, end_angle }
+    Change::SetArc {
+        entity,
+        center: arc.center,
+        radius,
+        start_angle,
+        end_angle,
+    }
 }
 
-fn polyline_changes(entity: EntityId, vertices: &[Vertex], closed: bool, count: usize, fates: &BTreeMap<usize, Fate>) -> Vec<Change> {
+fn polyline_changes(
+    entity: EntityId,
+    vertices: &[Vertex],
+    closed: bool,
+    count: usize,
+    fates: &BTreeMap<usize, Fate>,
+) -> Vec<Change> {
     // At the open end a removed segment takes its end vertex with it, elsewhere its start vertex.
-    let trailing = if closed { 0 } else { (0..count).rev().take_while(|segment| fates.get(segment) == Some(&Fate::Removed)).count() };
+    let trailing = if closed {
+        0
+    } else {
+        (0..count)
+            .rev()
+            .take_while(|segment| fates.get(segment) == Some(&Fate::Removed))
+            .count()
+    };
     let last_kept = count - 1 - trailing.min(count - 1);
     let mut changes = Vec::new();
     let mut set = |index: usize, vertex: Vertex| {
         if vertices.get(index) != Some(&vertex) {
-            changes.push(Change::SetVertex { entity, index, vertex });
+            changes.push(Change::SetVertex {
+                entity,
+                index,
+                vertex,
+            });
         }
     };
     for (&segment, fate) in fates {
         if let Fate::Kept(geometry) = fate {
             // An arc whose sweep is untouched keeps the drawing's own bulge.
             let old = vertices[segment];
-            let same = Segment::from_bulge(old.point, vertices[(segment + 1) % vertices.len()].point, old.bulge);
+            let same = Segment::from_bulge(
+                old.point,
+                vertices[(segment + 1) % vertices.len()].point,
+                old.bulge,
+            );
             let bulge = match (geometry, same) {
                 (Segment::Arc(arc), Segment::Arc(was)) if arc.sweep == was.sweep => old.bulge,
                 _ => geometry.bulge(),
             };
-            set(segment, Vertex { point: geometry.start(), bulge });
+            set(
+                segment,
+                Vertex {
+                    point: geometry.start(),
+                    bulge,
+                },
+            );
             if !closed && segment == last_kept {
-                let end_bulge = if trailing == 0 { vertices[segment + 1].bulge } else { 0.0 };
-                set(segment + 1, Vertex { point: geometry.end(), bulge: end_bulge });
+                let end_bulge = if trailing == 0 {
+                    vertices[segment + 1].bulge
+                } else {
+                    0.0
+                };
+                set(
+                    segment + 1,
+                    Vertex {
+                        point: geometry.end(),
+                        bulge: end_bulge,
+                    },
+                );
             }
         }
     }
     for (&segment, fate) in fates {
         if *fate == Fate::Removed {
-            let index = if segment > last_kept { segment + 1 } else { segment };
+            let index = if segment > last_kept {
+                segment + 1
+            } else {
+                segment
+            };
             changes.push(Change::RemoveVertex { entity, index });
         }
     }

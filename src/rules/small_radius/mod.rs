@@ -33,7 +33,11 @@ pub fn is_too_small(radius: f64, limits: &Limits) -> bool {
 
 /// The numbers of an arc at fault, `None` when the segment is no arc, is wide enough, or curves away from the wire.
 /// `wire_side` is that of the contour's travel; `None` where the arc must survive both sides.
-pub fn check(segment: &ContourSegment, wire_side: Option<Side>, limits: &Limits) -> Option<SmallRadius> {
+pub fn check(
+    segment: &ContourSegment,
+    wire_side: Option<Side>,
+    limits: &Limits,
+) -> Option<SmallRadius> {
     let arc = segment.geometry.as_arc()?;
     let side = center_side(arc.sweep);
     if !is_too_small(arc.radius, limits) || wire_side.is_some_and(|wire| wire != side) {
@@ -42,9 +46,21 @@ pub fn check(segment: &ContourSegment, wire_side: Option<Side>, limits: &Limits)
     let (c, r, turn) = (limits.correction, arc.radius, arc.sweep.abs());
     // Stock that a later pass takes away is no harm of this one.
     let later = c - limits.last_correction;
-    let overcut = if turn >= PI { 2.0 * (c - r) } else { (c - r) * (1.0 - turn.cos()) };
-    let stock_left = if turn >= PI { f64::INFINITY } else { (c - r) * (1.0 / (turn / 2.0).cos() - 1.0) };
-    let own = if segment.reversed { arc.reversed() } else { *arc };
+    let overcut = if turn >= PI {
+        2.0 * (c - r)
+    } else {
+        (c - r) * (1.0 - turn.cos())
+    };
+    let stock_left = if turn >= PI {
+        f64::INFINITY
+    } else {
+        (c - r) * (1.0 / (turn / 2.0).cos() - 1.0)
+    };
+    let own = if segment.reversed {
+        arc.reversed()
+    } else {
+        *arc
+    };
     Some(SmallRadius {
         radius: r,
         required: c,
@@ -52,7 +68,11 @@ pub fn check(segment: &ContourSegment, wire_side: Option<Side>, limits: &Limits)
         start: own.start,
         end: own.end,
         sweep: own.sweep,
-        side: if segment.reversed { side.reversed() } else { side },
+        side: if segment.reversed {
+            side.reversed()
+        } else {
+            side
+        },
         overcut: (overcut - later).max(0.0),
         stock_left,
         pass: limits.pass,

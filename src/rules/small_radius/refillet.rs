@@ -43,12 +43,20 @@ pub struct Attempt {
 pub fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -> Attempt {
     let mut search = Search::new(travel, limits, run.clone());
     let outcome = search.search();
-    Attempt { outcome, region: search.region.grown(limits.tolerances.join) }
+    Attempt {
+        outcome,
+        region: search.region.grown(limits.tolerances.join),
+    }
 }
 
 /// The arc at `position` with the radius it has, made tangent to its neighbour at its end (or, with `at_end` false, at its
 /// start). At the other end it is tangent too, or keeps the vertex. No promise on how far the contour moves.
-pub fn made_tangent(travel: &Travel, position: isize, at_end: bool, limits: &Limits) -> Vec<Replacement> {
+pub fn made_tangent(
+    travel: &Travel,
+    position: isize,
+    at_end: bool,
+    limits: &Limits,
+) -> Vec<Replacement> {
     let (before, after) = (position - 1, position + 1);
     let (Some(one), Some(other), Some(Segment::Arc(old))) = (
         travel.segment(before).map(|place| place.geometry),
@@ -57,14 +65,27 @@ pub fn made_tangent(travel: &Travel, position: isize, at_end: bool, limits: &Lim
     ) else {
         return Vec::new();
     };
-    let of_radius = Limits { fix_radius: old.radius, ..*limits };
+    let of_radius = Limits {
+        fix_radius: old.radius,
+        ..*limits
+    };
     let search = Search::new(travel, &of_radius, position..=position);
     let mut found = Vec::new();
     for elsewhere in [Hold::Neighbour, Hold::Vertex] {
-        let (at_start, at_end) = if at_end { (elsewhere, Hold::Neighbour) } else { (Hold::Neighbour, elsewhere) };
+        let (at_start, at_end) = if at_end {
+            (elsewhere, Hold::Neighbour)
+        } else {
+            (Hold::Neighbour, elsewhere)
+        };
         // Held by a vertex, the arc must end where the neighbour does.
         for arc in search.arcs(&one, at_start, &other, at_end) {
-            found.push(Replacement { before, after, arc, arcs: 1, moved: search.moved(&arc, before, after) });
+            found.push(Replacement {
+                before,
+                after,
+                arc,
+                arcs: 1,
+                moved: search.moved(&arc, before, after),
+            });
         }
     }
     found
@@ -73,15 +94,25 @@ pub fn made_tangent(travel: &Travel, position: isize, at_end: bool, limits: &Lim
 /// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and behind it, which turns
 /// to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the contour.
 pub fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {
-    let (one, other) = (travel.segment(before)?.geometry, travel.segment(before + 1)?.geometry);
+    let (one, other) = (
+        travel.segment(before)?.geometry,
+        travel.segment(before + 1)?.geometry,
+    );
     let mut search = Search::new(travel, limits, before..=before);
     search.old_center = one.end();
     let mut arcs = search.arcs(&one, Hold::Neighbour, &other, Hold::Neighbour);
-    arcs.sort_by(|a, b| (a.center - one.end()).norm().total_cmp(&(b.center - one.end()).norm()));
+    arcs.sort_by(|a, b| {
+        (a.center - one.end())
+            .norm()
+            .total_cmp(&(b.center - one.end()).norm())
+    });
     let least = limits.tolerances.short;
-    let leaves_enough =
-        |arc: &Arc| one.share_of(arc.start) * one.length() >= least && (1.0 - other.share_of(arc.end)) * other.length() >= least;
-    arcs.into_iter().find(|arc| leaves_enough(arc) && search.is_clear(arc, before, before + 1))
+    let leaves_enough = |arc: &Arc| {
+        one.share_of(arc.start) * one.length() >= least
+            && (1.0 - other.share_of(arc.end)) * other.length() >= least
+    };
+    arcs.into_iter()
+        .find(|arc| leaves_enough(arc) && search.is_clear(arc, before, before + 1))
 }
 
 /// What the new arc is held by at one end.
@@ -128,10 +159,17 @@ impl<'a> Search<'a> {
 
     /// The arcs that are held so at their two ends.
     fn arcs(&self, one: &Segment, at_start: Hold, other: &Segment, at_end: Hold) -> Vec<Arc> {
-        let (Some(first), Some(second)) = (self.locus(one, one.end(), at_start), self.locus(other, other.start(), at_end)) else {
+        let (Some(first), Some(second)) = (
+            self.locus(one, one.end(), at_start),
+            self.locus(other, other.start(), at_end),
+        ) else {
             return Vec::new();
         };
-        first.meet(&second).into_iter().filter_map(|center| self.arc_about(center, one, at_start, other, at_end)).collect()
+        first
+            .meet(&second)
+            .into_iter()
+            .filter_map(|center| self.arc_about(center, one, at_start, other, at_end))
+            .collect()
     }
 
     fn search(&mut self) -> Result<Replacement, NoFix> {
@@ -139,7 +177,11 @@ impl<'a> Search<'a> {
         let count = self.travel.len() as isize;
         if self.arcs as isize >= count {
             // A hole, or an outline of nothing but tight arcs: there is no neighbour to be tangent to.
-            return Err(if self.travel.contour.closed { NoFix::NarrowSlot } else { NoFix::NoNeighbour });
+            return Err(if self.travel.contour.closed {
+                NoFix::NarrowSlot
+            } else {
+                NoFix::NoNeighbour
+            });
         }
         let mut longest = 0.0;
         for position in self.run.clone() {
@@ -158,11 +200,13 @@ impl<'a> Search<'a> {
         self.leaves_crumbs = false;
         let exact = self.search_outward(first, last, count);
         self.slack = self.limits.tolerances.arc_fit;
-        exact.or_else(|| self.search_outward(first, last, count)).ok_or(match () {
-            () if self.would_leave_crumb => NoFix::ShortSegment,
-            () if self.would_seal => NoFix::SealsContour,
-            () => NoFix::NarrowSlot,
-        })
+        exact
+            .or_else(|| self.search_outward(first, last, count))
+            .ok_or(match () {
+                () if self.would_leave_crumb => NoFix::ShortSegment,
+                () if self.would_seal => NoFix::SealsContour,
+                () => NoFix::NarrowSlot,
+            })
     }
 
     /// Tries the neighbours themselves, then swallows one more segment at either end each time.
@@ -170,7 +214,10 @@ impl<'a> Search<'a> {
         let (before, after) = (self.reach(first - 1, -1), self.reach(last + 1, 1));
         for swallowed in 0..=before + after {
             for left in swallowed.saturating_sub(after)..=swallowed.min(before) {
-                let (one, other) = (first - 1 - left as isize, last + 1 + (swallowed - left) as isize);
+                let (one, other) = (
+                    first - 1 - left as isize,
+                    last + 1 + (swallowed - left) as isize,
+                );
                 // Both neighbours may be one and the same segment, but no further round.
                 if other - one > count {
                     continue;
@@ -190,7 +237,9 @@ impl<'a> Search<'a> {
         let mut length = 0.0;
         for swallowed in 0..MOST_SWALLOWED {
             let at = position + step * swallowed as isize;
-            let (Some(segment), Some(_)) = (self.look_at(at), self.look_at(at + step)) else { return swallowed };
+            let (Some(segment), Some(_)) = (self.look_at(at), self.look_at(at + step)) else {
+                return swallowed;
+            };
             length += segment.length();
             if length > most {
                 return swallowed;
@@ -212,10 +261,16 @@ impl<'a> Search<'a> {
         let mut candidates = Vec::new();
         for at_start in [Hold::Neighbour, Hold::Vertex] {
             for at_end in [Hold::Neighbour, Hold::Vertex] {
-                let (Some(first), Some(second)) = (self.locus(&one, one.end(), at_start), self.locus(&other, other.start(), at_end)) else {
+                let (Some(first), Some(second)) = (
+                    self.locus(&one, one.end(), at_start),
+                    self.locus(&other, other.start(), at_end),
+                ) else {
                     continue;
                 };
-                let vertices = [at_start, at_end].iter().filter(|&&hold| hold == Hold::Vertex).count();
+                let vertices = [at_start, at_end]
+                    .iter()
+                    .filter(|&&hold| hold == Hold::Vertex)
+                    .count();
                 for center in first.meet(&second) {
                     // Where both neighbours are one segment, its two ends must not be cut off past each other.
                     let same = (after - before) as usize == self.travel.len();
@@ -229,7 +284,13 @@ impl<'a> Search<'a> {
         }
         // Of solutions that are the same within rounding, the tangent one: a fillet with noise at its ends is no notch.
         let noise = self.limits.tolerances.arc_fit;
-        candidates.sort_by(|a, b| if (a.0 - b.0).abs() <= noise { a.1.cmp(&b.1).then(a.0.total_cmp(&b.0)) } else { a.0.total_cmp(&b.0) });
+        candidates.sort_by(|a, b| {
+            if (a.0 - b.0).abs() <= noise {
+                a.1.cmp(&b.1).then(a.0.total_cmp(&b.0))
+            } else {
+                a.0.total_cmp(&b.0)
+            }
+        });
         for (_, _, arc) in candidates {
             self.region.merge(&Bounds::of_disc(arc.center, arc.radius));
             if !self.is_clear(&arc, before, after) {
@@ -244,7 +305,13 @@ impl<'a> Search<'a> {
                 self.would_seal = true;
                 continue;
             }
-            return Some(Replacement { before, after, arc, arcs: self.arcs, moved });
+            return Some(Replacement {
+                before,
+                after,
+                arc,
+                arcs: self.arcs,
+                moved,
+            });
         }
         None
     }
@@ -254,13 +321,22 @@ impl<'a> Search<'a> {
         let radius = self.limits.fix_radius;
         match hold {
             Hold::Vertex => Some(Locus::about(vertex, radius)),
-            Hold::Neighbour => Locus::beside(neighbour, 1.0, radius, self.limits.tolerances.zero_length),
+            Hold::Neighbour => {
+                Locus::beside(neighbour, 1.0, radius, self.limits.tolerances.zero_length)
+            }
         }
     }
 
     /// The arc about `center` from its foot on the one neighbour to that on the other, if the feet lie on them and it turns
     /// to the left by at most a half turn.
-    fn arc_about(&self, center: Point, one: &Segment, at_start: Hold, other: &Segment, at_end: Hold) -> Option<Arc> {
+    fn arc_about(
+        &self,
+        center: Point,
+        one: &Segment,
+        at_start: Hold,
+        other: &Segment,
+        at_end: Hold,
+    ) -> Option<Arc> {
         let start = match at_start {
             Hold::Vertex => one.end(),
             Hold::Neighbour => self.foot(center, one, true)?,
@@ -274,7 +350,14 @@ impl<'a> Search<'a> {
         if !(1e-9..=PI + 1e-6).contains(&sweep) {
             return None;
         }
-        Some(Arc { center, radius: self.limits.fix_radius, start_angle: angle(start), sweep, start, end })
+        Some(Arc {
+            center,
+            radius: self.limits.fix_radius,
+            start_angle: angle(start),
+            sweep,
+            start,
+            end,
+        })
     }
 
     /// The point of a neighbour that is nearest to `center`, if it lies on it. At the end towards the run it may lie
@@ -284,7 +367,11 @@ impl<'a> Search<'a> {
         let length = neighbour.length();
         let noise = self.limits.tolerances.arc_fit / length;
         let least = self.limits.tolerances.zero_length / length;
-        let (low, high) = if run_behind { (least, 1.0 + noise) } else { (-noise, 1.0 - least) };
+        let (low, high) = if run_behind {
+            (least, 1.0 + noise)
+        } else {
+            (-noise, 1.0 - least)
+        };
         if !(low..=high).contains(&share) {
             return None;
         }
@@ -297,17 +384,25 @@ impl<'a> Search<'a> {
     /// True when the new arc leaves less of a neighbour than is worth cutting, of one that was.
     fn is_crumb(&self, arc: &Arc, one: &Segment, other: &Segment) -> bool {
         let short = self.limits.tolerances.short;
-        let left = |segment: &Segment, share: f64| segment.length() >= short && share * segment.length() < short;
+        let left = |segment: &Segment, share: f64| {
+            segment.length() >= short && share * segment.length() < short
+        };
         let (from, to) = (one.share_of(arc.start), other.share_of(arc.end));
         if one == other {
             return left(one, from - to);
         }
-        left(one, from) || left(other, 1.0 - to) || (arc.length() < short && self.arcs_length() >= short)
+        left(one, from)
+            || left(other, 1.0 - to)
+            || (arc.length() < short && self.arcs_length() >= short)
     }
 
     /// The length of the arcs that are replaced.
     fn arcs_length(&self) -> f64 {
-        self.run.clone().filter_map(|position| self.travel.segment(position)).map(|place| place.geometry.length()).sum()
+        self.run
+            .clone()
+            .filter_map(|position| self.travel.segment(position))
+            .map(|place| place.geometry.length())
+            .sum()
     }
 
     /// True when the disc of the new arc keeps clear of the contour. What is replaced may come as near as rounding noise.
@@ -318,21 +413,32 @@ impl<'a> Search<'a> {
             let beyond = (position - before).rem_euclid(count);
             beyond > 0 && beyond < after - before
         };
-        self.travel.keeps_clear(arc.center, arc.radius, tolerances.clearance, self.slack, &is_replaced)
+        self.travel.keeps_clear(
+            arc.center,
+            arc.radius,
+            tolerances.clearance,
+            self.slack,
+            &is_replaced,
+        )
     }
 
     /// Largest distance of what is replaced, the cut-off ends of the neighbours included, from the new arc.
     fn moved(&self, arc: &Arc, before: isize, after: isize) -> f64 {
         let mut moved: f64 = 0.0;
         for position in before..=after {
-            let Some(segment) = self.travel.segment(position) else { continue };
+            let Some(segment) = self.travel.segment(position) else {
+                continue;
+            };
             let whole = segment.geometry;
             let gone = match position {
                 p if p == before => whole.part(whole.share_of(arc.start).clamp(0.0, 1.0), 1.0),
                 p if p == after => whole.part(0.0, whole.share_of(arc.end).clamp(0.0, 1.0)),
                 _ => whole,
             };
-            moved = farthest(&gone, arc.center).into_iter().map(|point| arc.distance_to(point)).fold(moved, f64::max);
+            moved = farthest(&gone, arc.center)
+                .into_iter()
+                .map(|point| arc.distance_to(point))
+                .fold(moved, f64::max);
         }
         moved
     }
@@ -341,7 +447,13 @@ impl<'a> Search<'a> {
 /// The points of a segment among which the farthest from the new arc is found: its ends, its middle and, on an arc, the
 /// place farthest from the new centre.
 fn farthest(segment: &Segment, center: Point) -> Vec<Point> {
-    let mut points = vec![segment.start(), segment.point_at(0.25), segment.point_at(0.5), segment.point_at(0.75), segment.end()];
+    let mut points = vec![
+        segment.start(),
+        segment.point_at(0.25),
+        segment.point_at(0.5),
+        segment.point_at(0.75),
+        segment.end(),
+    ];
     if let Segment::Arc(arc) = segment
         && let Some(away) = (arc.center - center).try_normalize(1e-12)
     {

@@ -20,11 +20,20 @@ pub fn run_of(travel: &Travel, position: isize, limits: &Limits) -> Option<Range
 }
 
 /// The same run where an arc that is drawn in two, and rounded, is one arc.
-pub fn rounded_run_of(travel: &Travel, position: isize, limits: &Limits) -> Option<RangeInclusive<isize>> {
+pub fn rounded_run_of(
+    travel: &Travel,
+    position: isize,
+    limits: &Limits,
+) -> Option<RangeInclusive<isize>> {
     run_within(travel, position, limits, true)
 }
 
-fn run_within(travel: &Travel, position: isize, limits: &Limits, is_rounded: bool) -> Option<RangeInclusive<isize>> {
+fn run_within(
+    travel: &Travel,
+    position: isize,
+    limits: &Limits,
+    is_rounded: bool,
+) -> Option<RangeInclusive<isize>> {
     member(travel, position, limits)?;
     let count = travel.len() as isize;
     let (mut first, mut last) = (position, position);
@@ -39,15 +48,25 @@ fn run_within(travel: &Travel, position: isize, limits: &Limits, is_rounded: boo
 
 fn member(travel: &Travel, position: isize, limits: &Limits) -> Option<Arc> {
     match travel.segment(position)?.geometry {
-        Segment::Arc(arc) if arc.sweep > 0.0 && arc.radius <= limits.fix_radius + limits.tolerances.report => Some(arc),
+        Segment::Arc(arc)
+            if arc.sweep > 0.0 && arc.radius <= limits.fix_radius + limits.tolerances.report =>
+        {
+            Some(arc)
+        }
         _ => None,
     }
 }
 
 /// True when the segments at `position` and behind it are of one run.
 fn joins(travel: &Travel, position: isize, limits: &Limits, is_rounded: bool) -> bool {
-    let (Some(one), Some(other)) = (member(travel, position, limits), member(travel, position + 1, limits)) else { return false };
+    let (Some(one), Some(other)) = (
+        member(travel, position, limits),
+        member(travel, position + 1, limits),
+    ) else {
+        return false;
+    };
     let kink = turn(one.tangent_at(1.0), other.tangent_at(0.0));
-    let are_one = || (one.center - other.center).norm() <= ROUNDED_CENTER * one.radius.min(other.radius);
+    let are_one =
+        || (one.center - other.center).norm() <= ROUNDED_CENTER * one.radius.min(other.radius);
     kink >= -CONVEX_KINK || (is_rounded && kink >= -ROUNDED_KINK && are_one())
 }

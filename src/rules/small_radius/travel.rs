@@ -49,23 +49,42 @@ impl Travel<'_> {
 
     /// The segment at a position, with the wire on the left of its direction.
     pub fn segment(&self, position: isize) -> Option<ContourSegment> {
-        let own = self.contour.segment(self.drawing, self.index_at(position)?)?;
+        let own = self
+            .contour
+            .segment(self.drawing, self.index_at(position)?)?;
         Some(match self.side {
             Side::Left => own,
-            Side::Right => ContourSegment { reversed: !own.reversed, geometry: own.geometry.reversed(), ..own },
+            Side::Right => ContourSegment {
+                reversed: !own.reversed,
+                geometry: own.geometry.reversed(),
+                ..own
+            },
         })
     }
 
     /// True when every segment keeps a distance of at least `radius` less a slack from `center`. Segments at the positions
     /// for which `is_replaced` holds have `loose` as their slack, the others `strict`.
-    pub fn keeps_clear(&self, center: Point, radius: f64, strict: f64, loose: f64, is_replaced: &dyn Fn(isize) -> bool) -> bool {
+    pub fn keeps_clear(
+        &self,
+        center: Point,
+        radius: f64,
+        strict: f64,
+        loose: f64,
+        is_replaced: &dyn Fn(isize) -> bool,
+    ) -> bool {
         let disc = Bounds::of_disc(center, radius);
         self.index.near(&disc).flatten().all(|index| {
-            let Some(segment) = self.contour.segment(self.drawing, index) else { return true };
+            let Some(segment) = self.contour.segment(self.drawing, index) else {
+                return true;
+            };
             if !segment.geometry.bounds().touches(&disc) {
                 return true;
             }
-            let slack = if is_replaced(self.position_of(index)) { loose } else { strict };
+            let slack = if is_replaced(self.position_of(index)) {
+                loose
+            } else {
+                strict
+            };
             segment.geometry.distance_to(center) >= radius - slack
         })
     }

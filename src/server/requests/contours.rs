@@ -9,11 +9,26 @@ pub(in crate::server) fn contours(state: &mut State, params: DrawingName, errand
         Err(error) => {
             let _ = errand.reply.send(Err(error));
         }
-        Ok(Subject { document, stamp, small }) => {
-            run(state, "Listing contours", &params.uri, (stamp, small), errand, move |_, _| {
-                let task = Task::new(document, None)?;
-                written(&Contours::new(&task.drawing, &task.outlines, &task.settings))
-            });
+        Ok(Subject {
+            document,
+            stamp,
+            small,
+        }) => {
+            run(
+                state,
+                "Listing contours",
+                &params.uri,
+                (stamp, small),
+                errand,
+                move |_, _| {
+                    let task = Task::new(document, None)?;
+                    written(&Contours::new(
+                        &task.drawing,
+                        &task.outlines,
+                        &task.settings,
+                    ))
+                },
+            );
         }
     }
 }

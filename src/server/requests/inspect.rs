@@ -10,12 +10,27 @@ pub(in crate::server) fn inspect(state: &mut State, params: Inspect, errand: Err
         Err(error) => {
             let _ = errand.reply.send(Err(error));
         }
-        Ok(Subject { document, stamp, small }) => {
+        Ok(Subject {
+            document,
+            stamp,
+            small,
+        }) => {
             let Inspect { uri, handle } = params;
-            run(state, "Listing radii", &uri, (stamp, small), errand, move |_, _| {
-                let list = Inspection::of(&document, handle.as_deref());
-                written(&list.ok_or_else(|| refused("the document is a program, expected a drawing"))?)
-            });
+            run(
+                state,
+                "Listing radii",
+                &uri,
+                (stamp, small),
+                errand,
+                move |_, _| {
+                    let list = Inspection::of(&document, handle.as_deref());
+                    written(
+                        &list.ok_or_else(|| {
+                            refused("the document is a program, expected a drawing")
+                        })?,
+                    )
+                },
+            );
         }
     }
 }
@@ -23,9 +38,14 @@ pub(in crate::server) fn inspect(state: &mut State, params: Inspect, errand: Err
 fn prepare(state: &mut State, params: &Inspect) -> Result<Subject> {
     let subject = subject_of(state, &params.uri)?;
     if let Some(handle) = &params.handle
-        && subject.document.drawing().is_none_or(|drawing| drawing.find(handle).is_none())
+        && subject
+            .document
+            .drawing()
+            .is_none_or(|drawing| drawing.find(handle).is_none())
     {
-        return Err(Error::invalid_params(format!("there is no entity {handle}")));
+        return Err(Error::invalid_params(format!(
+            "there is no entity {handle}"
+        )));
     }
     Ok(subject)
 }

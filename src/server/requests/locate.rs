@@ -15,7 +15,10 @@ pub(in crate::server) fn locate(state: &mut State, params: &Locate) -> Result<Op
     let encoding = state.encoding;
     let open = state.document(&params.uri)?;
     let Some(Source::Dxf(text)) = open.document().map(|document| document.source()) else {
-        return Err(refused(format!("{} is no DXF text, expected a document in which segments are written", params.uri)));
+        return Err(refused(format!(
+            "{} is no DXF text, expected a document in which segments are written",
+            params.uri
+        )));
     };
     match (params.position, &params.handle) {
         (Some(position), None) => Ok(at_position(text, position, encoding)),
@@ -25,28 +28,54 @@ pub(in crate::server) fn locate(state: &mut State, params: &Locate) -> Result<Op
 }
 
 fn at_position(text: &dxf::Document, position: Position, encoding: Encoding) -> Option<Located> {
-    let offset = text.text().offset_of(position.line as usize, position.character as usize, encoding);
+    let offset = text.text().offset_of(
+        position.line as usize,
+        position.character as usize,
+        encoding,
+    );
     match text.segments_at(offset..offset).first() {
         Some(&(entity, segment)) => located(text, entity, Some(segment), encoding),
         None => located(text, text.entity_at(offset)?, None, encoding),
     }
 }
 
-fn at_segment(text: &dxf::Document, handle: &str, segment: Option<usize>, encoding: Encoding) -> Result<Located> {
+fn at_segment(
+    text: &dxf::Document,
+    handle: &str,
+    segment: Option<usize>,
+    encoding: Encoding,
+) -> Result<Located> {
     let drawing = text.drawing();
-    let entity = drawing.find(handle).ok_or_else(|| Error::invalid_params(format!("there is no entity {handle}")))?;
-    let count = drawing.get(entity).map_or(0, |entity| entity.geometry.segment_count());
+    let entity = drawing
+        .find(handle)
+        .ok_or_else(|| Error::invalid_params(format!("there is no entity {handle}")))?;
+    let count = drawing
+        .get(entity)
+        .map_or(0, |entity| entity.geometry.segment_count());
     if let Some(segment) = segment.filter(|&segment| segment >= count) {
-        return Err(Error::invalid_params(format!("there is no segment {segment} in {handle}, expected 0 to {}", count.saturating_sub(1))));
+        return Err(Error::invalid_params(format!(
+            "there is no segment {segment} in {handle}, expected 0 to {}",
+            count.saturating_sub(1)
+        )));
     }
-    located(text, entity, segment, encoding).ok_or_else(|| Error::invalid_params(format!("there is no entity {handle}")))
+    located(text, entity, segment, encoding)
+        .ok_or_else(|| Error::invalid_params(format!("there is no entity {handle}")))
 }
 
-fn located(text: &dxf::Document, entity: EntityId, segment: Option<usize>, encoding: Encoding) -> Option<Located> {
+fn located(
+    text: &dxf::Document,
+    entity: EntityId,
+    segment: Option<usize>,
+    encoding: Encoding,
+) -> Option<Located> {
     let handle = text.drawing().get(entity)?.handle.to_string();
     let place = match segment {
         Some(segment) => Place::Segment { entity, segment },
         None => Place::Entity { entity },
     };
-    Some(Located { handle, segment, range: range_of(text.text(), text.range_of(&place), encoding) })
+    Some(Located {
+        handle,
+        segment,
+        range: range_of(text.text(), text.range_of(&place), encoding),
+    })
 }

@@ -26,7 +26,10 @@ use crate::protocol::{Diagnostic, Refused};
 use crate::settings::{Effective, Settings, SettingsError, from_json};
 use crate::text::Encoding;
 use crate::toolpath::Refusal;
-use ls_types::{DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, TextDocumentEdit, TextEdit, Uri, WorkspaceEdit};
+use ls_types::{
+    DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, TextDocumentEdit, TextEdit,
+    Uri, WorkspaceEdit,
+};
 use serde::Serialize;
 use serde_json::Value;
 use std::sync::Arc;
@@ -45,20 +48,35 @@ const SMALL: usize = 2_000;
 
 /// −32803: refused for what the drawing is.
 pub(super) fn refused(message: impl Into<String>) -> Error {
-    Error { code: ErrorCode::ServerError(-32803), message: readable(&message.into()).into_owned().into(), data: None }
+    Error {
+        code: ErrorCode::ServerError(-32803),
+        message: readable(&message.into()).into_owned().into(),
+        data: None,
+    }
 }
 
 pub(super) fn refused_with(message: impl Into<String>, diagnostics: Vec<Diagnostic>) -> Error {
     let data = serde_json::to_value(Refused { diagnostics }).ok();
-    Error { data, ..refused(message) }
+    Error {
+        data,
+        ..refused(message)
+    }
 }
 
 pub(super) fn internal(message: impl Into<String>) -> Error {
-    Error { code: ErrorCode::InternalError, message: message.into().into(), data: None }
+    Error {
+        code: ErrorCode::InternalError,
+        message: message.into().into(),
+        data: None,
+    }
 }
 
 pub(super) fn moved_on() -> Error {
-    Error { code: ErrorCode::ContentModified, message: "the document has changed meanwhile".into(), data: None }
+    Error {
+        code: ErrorCode::ContentModified,
+        message: "the document has changed meanwhile".into(),
+        data: None,
+    }
 }
 
 /// The result as JSON text.
@@ -76,21 +94,39 @@ pub(super) struct Subject {
 
 pub(super) fn subject_of(state: &mut State, uri: &str) -> Result<Subject> {
     let open = state.document(uri)?;
-    let document = open.document().ok_or_else(|| refused(format!("{uri} holds no drawing")))?.clone();
-    let drawing = document.drawing().ok_or_else(|| refused(format!("{uri} is a program, expected a drawing")))?;
+    let document = open
+        .document()
+        .ok_or_else(|| refused(format!("{uri} holds no drawing")))?
+        .clone();
+    let drawing = document
+        .drawing()
+        .ok_or_else(|| refused(format!("{uri} is a program, expected a drawing")))?;
     let small = is_small(drawing) && open.findings <= SMALL;
-    Ok(Subject { stamp: open.stamp, small, document })
+    Ok(Subject {
+        stamp: open.stamp,
+        small,
+        document,
+    })
 }
 
 /// A program as it stands now, to be looked at from any thread.
 pub(super) fn program_of(state: &mut State, uri: &str) -> Result<Subject> {
     let open = state.document(uri)?;
-    let document = open.document().ok_or_else(|| refused(format!("{uri} holds no program")))?.clone();
+    let document = open
+        .document()
+        .ok_or_else(|| refused(format!("{uri} holds no program")))?
+        .clone();
     if document.program().is_none() {
         return Err(refused(format!("{uri} is a drawing, expected a program")));
     }
-    let small = document.text().is_none_or(|text| text.line_count() <= SMALL);
-    Ok(Subject { stamp: open.stamp, small, document })
+    let small = document
+        .text()
+        .is_none_or(|text| text.line_count() <= SMALL);
+    Ok(Subject {
+        stamp: open.stamp,
+        small,
+        document,
+    })
 }
 
 fn is_small(drawing: &Drawing) -> bool {
@@ -104,8 +140,14 @@ fn is_small(drawing: &Drawing) -> bool {
 }
 
 /// The request's own settings over those of the document, where it brings any.
-pub(super) fn with_options(state: &mut State, uri: &str, options: Option<&Value>) -> Result<Option<Arc<Effective>>> {
-    let Some(options) = options.filter(|options| !options.is_null()) else { return Ok(None) };
+pub(super) fn with_options(
+    state: &mut State,
+    uri: &str,
+    options: Option<&Value>,
+) -> Result<Option<Arc<Effective>>> {
+    let Some(options) = options.filter(|options| !options.is_null()) else {
+        return Ok(None);
+    };
     let (settings, errors): (Settings, _) = from_json(options);
     if let Some(error) = errors.iter().find(|error| error.rule == Rule::Settings) {
         return Err(Error::invalid_params(format!("options: {}", error.message)));
@@ -115,7 +157,10 @@ pub(super) fn with_options(state: &mut State, uri: &str, options: Option<&Value>
     let all = of_document.overlaid(&settings);
     let is_error = |error: &SettingsError| error.severity == Severity::Error;
     // What is wrong without the options is said elsewhere.
-    if let Some(error) = all.pass_errors(&|_| None).iter().find(|error| is_error(error))
+    if let Some(error) = all
+        .pass_errors(&|_| None)
+        .iter()
+        .find(|error| is_error(error))
         && !of_document.pass_errors(&|_| None).iter().any(is_error)
     {
         return Err(Error::invalid_params(format!("options: {}", error.message)));
@@ -137,14 +182,27 @@ pub(super) struct Task {
 impl Task {
     /// Errors: the document is a program.
     pub fn new(subject: Arc<Document>, options: Option<Arc<Effective>>) -> Result<Task> {
-        let under_options = options.filter(|options| options != subject.settings()).and_then(|options| {
-            let drawing = subject.drawing()?.clone();
-            Some(Arc::new(Document::new(Source::Cad(drawing), options)))
-        });
+        let under_options = options
+            .filter(|options| options != subject.settings())
+            .and_then(|options| {
+                let drawing = subject.drawing()?.clone();
+                Some(Arc::new(Document::new(Source::Cad(drawing), options)))
+            });
         let document = under_options.unwrap_or_else(|| subject.clone());
-        let Snapshot { drawing, outlines, settings } =
-            document.snapshot().ok_or_else(|| refused("the document is a program, expected a drawing"))?;
-        Ok(Task { subject, document, drawing, outlines, settings })
+        let Snapshot {
+            drawing,
+            outlines,
+            settings,
+        } = document
+            .snapshot()
+            .ok_or_else(|| refused("the document is a program, expected a drawing"))?;
+        Ok(Task {
+            subject,
+            document,
+            drawing,
+            outlines,
+            settings,
+        })
     }
 
     pub fn unit_mm(&self) -> f64 {
@@ -171,24 +229,44 @@ pub(super) struct Target {
 impl Target {
     pub fn of(state: &mut State, uri: &Uri) -> Result<Target> {
         let abilities = &state.client.abilities;
-        let (document_changes, shows_related) = (abilities.document_changes, abilities.related_information);
+        let (document_changes, shows_related) =
+            (abilities.document_changes, abilities.related_information);
         let shows_disabled = abilities.disabled_actions;
         let encoding = state.encoding;
         let version = state.document(uri.as_str())?.version;
-        Ok(Target { uri: uri.clone(), version, encoding, document_changes, shows_related, shows_disabled })
+        Ok(Target {
+            uri: uri.clone(),
+            version,
+            encoding,
+            document_changes,
+            shows_related,
+            shows_disabled,
+        })
     }
 }
 
 /// Edits of one text in the form that the client takes.
 pub(super) fn workspace_edit(target: &Target, edits: Vec<TextEdit>) -> WorkspaceEdit {
     if !target.document_changes {
-        return WorkspaceEdit { changes: Some([(target.uri.clone(), edits)].into()), ..WorkspaceEdit::default() };
+        return WorkspaceEdit {
+            changes: Some([(target.uri.clone(), edits)].into()),
+            ..WorkspaceEdit::default()
+        };
     }
     let version = i32::try_from(target.version).ok();
-    let text_document = OptionalVersionedTextDocumentIdentifier { uri: target.uri.clone(), version };
+    let text_document = OptionalVersionedTextDocumentIdentifier {
+        uri: target.uri.clone(),
+        version,
+    };
     let edits = edits.into_iter().map(OneOf::Left).collect();
-    let changes = DocumentChanges::Edits(vec![TextDocumentEdit { text_document, edits }]);
-    WorkspaceEdit { document_changes: Some(changes), ..WorkspaceEdit::default() }
+    let changes = DocumentChanges::Edits(vec![TextDocumentEdit {
+        text_document,
+        edits,
+    }]);
+    WorkspaceEdit {
+        document_changes: Some(changes),
+        ..WorkspaceEdit::default()
+    }
 }
 
 /// What `toolpath` refused, for the client.
@@ -198,7 +276,10 @@ pub(super) fn refusal(task: &Task, refusal: Refusal, encoding: Encoding) -> Erro
         Refusal::Cancelled => Error::request_cancelled(),
         Refusal::Findings(findings) => {
             let diagnostics = convert::diagnostics(&task.subject, &findings, encoding);
-            let first = diagnostics.first().map_or_else(|| "no path can be made".into(), |first| first.message.clone());
+            let first = diagnostics.first().map_or_else(
+                || "no path can be made".into(),
+                |first| first.message.clone(),
+            );
             refused_with(first, diagnostics)
         }
     }
@@ -214,7 +295,11 @@ pub(super) fn run<T: Send + 'static>(
     errand: Errand<T>,
     work: impl FnOnce(&Cancel, &Progress) -> Result<T> + Send + 'static,
 ) {
-    let Errand { reply, cancel, token } = errand;
+    let Errand {
+        reply,
+        cancel,
+        token,
+    } = errand;
     let progress = Progress::begin(state.client.writer(), token, name);
     if small {
         let result = work(&cancel, &progress);
@@ -233,7 +318,10 @@ pub(super) fn run<T: Send + 'static>(
             result
         },
         move |state, result| {
-            let current = state.documents.get(&uri).is_some_and(|open| open.stamp == stamp);
+            let current = state
+                .documents
+                .get(&uri)
+                .is_some_and(|open| open.stamp == stamp);
             let _ = reply.send(match result {
                 Err(panic) => Err(internal(format!("internal error: {panic}"))),
                 Ok(_) if !current => Err(moved_on()),

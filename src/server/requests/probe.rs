@@ -35,14 +35,17 @@ pub(in crate::server) fn panic_on_worker(state: &mut State, errand: Errand) {
         cancel,
         |_| -> Vec<u8> { panic!("asked for by wedm/test/panic") },
         move |_, result| {
-            let _ = reply.send(result.map_err(|panic| super::internal(format!("internal error: {panic}"))));
+            let _ = reply
+                .send(result.map_err(|panic| super::internal(format!("internal error: {panic}"))));
         },
     );
 }
 
 /// Waits for the client's answer to `wedm/test/question`.
 pub(in crate::server) fn ask(state: &mut State, reply: Reply<Value>) {
-    state.client.ask("wedm/test/question", Value::Null, move |_, answer| {
-        let _ = reply.send(answer.map_err(super::internal));
-    });
+    state
+        .client
+        .ask("wedm/test/question", Value::Null, move |_, answer| {
+            let _ = reply.send(answer.map_err(super::internal));
+        });
 }

@@ -20,8 +20,19 @@ pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInFor
 
 /// Passes stand in place of a single correction, whichever level they come from.
 fn source(of_client: &Settings, of_file: Option<&Settings>) -> CorrectionSource {
-    let has_passes = |settings: &Settings| settings.passes.as_ref().is_some_and(|passes| passes.corrections.is_some());
-    let has_single = |settings: &Settings| settings.correction.or(settings.wire_diameter).or(settings.gap).is_some();
+    let has_passes = |settings: &Settings| {
+        settings
+            .passes
+            .as_ref()
+            .is_some_and(|passes| passes.corrections.is_some())
+    };
+    let has_single = |settings: &Settings| {
+        settings
+            .correction
+            .or(settings.wire_diameter)
+            .or(settings.gap)
+            .is_some()
+    };
     if of_file.is_some_and(has_passes) {
         CorrectionSource::File
     } else if has_passes(of_client) {

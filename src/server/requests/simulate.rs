@@ -7,7 +7,9 @@ use tower_lsp::jsonrpc::Error;
 
 pub(in crate::server) fn simulate(state: &mut State, params: Simulate, errand: Errand) {
     if let Some(feed) = params.feed.filter(|feed| *feed <= 0.0) {
-        let _ = errand.reply.send(Err(Error::invalid_params(format!("feed is {feed}, expected mm/min above 0"))));
+        let _ = errand.reply.send(Err(Error::invalid_params(format!(
+            "feed is {feed}, expected mm/min above 0"
+        ))));
         return;
     }
     match program_of(state, &params.uri) {
@@ -16,10 +18,21 @@ pub(in crate::server) fn simulate(state: &mut State, params: Simulate, errand: E
         }
         Ok(subject) => {
             let feed = params.feed;
-            run(state, "Following the program", &params.uri, (subject.stamp, subject.small), errand, move |_, _| {
-                let trace = subject.document.program().map(crate::program::Document::trace).unwrap_or_default();
-                written(&Simulation::of(&trace, feed))
-            });
+            run(
+                state,
+                "Following the program",
+                &params.uri,
+                (subject.stamp, subject.small),
+                errand,
+                move |_, _| {
+                    let trace = subject
+                        .document
+                        .program()
+                        .map(crate::program::Document::trace)
+                        .unwrap_or_default();
+                    written(&Simulation::of(&trace, feed))
+                },
+            );
         }
     }
 }

@@ -48,8 +48,17 @@ pub fn bodies(bytes: &[u8], at_once: usize, is_broken: impl Fn(&[u8]) -> bool) -
                 bodies.push(body);
             }
         }
-        assert!(frames.position() > used, "a step from byte {used} to byte {}", frames.position());
-        assert!(frames.position() <= bytes.len() as i64, "byte {} of {}", frames.position(), bytes.len());
+        assert!(
+            frames.position() > used,
+            "a step from byte {used} to byte {}",
+            frames.position()
+        );
+        assert!(
+            frames.position() <= bytes.len() as i64,
+            "byte {} of {}",
+            frames.position(),
+            bytes.len()
+        );
         used = frames.position();
     }
 }
@@ -59,9 +68,14 @@ pub fn served(input: &[u8]) -> Vec<Vec<u8>> {
     let output = Output::default();
     let writer = Writer::start(output.clone(), || {}).expect("a thread can be started");
     let flags = Arc::new(backend::Flags::default());
-    let transport = serve_between(input, &writer, &flags, None, [PATIENCE; 2]).expect("a server can be started");
+    let transport = serve_between(input, &writer, &flags, None, [PATIENCE; 2])
+        .expect("a server can be started");
     drop(transport);
-    let written = output.bytes.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let written = output
+        .bytes
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .clone();
     bodies(&written, usize::MAX, |_| false)
 }
 
@@ -72,7 +86,10 @@ struct Output {
 
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.bytes.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(bytes);
+        self.bytes
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .extend_from_slice(bytes);
         Ok(bytes.len())
     }
 

@@ -124,7 +124,9 @@ struct Script<'a>(&'a [u8]);
 
 impl<'a> Script<'a> {
     fn byte(&mut self) -> usize {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
+        let Some((&first, rest)) = self.0.split_first() else {
+            return 0;
+        };
         self.0 = rest;
         usize::from(first)
     }
@@ -164,10 +166,16 @@ impl<'a> Script<'a> {
     fn entity(&mut self) -> Value {
         let handle = ["1", "2", "3"][self.byte() % 3];
         match self.byte() % 4 {
-            0 => json!({ "handle": handle, "type": "circle", "center": [self.byte(), self.byte()], "radius": self.byte() as f64 / 64.0 }),
-            1 => json!({ "handle": handle, "type": "line", "start": [self.byte(), 0], "end": [0, self.byte()] }),
+            0 => {
+                json!({ "handle": handle, "type": "circle", "center": [self.byte(), self.byte()], "radius": self.byte() as f64 / 64.0 })
+            }
+            1 => {
+                json!({ "handle": handle, "type": "line", "start": [self.byte(), 0], "end": [0, self.byte()] })
+            }
             2 => json!({ "handle": handle, "type": "text", "at": [self.byte(), 0], "text": "O" }),
-            _ => json!({ "handle": handle, "type": "polyline", "closed": true, "vertices": self.vertices() }),
+            _ => {
+                json!({ "handle": handle, "type": "polyline", "closed": true, "vertices": self.vertices() })
+            }
         }
     }
 }
@@ -175,8 +183,14 @@ impl<'a> Script<'a> {
 /// The session that `script` spells out. It begins with the handshake, and has no end of its own.
 pub fn sequence(script: &[u8]) -> Sequence {
     let mut script = Script(script);
-    let mut sequence = Sequence { stream: Vec::new(), requests: 0 };
-    sequence.ask("initialize", json!({ "processId": null, "rootUri": null, "capabilities": capabilities(script.byte()) }));
+    let mut sequence = Sequence {
+        stream: Vec::new(),
+        requests: 0,
+    };
+    sequence.ask(
+        "initialize",
+        json!({ "processId": null, "rootUri": null, "capabilities": capabilities(script.byte()) }),
+    );
     sequence.notify("initialized", json!({}));
     let mut version = 0;
     while !script.0.is_empty() {
@@ -212,7 +226,10 @@ fn step(sequence: &mut Sequence, script: &mut Script, version: i64) {
         3..=5 => {
             let change = json!({ "range": script.range(), "text": script.text() });
             let document = json!({ "uri": uri, "version": version });
-            sequence.notify("textDocument/didChange", json!({ "textDocument": document, "contentChanges": [change] }));
+            sequence.notify(
+                "textDocument/didChange",
+                json!({ "textDocument": document, "contentChanges": [change] }),
+            );
         }
         6 => {
             let entities: Vec<Value> = (0..script.byte() % 4).map(|_| script.entity()).collect();
@@ -228,18 +245,34 @@ fn step(sequence: &mut Sequence, script: &mut Script, version: i64) {
                     let entity = script.entity();
                     json!({ "handle": entity["handle"], "entity": entity })
                 }
-                _ => json!({ "handle": handle, "vertices": { "start": start, "deleteCount": count, "insert": script.vertices() } }),
+                _ => {
+                    json!({ "handle": handle, "vertices": { "start": start, "deleteCount": count, "insert": script.vertices() } })
+                }
             };
             let drawing = json!({ "uri": "cad:///1", "version": version });
-            sequence.notify("wedm/didChangeDrawing", json!({ "drawing": drawing, "changes": [change] }));
+            sequence.notify(
+                "wedm/didChangeDrawing",
+                json!({ "drawing": drawing, "changes": [change] }),
+            );
         }
-        8 if uri.starts_with("cad") => sequence.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": uri } })),
-        8 => sequence.notify("textDocument/didClose", json!({ "textDocument": { "uri": uri } })),
+        8 if uri.starts_with("cad") => {
+            sequence.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": uri } }))
+        }
+        8 => sequence.notify(
+            "textDocument/didClose",
+            json!({ "textDocument": { "uri": uri } }),
+        ),
         9 => {
-            let settings: Value = serde_json::from_str(script.of::<&str>(&SETTINGS)).unwrap_or_default();
-            sequence.notify("workspace/didChangeConfiguration", json!({ "settings": settings }));
+            let settings: Value =
+                serde_json::from_str(script.of::<&str>(&SETTINGS)).unwrap_or_default();
+            sequence.notify(
+                "workspace/didChangeConfiguration",
+                json!({ "settings": settings }),
+            );
         }
-        10 => sequence.stream.extend_from_slice(script.of(&BROKEN).as_bytes()),
+        10 => sequence
+            .stream
+            .extend_from_slice(script.of(&BROKEN).as_bytes()),
         11 => {
             let id = script.byte() % (sequence.requests + 1);
             match script.byte() % 3 {
@@ -262,13 +295,24 @@ fn params(script: &mut Script, method: &str, uri: &str) -> Value {
     let handle = ["1", "2A", "#0", "3"][script.byte() % 4];
     let settings: Value = serde_json::from_str(script.of::<&str>(&SETTINGS)).unwrap_or_default();
     if method == "workspace/executeCommand" {
-        let command = ["wedm.applyDrawingEdit", "wedm.scaleProgram", "wedm.scale"][script.byte() % 3];
-        let argument = json!({ "uri": uri, "version": script.byte(), "changes": [], "factor": script.byte() });
+        let command =
+            ["wedm.applyDrawingEdit", "wedm.scaleProgram", "wedm.scale"][script.byte() % 3];
+        let argument =
+            json!({ "uri": uri, "version": script.byte(), "changes": [], "factor": script.byte() });
         return json!({ "command": command, "arguments": [argument] });
     }
-    let only = [json!(null), json!(["quickfix"]), json!(["source.fixAll.wedm"]), json!(["refactor.rewrite"])];
+    let only = [
+        json!(null),
+        json!(["quickfix"]),
+        json!(["source.fixAll.wedm"]),
+        json!(["refactor.rewrite"]),
+    ];
     let format = ["3b", "4b", "iso", "gcode"][script.byte() % 4];
-    let handles = if script.byte().is_multiple_of(4) { json!([handle]) } else { Value::Null };
+    let handles = if script.byte().is_multiple_of(4) {
+        json!([handle])
+    } else {
+        Value::Null
+    };
     json!({
         "textDocument": { "uri": uri },
         "uri": uri,
@@ -296,7 +340,9 @@ fn params(script: &mut Script, method: &str, uri: &str) -> Value {
 
 impl Sequence {
     fn ask(&mut self, method: &str, params: Value) {
-        self.send(&json!({ "jsonrpc": "2.0", "id": self.requests, "method": method, "params": params }));
+        self.send(
+            &json!({ "jsonrpc": "2.0", "id": self.requests, "method": method, "params": params }),
+        );
         self.requests += 1;
     }
 
@@ -306,7 +352,8 @@ impl Sequence {
 
     fn send(&mut self, message: &Value) {
         let body = message.to_string();
-        self.stream.extend_from_slice(format!("Content-Length: {}\r\n\r\n{body}", body.len()).as_bytes());
+        self.stream
+            .extend_from_slice(format!("Content-Length: {}\r\n\r\n{body}", body.len()).as_bytes());
     }
 }
 
@@ -325,5 +372,8 @@ pub fn check_answers(sequence: &Sequence, written: &[Vec<u8>]) {
             answers[id as usize] += 1;
         }
     }
-    assert!(answers.iter().all(|&count| count == 1), "answers to each request: {answers:?}");
+    assert!(
+        answers.iter().all(|&count| count == 1),
+        "answers to each request: {answers:?}"
+    );
 }

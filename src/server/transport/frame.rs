@@ -37,7 +37,14 @@ pub(in crate::server) struct Frames<R> {
 
 impl<R: Read> Frames<R> {
     pub fn new(input: R) -> Frames<R> {
-        Frames { input, buffer: Vec::new(), start: 0, dropped: 0, ended: false, out_of_step: false }
+        Frames {
+            input,
+            buffer: Vec::new(),
+            start: 0,
+            dropped: 0,
+            ended: false,
+            out_of_step: false,
+        }
     }
 
     /// Bytes of the stream that are used up. It grows with every step; after [`Frames::was_broken`] it is less than before it, but
@@ -55,7 +62,9 @@ impl<R: Read> Frames<R> {
             Ok(None) => Frame::End,
             Ok(Some(length)) if length > BODY_CAP => {
                 self.skip_body(length);
-                Frame::Broken(format!("a body of {length} bytes is over the limit of {BODY_CAP}"))
+                Frame::Broken(format!(
+                    "a body of {length} bytes is over the limit of {BODY_CAP}"
+                ))
             }
             Ok(Some(length)) => self.body(length as usize),
             Err(reason) => Frame::Broken(reason),
@@ -112,10 +121,15 @@ impl<R: Read> Frames<R> {
         // Where the next line of the block begins.
         let mut at = 0;
         loop {
-            let Some(end) = memchr::memchr(b'\n', &self.rest()[at..]).map(|end| at + end).filter(|&end| end <= HEADER_CAP) else {
+            let Some(end) = memchr::memchr(b'\n', &self.rest()[at..])
+                .map(|end| at + end)
+                .filter(|&end| end <= HEADER_CAP)
+            else {
                 if self.rest().len() > HEADER_CAP {
                     self.skip_to_header(at + 1);
-                    return Err(format!("no whole header within {HEADER_CAP} bytes, expected Content-Length and a blank line"));
+                    return Err(format!(
+                        "no whole header within {HEADER_CAP} bytes, expected Content-Length and a blank line"
+                    ));
                 }
                 if !self.fill() {
                     return match self.rest().iter().all(u8::is_ascii_whitespace) {
@@ -144,12 +158,19 @@ impl<R: Read> Frames<R> {
             }
             let fault = match field(line) {
                 Some((name, value)) if name.eq_ignore_ascii_case(b"content-length") => {
-                    length = std::str::from_utf8(value).ok().and_then(|digits| digits.parse().ok());
-                    length.is_none().then(|| format!("Content-Length is \"{}\", expected a number", shown(value)))
+                    length = std::str::from_utf8(value)
+                        .ok()
+                        .and_then(|digits| digits.parse().ok());
+                    length.is_none().then(|| {
+                        format!("Content-Length is \"{}\", expected a number", shown(value))
+                    })
                 }
                 // Something was printed right before the next header.
                 Some(_) if marker(&self.rest()[at..=end]).is_none() => None,
-                _ => Some(format!("\"{}\" is no header line, expected Content-Length and a blank line", shown(line))),
+                _ => Some(format!(
+                    "\"{}\" is no header line, expected Content-Length and a blank line",
+                    shown(line)
+                )),
             };
             if let Some(fault) = fault {
                 self.skip_to_header(at + 1);
@@ -167,7 +188,9 @@ impl<R: Read> Frames<R> {
             let from = searched.saturating_sub(MARKER_CAP);
             if let Some(at) = marker(&self.rest()[from..have]) {
                 self.start += from + at;
-                return Frame::Broken(format!("the next frame begins before {length} bytes of body came"));
+                return Frame::Broken(format!(
+                    "the next frame begins before {length} bytes of body came"
+                ));
             }
             searched = have;
             if have == length {
@@ -198,12 +221,18 @@ impl<R: Read> Frames<R> {
     fn skip_body(&mut self, length: u64) {
         let mut left = length;
         loop {
-            let have = usize::try_from(left).unwrap_or(usize::MAX).min(self.rest().len());
+            let have = usize::try_from(left)
+                .unwrap_or(usize::MAX)
+                .min(self.rest().len());
             if let Some(at) = marker(&self.rest()[..have]) {
                 self.start += at;
                 return;
             }
-            let drop = if have as u64 == left { have } else { have.saturating_sub(MARKER_CAP) };
+            let drop = if have as u64 == left {
+                have
+            } else {
+                have.saturating_sub(MARKER_CAP)
+            };
             self.start += drop;
             left -= drop as u64;
             if left == 0 || !self.fill() {
@@ -238,7 +267,10 @@ fn shown(bytes: &[u8]) -> String {
 fn field(line: &[u8]) -> Option<(&[u8], &[u8])> {
     let colon = memchr::memchr(b':', line)?;
     let (name, value) = (&line[..colon], &line[colon + 1..]);
-    let is_token = !name.is_empty() && name.iter().all(|&byte| byte.is_ascii_alphanumeric() || byte == b'-');
+    let is_token = !name.is_empty()
+        && name
+            .iter()
+            .all(|&byte| byte.is_ascii_alphanumeric() || byte == b'-');
     is_token.then(|| (name, value.trim_ascii()))
 }
 
@@ -250,9 +282,12 @@ fn marker(bytes: &[u8]) -> Option<usize> {
         let end = at + TAIL.len();
         let begin = end.checked_sub(NAME.len())?;
         let value = &bytes[end..];
-        let line = &value[..memchr::memchr(b'\n', &value[..value.len().min(MARKER_CAP - NAME.len())])?];
+        let line =
+            &value[..memchr::memchr(b'\n', &value[..value.len().min(MARKER_CAP - NAME.len())])?];
         let digits = line.trim_ascii();
-        let whole = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) && bytes[begin..end].eq_ignore_ascii_case(NAME);
+        let whole = !digits.is_empty()
+            && digits.iter().all(u8::is_ascii_digit)
+            && bytes[begin..end].eq_ignore_ascii_case(NAME);
         whole.then_some(begin)
     })
 }
@@ -281,7 +316,10 @@ mod tests {
             let mut used = 0;
             loop {
                 let next = frames.next();
-                assert!(frames.position() > used || next == Frame::End, "{input:?} in steps of {step}: nothing was used up");
+                assert!(
+                    frames.position() > used || next == Frame::End,
+                    "{input:?} in steps of {step}: nothing was used up"
+                );
                 match next {
                     Frame::Body(body) => {
                         let text = String::from_utf8_lossy(&body).into_owned();
@@ -295,7 +333,10 @@ mod tests {
                     Frame::Broken(_) => seen.push("?".into()),
                     Frame::End => return seen,
                 }
-                assert!(frames.position() > used, "{input:?} in steps of {step}: a broken body was given back whole");
+                assert!(
+                    frames.position() > used,
+                    "{input:?} in steps of {step}: a broken body was given back whole"
+                );
                 used = frames.position();
             }
         };
@@ -308,48 +349,142 @@ mod tests {
 
     #[test]
     fn a_broken_frame_costs_itself_alone() {
-        let check = |input: &str, broken: &[&str], expected: &[&str]| assert_eq!(frames(input, broken), expected, "{input:?}");
+        let check = |input: &str, broken: &[&str], expected: &[&str]| {
+            assert_eq!(frames(input, broken), expected, "{input:?}")
+        };
         let good = "Content-Length: 2\r\n\r\n{}";
         check("", &[], &[]);
         check(&format!("{good}{good}"), &[], &["{}", "{}"]);
         check("content-length:2\n\n{}", &[], &["{}"]);
-        check("Content-Type: a; charset=utf-8\r\nContent-Length: 2\r\n\r\n{}", &[], &["{}"]);
+        check(
+            "Content-Type: a; charset=utf-8\r\nContent-Length: 2\r\n\r\n{}",
+            &[],
+            &["{}"],
+        );
         check(&format!("\r\n\r\n{good}\r\n{good}"), &[], &["{}", "{}"]);
-        check(&format!("Content-Length: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
-        check(&format!("Content-Length: -5\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
-        check(&format!("Content-Type: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(
+            &format!("Content-Length: x\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content-Length: -5\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content-Type: x\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
         check(&format!("what is this\r\n{good}"), &[], &["?", "{}"]);
         check(&format!("what is this{good}"), &[], &["?", "{}"]);
-        check(&format!("Content-Length: 1\r\n\r\n{{}}{good}"), &["{"], &["!", "{}"]);
-        check(&format!("Content-Length: 8\r\n\r\n{{}}{good}"), &["{}Conten"], &["!", "{}"]);
-        check(&format!("Content-Length: 100\r\n\r\n{{}}{good}{good}"), &[], &["?", "{}", "{}"]);
-        check(&format!("Content-Length: 99999999999\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
-        check(&format!("Content-Length: 99999999999999999999999\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
+        check(
+            &format!("Content-Length: 1\r\n\r\n{{}}{good}"),
+            &["{"],
+            &["!", "{}"],
+        );
+        check(
+            &format!("Content-Length: 8\r\n\r\n{{}}{good}"),
+            &["{}Conten"],
+            &["!", "{}"],
+        );
+        check(
+            &format!("Content-Length: 100\r\n\r\n{{}}{good}{good}"),
+            &[],
+            &["?", "{}", "{}"],
+        );
+        check(
+            &format!("Content-Length: 99999999999\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content-Length: 99999999999999999999999\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
         check("Content-Length: 10\r\n\r\n{}", &[], &["?"]);
         check("Content-Length: 10", &[], &["?"]);
-        check(&format!("{}{good}", "\0".repeat(100_000)), &[], &["?", "{}"]);
+        check(
+            &format!("{}{good}", "\0".repeat(100_000)),
+            &[],
+            &["?", "{}"],
+        );
         // A blank line forgotten, something printed, a header that is none: between frames and within one.
         check("Content-Length: 5\r\nx\r\n", &[], &["?"]);
-        check(&format!("Content-Length: 5\r\nx\r\n{good}"), &[], &["?", "{}"]);
-        check(&format!("Content-Length: 2\r\n{{}}{good}"), &[], &["?", "{}"]);
-        check(&format!("Content-Length: 2\r\n{{}}\n{good}"), &[], &["?", "{}"]);
-        check(&format!("Content-Length: 2\r\nContent Type: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
-        check(&format!("Content Type: x\r\nContent-Length: 2\r\n\r\n{{}}{good}"), &[], &["?", "{}", "{}"]);
-        check(&format!("starting up\nContent-Length: 2\r\nstill starting up\r\n\r\n{{}}{good}"), &[], &["?", "?", "{}"]);
-        check(&format!("Content-Length: 2\r\nContent-Length: 2\r\n\r\n{{}}{good}"), &[], &["{}", "{}"]);
-        check(&format!("Content-Length: 2\r\nContent-Length: x\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
-        check(&format!("A: b\r\nContent-Length: 99999999999999999999999\r\n\r\n{{}}{good}"), &[], &["?", "{}"]);
-        check(&format!("{}{good}", "Content-Length: 5\r\nx\r\n".repeat(3)), &[], &["?", "?", "?", "{}"]);
+        check(
+            &format!("Content-Length: 5\r\nx\r\n{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content-Length: 2\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content-Length: 2\r\n{{}}\n{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content-Length: 2\r\nContent Type: x\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content Type: x\r\nContent-Length: 2\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}", "{}"],
+        );
+        check(
+            &format!("starting up\nContent-Length: 2\r\nstill starting up\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "?", "{}"],
+        );
+        check(
+            &format!("Content-Length: 2\r\nContent-Length: 2\r\n\r\n{{}}{good}"),
+            &[],
+            &["{}", "{}"],
+        );
+        check(
+            &format!("Content-Length: 2\r\nContent-Length: x\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("A: b\r\nContent-Length: 99999999999999999999999\r\n\r\n{{}}{good}"),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("{}{good}", "Content-Length: 5\r\nx\r\n".repeat(3)),
+            &[],
+            &["?", "?", "?", "{}"],
+        );
         check(&format!("\u{b}{good}"), &[], &["?", "{}"]);
         check(&format!("ready{good}"), &[], &["?", "{}"]);
         check(&format!("state: ready{good}"), &[], &["?", "{}"]);
         check(&format!("Content-Length: 1{good}"), &[], &["?", "{}"]);
         check("Content-Length: 0\r\n\r\n", &[""], &["!"]);
         // Headers without end, in lines and in one.
-        check(&format!("{}\r\n{good}", "A: b\r\n".repeat(100_000)), &[], &["?", "{}"]);
-        check(&format!("Content-Length: 2\r\n{}{good}", "a".repeat(100_000)), &[], &["?", "{}"]);
+        check(
+            &format!("{}\r\n{good}", "A: b\r\n".repeat(100_000)),
+            &[],
+            &["?", "{}"],
+        );
+        check(
+            &format!("Content-Length: 2\r\n{}{good}", "a".repeat(100_000)),
+            &[],
+            &["?", "{}"],
+        );
         let long = "7".repeat(200_000);
-        check(&format!("Content-Length: 200000\r\n\r\n{long}{good}"), &[], &[&long, "{}"]);
+        check(
+            &format!("Content-Length: 200000\r\n\r\n{long}{good}"),
+            &[],
+            &[&long, "{}"],
+        );
     }
 
     proptest! {

@@ -23,7 +23,13 @@ pub(super) struct Memory {
 impl Memory {
     /// Gives back what a message of `length` bytes leaves behind.
     pub fn after_message(&self, length: usize, runtime: &tokio::runtime::Runtime) {
-        if self.length.fetch_add(length, Ordering::AcqRel).saturating_add(length) < LARGE || self.is_due.swap(true, Ordering::AcqRel) {
+        if self
+            .length
+            .fetch_add(length, Ordering::AcqRel)
+            .saturating_add(length)
+            < LARGE
+            || self.is_due.swap(true, Ordering::AcqRel)
+        {
             return;
         }
         self.length.store(0, Ordering::Release);

@@ -11,7 +11,10 @@ pub(super) enum Incoming {
     /// A request, or a notification where it has no id.
     Request(Request),
     /// The answer to a request of ours.
-    Reply { id: String, result: Result<Value, Value> },
+    Reply {
+        id: String,
+        result: Result<Value, Value>,
+    },
     /// Neither; the id is null where it cannot be known.
     Invalid { id: Id, error: Error },
 }
@@ -19,7 +22,13 @@ pub(super) enum Incoming {
 /// Reads a body. A body that is not JSON is `Err`; one whose values would fill the memory is not read, whatever it says.
 pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
     if is_too_heavy(body) {
-        return Ok(invalid(Id::Null, format!("a message of {} bytes holds more than {LIMIT} lists, objects and values", body.len())));
+        return Ok(invalid(
+            Id::Null,
+            format!(
+                "a message of {} bytes holds more than {LIMIT} lists, objects and values",
+                body.len()
+            ),
+        ));
     }
     let value = parse_json(body).map_err(|reason| Error {
         code: ErrorCode::ParseError,
@@ -27,18 +36,31 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
         data: None,
     })?;
     let Value::Object(mut message) = value else {
-        return Ok(invalid(Id::Null, "a message is an object, expected no list and no bare value"));
+        return Ok(invalid(
+            Id::Null,
+            "a message is an object, expected no list and no bare value",
+        ));
     };
     let id = match message.remove("id") {
         None => None,
         Some(Value::String(id)) => Some(Id::String(id)),
         Some(Value::Number(number)) if number.as_i64().is_some() => number.as_i64().map(Id::Number),
         Some(Value::Null) => Some(Id::Null),
-        Some(_) => return Ok(invalid(Id::Null, "the id is neither a whole number nor a string")),
+        Some(_) => {
+            return Ok(invalid(
+                Id::Null,
+                "the id is neither a whole number nor a string",
+            ));
+        }
     };
     let method = match message.remove("method") {
         Some(Value::String(method)) => method,
-        Some(_) => return Ok(invalid(id.unwrap_or_default(), "the method is not a string")),
+        Some(_) => {
+            return Ok(invalid(
+                id.unwrap_or_default(),
+                "the method is not a string",
+            ));
+        }
         None => return Ok(reply(id, message)),
     };
     if message.get("jsonrpc").and_then(Value::as_str) != Some("2.0") {
@@ -57,15 +79,28 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
 fn reply(id: Option<Id>, mut message: serde_json::Map<String, Value>) -> Incoming {
     // A reply whose result is "undefined" comes without the key. Ids of ours are strings.
     match (id, message.remove("error")) {
-        (Some(Id::String(id)), Some(error)) if !error.is_null() => Incoming::Reply { id, result: Err(error) },
-        (Some(Id::String(id)), _) => Incoming::Reply { id, result: Ok(message.remove("result").unwrap_or_default()) },
+        (Some(Id::String(id)), Some(error)) if !error.is_null() => Incoming::Reply {
+            id,
+            result: Err(error),
+        },
+        (Some(Id::String(id)), _) => Incoming::Reply {
+            id,
+            result: Ok(message.remove("result").unwrap_or_default()),
+        },
         // An id of the client's own could stand for a request that still waits: it is not echoed.
-        _ => invalid(Id::Null, "a message without a method that answers no request"),
+        _ => invalid(
+            Id::Null,
+            "a message without a method that answers no request",
+        ),
     }
 }
 
 fn invalid(id: Id, reason: impl Into<Cow<'static, str>>) -> Incoming {
-    let error = Error { code: ErrorCode::InvalidRequest, message: reason.into(), data: None };
+    let error = Error {
+        code: ErrorCode::InvalidRequest,
+        message: reason.into(),
+        data: None,
+    };
     Incoming::Invalid { id, error }
 }
 
@@ -98,11 +133,15 @@ fn quote_overflowing_numbers(body: &[u8]) -> Option<Vec<u8>> {
             }
             b'-' | b'0'..=b'9' => {
                 let begin = at;
-                while body.get(at).is_some_and(|byte| matches!(byte, b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9')) {
+                while body.get(at).is_some_and(|byte| {
+                    matches!(byte, b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9')
+                }) {
                     at += 1;
                 }
                 let token = &body[begin..at];
-                let number = std::str::from_utf8(token).ok().and_then(|token| token.parse::<f64>().ok());
+                let number = std::str::from_utf8(token)
+                    .ok()
+                    .and_then(|token| token.parse::<f64>().ok());
                 if number.is_some_and(f64::is_infinite) {
                     quoted.extend_from_slice(&body[copied..begin]);
                     quoted.push(b'"');
@@ -129,23 +168,40 @@ mod tests {
         let check = |body: &str, expected: &str| {
             let seen = match parse(body.as_bytes()) {
                 Err(error) => format!("{}", error.code),
-                Ok(Incoming::Request(request)) => format!("{} {:?}", request.method(), request.id()),
+                Ok(Incoming::Request(request)) => {
+                    format!("{} {:?}", request.method(), request.id())
+                }
                 Ok(Incoming::Reply { id, result }) => format!("{id} {result:?}"),
                 Ok(Incoming::Invalid { id, error }) => format!("{} {id}", error.code),
             };
             assert_eq!(seen, expected, "{}", &body[..body.len().min(200)]);
         };
-        check(r#"{"jsonrpc":"2.0","id":1,"method":"a","params":{}}"#, "a Some(Number(1))");
+        check(
+            r#"{"jsonrpc":"2.0","id":1,"method":"a","params":{}}"#,
+            "a Some(Number(1))",
+        );
         check(r#"{"jsonrpc":"2.0","method":"a"}"#, "a None");
-        check(r#"{"jsonrpc":"2.0","id":"wedm-1","result":null}"#, "wedm-1 Ok(Null)");
+        check(
+            r#"{"jsonrpc":"2.0","id":"wedm-1","result":null}"#,
+            "wedm-1 Ok(Null)",
+        );
         check(r#"{"jsonrpc":"2.0","id":"wedm-1"}"#, "wedm-1 Ok(Null)");
-        check(r#"{"jsonrpc":"2.0","id":"wedm-1","error":{"code":1}}"#, r#"wedm-1 Err(Object {"code": Number(1)})"#);
+        check(
+            r#"{"jsonrpc":"2.0","id":"wedm-1","error":{"code":1}}"#,
+            r#"wedm-1 Err(Object {"code": Number(1)})"#,
+        );
         check(r#"{"jsonrpc":"2.0","id":7}"#, "-32600 null");
         check(r#"{"jsonrpc":"1.0","id":7,"method":"a"}"#, "-32600 7");
         check(r#"{"jsonrpc":"2.0","id":1.5,"method":"a"}"#, "-32600 null");
         check(r#"{"jsonrpc":"2.0","id":7,"method":3}"#, "-32600 7");
         check("[]", "-32600 null");
-        check(&format!(r#"{{"jsonrpc":"2.0","id":7,"method":"a","params":[{}[]]}}"#, "[],".repeat(4_000_000)), "-32600 null");
+        check(
+            &format!(
+                r#"{{"jsonrpc":"2.0","id":7,"method":"a","params":[{}[]]}}"#,
+                "[],".repeat(4_000_000)
+            ),
+            "-32600 null",
+        );
         check("42", "-32600 null");
         check("{", "-32700");
         check("", "-32700");
@@ -156,7 +212,11 @@ mod tests {
     #[test]
     fn a_number_that_overflows_arrives_as_text() {
         let check = |body: &str, expected: &str| {
-            assert_eq!(parse_json(body.as_bytes()).map(|value| value.to_string()), Ok(expected.into()), "{body}");
+            assert_eq!(
+                parse_json(body.as_bytes()).map(|value| value.to_string()),
+                Ok(expected.into()),
+                "{body}"
+            );
         };
         check(r#"[1e999,-1e999, 2]"#, r#"["1e999","-1e999",2]"#);
         check(r#"["1e999 \" 1e999",1]"#, r#"["1e999 \" 1e999",1]"#);

@@ -58,9 +58,26 @@ pub(crate) struct Transport<S, I> {
 }
 
 impl<S: LanguageServer, I: Inbox> Transport<S, I> {
-    pub fn new(service: LspService<S>, inbox: I, writer: Writer, prepared: Prepared) -> std::io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_time().thread_name("wedm-replies").build()?;
-        Ok(Transport { service, inbox, writer, prepared, runtime, memory: Memory::default(), waiting: Arc::default() })
+    pub fn new(
+        service: LspService<S>,
+        inbox: I,
+        writer: Writer,
+        prepared: Prepared,
+    ) -> std::io::Result<Self> {
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(1)
+            .enable_time()
+            .thread_name("wedm-replies")
+            .build()?;
+        Ok(Transport {
+            service,
+            inbox,
+            writer,
+            prepared,
+            runtime,
+            memory: Memory::default(),
+            waiting: Arc::default(),
+        })
     }
 
     /// Serves until `exit` or the end of the input; true when the client said `exit`.
@@ -73,7 +90,11 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             match frames.next() {
                 Frame::End => return false,
                 Frame::Broken(reason) => {
-                    let error = Error { code: ErrorCode::ParseError, message: reason.into(), data: None };
+                    let error = Error {
+                        code: ErrorCode::ParseError,
+                        message: reason.into(),
+                        data: None,
+                    };
                     self.answer_broken(error, frames.position());
                 }
                 Frame::Body(body) => match message::parse(&body) {
@@ -81,7 +102,9 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                         frames.was_broken(&body);
                         self.answer_broken(error, frames.position());
                     }
-                    Ok(Incoming::Invalid { id, error }) => self.send(Response::from_error(id, error)),
+                    Ok(Incoming::Invalid { id, error }) => {
+                        self.send(Response::from_error(id, error))
+                    }
                     Ok(Incoming::Reply { id, result }) => self.inbox.reply(id, result),
                     Ok(Incoming::Request(request)) => {
                         let length = body.len();
@@ -124,7 +147,14 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         // None of the framework's own is a request, and it leaves such requests without an answer.
         if let Some(id) = id.clone().filter(|_| method.starts_with("$/")) {
             let message = format!("there is no request {method}").into();
-            return self.send(Response::from_error(id, Error { code: ErrorCode::MethodNotFound, message, data: None }));
+            return self.send(Response::from_error(
+                id,
+                Error {
+                    code: ErrorCode::MethodNotFound,
+                    message,
+                    data: None,
+                },
+            ));
         }
         let inline = method == "initialize";
         let taken = self.inbox.taken();
@@ -149,7 +179,10 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         };
         match first {
             Poll::Ready(outcome) => {
-                let unread = id.is_none() && self.inbox.taken() == taken && is_ours(&method) && matches!(outcome, Ok(Ok(None)));
+                let unread = id.is_none()
+                    && self.inbox.taken() == taken
+                    && is_ours(&method)
+                    && matches!(outcome, Ok(Ok(None)));
                 if unread {
                     self.inbox.note(format!("{method} was ignored: its params are malformed, or it came before initialize"));
                 }
@@ -157,7 +190,11 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             }
             Poll::Pending => {
                 self.waiting.fetch_add(1, Ordering::AcqRel);
-                let (writer, prepared, waiting) = (self.writer.clone(), self.prepared.clone(), self.waiting.clone());
+                let (writer, prepared, waiting) = (
+                    self.writer.clone(),
+                    self.prepared.clone(),
+                    self.waiting.clone(),
+                );
                 self.runtime.spawn(async move {
                     let outcome = answer.await;
                     finish(&writer, &prepared, id, outcome);
@@ -173,15 +210,22 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         {
             // The framework remembers the id of a request whose handler never ended; forget it.
             let id = serde_json::to_value(id).unwrap_or_default();
-            let cancel = Request::build("$/cancelRequest").params(serde_json::json!({ "id": id })).finish();
+            let cancel = Request::build("$/cancelRequest")
+                .params(serde_json::json!({ "id": id }))
+                .finish();
             let mut answer = self.service.call(cancel);
-            let _ = answer.as_mut().poll(&mut Context::from_waker(Waker::noop()));
+            let _ = answer
+                .as_mut()
+                .poll(&mut Context::from_waker(Waker::noop()));
         }
         finish(&self.writer, &self.prepared, id, outcome);
     }
 
     fn answer_broken(&self, error: Error, position: i64) {
-        self.inbox.note(format!("a broken message before byte {position} was skipped: {}", error.message));
+        self.inbox.note(format!(
+            "a broken message before byte {position} was skipped: {}",
+            error.message
+        ));
         self.send(Response::from_error(Id::Null, error));
     }
 
@@ -201,7 +245,16 @@ fn finish(writer: &Writer, prepared: &Prepared, id: Option<Id>, outcome: Outcome
             let text = panic_text(&*panic);
             tracing::error!("a handler panicked: {text}");
             let message = format!("internal error: {text}").into();
-            id.map(|id| Response::from_error(id, Error { code: ErrorCode::InternalError, message, data: None }))
+            id.map(|id| {
+                Response::from_error(
+                    id,
+                    Error {
+                        code: ErrorCode::InternalError,
+                        message,
+                        data: None,
+                    },
+                )
+            })
         }
     };
     let Some(response) = response else { return };
@@ -222,7 +275,11 @@ pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> &str {
 
 /// Notifications that must not be lost without a word.
 fn is_ours(method: &str) -> bool {
-    method.starts_with("wedm/") || matches!(method, "textDocument/didOpen" | "textDocument/didChange" | "textDocument/didClose")
+    method.starts_with("wedm/")
+        || matches!(
+            method,
+            "textDocument/didOpen" | "textDocument/didChange" | "textDocument/didClose"
+        )
 }
 
 /// A handler's future that turns a panic into a value.

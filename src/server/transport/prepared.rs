@@ -33,15 +33,23 @@ impl Prepared {
 
     /// The body of a reply, its token replaced.
     pub fn body(&self, response: Response) -> serde_json::Result<Vec<u8>> {
-        let prepared = response.result().and_then(string_of).filter(|token| token.starts_with('\u{1}')).and_then(|token| {
-            let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-            waiting.texts.remove(token)
-        });
+        let prepared = response
+            .result()
+            .and_then(string_of)
+            .filter(|token| token.starts_with('\u{1}'))
+            .and_then(|token| {
+                let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+                waiting.texts.remove(token)
+            });
         match prepared {
             None => serde_json::to_vec(&response),
             Some(json) => {
                 let id: &Id = response.id();
-                let mut body = format!("{{\"jsonrpc\":\"2.0\",\"id\":{},\"result\":", serde_json::to_string(id)?).into_bytes();
+                let mut body = format!(
+                    "{{\"jsonrpc\":\"2.0\",\"id\":{},\"result\":",
+                    serde_json::to_string(id)?
+                )
+                .into_bytes();
                 body.reserve_exact(json.len() + 1);
                 body.extend_from_slice(&json);
                 body.push(b'}');
@@ -55,7 +63,9 @@ impl Prepared {
 fn string_of(result: &Value) -> Option<&str> {
     match result {
         Value::String(text) => Some(text),
-        Value::Array(list) => ["name", "collapsedText", "newText"].iter().find_map(|key| list.first()?.get(key)?.as_str()),
+        Value::Array(list) => ["name", "collapsedText", "newText"]
+            .iter()
+            .find_map(|key| list.first()?.get(key)?.as_str()),
         Value::Object(_) => result.get("resultId")?.as_str(),
         _ => None,
     }

@@ -51,14 +51,22 @@ mod tests {
 
     #[test]
     fn lists_and_objects_weigh_and_strings_do_not() {
-        let check = |json: String, expected: bool| assert_eq!(is_too_heavy(json.as_bytes()), expected, "{}…", &json[..40]);
+        let check = |json: String, expected: bool| {
+            assert_eq!(is_too_heavy(json.as_bytes()), expected, "{}…", &json[..40])
+        };
         check(format!("[{}[]]", "[],".repeat(4_000_000)), true);
         check(format!("[{}{{}}]", "{},".repeat(2_000_000)), true);
         check(format!("[{}1]", "1,".repeat(17_000_000)), true);
         check("[".repeat(5_000_000), true);
         check(format!("{{{}\"a\":1}}", "\"a\":1,".repeat(9_000_000)), true);
-        check(format!("[{}[]]", "[106.243,92.283,0.41421356],".repeat(1_000_000)), false);
-        check(format!("{{\"text\":\"{}\"}}", "[],\\\"[".repeat(5_000_000)), false);
+        check(
+            format!("[{}[]]", "[106.243,92.283,0.41421356],".repeat(1_000_000)),
+            false,
+        );
+        check(
+            format!("{{\"text\":\"{}\"}}", "[],\\\"[".repeat(5_000_000)),
+            false,
+        );
         check(format!("\"{}", "[],".repeat(9_000_000)), false);
     }
 

@@ -80,14 +80,21 @@ impl Publish {
 
 impl Writer {
     /// Starts the thread. `failed` is called when the client cannot be written to any more.
-    pub fn start(output: impl Write + Send + 'static, failed: impl FnOnce() + Send + 'static) -> std::io::Result<Writer> {
+    pub fn start(
+        output: impl Write + Send + 'static,
+        failed: impl FnOnce() + Send + 'static,
+    ) -> std::io::Result<Writer> {
         let shared = Arc::new(Shared::default());
-        let writer = Writer { shared: shared.clone() };
-        std::thread::Builder::new().name("wedm-writer".into()).spawn(move || {
-            if write_all(&shared, output).is_err() {
-                failed();
-            }
-        })?;
+        let writer = Writer {
+            shared: shared.clone(),
+        };
+        std::thread::Builder::new()
+            .name("wedm-writer".into())
+            .spawn(move || {
+                if write_all(&shared, output).is_err() {
+                    failed();
+                }
+            })?;
         Ok(writer)
     }
 
@@ -109,7 +116,11 @@ impl Writer {
 
     /// Queues a notification.
     pub fn notify(&self, method: &str, params: impl Serialize) {
-        self.send_json(&Notification { jsonrpc: "2.0", method, params });
+        self.send_json(&Notification {
+            jsonrpc: "2.0",
+            method,
+            params,
+        });
     }
 
     /// Queues diagnostics in the place of unwritten older ones of the same document, unless those are owed.
@@ -160,7 +171,12 @@ impl Writer {
             if done(&queue) || left.is_zero() {
                 return done(&queue);
             }
-            queue = self.shared.emptied.wait_timeout(queue, left).unwrap_or_else(PoisonError::into_inner).0;
+            queue = self
+                .shared
+                .emptied
+                .wait_timeout(queue, left)
+                .unwrap_or_else(PoisonError::into_inner)
+                .0;
         }
     }
 }
@@ -198,7 +214,12 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
                     }
                 }
                 None if queue.ended => return Ok(()),
-                None => queue = shared.filled.wait(queue).unwrap_or_else(PoisonError::into_inner),
+                None => {
+                    queue = shared
+                        .filled
+                        .wait(queue)
+                        .unwrap_or_else(PoisonError::into_inner)
+                }
             }
         };
         queue.writing = true;
@@ -206,7 +227,11 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
         let body = match next {
             Next::Body(body) => body,
             Next::Publish(publish) => {
-                let message = Notification { jsonrpc: "2.0", method: "textDocument/publishDiagnostics", params: publish };
+                let message = Notification {
+                    jsonrpc: "2.0",
+                    method: "textDocument/publishDiagnostics",
+                    params: publish,
+                };
                 serde_json::to_vec(&message).map_err(std::io::Error::other)?
             }
         };
@@ -245,7 +270,10 @@ mod tests {
         fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
             let _ = self.open.recv();
             let text = String::from_utf8_lossy(bytes);
-            let _ = self.seen.send(text.split_once("\r\n\r\n").map_or_else(String::new, |(_, body)| body.into()));
+            let _ = self.seen.send(
+                text.split_once("\r\n\r\n")
+                    .map_or_else(String::new, |(_, body)| body.into()),
+            );
             Ok(bytes.len())
         }
         fn flush(&mut self) -> std::io::Result<()> {
@@ -258,8 +286,12 @@ mod tests {
         let (open, gate) = mpsc::channel();
         let (seen, written) = mpsc::channel();
         let writer = Writer::start(Gate { open: gate, seen }, || {}).unwrap();
-        let publish =
-            |uri: &str, version: i64, owed: bool| Publish { uri: uri.into(), version: Some(version), diagnostics: Vec::new(), owed };
+        let publish = |uri: &str, version: i64, owed: bool| Publish {
+            uri: uri.into(),
+            version: Some(version),
+            diagnostics: Vec::new(),
+            owed,
+        };
         writer.send(b"first".to_vec());
         while !writer.shared.queue().waiting.is_empty() {
             std::thread::yield_now();
@@ -276,10 +308,16 @@ mod tests {
         writer.end(Duration::from_secs(10));
         let versions: Vec<String> = written
             .try_iter()
-            .map(|body| match serde_json::from_str::<serde_json::Value>(&body) {
-                Ok(message) => format!("{} {}", message["params"]["uri"].as_str().unwrap(), message["params"]["version"]),
-                Err(_) => body,
-            })
+            .map(
+                |body| match serde_json::from_str::<serde_json::Value>(&body) {
+                    Ok(message) => format!(
+                        "{} {}",
+                        message["params"]["uri"].as_str().unwrap(),
+                        message["params"]["version"]
+                    ),
+                    Err(_) => body,
+                },
+            )
             .collect();
         assert_eq!(versions, ["first", "a 1", "a 99", "b 100", "b 101", "last"]);
     }

@@ -26,12 +26,28 @@ pub fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Rang
         }
     });
     match own? {
-        Token::Word { letter: b'G', number, range } => match number.whole()? {
-            40 => Some((range, switched(document, (0..line).rev(), |side| side != Compensation::Off)?)),
-            41 | 42 => Some((range, switched(document, line + 1..text.line_count(), |side| side == Compensation::Off)?)),
+        Token::Word {
+            letter: b'G',
+            number,
+            range,
+        } => match number.whole()? {
+            40 => Some((
+                range,
+                switched(document, (0..line).rev(), |side| side != Compensation::Off)?,
+            )),
+            41 | 42 => Some((
+                range,
+                switched(document, line + 1..text.line_count(), |side| {
+                    side == Compensation::Off
+                })?,
+            )),
             _ => None,
         },
-        Token::Word { letter: b'M' | b'P', range, .. } => {
+        Token::Word {
+            letter: b'M' | b'P',
+            range,
+            ..
+        } => {
             let block = read_line(bytes, range.start, |_| {});
             if let Some(number) = block.call {
                 let &line = labels(text).get(&number)?;
@@ -44,12 +60,17 @@ pub fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Rang
             (0..=line).rev().find_map(|line| {
                 let bytes = text.bytes().get(text.line_range(line))?;
                 let block = read_line(bytes, 1, |_| {});
-                let called = [block.number, block.program].into_iter().flatten().find(|number| calls.contains(number))?;
+                let called = [block.number, block.program]
+                    .into_iter()
+                    .flatten()
+                    .find(|number| calls.contains(number))?;
                 Some((range.clone(), label_in(document, line, called)?))
             })
         }
         Token::Tape { range } => {
-            let other = (line..text.line_count()).chain(0..line).find_map(|line| tape_in(document, line, &range))?;
+            let other = (line..text.line_count())
+                .chain(0..line)
+                .find_map(|line| tape_in(document, line, &range))?;
             Some((range, other))
         }
         _ => None,
@@ -57,13 +78,22 @@ pub fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Rang
 }
 
 /// The word of the first of some lines that switches the correction as wanted.
-fn switched(document: &Document, lines: impl Iterator<Item = usize>, wanted: impl Fn(Compensation) -> bool) -> Option<Range<usize>> {
+fn switched(
+    document: &Document,
+    lines: impl Iterator<Item = usize>,
+    wanted: impl Fn(Compensation) -> bool,
+) -> Option<Range<usize>> {
     let text = document.text();
     for line in lines {
         let range = text.line_range(line);
         let bytes = text.bytes().get(range.clone())?;
-        if read_line(bytes, 1, |_| {}).compensation.is_some_and(&wanted) {
-            return word_range(bytes, range.start, |letter, number| letter == b'G' && matches!(number.whole(), Some(40..=42)));
+        if read_line(bytes, 1, |_| {})
+            .compensation
+            .is_some_and(&wanted)
+        {
+            return word_range(bytes, range.start, |letter, number| {
+                letter == b'G' && matches!(number.whole(), Some(40..=42))
+            });
         }
     }
     None
@@ -74,7 +104,8 @@ fn label_in(document: &Document, line: usize, wanted: u32) -> Option<Range<usize
     let range = document.text().line_range(line);
     let bytes = document.text().bytes().get(range.clone())?;
     word_range(bytes, range.start, |letter, number| {
-        matches!(letter, b'N' | b'O') && number.whole().and_then(|whole| u32::try_from(whole).ok()) == Some(wanted)
+        matches!(letter, b'N' | b'O')
+            && number.whole().and_then(|whole| u32::try_from(whole).ok()) == Some(wanted)
     })
 }
 

@@ -69,7 +69,11 @@ fn mm(length: i64) -> String {
     let kept = text.find('.').map_or(text.len(), |point| point + 4);
     let (head, tail) = text.split_at(kept.min(text.len()));
     let text = format!("{head}{}", tail.trim_end_matches('0'));
-    if text == "-0.000" { "0.000".into() } else { text }
+    if text == "-0.000" {
+        "0.000".into()
+    } else {
+        text
+    }
 }
 
 struct About<'a> {
@@ -83,17 +87,32 @@ struct About<'a> {
 impl About<'_> {
     fn word(&self, letter: u8, number: Number, shown: &str) -> String {
         let foreign = |usual: Option<&str>| match usual {
-            Some(usual) => format!("**{shown}** a matter of the machine: {usual}. It is kept, not followed"),
+            Some(usual) => {
+                format!("**{shown}** a matter of the machine: {usual}. It is kept, not followed")
+            }
             None => format!("**{shown}** a matter of the machine: it is kept, not followed"),
         };
         match letter {
-            b'G' => known_g(number).map_or_else(|| foreign(usual_g(number)), |about| format!("**{shown}** {about}")),
-            b'M' => known_m(number).map_or_else(|| foreign(usual_m(number)), |about| format!("**{shown}** {about}")),
-            b'N' => format!("**{shown}** block number: it has no meaning for the path, but a call (`M98 P…`) may name it"),
-            b'O' => format!("**{shown}** number of a program, or of a subprogram that `M98 P…` calls"),
+            b'G' => known_g(number).map_or_else(
+                || foreign(usual_g(number)),
+                |about| format!("**{shown}** {about}"),
+            ),
+            b'M' => known_m(number).map_or_else(
+                || foreign(usual_m(number)),
+                |about| format!("**{shown}** {about}"),
+            ),
+            b'N' => format!(
+                "**{shown}** block number: it has no meaning for the path, but a call (`M98 P…`) may name it"
+            ),
+            b'O' => {
+                format!("**{shown}** number of a program, or of a subprogram that `M98 P…` calls")
+            }
             b'X' | b'Y' => format!("**{shown}** {}", self.coordinate(letter, number)),
             b'I' | b'J' => format!("**{shown}** {}", self.center(letter, number)),
-            b'R' => format!("**{shown}** radius of the arc, {} mm; a negative one turns by more than 180°", self.length(number)),
+            b'R' => format!(
+                "**{shown}** radius of the arc, {} mm; a negative one turns by more than 180°",
+                self.length(number)
+            ),
             b'D' | b'H' => format!("**{shown}** {}", self.offset(letter, number)),
             b'F' => format!("**{shown}** feed; its unit is a matter of the machine"),
             b'P' => self.subprogram(shown),
@@ -144,9 +163,15 @@ impl About<'_> {
         let axis = if letter == b'I' { 'X' } else { 'Y' };
         let length = self.length(number);
         let meant = match self.document.reading().rule(self.in_force().incremental) {
-            CenterRule::StartToCenter => format!("{length} mm along {axis} from the arc's start to its centre"),
-            CenterRule::CenterToStart => format!("{length} mm along {axis} from the arc's centre to its start"),
-            CenterRule::Absolute => format!("the arc's centre lies at {axis} {length} mm from the program's zero"),
+            CenterRule::StartToCenter => {
+                format!("{length} mm along {axis} from the arc's start to its centre")
+            }
+            CenterRule::CenterToStart => {
+                format!("{length} mm along {axis} from the arc's centre to its start")
+            }
+            CenterRule::Absolute => {
+                format!("the arc's centre lies at {axis} {length} mm from the program's zero")
+            }
         };
         let known = if self.document.evidence().leaves_centers_open() {
             "full circles leave that open, so it is taken as the profile has it"
@@ -157,7 +182,10 @@ impl About<'_> {
     }
 
     fn offset(&self, letter: u8, number: Number) -> String {
-        let index = number.whole().and_then(|whole| u32::try_from(whole).ok()).unwrap_or(u32::MAX);
+        let index = number
+            .whole()
+            .and_then(|whole| u32::try_from(whole).ok())
+            .unwrap_or(u32::MAX);
         let place = format!("place {index} of the control's table of corrections");
         match self.document.table_value(Offset { letter, index }) {
             Some(value) => format!("{place}: {} mm, as this program sets it", mm(value)),
@@ -171,9 +199,15 @@ impl About<'_> {
     fn subprogram(&self, shown: &str) -> String {
         let block = read_line(self.bytes, 1, |_| {});
         match (block.call, block.takes_coordinates) {
-            (Some(number), _) => format!("**{shown}** runs the subprogram that begins at N{number} or O{number}"),
-            (None, true) => format!("**{shown}** how long the machine waits; its unit is a matter of the machine"),
-            (None, false) => format!("**{shown}** a matter of the machine: it is kept, not followed"),
+            (Some(number), _) => {
+                format!("**{shown}** runs the subprogram that begins at N{number} or O{number}")
+            }
+            (None, true) => format!(
+                "**{shown}** how long the machine waits; its unit is a matter of the machine"
+            ),
+            (None, false) => {
+                format!("**{shown}** a matter of the machine: it is kept, not followed")
+            }
         }
     }
 }
@@ -183,15 +217,25 @@ pub(super) fn known_g(number: Number) -> Option<&'static str> {
     Some(match (number.mantissa, number.decimals) {
         (0, 0) => "rapid: moves without cutting; in force until another of G00 to G03",
         (1, 0) => "cuts along a straight line; in force until another of G00 to G03",
-        (2, 0) => "cuts along an arc clockwise, about I and J or with R; in force until another of G00 to G03",
-        (3, 0) => "cuts along an arc counter-clockwise, about I and J or with R; in force until another of G00 to G03",
+        (2, 0) => {
+            "cuts along an arc clockwise, about I and J or with R; in force until another of G00 to G03"
+        }
+        (3, 0) => {
+            "cuts along an arc counter-clockwise, about I and J or with R; in force until another of G00 to G03"
+        }
         (4, 0) => "waits, for as long as P or X says",
         (17, 0) => "arcs lie in the plane of X and Y",
         (20 | 70, 0) => "lengths are inches",
         (21 | 71, 0) => "lengths are millimetres",
-        (40, 0) => "ends the correction: from the next straight cut on the wire runs on the contour",
-        (41, 0) => "correction: the control lets the wire run on the left of the contour, as far as D or H says",
-        (42, 0) => "correction: the control lets the wire run on the right of the contour, as far as D or H says",
+        (40, 0) => {
+            "ends the correction: from the next straight cut on the wire runs on the contour"
+        }
+        (41, 0) => {
+            "correction: the control lets the wire run on the left of the contour, as far as D or H says"
+        }
+        (42, 0) => {
+            "correction: the control lets the wire run on the right of the contour, as far as D or H says"
+        }
         (90, 0) => "coordinates are absolute, counted from the program's zero",
         (91, 0) => "coordinates count from where the wire stands",
         (92, 0) => "says where the wire stands: X and Y of this line",

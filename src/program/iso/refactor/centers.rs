@@ -30,18 +30,37 @@ fn converted(sheet: &Sheet<'_>, rule: CenterRule) -> Result<Vec<TextEdit>, Strin
     let content = sheet.content()?;
     let old = sheet.document.reading();
     let with_center = |incremental: bool| {
-        let arcs = content.rows.iter().filter(move |row| row.made.is_arc() && row.made.incremental == incremental);
-        arcs.filter(|row| matches!(row.made.bend, Bend::Center { .. })).count()
+        let arcs = content
+            .rows
+            .iter()
+            .filter(move |row| row.made.is_arc() && row.made.incremental == incremental);
+        arcs.filter(|row| matches!(row.made.bend, Bend::Center { .. }))
+            .count()
     };
     let (absolute, incremental) = (with_center(false), with_center(true));
-    let changes = (absolute > 0 && old.absolute != rule) || (incremental > 0 && old.incremental != rule);
+    let changes =
+        (absolute > 0 && old.absolute != rule) || (incremental > 0 && old.incremental != rule);
     if !changes {
         return Ok(Vec::new());
     }
     if rule == CenterRule::Absolute && incremental > 0 {
-        return Err("under G91 a centre has no coordinates of its own: make the coordinates absolute first".into());
+        return Err(
+            "under G91 a centre has no coordinates of its own: make the coordinates absolute first"
+                .into(),
+        );
     }
-    let under_g91 = if rule == CenterRule::Absolute { old.incremental } else { rule };
-    let rewrite = Rewrite { reading: Some(Reading { absolute: rule, incremental: under_g91, ..*old }), ..Rewrite::default() };
+    let under_g91 = if rule == CenterRule::Absolute {
+        old.incremental
+    } else {
+        rule
+    };
+    let rewrite = Rewrite {
+        reading: Some(Reading {
+            absolute: rule,
+            incremental: under_g91,
+            ..*old
+        }),
+        ..Rewrite::default()
+    };
     rewrite.edits(sheet, content)
 }

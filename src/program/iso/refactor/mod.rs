@@ -60,15 +60,27 @@ const ALL: [Refactoring; 14] = [
 /// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
 ///
 /// `wanted` chooses by id.
-pub fn proposals(document: &Document, settings: &Effective, selection: Range<usize>, wanted: impl Fn(&str) -> bool) -> Vec<Proposal> {
-    let chosen: Vec<&Refactoring> = ALL.iter().filter(|refactoring| wanted(refactoring.id)).collect();
+pub fn proposals(
+    document: &Document,
+    settings: &Effective,
+    selection: Range<usize>,
+    wanted: impl Fn(&str) -> bool,
+) -> Vec<Proposal> {
+    let chosen: Vec<&Refactoring> = ALL
+        .iter()
+        .filter(|refactoring| wanted(refactoring.id))
+        .collect();
     let mut found = Vec::new();
     if !chosen.is_empty() {
         let sheet = Sheet::new(document, settings, selection);
         for refactoring in chosen {
             let edits = (refactoring.rewrite)(&sheet);
             if edits.as_ref().map_or(true, |edits| !edits.is_empty()) {
-                found.push(Proposal { id: refactoring.id, title: refactoring.title.to_owned(), edits });
+                found.push(Proposal {
+                    id: refactoring.id,
+                    title: refactoring.title.to_owned(),
+                    edits,
+                });
             }
         }
     }

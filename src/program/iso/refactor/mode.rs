@@ -28,31 +28,65 @@ pub const INCREMENTAL: Refactoring = Refactoring {
 
 fn converted(sheet: &Sheet<'_>, incremental: bool) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
-    if content.rows.iter().all(|row| row.made.incremental == incremental) {
+    if content
+        .rows
+        .iter()
+        .all(|row| row.made.incremental == incremental)
+    {
         return Ok(Vec::new());
     }
     refuse_anywhere(sheet.document, Words::Guide)?;
     let (text, old) = (sheet.document.text(), sheet.document.reading());
     // An absolute centre says nothing under G91.
-    let rule = if incremental { old.absolute } else { old.incremental };
-    let under_g91 = if rule == CenterRule::Absolute { old.incremental } else { rule };
-    let reading = Reading { absolute: rule, incremental: under_g91, ..*old };
+    let rule = if incremental {
+        old.absolute
+    } else {
+        old.incremental
+    };
+    let under_g91 = if rule == CenterRule::Absolute {
+        old.incremental
+    } else {
+        rule
+    };
+    let reading = Reading {
+        absolute: rule,
+        incremental: under_g91,
+        ..*old
+    };
     let word = if incremental { "G91" } else { "G90" };
-    let mut rewrite = Rewrite { reading: Some(reading), ..Rewrite::default() };
+    let mut rewrite = Rewrite {
+        reading: Some(reading),
+        ..Rewrite::default()
+    };
     let first = content.rows.first().map_or(0, |row| row.line);
     let mut stands = false;
     for line in 0..text.line_count() {
         let range = text.line_range(line);
         let by = range.start.max(1) - range.start;
-        words(text.bytes().get(range.clone()).unwrap_or_default(), range.start.max(1), |token| {
-            if let Token::Word { letter: b'G', number, range } = token
-                && (number.mantissa, number.decimals) == (if incremental { 90 } else { 91 }, 0)
-            {
-                rewrite.words.push(TextEdit { range: range.start - by..range.end - by, text: word.into() });
-                stands |= line <= first;
-            }
-        });
-        let block = read_line(text.bytes().get(text.line_range(line)).unwrap_or_default(), 1, |_| {});
+        words(
+            text.bytes().get(range.clone()).unwrap_or_default(),
+            range.start.max(1),
+            |token| {
+                if let Token::Word {
+                    letter: b'G',
+                    number,
+                    range,
+                } = token
+                    && (number.mantissa, number.decimals) == (if incremental { 90 } else { 91 }, 0)
+                {
+                    rewrite.words.push(TextEdit {
+                        range: range.start - by..range.end - by,
+                        text: word.into(),
+                    });
+                    stands |= line <= first;
+                }
+            },
+        );
+        let block = read_line(
+            text.bytes().get(text.line_range(line)).unwrap_or_default(),
+            1,
+            |_| {},
+        );
         stands |= line <= first && block.incremental == Some(incremental);
     }
     // G90 holds where nothing is said.

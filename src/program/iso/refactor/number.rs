@@ -42,8 +42,14 @@ pub fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String>
     let labels = labels(text);
     let mut renamed: FxHashMap<u32, u32> = FxHashMap::default();
     // A block that got the number of a program which is called, or of one that stands elsewhere, would be called in its place.
-    let taken: Vec<u32> =
-        called(document).into_iter().filter(|called| labels.get(called).is_none_or(|&line| is_program(text, line))).collect();
+    let taken: Vec<u32> = called(document)
+        .into_iter()
+        .filter(|called| {
+            labels
+                .get(called)
+                .is_none_or(|&line| is_program(text, line))
+        })
+        .collect();
     let mut number = step;
     for line in 0..text.line_count() {
         let range = text.line_range(line);
@@ -60,11 +66,15 @@ pub fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String>
                 if labels.get(&old) == Some(&line) {
                     renamed.insert(old, number);
                 }
-                edits.push(TextEdit { range: word, text: format!("N{number}") });
+                edits.push(TextEdit {
+                    range: word,
+                    text: format!("N{number}"),
+                });
             }
             _ => {
                 let new = with_word(bytes, &format!("N{number}"), parted);
-                let new = String::from_utf8(new).map_err(|_| format!("line {}: it is in another code page", line + 1))?;
+                let new = String::from_utf8(new)
+                    .map_err(|_| format!("line {}: it is in another code page", line + 1))?;
                 edits.push(TextEdit { range, text: new });
             }
         }
@@ -73,12 +83,21 @@ pub fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String>
     // Where a line gets its number and holds a call, both are one edit.
     let calls = calls(document, |called| renamed.get(&called).copied());
     for call in calls {
-        match edits.iter_mut().find(|edit| edit.range.start <= call.range.start && call.range.end <= edit.range.end) {
+        match edits
+            .iter_mut()
+            .find(|edit| edit.range.start <= call.range.start && call.range.end <= edit.range.end)
+        {
             Some(whole) => {
-                let old = String::from_utf8_lossy(text.bytes().get(whole.range.clone()).unwrap_or_default()).into_owned();
-                let within = call.range.start - whole.range.start..call.range.end - whole.range.start;
+                let old = String::from_utf8_lossy(
+                    text.bytes().get(whole.range.clone()).unwrap_or_default(),
+                )
+                .into_owned();
+                let within =
+                    call.range.start - whole.range.start..call.range.end - whole.range.start;
                 let grown = whole.text.len() - old.len();
-                whole.text.replace_range(within.start + grown..within.end + grown, &call.text);
+                whole
+                    .text
+                    .replace_range(within.start + grown..within.end + grown, &call.text);
             }
             None => edits.push(call),
         }
@@ -90,7 +109,13 @@ pub fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String>
 
 /// True where a line begins a program (`O`).
 fn is_program(text: &SourceText, line: usize) -> bool {
-    read_line(text.bytes().get(text.line_range(line)).unwrap_or_default(), 1, |_| {}).program.is_some()
+    read_line(
+        text.bytes().get(text.line_range(line)).unwrap_or_default(),
+        1,
+        |_| {},
+    )
+    .program
+    .is_some()
 }
 
 /// No numbers but those that are called.
@@ -107,8 +132,14 @@ fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
             && !called.contains(&number)
         {
             let behind = text.bytes().get(word.end..range.end).unwrap_or_default();
-            let space = behind.iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
-            edits.push(TextEdit { range: word.start..word.end + space, text: String::new() });
+            let space = behind
+                .iter()
+                .take_while(|byte| matches!(byte, b' ' | b'\t'))
+                .count();
+            edits.push(TextEdit {
+                range: word.start..word.end + space,
+                text: String::new(),
+            });
         }
     }
     Ok(edits)
@@ -117,19 +148,34 @@ fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
 /// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
 ///
 /// Errors: a name that is no number, or one that another block has.
-pub fn renamed(document: &Document, digits: Range<usize>, old: u32, name: &str) -> Result<Vec<TextEdit>, String> {
+pub fn renamed(
+    document: &Document,
+    digits: Range<usize>,
+    old: u32,
+    name: &str,
+) -> Result<Vec<TextEdit>, String> {
     refuse_unknown_calls(document)?;
     let name = name.trim();
-    let name = name.strip_prefix(['N', 'n', 'O', 'o']).unwrap_or(name).trim();
-    let is_number = !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());
-    let new: u32 =
-        name.parse().ok().filter(|_| is_number).ok_or_else(|| format!("{name:?} is no block number, expected up to 8 digits"))?;
+    let name = name
+        .strip_prefix(['N', 'n', 'O', 'o'])
+        .unwrap_or(name)
+        .trim();
+    let is_number =
+        !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());
+    let new: u32 = name
+        .parse()
+        .ok()
+        .filter(|_| is_number)
+        .ok_or_else(|| format!("{name:?} is no block number, expected up to 8 digits"))?;
     let (text, labels) = (document.text(), labels(document.text()));
     let own = text.line_of(digits.start);
     if let Some(line) = labels.get(&new).filter(|line| **line != own) {
         return Err(format!("N{new} is the block in line {}", line + 1));
     }
-    let mut edits = vec![TextEdit { range: digits, text: name.to_owned() }];
+    let mut edits = vec![TextEdit {
+        range: digits,
+        text: name.to_owned(),
+    }];
     if labels.get(&old) == Some(&own) {
         edits.extend(calls(document, |called| (called == old).then_some(new)));
     }
@@ -147,7 +193,10 @@ fn calls(document: &Document, renamed: impl Fn(u32) -> Option<u32>) -> Vec<TextE
         if let Some(new) = read_line(bytes, 1, |_| {}).call.and_then(&renamed)
             && let Some(word) = word_range(bytes, range.start, |letter, _| letter == b'P')
         {
-            edits.push(TextEdit { range: word, text: format!("P{new}") });
+            edits.push(TextEdit {
+                range: word,
+                text: format!("P{new}"),
+            });
         }
     }
     edits
@@ -165,15 +214,27 @@ fn number_word(line: &[u8], start: usize) -> Option<Range<usize>> {
 
 fn refuse_unknown_calls(document: &Document) -> Result<(), String> {
     let text = document.text().bytes().to_ascii_uppercase();
-    match UNKNOWN_CALLS.iter().find(|word| memchr::memmem::find(&text, word.as_bytes()).is_some()) {
-        Some(word) => Err(format!("{word} may call a block by its number, and it is not known how")),
+    match UNKNOWN_CALLS
+        .iter()
+        .find(|word| memchr::memmem::find(&text, word.as_bytes()).is_some())
+    {
+        Some(word) => Err(format!(
+            "{word} may call a block by its number, and it is not known how"
+        )),
         None => Ok(()),
     }
 }
 
 /// The edits, once the machine goes the same way behind them.
 fn same_way(sheet: &Sheet<'_>, edits: Vec<TextEdit>) -> Result<Vec<TextEdit>, String> {
-    let way = |document: &Document| document.trace().steps.iter().map(|step| (step.kind, step.line, step.ideal)).collect::<Vec<_>>();
+    let way = |document: &Document| {
+        document
+            .trace()
+            .steps
+            .iter()
+            .map(|step| (step.kind, step.line, step.ideal))
+            .collect::<Vec<_>>()
+    };
     let settings: &Effective = sheet.settings;
     let after = Document::read_with(applied(sheet.document.text().bytes(), &edits), settings);
     if way(&after) != way(sheet.document) {

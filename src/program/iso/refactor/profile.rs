@@ -13,7 +13,11 @@ pub const ID: &str = "refactor.rewrite.profile";
 
 /// One proposal for each profile that ships and for that of the settings.
 pub fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
-    let own = settings.profile.iter().filter(|own| shipped_profiles().all(|name| name != own.name)).cloned();
+    let own = settings
+        .profile
+        .iter()
+        .filter(|own| shipped_profiles().all(|name| name != own.name))
+        .cloned();
     let shipped = shipped_profiles().filter_map(|name| match &settings.profile {
         Ok(own) if own.name == name => Some(own.clone()),
         _ => Profile::of(name, None).ok(),
@@ -21,23 +25,45 @@ pub fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
     let mut known = None;
     let mut found = Vec::new();
     for profile in shipped.chain(own) {
-        let paths = known.get_or_insert_with(|| paths(document, settings)).clone();
-        let title = format!("Write anew as profile {}: comments and words of the machine are left out", profile.name);
+        let paths = known
+            .get_or_insert_with(|| paths(document, settings))
+            .clone();
+        let title = format!(
+            "Write anew as profile {}: comments and words of the machine are left out",
+            profile.name
+        );
         let edits = paths.and_then(|paths| {
-            let settings = Effective { profile: Ok(profile), ..settings.clone() };
+            let settings = Effective {
+                profile: Ok(profile),
+                ..settings.clone()
+            };
             let written = write(&paths, 1e-3, &settings).map_err(|error| error.to_string())?;
             let whole = 0..document.text().len();
             let same = document.text().bytes() == written.text.as_bytes();
-            Ok(if same { Vec::new() } else { vec![TextEdit { range: whole, text: written.text }] })
+            Ok(if same {
+                Vec::new()
+            } else {
+                vec![TextEdit {
+                    range: whole,
+                    text: written.text,
+                }]
+            })
         });
         if edits.as_ref().map_or(true, |edits| !edits.is_empty()) {
-            found.push(Proposal { id: ID, title, edits });
+            found.push(Proposal {
+                id: ID,
+                title,
+                edits,
+            });
         }
     }
     found
 }
 
-fn paths(document: &Document, settings: &Effective) -> Result<Vec<crate::toolpath::WirePath>, String> {
+fn paths(
+    document: &Document,
+    settings: &Effective,
+) -> Result<Vec<crate::toolpath::WirePath>, String> {
     let cuts = cuts(&program::Document::Iso(Box::new(document.clone())));
     if let Some(line) = cuts.lost.first() {
         return Err(format!("line {}: the arc leads nowhere", line + 1));
@@ -47,7 +73,10 @@ fn paths(document: &Document, settings: &Effective) -> Result<Vec<crate::toolpat
         return Err(reason);
     }
     if let Some(line) = cuts.stops.first() {
-        return Err(format!("line {}: the stop before the tab would be lost", line + 1));
+        return Err(format!(
+            "line {}: the stop before the tab would be lost",
+            line + 1
+        ));
     }
     if cuts.cuts.is_empty() {
         return Err("the program cuts nothing".into());

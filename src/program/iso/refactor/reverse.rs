@@ -17,8 +17,11 @@ use crate::finding::Side;
 use crate::program::iso::block::Motion;
 use crate::text::TextEdit;
 
-pub const REVERSE: Refactoring =
-    Refactoring { id: "refactor.rewrite.reverse", title: "Reverse the direction of the contour", rewrite: reverse };
+pub const REVERSE: Refactoring = Refactoring {
+    id: "refactor.rewrite.reverse",
+    title: "Reverse the direction of the contour",
+    rewrite: reverse,
+};
 
 fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
@@ -34,19 +37,37 @@ fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
                 Motion::CounterClockwise => Motion::Clockwise,
                 straight => straight,
             };
-            rewrite.rows.insert(index, Target { motion, to: made.from, ..Target::of(&made, reading) });
+            rewrite.rows.insert(
+                index,
+                Target {
+                    motion,
+                    to: made.from,
+                    ..Target::of(&made, reading)
+                },
+            );
         }
         // The correction's word stands before the way in.
-        let before = contour.steps.start.checked_sub(1).map_or(0, |row| content.rows[row].line + 1);
+        let before = contour
+            .steps
+            .start
+            .checked_sub(1)
+            .map_or(0, |row| content.rows[row].line + 1);
         let last = content.rows[own.end - 1].line;
         let words = swapped_sides(sheet.document, before..last + 1);
-        if words.is_empty() && content.rows[contour.steps.clone()].iter().any(|row| row.made.side.is_some()) {
+        if words.is_empty()
+            && content.rows[contour.steps.clone()]
+                .iter()
+                .any(|row| row.made.side.is_some())
+        {
             return Err("the correction was switched on for another contour before".into());
         }
         rewrite.words.extend(words);
         for index in contour.steps.clone() {
             let row = &content.rows[index];
-            let target = rewrite.rows.entry(index).or_insert_with(|| Target::of(&row.made, reading));
+            let target = rewrite
+                .rows
+                .entry(index)
+                .or_insert_with(|| Target::of(&row.made, reading));
             target.side = row.made.side.map(Side::reversed);
         }
     }

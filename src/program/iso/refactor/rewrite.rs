@@ -38,10 +38,17 @@ impl Target {
     pub fn of(made: &Move, reading: &Reading) -> Target {
         let bend = match (made.is_arc(), made.bend) {
             (true, Bend::Radius(radius)) => Bent::Radius(radius),
-            (true, _) => made.center(reading.rule(made.incremental)).map_or(Bent::Line, Bent::Center),
+            (true, _) => made
+                .center(reading.rule(made.incremental))
+                .map_or(Bent::Line, Bent::Center),
             (false, _) => Bent::Line,
         };
-        Target { motion: made.motion, to: made.to, bend, side: made.side }
+        Target {
+            motion: made.motion,
+            to: made.to,
+            bend,
+            side: made.side,
+        }
     }
 }
 
@@ -71,7 +78,12 @@ impl Rewrite {
             .rows
             .iter()
             .enumerate()
-            .map(|(index, row)| self.rows.get(&index).copied().unwrap_or_else(|| Target::of(&row.made, old)))
+            .map(|(index, row)| {
+                self.rows
+                    .get(&index)
+                    .copied()
+                    .unwrap_or_else(|| Target::of(&row.made, old))
+            })
             .collect();
         let styles = [false, true].map(|inch| Style::of(document, inch));
         let mut machine = document.begin();
@@ -82,11 +94,18 @@ impl Rewrite {
             let own = text.bytes().get(range.clone()).unwrap_or_default();
             let mut bytes = own.to_vec();
             let first = word;
-            while self.words.get(word).is_some_and(|edit| edit.range.end <= range.end) {
+            while self
+                .words
+                .get(word)
+                .is_some_and(|edit| edit.range.end <= range.end)
+            {
                 word += 1;
             }
             for edit in self.words[first..word].iter().rev() {
-                bytes.splice(edit.range.start - range.start..edit.range.end - range.start, edit.text.bytes());
+                bytes.splice(
+                    edit.range.start - range.start..edit.range.end - range.start,
+                    edit.text.bytes(),
+                );
             }
             let here = content.rows.get(row).filter(|row| row.line == line);
             let Some(target) = here.and_then(|_| targets.get(row)) else {
@@ -103,11 +122,19 @@ impl Rewrite {
             // A line that does what is meant stays as it is.
             let mut as_it_is = machine;
             let made = as_it_is.run(&read_line(&bytes, 1, |_| {}), &reading);
-            if made.is_some_and(|made| made.from == machine.at && Target::of(&made, &reading) == *target) {
+            if made.is_some_and(|made| {
+                made.from == machine.at && Target::of(&made, &reading) == *target
+            }) {
                 machine = as_it_is;
             } else {
                 let style = styles[usize::from(as_it_is.inch)];
-                bytes = Line { bytes: &bytes, parted, style, reading: &reading }.leading(target, &machine)?;
+                bytes = Line {
+                    bytes: &bytes,
+                    parted,
+                    style,
+                    reading: &reading,
+                }
+                .leading(target, &machine)?;
                 let made = machine.run(&read_line(&bytes, 1, |_| {}), &reading);
                 prove(line, made.as_ref(), target, &reading)?;
             }
@@ -122,12 +149,22 @@ impl Rewrite {
 }
 
 /// The edit of one line that leads its move to `target`, from what is in force before it; `None` where that cannot be written.
-pub fn line_to(document: &Document, line: usize, before: &Machine, target: &Target) -> Option<TextEdit> {
+pub fn line_to(
+    document: &Document,
+    line: usize,
+    before: &Machine,
+    target: &Target,
+) -> Option<TextEdit> {
     let range = document.text().line_range(line);
     let own = document.text().bytes().get(range.clone())?;
     let reading = document.reading();
     let inch = read_line(own, 1, |_| {}).inch.unwrap_or(before.inch);
-    let written = Line { bytes: own, parted: is_parted(document.text()), style: Style::of(document, inch), reading };
+    let written = Line {
+        bytes: own,
+        parted: is_parted(document.text()),
+        style: Style::of(document, inch),
+        reading,
+    };
     let new = written.leading(target, before).ok()?;
     let mut machine = *before;
     let made = machine.run(&read_line(&new, 1, |_| {}), reading);
@@ -138,21 +175,42 @@ pub fn line_to(document: &Document, line: usize, before: &Machine, target: &Targ
 }
 
 /// An edit from the first byte of a line that changes to the last.
-fn push(edits: &mut Vec<TextEdit>, range: Range<usize>, old: &[u8], new: &[u8]) -> Result<(), String> {
+fn push(
+    edits: &mut Vec<TextEdit>,
+    range: Range<usize>,
+    old: &[u8],
+    new: &[u8],
+) -> Result<(), String> {
     if old == new {
         return Ok(());
     }
     let start = old.iter().zip(new).take_while(|(a, b)| a == b).count();
-    let same_end = old.iter().rev().zip(new.iter().rev()).take_while(|(a, b)| a == b).count();
+    let same_end = old
+        .iter()
+        .rev()
+        .zip(new.iter().rev())
+        .take_while(|(a, b)| a == b)
+        .count();
     let kept = same_end.min(old.len() - start).min(new.len() - start);
-    let text = String::from_utf8(new[start..new.len() - kept].to_vec()).map_err(|_| "a line is in another code page".to_owned())?;
-    edits.push(TextEdit { range: range.start + start..range.end - kept, text });
+    let text = String::from_utf8(new[start..new.len() - kept].to_vec())
+        .map_err(|_| "a line is in another code page".to_owned())?;
+    edits.push(TextEdit {
+        range: range.start + start..range.end - kept,
+        text,
+    });
     Ok(())
 }
 
-fn prove(line: usize, made: Option<&Move>, target: &Target, reading: &Reading) -> Result<(), String> {
+fn prove(
+    line: usize,
+    made: Option<&Move>,
+    target: &Target,
+    reading: &Reading,
+) -> Result<(), String> {
     let fault = |what: &str| Err(format!("line {}: {what}", line + 1));
-    let Some(made) = made else { return fault("the new line does not move") };
+    let Some(made) = made else {
+        return fault("the new line does not move");
+    };
     if made.to != target.to || made.motion != target.motion {
         return fault("the new line leads elsewhere");
     }
@@ -176,7 +234,9 @@ fn prove_program(sheet: &Sheet<'_>, text: &[u8], targets: &[Target]) -> Result<(
         let same = made.to == target.to && made.motion == target.motion && made.side == target.side;
         if !same || !runs_along(&made, target, after.reading()) {
             fault.get_or_insert_with(|| match target.bend {
-                Bent::Center(_) if same => "the arcs would not tell any more how I and J are meant".to_owned(),
+                Bent::Center(_) if same => {
+                    "the arcs would not tell any more how I and J are meant".to_owned()
+                }
                 _ => format!("line {} would lead elsewhere", line + 1),
             });
         }
@@ -184,7 +244,13 @@ fn prove_program(sheet: &Sheet<'_>, text: &[u8], targets: &[Target]) -> Result<(
     if index != targets.len() {
         fault.get_or_insert_with(|| "a move would be lost".to_owned());
     }
-    let errors = |document: &Document| document.plain_findings().iter().filter(|finding| finding.severity == Severity::Error).count();
+    let errors = |document: &Document| {
+        document
+            .plain_findings()
+            .iter()
+            .filter(|finding| finding.severity == Severity::Error)
+            .count()
+    };
     if fault.is_none() && errors(&after) > errors(sheet.document) {
         fault = Some("the new program would have faults that this one has not".into());
     }
@@ -197,11 +263,22 @@ fn runs_along(made: &Move, target: &Target, reading: &Reading) -> bool {
         Bent::Radius(radius) => Bend::Radius(radius),
         Bent::Center(center) => {
             let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(made.from[axis]));
-            Bend::Center { i, j, absolute: center }
+            Bend::Center {
+                i,
+                j,
+                absolute: center,
+            }
         }
     };
-    let meant = Move { bend, incremental: false, ..*made };
-    let plain = Reading { absolute: CenterRule::StartToCenter, ..*reading };
+    let meant = Move {
+        bend,
+        incremental: false,
+        ..*made
+    };
+    let plain = Reading {
+        absolute: CenterRule::StartToCenter,
+        ..*reading
+    };
     match (made.course(reading), meant.course(&plain)) {
         (Course::Arc(is), Course::Arc(meant)) => {
             let middle = |arc| Segment::Arc(arc).point_at(0.5);
@@ -233,7 +310,10 @@ impl Line<'_> {
             // An arc without coordinates is a full circle; a line without any is none.
             let is_needed = target.to == before.at && target.bend == Bent::Line;
             if moves || had[axis] || is_needed {
-                cluster.push(format!("{letter}{}", number(target.to[axis].wrapping_sub(base[axis]))));
+                cluster.push(format!(
+                    "{letter}{}",
+                    number(target.to[axis].wrapping_sub(base[axis]))
+                ));
             }
         }
         match target.bend {
@@ -259,7 +339,12 @@ impl Line<'_> {
         let mut tokens = Vec::new();
         words(self.bytes, 1, |token| tokens.push(token));
         for token in tokens {
-            let Token::Word { letter, number, range } = token else {
+            let Token::Word {
+                letter,
+                number,
+                range,
+            } = token
+            else {
                 if let Token::Fault { .. } = token {
                     fault = Some("the line cannot be read");
                 }
@@ -271,14 +356,21 @@ impl Line<'_> {
                     has_motion = true;
                     out.extend_from_slice(&self.bytes[copied..range.start]);
                     let same = Some(target.motion) == motion_of(number);
-                    out.extend_from_slice(if same { &self.bytes[range.clone()] } else { motion.as_bytes() });
+                    out.extend_from_slice(if same {
+                        &self.bytes[range.clone()]
+                    } else {
+                        motion.as_bytes()
+                    });
                     (copied, anchor) = (range.end, out.len());
                 }
                 b'X' | b'Y' | b'I' | b'J' | b'R' => {
                     let gap = &self.bytes[copied..range.start];
                     if is_placed {
                         // The space before a word that goes, goes with it.
-                        let kept = gap.iter().rposition(|byte| !matches!(byte, b' ' | b'\t')).map_or(0, |last| last + 1);
+                        let kept = gap
+                            .iter()
+                            .rposition(|byte| !matches!(byte, b' ' | b'\t'))
+                            .map_or(0, |last| last + 1);
                         out.extend_from_slice(&gap[..kept]);
                     } else {
                         out.extend_from_slice(gap);
@@ -298,7 +390,11 @@ impl Line<'_> {
             return Err(fault.into());
         }
         let mut insert = |at: usize, text: String| {
-            let text = if at > 0 && self.parted { format!(" {text}") } else { text };
+            let text = if at > 0 && self.parted {
+                format!(" {text}")
+            } else {
+                text
+            };
             out.splice(at..at, text.bytes());
         };
         if !is_placed && !cluster.is_empty() {
@@ -316,7 +412,13 @@ pub fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
     let mut at = 0;
     let mut is_first = true;
     words(line, 1, |token| {
-        if let Token::Word { letter: b'N' | b'O', range, .. } | Token::Skip { range } | Token::Tape { range } = token
+        if let Token::Word {
+            letter: b'N' | b'O',
+            range,
+            ..
+        }
+        | Token::Skip { range }
+        | Token::Tape { range } = token
             && is_first
         {
             at = range.end - 1;
@@ -325,7 +427,10 @@ pub fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
         }
     });
     let mut out = line.to_vec();
-    let lead = line.iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    let lead = line
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
     let text = match (at, parted) {
         (0, true) => format!("{word} "),
         (_, true) => format!(" {word}"),
@@ -378,18 +483,29 @@ pub fn swapped_sides(document: &Document, lines: Range<usize>) -> Vec<TextEdit> 
     let mut edits = Vec::new();
     for line in lines {
         let range = text.line_range(line);
-        words(text.bytes().get(range.clone()).unwrap_or_default(), range.start.max(1), |token| {
-            if let Token::Word { letter: b'G', number, range: word } = token
-                && let Some(other) = match (number.decimals, number.mantissa) {
-                    (0, 41) => Some("G42"),
-                    (0, 42) => Some("G41"),
-                    _ => None,
+        words(
+            text.bytes().get(range.clone()).unwrap_or_default(),
+            range.start.max(1),
+            |token| {
+                if let Token::Word {
+                    letter: b'G',
+                    number,
+                    range: word,
+                } = token
+                    && let Some(other) = match (number.decimals, number.mantissa) {
+                        (0, 41) => Some("G42"),
+                        (0, 42) => Some("G41"),
+                        _ => None,
+                    }
+                {
+                    let by = range.start.max(1) - range.start;
+                    edits.push(TextEdit {
+                        range: word.start - by..word.end - by,
+                        text: other.into(),
+                    });
                 }
-            {
-                let by = range.start.max(1) - range.start;
-                edits.push(TextEdit { range: word.start - by..word.end - by, text: other.into() });
-            }
-        });
+            },
+        );
     }
     edits
 }

@@ -17,14 +17,25 @@ use crate::text::TextEdit;
 const FACTORS: std::ops::RangeInclusive<f64> = 1e-4..=1e4;
 
 /// The edits that scale a program.
-pub fn scaled(document: &Document, settings: &Effective, factor: f64) -> Result<Vec<TextEdit>, String> {
+pub fn scaled(
+    document: &Document,
+    settings: &Effective,
+    factor: f64,
+) -> Result<Vec<TextEdit>, String> {
     if !FACTORS.contains(&factor) {
-        return Err(format!("the factor is {factor}, expected a number from {} to {}", FACTORS.start(), FACTORS.end()));
+        return Err(format!(
+            "the factor is {factor}, expected a number from {} to {}",
+            FACTORS.start(),
+            FACTORS.end()
+        ));
     }
     let sheet = Sheet::new(document, settings, 0..0);
     let content: &Content = sheet.content()?;
     refuse_anywhere(document, Words::Guide)?;
-    let mut rewrite = Rewrite { words: positions(document, factor)?, ..Rewrite::default() };
+    let mut rewrite = Rewrite {
+        words: positions(document, factor)?,
+        ..Rewrite::default()
+    };
     let styles = [false, true].map(|inch| Style::of(document, inch));
     let mut from = None;
     for (index, row) in content.rows.iter().enumerate() {
@@ -37,7 +48,10 @@ pub fn scaled(document: &Document, settings: &Effective, factor: f64) -> Result<
         let bend = match old.bend {
             Bent::Line => Bent::Line,
             Bent::Radius(radius) => Bent::Radius(of_length(radius)),
-            Bent::Center(center) => Bent::Center(fitting(begin, to, center, factor, &style).ok_or("the program would run too far out")?),
+            Bent::Center(center) => Bent::Center(
+                fitting(begin, to, center, factor, &style)
+                    .ok_or("the program would run too far out")?,
+            ),
         };
         from = Some(to);
         rewrite.rows.insert(index, Target { to, bend, ..old });
@@ -49,8 +63,17 @@ pub fn scaled(document: &Document, settings: &Effective, factor: f64) -> Result<
 fn fitting(from: Place, to: Place, center: Place, factor: f64, style: &Style) -> Option<Place> {
     let step = style.step();
     let scale = 1e3 / step as f64;
-    let arc = Arc::about(micrometres(center) * factor * scale, micrometres(from) * scale, micrometres(to) * scale, true);
-    let node = best_center(&arc, snap(micrometres(from) * scale)?, snap(micrometres(to) * scale)?);
+    let arc = Arc::about(
+        micrometres(center) * factor * scale,
+        micrometres(from) * scale,
+        micrometres(to) * scale,
+        true,
+    );
+    let node = best_center(
+        &arc,
+        snap(micrometres(from) * scale)?,
+        snap(micrometres(to) * scale)?,
+    );
     Some([node.x.checked_mul(step)?, node.y.checked_mul(step)?])
 }
 
@@ -63,18 +86,32 @@ fn positions(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> 
         let bytes = text.bytes().get(range.clone()).unwrap_or_default();
         let block = read_line(bytes, 1, |_| {});
         if block.takes_coordinates && block.has_coordinates() {
-            return Err(format!("line {}: a word takes the coordinates for a place of the machine", line + 1));
+            return Err(format!(
+                "line {}: a word takes the coordinates for a place of the machine",
+                line + 1
+            ));
         }
         if !block.sets_position {
             continue;
         }
-        let inch = document.machine_before(line).is_some_and(|machine| machine.inch);
+        let inch = document
+            .machine_before(line)
+            .is_some_and(|machine| machine.inch);
         let style = Style::of(document, inch);
         words(bytes, 1, |token| {
-            if let Token::Word { letter: letter @ (b'X' | b'Y'), number, range: word } = token {
-                let length = (document.reading().length(number, inch) as f64 * factor).round() as i64;
+            if let Token::Word {
+                letter: letter @ (b'X' | b'Y'),
+                number,
+                range: word,
+            } = token
+            {
+                let length =
+                    (document.reading().length(number, inch) as f64 * factor).round() as i64;
                 let text = format!("{}{}", letter as char, style.number(length));
-                edits.push(TextEdit { range: range.start + word.start - 1..range.start + word.end - 1, text });
+                edits.push(TextEdit {
+                    range: range.start + word.start - 1..range.start + word.end - 1,
+                    text,
+                });
             }
         });
     }

@@ -35,8 +35,17 @@ pub struct Content {
 }
 
 impl<'a> Sheet<'a> {
-    pub fn new(document: &'a Document, settings: &'a Effective, selection: Range<usize>) -> Sheet<'a> {
-        Sheet { document, settings, selection, content: content(document) }
+    pub fn new(
+        document: &'a Document,
+        settings: &'a Effective,
+        selection: Range<usize>,
+    ) -> Sheet<'a> {
+        Sheet {
+            document,
+            settings,
+            selection,
+            content: content(document),
+        }
     }
 
     /// The moves; the error says which line cannot be read.
@@ -56,9 +65,17 @@ impl<'a> Sheet<'a> {
     pub fn selected_contours<'c>(&self, content: &'c Content) -> Vec<&'c Passage> {
         let lines = self.selected_lines();
         let cut = || content.contours.iter().filter(|contour| !contour.is_way);
-        let touched = |contour: &&Passage| content.rows[contour.steps.clone()].iter().any(|row| lines.contains(&row.line));
+        let touched = |contour: &&Passage| {
+            content.rows[contour.steps.clone()]
+                .iter()
+                .any(|row| lines.contains(&row.line))
+        };
         let chosen: Vec<&Passage> = cut().filter(touched).collect();
-        if chosen.is_empty() { cut().collect() } else { chosen }
+        if chosen.is_empty() {
+            cut().collect()
+        } else {
+            chosen
+        }
     }
 }
 
@@ -66,46 +83,78 @@ impl Content {
     /// The rows of a closed contour whose ends are one place; the error says why there are none.
     pub fn closed(&self, contour: &Passage) -> Result<Range<usize>, String> {
         let own = contour.contour_steps();
-        let Some(first) = self.rows.get(own.start).filter(|_| !own.is_empty()) else { return Err("the contour has no block".into()) };
-        if let Some(row) = self.pauses.iter().find(|row| contour.steps.start < **row && **row < contour.steps.end) {
+        let Some(first) = self.rows.get(own.start).filter(|_| !own.is_empty()) else {
+            return Err("the contour has no block".into());
+        };
+        if let Some(row) = self
+            .pauses
+            .iter()
+            .find(|row| contour.steps.start < **row && **row < contour.steps.end)
+        {
             let line = self.rows[*row].line + 1;
-            return Err(format!("the contour pauses before line {line}, to hold the part while its tab is cut"));
+            return Err(format!(
+                "the contour pauses before line {line}, to hold the part while its tab is cut"
+            ));
         }
         if !contour.closed {
-            return Err(format!("the contour that begins in line {} is open", first.line + 1));
+            return Err(format!(
+                "the contour that begins in line {} is open",
+                first.line + 1
+            ));
         }
         // Leads that only nearly lie on each other are part of it.
-        let wider = (0..=contour.lead_in.min(contour.lead_out)).map(|by| own.start - by..own.end + by);
-        let is_one_place = |own: &Range<usize>| match (self.rows.get(own.start), self.rows.get(own.end - 1)) {
-            (Some(first), Some(last)) => first.made.from == last.made.to,
-            _ => false,
-        };
+        let wider =
+            (0..=contour.lead_in.min(contour.lead_out)).map(|by| own.start - by..own.end + by);
+        let is_one_place =
+            |own: &Range<usize>| match (self.rows.get(own.start), self.rows.get(own.end - 1)) {
+                (Some(first), Some(last)) => first.made.from == last.made.to,
+                _ => false,
+            };
         let found = wider.into_iter().find(is_one_place);
-        found.ok_or_else(|| format!("the contour that begins in line {} misses its own begin: close it first", first.line + 1))
+        found.ok_or_else(|| {
+            format!(
+                "the contour that begins in line {} misses its own begin: close it first",
+                first.line + 1
+            )
+        })
     }
 }
 
 /// Reads a program for refactoring. What cannot be read, or is run from somewhere else, is left alone.
 fn content(document: &Document) -> Result<Content, String> {
     if document.order().is_some() {
-        return Err("the program runs subprograms: a line of them is run in more than one place".into());
+        return Err(
+            "the program runs subprograms: a line of them is run in more than one place".into(),
+        );
     }
     if document.has_corners() {
         return Err("the control makes corners of its own (R on a straight cut, `,R`, `,C`): its moves are not those of the lines".into());
     }
     let text = document.text();
     for finding in document.plain_findings() {
-        if let (Detail::Syntax(sentence), Severity::Error, Where::Text { range }) = (&finding.detail, finding.severity, &finding.place) {
-            return Err(format!("line {}: {sentence}", text.line_of(range.start) + 1));
+        if let (Detail::Syntax(sentence), Severity::Error, Where::Text { range }) =
+            (&finding.detail, finding.severity, &finding.place)
+        {
+            return Err(format!(
+                "line {}: {sentence}",
+                text.line_of(range.start) + 1
+            ));
         }
     }
     let mut rows = Vec::new();
     let mut fault = None;
     document.moves(&mut |line, made, machine| {
-        if matches!(made.course(document.reading()), Course::OffRadius { .. } | Course::NoRadius) {
+        if matches!(
+            made.course(document.reading()),
+            Course::OffRadius { .. } | Course::NoRadius
+        ) {
             fault.get_or_insert_with(|| format!("line {}: the arc leads nowhere", line + 1));
         }
-        rows.push(Row { line, made, inch: machine.inch });
+        rows.push(Row {
+            line,
+            made,
+            inch: machine.inch,
+        });
     });
     if let Some(fault) = fault {
         return Err(fault);
@@ -124,11 +173,29 @@ fn content(document: &Document) -> Result<Content, String> {
     row_of.push(row);
     let at = |step: usize| row_of.get(step).copied().unwrap_or(row);
     let contours = passages(&trace).into_iter().map(|passage| {
-        let (steps, own) = (at(passage.steps.start)..at(passage.steps.end), passage.contour_steps());
+        let (steps, own) = (
+            at(passage.steps.start)..at(passage.steps.end),
+            passage.contour_steps(),
+        );
         let (lead_in, lead_out) = (at(own.start) - steps.start, steps.end - at(own.end));
-        Passage { steps, lead_in, lead_out, ..passage }
+        Passage {
+            steps,
+            lead_in,
+            lead_out,
+            ..passage
+        }
     });
     let contours = contours.collect();
-    let pauses = trace.steps.iter().enumerate().filter(|(_, step)| step.kind == Kind::Pause).map(|(step, _)| at(step)).collect();
-    Ok(Content { contours, rows, pauses })
+    let pauses = trace
+        .steps
+        .iter()
+        .enumerate()
+        .filter(|(_, step)| step.kind == Kind::Pause)
+        .map(|(step, _)| at(step))
+        .collect();
+    Ok(Content {
+        contours,
+        rows,
+        pauses,
+    })
 }

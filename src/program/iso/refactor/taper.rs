@@ -36,20 +36,31 @@ fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static st
     words.find_map(|(at, letter)| {
         let number = |from: usize| -> Option<&[u8]> {
             let rest = code.get(from..)?.trim_ascii_start();
-            let length = rest.iter().take_while(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+')).count();
+            let length = rest
+                .iter()
+                .take_while(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'))
+                .count();
             rest.get(..length).filter(|number| !number.is_empty())
         };
         match letter {
-            b'U' | b'V' if number(at + 1).is_some() => Some("the way of the upper guide (U, V) is not followed"),
+            b'U' | b'V' if number(at + 1).is_some() => {
+                Some("the way of the upper guide (U, V) is not followed")
+            }
             b':' if code[at..].iter().any(|byte| matches!(byte, b'X' | b'Y')) => {
                 Some("the second contour behind the colon is not followed")
             }
             b'G' if wanted == Words::All => {
-                let whole =
-                    number(at + 1).and_then(|number| std::str::from_utf8(number).ok()).and_then(|number| number.parse::<u32>().ok());
-                whole.filter(|code| matches!(code, 51 | 52 | 140..=142)).map(|_| "a taper (G51, G52, G140 to G142) is not followed")
+                let whole = number(at + 1)
+                    .and_then(|number| std::str::from_utf8(number).ok())
+                    .and_then(|number| number.parse::<u32>().ok());
+                whole
+                    .filter(|code| matches!(code, 51 | 52 | 140..=142))
+                    .map(|_| "a taper (G51, G52, G140 to G142) is not followed")
             }
-            b'T' if wanted == Words::All && matches!(code.get(at + 1), Some(b'P' | b'N')) && number(at + 2).is_some() => {
+            b'T' if wanted == Words::All
+                && matches!(code.get(at + 1), Some(b'P' | b'N'))
+                && number(at + 2).is_some() =>
+            {
                 Some("the planes of a taper (TP, TN) are not followed")
             }
             _ => None,

@@ -12,14 +12,18 @@ fn read(text: &str) -> Document {
 fn proposed(text: &str, id: &str) -> Vec<Proposal> {
     let offset = text.find('|').unwrap_or(0);
     let document = read(&text.replacen('|', "", 1));
-    proposals(&document, &Effective::default(), offset..offset, |its| its == id)
+    proposals(&document, &Effective::default(), offset..offset, |its| {
+        its == id
+    })
 }
 
 fn after(text: &str, id: &str) -> Result<String, String> {
     let plain = text.replacen('|', "", 1);
     match proposed(text, id).into_iter().next() {
         None => Ok(plain),
-        Some(proposal) => proposal.edits.map(|edits| String::from_utf8(applied(plain.as_bytes(), &edits)).unwrap()),
+        Some(proposal) => proposal
+            .edits
+            .map(|edits| String::from_utf8(applied(plain.as_bytes(), &edits)).unwrap()),
     }
 }
 
@@ -44,9 +48,21 @@ fn contours_are_cut_the_other_way() {
         HOLE,
         "%\nN1 G92 X0. Y0. ; start\nN2 G90\nN3 G42 D1\nN4 G01 X5. Y0. F3.\nN5 G02 X-5. Y0. I-5. J0. (quarter)\nN6 G01 X0. Y5.\nN7 G02 X5. Y0. I0. J-5.\nN8 G40\nN9 G01 X0. Y0.\nM02\n%\n",
     );
-    refuses("refactor.rewrite.reverse", "G91\nG01 X5.\nG01 Y5.\nG01 X-4.\nG01 Y-4.\nM02\n", "is open");
-    refuses("refactor.rewrite.reverse", "G01 X5.\nG03 X6. I4. J0.\nM02\n", "line 2: the arc leads nowhere");
-    refuses("refactor.rewrite.reverse", "M98 P5\nM02\nN5 G01 X5.\nM99\n", "subprograms");
+    refuses(
+        "refactor.rewrite.reverse",
+        "G91\nG01 X5.\nG01 Y5.\nG01 X-4.\nG01 Y-4.\nM02\n",
+        "is open",
+    );
+    refuses(
+        "refactor.rewrite.reverse",
+        "G01 X5.\nG03 X6. I4. J0.\nM02\n",
+        "line 2: the arc leads nowhere",
+    );
+    refuses(
+        "refactor.rewrite.reverse",
+        "M98 P5\nM02\nN5 G01 X5.\nM99\n",
+        "subprograms",
+    );
 }
 
 #[test]
@@ -61,7 +77,11 @@ fn a_contour_begins_where_the_cursor_stands() {
         "G92 X0 Y20\nG90\nG01 X0 Y10\nX10\nY0\n|X-10\nY10\nX0\nG01 X0 Y20\nM02\n",
         "would cut the contour in line",
     );
-    refuses("refactor.rewrite.startHere", "G92 X0 Y0\nG90\n|G01 X5 Y5\nX5 Y-5\nX-5\nY5\nX5\nX0 Y0\nM02\n", "expected one of the contour");
+    refuses(
+        "refactor.rewrite.startHere",
+        "G92 X0 Y0\nG90\n|G01 X5 Y5\nX5 Y-5\nX-5\nY5\nX5\nX0 Y0\nM02\n",
+        "expected one of the contour",
+    );
 }
 
 #[test]
@@ -76,15 +96,33 @@ fn programs_are_mirrored_and_turned_about_their_zero() {
         "G92 X3. Y1.5\nG01 X5.\nG03 Y5.5 X5. I0. J2.\nM02\n",
         "G92 X-1.5 Y3.\nG01 Y5.\nG03 Y5. X-5.5 I-2. J0.\nM02\n",
     );
-    check("refactor.rewrite.rotate.half", "G91\nG01 X5 Y-3\nG02 X4 R-2\nM02\n", "G91\nG01 X-5 Y3\nG02 X-4 R-2\nM02\n");
-    refuses("refactor.rewrite.rotate.left", "G91\nG01 X5 U1\nM02\n", "line 2: the way of the upper guide");
-    refuses("refactor.rewrite.mirror.y", "G51 A1.\nG01 X5.\nM02\n", "a taper");
+    check(
+        "refactor.rewrite.rotate.half",
+        "G91\nG01 X5 Y-3\nG02 X4 R-2\nM02\n",
+        "G91\nG01 X-5 Y3\nG02 X-4 R-2\nM02\n",
+    );
+    refuses(
+        "refactor.rewrite.rotate.left",
+        "G91\nG01 X5 U1\nM02\n",
+        "line 2: the way of the upper guide",
+    );
+    refuses(
+        "refactor.rewrite.mirror.y",
+        "G51 A1.\nG01 X5.\nM02\n",
+        "a taper",
+    );
 }
 
 #[test]
 fn what_would_part_the_upper_guide_from_the_wire_is_refused() {
-    let square = |words: &str| format!("G92 X0 Y0\nG90\nG01 X5. Y0.\n{words}Y5.\n|X-5.\nY-5.\nX5.\nY0.\nX0.\nM02\n");
-    for (words, about) in [("U1. V0.\n", "the upper guide"), ("X5. U.5 ", "the upper guide"), ("G01 X5. Y2. : X5. Y2.1\n", "")] {
+    let square = |words: &str| {
+        format!("G92 X0 Y0\nG90\nG01 X5. Y0.\n{words}Y5.\n|X-5.\nY-5.\nX5.\nY0.\nX0.\nM02\n")
+    };
+    for (words, about) in [
+        ("U1. V0.\n", "the upper guide"),
+        ("X5. U.5 ", "the upper guide"),
+        ("G01 X5. Y2. : X5. Y2.1\n", ""),
+    ] {
         for id in ["reverse", "coordinates.incremental", "startHere", "profile"] {
             refuses(&format!("refactor.rewrite.{id}"), &square(words), about);
         }
@@ -103,22 +141,44 @@ fn what_would_part_the_upper_guide_from_the_wire_is_refused() {
 
 #[test]
 fn the_stop_before_a_tab_stays_where_it_is() {
-    let text = "G92 X0 Y0\nG90\nG01 X4. Y0.\nY5.\n|X24.\nY-15.\nX4.\nY-3.\nM00\nG01 Y0.\nX0.\nM02\n";
+    let text =
+        "G92 X0 Y0\nG90\nG01 X4. Y0.\nY5.\n|X24.\nY-15.\nX4.\nY-3.\nM00\nG01 Y0.\nX0.\nM02\n";
     for id in ["reverse", "startHere"] {
-        refuses(&format!("refactor.rewrite.{id}"), text, "the contour pauses before line 10");
+        refuses(
+            &format!("refactor.rewrite.{id}"),
+            text,
+            "the contour pauses before line 10",
+        );
     }
-    refuses("refactor.rewrite.profile", text, "line 9: the stop before the tab would be lost");
+    refuses(
+        "refactor.rewrite.profile",
+        text,
+        "line 9: the stop before the tab would be lost",
+    );
 }
 
 #[test]
 fn coordinates_become_absolute_and_back() {
     let absolute = "G92 X1. Y2.\nG90\nG01 X5. Y2.\nY7.\nG03 X3. Y9. I-2. J0.\nG01 X1.\nY2.\nM02\n";
-    let incremental = "G92 X1. Y2.\nG91\nG01 X4. Y0.\nY5.\nG03 X-2. Y2. I-2. J0.\nG01 X-2.\nY-7.\nM02\n";
-    check("refactor.rewrite.coordinates.incremental", absolute, incremental);
-    check("refactor.rewrite.coordinates.absolute", incremental, absolute);
+    let incremental =
+        "G92 X1. Y2.\nG91\nG01 X4. Y0.\nY5.\nG03 X-2. Y2. I-2. J0.\nG01 X-2.\nY-7.\nM02\n";
+    check(
+        "refactor.rewrite.coordinates.incremental",
+        absolute,
+        incremental,
+    );
+    check(
+        "refactor.rewrite.coordinates.absolute",
+        incremental,
+        absolute,
+    );
     check("refactor.rewrite.coordinates.absolute", absolute, absolute);
     // Where nothing says G90, G91 is put before the first move.
-    check("refactor.rewrite.coordinates.incremental", "N1 G92 X1 Y0\nN2 G01 X5\nN3 X7\n", "N1 G92 X1 Y0\nN2 G91 G01 X4\nN3 X2\n");
+    check(
+        "refactor.rewrite.coordinates.incremental",
+        "N1 G92 X1 Y0\nN2 G01 X5\nN3 X7\n",
+        "N1 G92 X1 Y0\nN2 G91 G01 X4\nN3 X2\n",
+    );
 }
 
 #[test]
@@ -126,13 +186,33 @@ fn centres_are_written_in_every_convention() {
     let to_center = "G90\nG01 X5. Y0.\nG03 X0. Y5. I-5. J0.\nG01 Y8.\nG02 X2. Y10. I2.\nM02\n";
     let to_start = "G90\nG01 X5. Y0.\nG03 X0. Y5. I5. J0.\nG01 Y8.\nG02 X2. Y10. I-2. J0.\nM02\n";
     let absolute = "G90\nG01 X5. Y0.\nG03 X0. Y5. I0. J0.\nG01 Y8.\nG02 X2. Y10. I2.\nM02\n";
-    check("refactor.rewrite.centers.centerToStart", to_center, to_start);
+    check(
+        "refactor.rewrite.centers.centerToStart",
+        to_center,
+        to_start,
+    );
     check("refactor.rewrite.centers.absolute", to_center, absolute);
-    check("refactor.rewrite.centers.startToCenter", absolute, to_center);
-    check("refactor.rewrite.centers.startToCenter", to_center, to_center);
-    refuses("refactor.rewrite.centers.absolute", "G91\nG03 X-5. Y5. I-5. J0.\nM02\n", "under G91");
+    check(
+        "refactor.rewrite.centers.startToCenter",
+        absolute,
+        to_center,
+    );
+    check(
+        "refactor.rewrite.centers.startToCenter",
+        to_center,
+        to_center,
+    );
+    refuses(
+        "refactor.rewrite.centers.absolute",
+        "G91\nG03 X-5. Y5. I-5. J0.\nM02\n",
+        "under G91",
+    );
     // A full circle alone tells nobody how it is meant.
-    refuses("refactor.rewrite.centers.centerToStart", "G90\nG01 X5. Y0.\nG03 X5. Y0. I-5. J0.\nM02\n", "would not tell");
+    refuses(
+        "refactor.rewrite.centers.centerToStart",
+        "G90\nG01 X5. Y0.\nG03 X5. Y0. I-5. J0.\nM02\n",
+        "would not tell",
+    );
 }
 
 #[test]
@@ -142,46 +222,95 @@ fn blocks_are_numbered_and_calls_follow() {
         "%\nG92 X0 Y0\nM98 P7\n(note)\nM02\nN7 G01 X1\nN7000 M99\n",
         "%\nN10 G92 X0 Y0\nN20 M98 P40\n(note)\nN30 M02\nN40 G01 X1\nN50 M99\n",
     );
-    check("refactor.rewrite.withoutNumbers", "N1 G01 X5\nN2 M98 P7\nN3 M02\nN7 X1\nN8 M99\n", "G01 X5\nM98 P7\nM02\nN7 X1\nM99\n");
-    refuses("refactor.rewrite.number", "N1 G01 X5\nGOTO 1\nM02\n", "GOTO");
+    check(
+        "refactor.rewrite.withoutNumbers",
+        "N1 G01 X5\nN2 M98 P7\nN3 M02\nN7 X1\nN8 M99\n",
+        "G01 X5\nM98 P7\nM02\nN7 X1\nM99\n",
+    );
+    refuses(
+        "refactor.rewrite.number",
+        "N1 G01 X5\nGOTO 1\nM02\n",
+        "GOTO",
+    );
     let document = read("M98 P7\nM02\nN7 G01 X1\nN8 M99\n");
     let edits = renamed(&document, 12..13, 7, "N70").unwrap();
-    assert_eq!(String::from_utf8(applied(document.text().bytes(), &edits)).unwrap(), "M98 P70\nM02\nN70 G01 X1\nN8 M99\n");
-    assert_eq!(renamed(&document, 12..13, 7, "8"), Err("N8 is the block in line 4".into()));
+    assert_eq!(
+        String::from_utf8(applied(document.text().bytes(), &edits)).unwrap(),
+        "M98 P70\nM02\nN70 G01 X1\nN8 M99\n"
+    );
+    assert_eq!(
+        renamed(&document, 12..13, 7, "8"),
+        Err("N8 is the block in line 4".into())
+    );
 }
 
 #[test]
 fn programs_are_scaled_and_stay_in_their_steps() {
     let scaled_by = |text: &str, factor: f64| {
         let document = read(text);
-        scaled(&document, &Effective::default(), factor).map(|edits| String::from_utf8(applied(document.text().bytes(), &edits)).unwrap())
+        scaled(&document, &Effective::default(), factor)
+            .map(|edits| String::from_utf8(applied(document.text().bytes(), &edits)).unwrap())
     };
     assert_eq!(
-        scaled_by("H1=110\nG92 X0 Y1000\nG91\nG01 X5000\nG03 X5000 Y5000 J5000\nM02\n", 0.5).as_deref(),
+        scaled_by(
+            "H1=110\nG92 X0 Y1000\nG91\nG01 X5000\nG03 X5000 Y5000 J5000\nM02\n",
+            0.5
+        )
+        .as_deref(),
         Ok("H1=110\nG92 X0 Y500\nG91\nG01 X2500\nG03 X2500 Y2500 I0 J2500\nM02\n")
     );
-    assert_eq!(scaled_by("G90\nG01 X1.\nG02 X3. R1.\nM02\n", 25.4).as_deref(), Ok("G90\nG01 X25.4\nG02 X76.2 R25.4\nM02\n"));
-    assert!(scaled_by("G01 X1.\n", 0.0).unwrap_err().contains("expected a number"));
-    assert!(scaled_by("G01 X1.\nG28 X0. Y0.\n", 2.0).unwrap_err().contains("line 2"));
+    assert_eq!(
+        scaled_by("G90\nG01 X1.\nG02 X3. R1.\nM02\n", 25.4).as_deref(),
+        Ok("G90\nG01 X25.4\nG02 X76.2 R25.4\nM02\n")
+    );
+    assert!(
+        scaled_by("G01 X1.\n", 0.0)
+            .unwrap_err()
+            .contains("expected a number")
+    );
+    assert!(
+        scaled_by("G01 X1.\nG28 X0. Y0.\n", 2.0)
+            .unwrap_err()
+            .contains("line 2")
+    );
 }
 
 #[test]
 fn a_program_is_written_anew_as_each_profile_has_it() {
-    let found = proposed("G92 X0. Y0.\nG91\nG01 X5. ; in\nG03 X-10. I-5.\nX10. I5.\nG01 X-5.\nM02\n", "refactor.rewrite.profile");
+    let found = proposed(
+        "G92 X0. Y0.\nG91\nG01 X5. ; in\nG03 X-10. I-5.\nX10. I5.\nG01 X-5.\nM02\n",
+        "refactor.rewrite.profile",
+    );
     let of = |name: &str| {
-        let proposal = found.iter().find(|proposal| proposal.title.contains(name)).unwrap();
+        let proposal = found
+            .iter()
+            .find(|proposal| proposal.title.contains(name))
+            .unwrap();
         proposal.edits.clone().unwrap()[0].text.clone()
     };
     assert_eq!(found.len(), 3);
-    assert!(of("robofil").contains("G03 X-5.000 Y0.000 I0.000 J0.000\r\n"), "{}", of("robofil"));
-    assert!(of("fast-wire").contains("G91\nG01 X5000 Y0\nG03 X-10000 Y0 I-5000 J0\n"), "{}", of("fast-wire"));
+    assert!(
+        of("robofil").contains("G03 X-5.000 Y0.000 I0.000 J0.000\r\n"),
+        "{}",
+        of("robofil")
+    );
+    assert!(
+        of("fast-wire").contains("G91\nG01 X5000 Y0\nG03 X-10000 Y0 I-5000 J0\n"),
+        "{}",
+        of("fast-wire")
+    );
 }
 
 /// A closed cut of lines and arcs with a way in and out; in mm with three decimals or in µm.
 fn program() -> impl Strategy<Value = String> {
     let corner = (any::<bool>(), 400_i64..2_000, 0_usize..3);
-    (prop::collection::vec(corner, 3..9), any::<bool>(), any::<bool>(), prop::sample::select(vec!["G41 D1", "G42 D1", "G40"])).prop_map(
-        |(corners, fine, incremental, side)| {
+    (
+        prop::collection::vec(corner, 3..9),
+        any::<bool>(),
+        any::<bool>(),
+        prop::sample::select(vec!["G41 D1", "G42 D1", "G40"]),
+    )
+        .prop_map(|(corners, fine, incremental, side)| {
             // A staircase outwards along the corners of a polygon, with quarter turns between its lines.
             let mut at = [0_i64, 0];
             let mut steps: Vec<([i64; 2], Option<[i64; 2]>, bool)> = vec![([1000, 0], None, false)];
@@ -196,8 +325,18 @@ fn program() -> impl Strategy<Value = String> {
             }
             steps.push(([1000, 0], None, false));
             steps.push(([0, 0], None, false));
-            let number = |um: i64| if fine { um.to_string() } else { format!("{:.3}", um as f64 / 1e3) };
-            let mut text = format!("G92 X{0} Y{0}\n{1}\n{side}\n", number(0), if incremental { "G91" } else { "G90" });
+            let number = |um: i64| {
+                if fine {
+                    um.to_string()
+                } else {
+                    format!("{:.3}", um as f64 / 1e3)
+                }
+            };
+            let mut text = format!(
+                "G92 X{0} Y{0}\n{1}\n{side}\n",
+                number(0),
+                if incremental { "G91" } else { "G90" }
+            );
             let mut from = [0_i64, 0];
             let count = steps.len();
             for (index, (to, center, left)) in steps.into_iter().enumerate() {
@@ -210,26 +349,42 @@ fn program() -> impl Strategy<Value = String> {
                     (Some(_), true) => "G03",
                     (Some(_), false) => "G02",
                 };
-                text += &format!("{motion} X{} Y{}", number(to[0] - base[0]), number(to[1] - base[1]));
+                text += &format!(
+                    "{motion} X{} Y{}",
+                    number(to[0] - base[0]),
+                    number(to[1] - base[1])
+                );
                 if let Some(center) = center {
-                    text += &format!(" I{} J{}", number(center[0] - from[0]), number(center[1] - from[1]));
+                    text += &format!(
+                        " I{} J{}",
+                        number(center[0] - from[0]),
+                        number(center[1] - from[1])
+                    );
                 }
                 text += "\n";
                 from = to;
             }
             text + "M02\n"
-        },
-    )
+        })
 }
 
 fn way(text: &str) -> Vec<Segment> {
-    read(text).trace().steps.into_iter().filter_map(|step| step.ideal).collect()
+    read(text)
+        .trace()
+        .steps
+        .into_iter()
+        .filter_map(|step| step.ideal)
+        .collect()
 }
 
 fn apart(one: &[Segment], other: &[Segment]) -> f64 {
     assert_eq!(one.len(), other.len());
     let points = |segment: &Segment| [0.0, 0.3, 0.5, 1.0].map(|share| segment.point_at(share));
-    one.iter().zip(other).flat_map(|(a, b)| points(a).into_iter().zip(points(b))).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    one.iter()
+        .zip(other)
+        .flat_map(|(a, b)| points(a).into_iter().zip(points(b)))
+        .map(|(a, b)| (a - b).norm())
+        .fold(0.0, f64::max)
 }
 
 proptest! {
@@ -300,5 +455,8 @@ fn a_number_that_is_called_and_stands_elsewhere_is_given_to_no_block() {
     let number = |text: &str| after(text, "refactor.rewrite.number").unwrap();
     // Subprogram 20 is in the control, 40 begins with O.
     let text = "M98 P20\nG01 X1.\nM98 P40\nM02\nO40\nG01 X2.\nM99\n";
-    assert_eq!(number(text), "N10 M98 P20\nN30 G01 X1.\nN50 M98 P40\nN60 M02\nO40\nN70 G01 X2.\nN80 M99\n");
+    assert_eq!(
+        number(text),
+        "N10 M98 P20\nN30 G01 X1.\nN50 M98 P40\nN60 M02\nO40\nN70 G01 X2.\nN80 M99\n"
+    );
 }

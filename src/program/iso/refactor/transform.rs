@@ -20,27 +20,77 @@ use std::ops::Range;
 pub const MIRROR_X: Refactoring = Refactoring {
     id: "refactor.rewrite.mirror.x",
     title: "Mirror left and right (X to −X)",
-    rewrite: |sheet| transformed(sheet, Transform { xx: -1, xy: 0, yx: 0, yy: 1 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: -1,
+                xy: 0,
+                yx: 0,
+                yy: 1,
+            },
+        )
+    },
 };
 pub const MIRROR_Y: Refactoring = Refactoring {
     id: "refactor.rewrite.mirror.y",
     title: "Mirror up and down (Y to −Y)",
-    rewrite: |sheet| transformed(sheet, Transform { xx: 1, xy: 0, yx: 0, yy: -1 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: 1,
+                xy: 0,
+                yx: 0,
+                yy: -1,
+            },
+        )
+    },
 };
 pub const ROTATE_LEFT: Refactoring = Refactoring {
     id: "refactor.rewrite.rotate.left",
     title: "Rotate by 90° counter-clockwise",
-    rewrite: |sheet| transformed(sheet, Transform { xx: 0, xy: -1, yx: 1, yy: 0 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: 0,
+                xy: -1,
+                yx: 1,
+                yy: 0,
+            },
+        )
+    },
 };
 pub const ROTATE_RIGHT: Refactoring = Refactoring {
     id: "refactor.rewrite.rotate.right",
     title: "Rotate by 90° clockwise",
-    rewrite: |sheet| transformed(sheet, Transform { xx: 0, xy: 1, yx: -1, yy: 0 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: 0,
+                xy: 1,
+                yx: -1,
+                yy: 0,
+            },
+        )
+    },
 };
 pub const ROTATE_HALF: Refactoring = Refactoring {
     id: "refactor.rewrite.rotate.half",
     title: "Rotate by 180°",
-    rewrite: |sheet| transformed(sheet, Transform { xx: -1, xy: 0, yx: 0, yy: -1 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: -1,
+                xy: 0,
+                yx: 0,
+                yy: -1,
+            },
+        )
+    },
 };
 
 /// `x' = xx·x + xy·y`, `y' = yx·x + yy·y`, all of them 0, 1 or −1.
@@ -89,13 +139,30 @@ fn transformed(sheet: &Sheet<'_>, transform: Transform) -> Result<Vec<TextEdit>,
     let (document, reading) = (sheet.document, sheet.document.reading());
     let mut rewrite = Rewrite::default();
     for (index, row) in content.rows.iter().enumerate() {
-        let Target { motion, to, bend, side } = Target::of(&row.made, reading);
+        let Target {
+            motion,
+            to,
+            bend,
+            side,
+        } = Target::of(&row.made, reading);
         let bend = match bend {
             Bent::Center(center) => Bent::Center(transform.of_place(center)),
             other => other,
         };
-        let side = if transform.mirrors() { side.map(Side::reversed) } else { side };
-        rewrite.rows.insert(index, Target { motion: transform.of_motion(motion), to: transform.of_place(to), bend, side });
+        let side = if transform.mirrors() {
+            side.map(Side::reversed)
+        } else {
+            side
+        };
+        rewrite.rows.insert(
+            index,
+            Target {
+                motion: transform.of_motion(motion),
+                to: transform.of_place(to),
+                bend,
+                side,
+            },
+        );
     }
     if transform.mirrors() {
         rewrite.words = swapped_sides(document, 0..document.text().line_count());
@@ -103,8 +170,13 @@ fn transformed(sheet: &Sheet<'_>, transform: Transform) -> Result<Vec<TextEdit>,
     let text = document.text();
     for line in 0..text.line_count() {
         let range = text.line_range(line);
-        line_words(text.bytes().get(range.clone()).unwrap_or_default(), range.start, transform, &mut rewrite.words)
-            .map_err(|reason| format!("line {}: {reason}", line + 1))?;
+        line_words(
+            text.bytes().get(range.clone()).unwrap_or_default(),
+            range.start,
+            transform,
+            &mut rewrite.words,
+        )
+        .map_err(|reason| format!("line {}: {reason}", line + 1))?;
     }
     rewrite.edits(sheet, content)
 }
@@ -113,13 +185,25 @@ fn transformed(sheet: &Sheet<'_>, transform: Transform) -> Result<Vec<TextEdit>,
 type Turned = (Range<usize>, String);
 
 /// The words of a line that change.
-fn line_words(line: &[u8], start: usize, transform: Transform, edits: &mut Vec<TextEdit>) -> Result<(), String> {
+fn line_words(
+    line: &[u8],
+    start: usize,
+    transform: Transform,
+    edits: &mut Vec<TextEdit>,
+) -> Result<(), String> {
     let block = read_line(line, 1, |_| {});
     let mut fault = None;
     // X and Y, I and J: place and text of the number without its sign.
     let mut pairs: [[Option<Turned>; 2]; 2] = Default::default();
     words(line, 1, |token| {
-        let Token::Word { letter, number, range } = token else { return };
+        let Token::Word {
+            letter,
+            number,
+            range,
+        } = token
+        else {
+            return;
+        };
         let range = range.start - 1..range.end - 1;
         let slot = match letter {
             b'X' => (0, 0),
@@ -141,7 +225,10 @@ fn line_words(line: &[u8], start: usize, transform: Transform, edits: &mut Vec<T
                     _ => return,
                 };
                 if transform.mirrors() {
-                    edits.push(TextEdit { range: start + range.start..start + range.end, text: motion.into() });
+                    edits.push(TextEdit {
+                        range: start + range.start..start + range.end,
+                        text: motion.into(),
+                    });
                 }
                 return;
             }
@@ -157,14 +244,23 @@ fn line_words(line: &[u8], start: usize, transform: Transform, edits: &mut Vec<T
         return Err(fault);
     }
     if block.takes_coordinates && block.has_coordinates() {
-        let is_wait =
-            crate::program::iso::block::word_range(line, 1, |letter, number| letter == b'G' && number.whole() == Some(4)).is_some();
-        return if is_wait { Ok(()) } else { Err("a word takes the coordinates for a place of the machine".into()) };
+        let is_wait = crate::program::iso::block::word_range(line, 1, |letter, number| {
+            letter == b'G' && number.whole() == Some(4)
+        })
+        .is_some();
+        return if is_wait {
+            Ok(())
+        } else {
+            Err("a word takes the coordinates for a place of the machine".into())
+        };
     }
     for (pair, names) in pairs.into_iter().zip([["X", "Y"], ["I", "J"]]) {
         let name = |axis: usize| names[if transform.swaps() { 1 - axis } else { axis }];
         let mut edit = |range: Range<usize>, name: &str, number: String| {
-            edits.push(TextEdit { range: start + range.start..start + range.end, text: format!("{name}{number}") });
+            edits.push(TextEdit {
+                range: start + range.start..start + range.end,
+                text: format!("{name}{number}"),
+            });
         };
         match pair {
             // Both keep their order in the line.

@@ -71,8 +71,14 @@ impl Pool {
         };
         let length = |number: Number| document.reading().length(number, false).abs();
         for Line { block, .. } in lines {
-            for (group, numbers) in [[block.x, block.y], [block.i, block.j]].into_iter().enumerate() {
-                numbers.into_iter().flatten().for_each(|number| *pool.counts[group].entry(length(number)).or_default() += 1);
+            for (group, numbers) in [[block.x, block.y], [block.i, block.j]]
+                .into_iter()
+                .enumerate()
+            {
+                numbers
+                    .into_iter()
+                    .flatten()
+                    .for_each(|number| *pool.counts[group].entry(length(number)).or_default() += 1);
             }
             for (axis, number) in [block.x, block.y].into_iter().enumerate() {
                 if let Some(number) = number
@@ -90,9 +96,18 @@ impl Pool {
     fn prior(&self, letter: u8, found: Option<i64>, meant: i64) -> f64 {
         let counts = &self.counts[usize::from(matches!(letter, b'I' | b'J'))];
         let count = |length: i64| counts.get(&length.abs()).copied().unwrap_or(0);
-        let others = count(meant) - u32::from(found.is_some_and(|found| found.abs() == meant.abs()) && count(meant) > 0);
-        let known = if others > 0 && meant != 0 { -prior::KNOWN } else { 0.0 };
-        let alone = if found.is_some_and(|found| count(found) <= 1) { -prior::ALONE } else { 0.0 };
+        let others = count(meant)
+            - u32::from(found.is_some_and(|found| found.abs() == meant.abs()) && count(meant) > 0);
+        let known = if others > 0 && meant != 0 {
+            -prior::KNOWN
+        } else {
+            0.0
+        };
+        let alone = if found.is_some_and(|found| count(found) <= 1) {
+            -prior::ALONE
+        } else {
+            0.0
+        };
         known + alone
     }
 }
@@ -108,7 +123,13 @@ struct Words<'a> {
 }
 
 /// What a line of a cut may have been meant to be.
-pub fn of_line(document: &Document, way: &Way<'_>, pool: &Pool, lines: &Range<usize>, index: usize) -> Vec<Change> {
+pub fn of_line(
+    document: &Document,
+    way: &Way<'_>,
+    pool: &Pool,
+    lines: &Range<usize>,
+    index: usize,
+) -> Vec<Change> {
     let own = document.line_bytes(lines.start + index);
     let plain = plain(own);
     let bytes = plain.as_deref().unwrap_or(own);
@@ -117,7 +138,14 @@ pub fn of_line(document: &Document, way: &Way<'_>, pool: &Pool, lines: &Range<us
         return Vec::new();
     }
     let before = way.machine_before(index);
-    let mut own = Words { document, pool, bytes, index, before, changes: Vec::new() };
+    let mut own = Words {
+        document,
+        pool,
+        bytes,
+        index,
+        before,
+        changes: Vec::new(),
+    };
     own.of_tokens();
     let mut machine = *before;
     let made = machine.run(block, way.reading);
@@ -132,8 +160,19 @@ pub fn of_line(document: &Document, way: &Way<'_>, pool: &Pool, lines: &Range<us
     let next = (index + 1..lines.len()).find(|next| !way.lines[*next].block.empty);
     let shown = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim().to_owned();
     if is_move {
-        let said = |line: &Line| (line.block.x, line.block.y, line.block.i, line.block.j, line.block.r, line.block.motion);
-        let is_twice = index > 0 && said(&way.lines[index - 1]) == said(&way.lines[index]) && !way.lines[index - 1].block.empty;
+        let said = |line: &Line| {
+            (
+                line.block.x,
+                line.block.y,
+                line.block.i,
+                line.block.j,
+                line.block.r,
+                line.block.motion,
+            )
+        };
+        let is_twice = index > 0
+            && said(&way.lines[index - 1]) == said(&way.lines[index])
+            && !way.lines[index - 1].block.empty;
         let prior = if is_twice { prior::TWICE } else { prior::BLOCK };
         let found = shown(bytes);
         changes.push(Change {
@@ -149,7 +188,9 @@ pub fn of_line(document: &Document, way: &Way<'_>, pool: &Pool, lines: &Range<us
     }
     if let Some(next) = next.filter(|next| is_move && *next == index + 1) {
         let other = document.line_bytes(lines.start + next);
-        let is_other = way.lines[next].block.has_coordinates() || way.lines[next].block.i.is_some() || way.lines[next].block.j.is_some();
+        let is_other = way.lines[next].block.has_coordinates()
+            || way.lines[next].block.i.is_some()
+            || way.lines[next].block.j.is_some();
         if other != bytes && is_other {
             let swapped = with_numbers_kept(bytes, other);
             let (found, meant) = (shown(bytes), shown(other));
@@ -171,7 +212,8 @@ pub fn of_line(document: &Document, way: &Way<'_>, pool: &Pool, lines: &Range<us
 /// Two lines exchanged; their block numbers stay where they are.
 fn with_numbers_kept(one: &[u8], other: &[u8]) -> Vec<Vec<u8>> {
     let number = |line: &[u8]| {
-        crate::program::iso::block::word_range(line, 1, |letter, _| letter == b'N').map(|range| range.start - 1..range.end - 1)
+        crate::program::iso::block::word_range(line, 1, |letter, _| letter == b'N')
+            .map(|range| range.start - 1..range.end - 1)
     };
     match (number(one), number(other)) {
         (Some(a), Some(b)) => {
@@ -180,7 +222,10 @@ fn with_numbers_kept(one: &[u8], other: &[u8]) -> Vec<Vec<u8>> {
                 line.splice(place, number.iter().copied());
                 line
             };
-            vec![with(other, b.clone(), &one[a.clone()]), with(one, a, &other[b])]
+            vec![
+                with(other, b.clone(), &one[a.clone()]),
+                with(one, a, &other[b]),
+            ]
         }
         _ => vec![other.to_vec(), one.to_vec()],
     }
@@ -190,9 +235,21 @@ impl Words<'_> {
     fn push(&mut self, range: Range<usize>, text: &str, prior: f64, found: &str, meant: &str) {
         let mut line = self.bytes.to_vec();
         line.splice(range, text.bytes());
-        let kind = FixKind::Rewrite { found: found.to_owned(), meant: meant.to_owned() };
+        let kind = FixKind::Rewrite {
+            found: found.to_owned(),
+            meant: meant.to_owned(),
+        };
         let (found, meant) = (found.to_owned(), meant.to_owned());
-        self.changes.push(Change { index: self.index, replaced: 1, is_a_slip: true, lines: vec![line], prior, kind, found, meant });
+        self.changes.push(Change {
+            index: self.index,
+            replaced: 1,
+            is_a_slip: true,
+            lines: vec![line],
+            prior,
+            kind,
+            found,
+            meant,
+        });
     }
 
     fn text(&self, range: &Range<usize>) -> String {
@@ -209,13 +266,21 @@ impl Words<'_> {
         let (mut motion, mut twice) = (None, None);
         for token in &tokens {
             match token {
-                Token::Word { letter: letter @ (b'X' | b'Y' | b'I' | b'J' | b'R'), number, range } => {
+                Token::Word {
+                    letter: letter @ (b'X' | b'Y' | b'I' | b'J' | b'R'),
+                    number,
+                    range,
+                } => {
                     self.of_number(*letter, Some(*number), placed(range));
                     if places.insert(*letter, placed(range)).is_some() {
                         twice = Some((*letter, placed(range)));
                     }
                 }
-                Token::Word { letter: b'G', number, range } if number.decimals == 0 && (0..=3).contains(&number.mantissa) => {
+                Token::Word {
+                    letter: b'G',
+                    number,
+                    range,
+                } if number.decimals == 0 && (0..=3).contains(&number.mantissa) => {
                     motion = Some((number.mantissa, placed(range)));
                 }
                 Token::Fault { fault, range } => self.of_fault(*fault, placed(range)),
@@ -227,9 +292,22 @@ impl Words<'_> {
                 let (a, b) = if a.start < b.start { (a, b) } else { (b, a) };
                 let (first, second) = (self.text(&a), self.text(&b));
                 // The numbers change places, the letters stay.
-                let text = format!("{}{}{}{}{}", &first[..1], &second[1..], self.text(&(a.end..b.start)), &second[..1], &first[1..]);
+                let text = format!(
+                    "{}{}{}{}{}",
+                    &first[..1],
+                    &second[1..],
+                    self.text(&(a.end..b.start)),
+                    &second[..1],
+                    &first[1..]
+                );
                 let found = format!("{first} {second}");
-                let meant = format!("{}{} {}{}", &first[..1], &second[1..], &second[..1], &first[1..]);
+                let meant = format!(
+                    "{}{} {}{}",
+                    &first[..1],
+                    &second[1..],
+                    &second[..1],
+                    &first[1..]
+                );
                 self.push(a.start..b.end, &text, prior::SWAP, &found, &meant);
             }
         }
@@ -248,7 +326,11 @@ impl Words<'_> {
                 b'I' => b'J',
                 _ => b'I',
             };
-            for range in [places[&letter].clone(), range, self.first_of(letter, &tokens)] {
+            for range in [
+                places[&letter].clone(),
+                range,
+                self.first_of(letter, &tokens),
+            ] {
                 if letter != b'R' && !places.contains_key(&other) {
                     self.as_letter(range.clone(), other, prior::LETTER);
                 }
@@ -261,7 +343,9 @@ impl Words<'_> {
 
     fn first_of(&self, wanted: u8, tokens: &[Token]) -> Range<usize> {
         let found = tokens.iter().find_map(|token| match token {
-            Token::Word { letter, range, .. } if *letter == wanted => Some(range.start - 1..range.end - 1),
+            Token::Word { letter, range, .. } if *letter == wanted => {
+                Some(range.start - 1..range.end - 1)
+            }
             _ => None,
         });
         found.unwrap_or(0..0)
@@ -273,8 +357,13 @@ impl Words<'_> {
         self.push(range, &meant, prior, &found, &meant);
     }
 
-    fn of_motion(&mut self, motion: Option<(i64, Range<usize>)>, places: &FxHashMap<u8, Range<usize>>) {
-        let has_center = places.contains_key(&b'I') || places.contains_key(&b'J') || places.contains_key(&b'R');
+    fn of_motion(
+        &mut self,
+        motion: Option<(i64, Range<usize>)>,
+        places: &FxHashMap<u8, Range<usize>>,
+    ) {
+        let has_center =
+            places.contains_key(&b'I') || places.contains_key(&b'J') || places.contains_key(&b'R');
         for other in 1..=3 {
             if has_center == (other == 1) {
                 continue;
@@ -288,7 +377,10 @@ impl Words<'_> {
                 Some(_) => {}
                 None => {
                     let with = with_word(self.bytes, &meant, self.pool.is_parted);
-                    let kind = FixKind::Rewrite { found: String::new(), meant: meant.clone() };
+                    let kind = FixKind::Rewrite {
+                        found: String::new(),
+                        meant: meant.clone(),
+                    };
                     let (found, lines) = (String::new(), vec![with]);
                     self.changes.push(Change {
                         index: self.index,
@@ -304,9 +396,18 @@ impl Words<'_> {
             }
         }
         // I and J where a straight cut is meant.
-        if has_center && self.before.motion == Motion::Line && motion.as_ref().is_none_or(|(own, _)| *own == 1) {
-            let ranges: Vec<Range<usize>> = [b'I', b'J'].iter().filter_map(|letter| places.get(letter).cloned()).collect();
-            if let (Some(first), Some(last)) = (ranges.iter().map(|range| range.start).min(), ranges.iter().map(|range| range.end).max()) {
+        if has_center
+            && self.before.motion == Motion::Line
+            && motion.as_ref().is_none_or(|(own, _)| *own == 1)
+        {
+            let ranges: Vec<Range<usize>> = [b'I', b'J']
+                .iter()
+                .filter_map(|letter| places.get(letter).cloned())
+                .collect();
+            if let (Some(first), Some(last)) = (
+                ranges.iter().map(|range| range.start).min(),
+                ranges.iter().map(|range| range.end).max(),
+            ) {
                 let found = self.text(&(first..last));
                 self.push(first..last, "", prior::WORD, &found, "");
             }
@@ -316,35 +417,62 @@ impl Words<'_> {
     /// Slips in one number; `range` is that of the word.
     fn of_number(&mut self, letter: u8, number: Option<Number>, range: Range<usize>) {
         let word = self.text(&range);
-        let Some(at) = word.bytes().position(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+')) else { return };
+        let Some(at) = word
+            .bytes()
+            .position(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'))
+        else {
+            return;
+        };
         let text = &word[at..];
         let found = number.map(|number| self.length(number));
-        let digits: Vec<usize> = text.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit()).map(|(at, _)| at).collect();
+        let digits: Vec<usize> = text
+            .bytes()
+            .enumerate()
+            .filter(|(_, byte)| byte.is_ascii_digit())
+            .map(|(at, _)| at)
+            .collect();
         let point = text.find('.');
         let mut meant: Vec<(String, f64)> = Vec::new();
         let bytes = text.as_bytes();
-        let with = |range: Range<usize>, other: &str| format!("{}{other}{}", &text[..range.start], &text[range.end..]);
+        let with = |range: Range<usize>, other: &str| {
+            format!("{}{other}{}", &text[..range.start], &text[range.end..])
+        };
         for (nth, &at) in digits.iter().enumerate() {
             for digit in b'0'..=b'9' {
                 if digit != bytes[at] {
-                    meant.push((with(at..at + 1, &char::from(digit).to_string()), prior::DIGIT));
+                    meant.push((
+                        with(at..at + 1, &char::from(digit).to_string()),
+                        prior::DIGIT,
+                    ));
                 }
                 // A digit that was lost: its place before this one.
-                let is_same_again = nth > 0 && bytes[digits[nth - 1]] == digit && digits[nth - 1] + 1 == at;
+                let is_same_again =
+                    nth > 0 && bytes[digits[nth - 1]] == digit && digits[nth - 1] + 1 == at;
                 if !is_same_again {
                     meant.push((with(at..at, &char::from(digit).to_string()), prior::MORE));
                 }
             }
             if digits.len() > 1 {
                 let is_doubled = nth > 0 && bytes[digits[nth - 1]] == bytes[at];
-                meant.push((with(at..at + 1, ""), if is_doubled { prior::DOUBLED } else { prior::MORE }));
+                meant.push((
+                    with(at..at + 1, ""),
+                    if is_doubled {
+                        prior::DOUBLED
+                    } else {
+                        prior::MORE
+                    },
+                ));
             }
             if let Some(&next) = digits.get(nth + 1)
                 && bytes[next] != bytes[at]
             {
                 let mut swapped = bytes.to_vec();
                 swapped.swap(at, next);
-                meant.extend(String::from_utf8(swapped).ok().map(|text| (text, prior::SWAP)));
+                meant.extend(
+                    String::from_utf8(swapped)
+                        .ok()
+                        .map(|text| (text, prior::SWAP)),
+                );
             }
         }
         for digit in b'0'..=b'9' {
@@ -360,11 +488,15 @@ impl Words<'_> {
                 meant.extend(places.map(|at| (with(at..at, "."), prior::POINT)));
                 meant.extend(digits.first().map(|at| (with(*at..*at, "."), prior::POINT)));
             }
-            Some(at) if self.document.pointed() == Some(false) => meant.push((with(at..at + 1, ""), prior::POINT)),
+            Some(at) if self.document.pointed() == Some(false) => {
+                meant.push((with(at..at + 1, ""), prior::POINT))
+            }
             _ => {}
         }
         for (text, prior) in meant {
-            let more = number_of(&text).map_or(0.0, |number| self.pool.prior(letter, found, self.length(number)));
+            let more = number_of(&text).map_or(0.0, |number| {
+                self.pool.prior(letter, found, self.length(number))
+            });
             let meant = format!("{}{text}", &word[..at]);
             self.push(range.clone(), &meant, prior + more, &word, &meant);
         }
@@ -387,7 +519,11 @@ impl Words<'_> {
             WordFault::NoNumber { .. } => {
                 self.push(range.clone(), "", prior::WORD, &text, "");
                 for digit in 0..=9 {
-                    let point = if self.document.pointed() == Some(true) { "." } else { "" };
+                    let point = if self.document.pointed() == Some(true) {
+                        "."
+                    } else {
+                        ""
+                    };
                     let meant = format!("{text}{digit}{point}");
                     self.push(range.clone(), &meant, prior::MORE, &text, &meant);
                 }
@@ -410,12 +546,18 @@ impl Words<'_> {
 
     /// I or J of an arc as the other one and its ends tell it.
     fn of_center(&mut self, made: &Move) {
-        let Bend::Center { .. } = made.bend else { return };
+        let Bend::Center { .. } = made.bend else {
+            return;
+        };
         let reading = self.document.reading();
         let rule = reading.rule(made.incremental);
-        let Some(center) = made.center(rule) else { return };
+        let Some(center) = made.center(rule) else {
+            return;
+        };
         for axis in 0..2 {
-            let Some(place) = solved(made, center, axis) else { continue };
+            let Some(place) = solved(made, center, axis) else {
+                continue;
+            };
             let length = match rule {
                 CenterRule::StartToCenter => place.wrapping_sub(made.from[axis]),
                 CenterRule::CenterToStart => made.from[axis].wrapping_sub(place),
@@ -434,7 +576,11 @@ impl Words<'_> {
         let meant = format!("{}{}", letter as char, style.number(length));
         let mut places = Vec::new();
         words(self.bytes, 1, |token| {
-            if let Token::Word { letter, number, range } = token
+            if let Token::Word {
+                letter,
+                number,
+                range,
+            } = token
                 && matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'G' | b'N')
             {
                 places.push((letter, number, range.start - 1..range.end - 1));
@@ -451,9 +597,17 @@ impl Words<'_> {
             return;
         }
         let order = |letter: u8| b"NGXYIJ".iter().position(|its| *its == letter);
-        let behind = places.iter().filter(|(its, ..)| order(*its) < order(letter)).map(|(.., range)| range.end).max();
+        let behind = places
+            .iter()
+            .filter(|(its, ..)| order(*its) < order(letter))
+            .map(|(.., range)| range.end)
+            .max();
         let at = behind.unwrap_or(0);
-        let text = if self.pool.is_parted && at > 0 { format!(" {meant}") } else { meant.clone() };
+        let text = if self.pool.is_parted && at > 0 {
+            format!(" {meant}")
+        } else {
+            meant.clone()
+        };
         let prior = prior::LOST + self.pool.prior(letter, None, length);
         self.push(at..at, &text, prior, "", &meant);
     }
@@ -464,7 +618,8 @@ impl Words<'_> {
             let gaps = way.gaps(self.index);
             for axis in 0..2 {
                 let letter = [b'X', b'Y'][axis];
-                let own = [way.lines[self.index].block.x, way.lines[self.index].block.y][axis].map_or(0, |number| self.length(number));
+                let own = [way.lines[self.index].block.x, way.lines[self.index].block.y][axis]
+                    .map_or(0, |number| self.length(number));
                 for gap in gaps.iter().filter(|gap| gap[axis] != 0) {
                     self.set(letter, own.wrapping_add(gap[axis]));
                 }
@@ -477,7 +632,10 @@ impl Words<'_> {
                 continue;
             }
             for number in self.pool.coordinates[axis].clone() {
-                self.set([b'X', b'Y'][axis], self.document.reading().length(number, self.before.inch));
+                self.set(
+                    [b'X', b'Y'][axis],
+                    self.document.reading().length(number, self.before.inch),
+                );
             }
         }
     }
@@ -501,7 +659,14 @@ fn number_of(text: &str) -> Option<Number> {
     let mut found = None;
     words(format!("X{text}").as_bytes(), 1, |token| {
         found = match (token, found) {
-            (Token::Word { letter: b'X', number, range }, None) if range.len() == text.len() + 1 => Some(Some(number)),
+            (
+                Token::Word {
+                    letter: b'X',
+                    number,
+                    range,
+                },
+                None,
+            ) if range.len() == text.len() + 1 => Some(Some(number)),
             _ => Some(None),
         };
     });
@@ -514,24 +679,48 @@ impl Change {
         let line = first + self.index;
         let edits = match &self.lines[..] {
             // The whole line goes, with its end.
-            [] => vec![TextEdit { range: text.line_start(line)..text.line_start(line + 1), text: String::new() }],
+            [] => vec![TextEdit {
+                range: text.line_start(line)..text.line_start(line + 1),
+                text: String::new(),
+            }],
             lines => {
                 let edit = |(nth, new): (usize, &Vec<u8>)| {
                     let range = text.line_range(line + nth);
                     edit_between(range.start, text.bytes().get(range)?, new)
                 };
-                lines.iter().enumerate().map(edit).collect::<Option<Vec<_>>>()?
+                lines
+                    .iter()
+                    .enumerate()
+                    .map(edit)
+                    .collect::<Option<Vec<_>>>()?
             }
         };
         let (kind, found, meant) = (self.kind, self.found, self.meant);
-        Some(Repair { kind, edits, line, found, meant, closes: false, is_sure: false, explains: false })
+        Some(Repair {
+            kind,
+            edits,
+            line,
+            found,
+            meant,
+            closes: false,
+            is_sure: false,
+            explains: false,
+        })
     }
 }
 
 /// The edit that makes one line of another, from the first byte that changes to the last.
 fn edit_between(start: usize, old: &[u8], new: &[u8]) -> Option<TextEdit> {
     let head = old.iter().zip(new).take_while(|(a, b)| a == b).count();
-    let tail = old[head..].iter().rev().zip(new[head..].iter().rev()).take_while(|(a, b)| a == b).count();
+    let tail = old[head..]
+        .iter()
+        .rev()
+        .zip(new[head..].iter().rev())
+        .take_while(|(a, b)| a == b)
+        .count();
     let text = String::from_utf8(new[head..new.len() - tail].to_vec()).ok()?;
-    Some(TextEdit { range: start + head..start + old.len() - tail, text })
+    Some(TextEdit {
+        range: start + head..start + old.len() - tail,
+        text,
+    })
 }

@@ -24,12 +24,20 @@ impl Line {
         let block = read_line(bytes, 1, |note| match note {
             Note::Fault { .. } | Note::Twice { .. } => faults += 1,
             // Among numbers that are written otherwise.
-            Note::Length { pointed, .. } if document.pointed().is_some_and(|others| others != pointed) => faults += 1,
+            Note::Length { pointed, .. }
+                if document.pointed().is_some_and(|others| others != pointed) =>
+            {
+                faults += 1
+            }
             _ => {}
         });
         if let Some((usual, _)) = document.usual_places() {
             let lengths = [block.x, block.y, block.i, block.j, block.r];
-            faults += lengths.into_iter().flatten().filter(|number| number.point && number.decimals != usual).count() as u32;
+            faults += lengths
+                .into_iter()
+                .flatten()
+                .filter(|number| number.point && number.decimals != usual)
+                .count() as u32;
         }
         Line { block, faults }
     }
@@ -95,7 +103,16 @@ pub struct Way<'a> {
 
 impl<'a> Way<'a> {
     pub fn new(reading: &'a Reading, lines: Vec<Line>, machine: Machine) -> Way<'a> {
-        let mut scan = Scan { machine, hard: 0, soft: 0.0, open: 0, beside: 0, cut: None, torn: false, said: None };
+        let mut scan = Scan {
+            machine,
+            hard: 0,
+            soft: 0.0,
+            open: 0,
+            beside: 0,
+            cut: None,
+            torn: false,
+            said: None,
+        };
         let mut before = Vec::with_capacity(lines.len() + 1);
         let mut ends: Vec<Option<End>> = vec![None; lines.len() + 1];
         let mut loose_from = 0;
@@ -112,7 +129,9 @@ impl<'a> Way<'a> {
             if scan.cut.is_none() || (cut.is_none() && scan.cut.is_some()) {
                 begun = index + 1;
             }
-            if (line.block.has_coordinates() && !scan.machine.incremental) || line.block.sets_position {
+            if (line.block.has_coordinates() && !scan.machine.incremental)
+                || line.block.sets_position
+            {
                 loose_from = index + 1;
             }
         }
@@ -122,7 +141,13 @@ impl<'a> Way<'a> {
             }
         }
         before.push(scan);
-        Way { reading, lines, before, ends, loose_from }
+        Way {
+            reading,
+            lines,
+            before,
+            ends,
+            loose_from,
+        }
     }
 
     /// All that speaks against the way.
@@ -160,7 +185,13 @@ impl<'a> Way<'a> {
         if by != [0, 0] && at < self.loose_from {
             return None;
         }
-        if (Machine { at: known.machine.at, ..scan.machine }) != known.machine || scan.torn != known.torn || scan.said != known.said {
+        if (Machine {
+            at: known.machine.at,
+            ..scan.machine
+        }) != known.machine
+            || scan.torn != known.torn
+            || scan.said != known.said
+        {
             return None;
         }
         let total = self.total();
@@ -174,7 +205,8 @@ impl<'a> Way<'a> {
         match (&scan.cut, &known.cut) {
             (None, None) => {}
             (Some(own), Some(its)) => {
-                let is_alike = own.last.seen_from(own.last.to) == its.last.seen_from(its.last.to) || own.heading == its.heading;
+                let is_alike = own.last.seen_from(own.last.to) == its.last.seen_from(its.last.to)
+                    || own.heading == its.heading;
                 if !is_alike || own.whole != its.whole || own.moves < 2 || its.moves < 2 {
                     return None;
                 }
@@ -193,32 +225,60 @@ impl<'a> Way<'a> {
 
     /// From where the cut of a line ends to where it would close: at its beginning, or at the end of its way in; none where it closes.
     pub fn gaps(&self, index: usize) -> Vec<Place> {
-        let Some((end, cut)) = self.ends[index].zip(self.before[index].cut.or(self.before[index + 1].cut)) else { return Vec::new() };
+        let Some((end, cut)) =
+            self.ends[index].zip(self.before[index].cut.or(self.before[index + 1].cut))
+        else {
+            return Vec::new();
+        };
         if end.cost.open == 0 {
             return Vec::new();
         }
         let gap = |begin: Place, end: Place| [0, 1].map(|axis| begin[axis].wrapping_sub(end[axis]));
-        vec![gap(cut.start, end.to), gap(cut.entered, end.to), gap(cut.entered, end.from)]
+        vec![
+            gap(cut.start, end.to),
+            gap(cut.entered, end.to),
+            gap(cut.entered, end.from),
+        ]
     }
 
     /// Ways that lead alike have the same mark.
     pub fn mark_with(&self, index: usize, count: usize, lines: &[Line]) -> u64 {
-        let mix = |mark: u64, field: i64| (mark ^ field as u64).wrapping_mul(0x2545_f491_4f6c_dd1d).rotate_left(23);
+        let mix = |mark: u64, field: i64| {
+            (mark ^ field as u64)
+                .wrapping_mul(0x2545_f491_4f6c_dd1d)
+                .rotate_left(23)
+        };
         let mut machine = self.before[0].machine;
-        let all = self.lines[..index].iter().chain(lines).chain(&self.lines[(index + count).min(self.lines.len())..]);
+        let all = self.lines[..index]
+            .iter()
+            .chain(lines)
+            .chain(&self.lines[(index + count).min(self.lines.len())..]);
         let mut mark = 1;
         for line in all {
             if let Some(made) = machine.run(&line.block, self.reading) {
                 if made.from == made.to && !made.is_arc() {
                     continue;
                 }
-                let side = made.side.map_or(0, |side| if side == Side::Left { 1 } else { 2 });
+                let side = made
+                    .side
+                    .map_or(0, |side| if side == Side::Left { 1 } else { 2 });
                 let bend = match made.bend {
-                    Bend::Center { .. } => made.center(self.reading.rule(made.incremental)).unwrap_or_default(),
+                    Bend::Center { .. } => made
+                        .center(self.reading.rule(made.incremental))
+                        .unwrap_or_default(),
                     Bend::Radius(radius) => [radius, i64::MIN],
                     Bend::Nothing => [0, i64::MAX],
                 };
-                let fields = [made.from[0], made.from[1], made.to[0], made.to[1], bend[0], bend[1], made.motion as i64, side];
+                let fields = [
+                    made.from[0],
+                    made.from[1],
+                    made.to[0],
+                    made.to[1],
+                    bend[0],
+                    bend[1],
+                    made.motion as i64,
+                    side,
+                ];
                 mark = fields.into_iter().fold(mark, mix);
             }
         }
@@ -234,9 +294,14 @@ impl Scan {
         let made = self.machine.run(block, reading);
         let is_arc = matches!(
             self.machine.motion,
-            crate::program::iso::block::Motion::Clockwise | crate::program::iso::block::Motion::CounterClockwise
+            crate::program::iso::block::Motion::Clockwise
+                | crate::program::iso::block::Motion::CounterClockwise
         );
-        if (block.i.is_some() || block.j.is_some()) && !is_arc && !block.takes_coordinates && !block.sets_position {
+        if (block.i.is_some() || block.j.is_some())
+            && !is_arc
+            && !block.takes_coordinates
+            && !block.sets_position
+        {
             self.hard += 1;
         }
         let mut ended = None;
@@ -281,7 +346,9 @@ impl Scan {
                 slack += 3.0 / arc.radius;
                 let miss = made
                     .center(reading.rule(made.incremental))
-                    .map_or(0.0, |center| (distance(made.from, center) - distance(made.to, center)).abs());
+                    .map_or(0.0, |center| {
+                        (distance(made.from, center) - distance(made.to, center)).abs()
+                    });
                 self.soft += (miss / 1e3).min(3.0) * 0.6;
             }
             Course::OffRadius { .. } | Course::NoRadius => self.hard += 1,
@@ -309,13 +376,29 @@ impl Scan {
             None => {
                 let whole = !std::mem::take(&mut self.torn);
                 let (start, entered, arcs) = (made.from, made.to, u32::from(made.is_arc()));
-                self.cut = Some(Cut { start, entered, moves: 1, arcs, last: *made, heading, whole });
+                self.cut = Some(Cut {
+                    start,
+                    entered,
+                    moves: 1,
+                    arcs,
+                    last: *made,
+                    heading,
+                    whole,
+                });
             }
         }
     }
 
     /// What speaks against how one move goes on from another.
-    fn joint(&mut self, last: &Move, before: Vector, made: &Move, start: Vector, slack: f64, reading: &Reading) {
+    fn joint(
+        &mut self,
+        last: &Move,
+        before: Vector,
+        made: &Move,
+        start: Vector,
+        slack: f64,
+        reading: &Reading,
+    ) {
         let turned = cross(before, start).atan2(before.dot(&start)).abs();
         let has_arc = made.is_arc() || last.is_arc();
         if turned > 3.09 {
@@ -356,17 +439,36 @@ fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Closing {
     if !cut.whole {
         return Closing::default();
     }
-    let pairs = [(cut.start, to), (cut.entered, to), (cut.start, from), (cut.entered, from)];
+    let pairs = [
+        (cut.start, to),
+        (cut.entered, to),
+        (cut.start, from),
+        (cut.entered, from),
+    ];
     let taken = if cut.moves > 2 { 4 } else { 1 };
-    let missed = pairs.into_iter().take(taken).map(|(begin, end)| distance(begin, end)).fold(f64::INFINITY, f64::min);
+    let missed = pairs
+        .into_iter()
+        .take(taken)
+        .map(|(begin, end)| distance(begin, end))
+        .fold(f64::INFINITY, f64::min);
     let tolerance = (CLOSED + 1_000.0 * f64::from(cut.arcs).sqrt()).max(reading.tolerance as f64);
     if missed > tolerance {
-        return Closing { hard: 1, soft: 0.0, open: 1, beside: 0 };
+        return Closing {
+            hard: 1,
+            soft: 0.0,
+            open: 1,
+            beside: 0,
+        };
     }
     // A program is written so that it closes to the last digit, and comes back to where the wire was threaded.
     let is_beside = distance(cut.start, to) > tolerance;
     let soft = if missed > 0.0 { 2.0 } else { 0.0 } + if is_beside { 2.0 } else { 0.0 };
-    Closing { hard: 0, soft, open: 0, beside: u32::from(is_beside) }
+    Closing {
+        hard: 0,
+        soft,
+        open: 0,
+        beside: u32::from(is_beside),
+    }
 }
 
 /// A line that is almost along an axis is odder than one that is not.

@@ -21,13 +21,25 @@ fn profile(name: &str) -> Effective {
 }
 
 fn path_of(segments: &[Segment], side: Option<Side>) -> WirePath {
-    let source = Source::Segment { entity: EntityId(0), segment: 0 };
+    let source = Source::Segment {
+        entity: EntityId(0),
+        segment: 0,
+    };
     let thread_hole = segments.first().map_or_else(Point::origin, Segment::start);
-    let mut segments: Vec<PathSegment> = segments.iter().map(|&geometry| PathSegment { geometry, source }).collect();
+    let mut segments: Vec<PathSegment> = segments
+        .iter()
+        .map(|&geometry| PathSegment { geometry, source })
+        .collect();
     if let Some(last) = segments.last_mut().filter(|_| side.is_some()) {
         last.source = Source::LeadOut;
     }
-    WirePath { outline: 0, correction: 0.0, thread_hole, side, segments }
+    WirePath {
+        outline: 0,
+        correction: 0.0,
+        thread_hole,
+        side,
+        segments,
+    }
 }
 
 fn line(from: [f64; 2], to: [f64; 2]) -> Segment {
@@ -36,8 +48,17 @@ fn line(from: [f64; 2], to: [f64; 2]) -> Segment {
 
 /// Into a hole of R 10 about (20, 0), once round, and back to the middle.
 fn hole() -> Vec<Segment> {
-    let circle = Arc::about(Point::new(20.0, 0.0), Point::new(30.0, 0.0), Point::new(30.0, 0.0), true);
-    vec![line([20.0, 0.0], [30.0, 0.0]), Segment::Arc(circle), line([30.0, 0.0], [20.0, 0.0])]
+    let circle = Arc::about(
+        Point::new(20.0, 0.0),
+        Point::new(30.0, 0.0),
+        Point::new(30.0, 0.0),
+        true,
+    );
+    vec![
+        line([20.0, 0.0], [30.0, 0.0]),
+        Segment::Arc(circle),
+        line([30.0, 0.0], [20.0, 0.0]),
+    ]
 }
 
 fn check(settings: &Effective, paths: &[WirePath], expected: &str) -> ProvedProgram {
@@ -83,7 +104,11 @@ fn a_users_profile_is_data() {
         "[program]\nprofile = \"mine\"\n[profiles.mine]\nnumbers = 5\nspaces = false\nmodal = true\nfull-circles = true\ncenter = \"center-to-start\"\n\
          decimals = 4\nbegin = [\"G90\"]\nend = [\"M30\"]\n",
     );
-    check(&mine, &[path_of(&hole(), None)], "G90\nN5G01X30.0000\nN10G03X30.0000Y0.0000I10.0000J0.0000\nN15G01X20.0000\nM30\n");
+    check(
+        &mine,
+        &[path_of(&hole(), None)],
+        "G90\nN5G01X30.0000\nN10G03X30.0000Y0.0000I10.0000J0.0000\nN15G01X20.0000\nM30\n",
+    );
     // Of a step of 0.1 µm.
     let fine = [path_of(&[line([0.0, 0.0], [0.00014, 1.00006])], None)];
     check(&mine, &fine, "G90\nN5G01X0.0001Y1.0001\nM30\n");
@@ -92,34 +117,96 @@ fn a_users_profile_is_data() {
 #[test]
 fn a_profile_that_does_not_do_what_it_says_is_refused() {
     let check = |profile: &str, side: Option<Side>, expected: &str| {
-        let settings = settings(&format!("[program]\nprofile = \"mine\"\n[profiles.mine]\n{profile}\n"));
+        let settings = settings(&format!(
+            "[program]\nprofile = \"mine\"\n[profiles.mine]\n{profile}\n"
+        ));
         let outcome = write(&[path_of(&hole(), side)], 1.0, &settings);
-        let Err(ProofError::Refused(sentence)) = &outcome else { panic!("{profile}: {outcome:?}") };
-        assert!(sentence.starts_with("profile mine: ") && sentence.contains(expected), "{sentence}");
+        let Err(ProofError::Refused(sentence)) = &outcome else {
+            panic!("{profile}: {outcome:?}")
+        };
+        assert!(
+            sentence.starts_with("profile mine: ") && sentence.contains(expected),
+            "{sentence}"
+        );
     };
-    check("begin = [\"G92 X0 Y0\"]", None, "does not say that the wire stands at the start");
-    check("begin = [\"G92 X{x} Y{y}\", \"G91\"]", None, "G90 or G91 as coordinates say");
-    check("begin = [\"G92 X{x} Y{y}\", \"G20\"]", None, "lead elsewhere");
+    check(
+        "begin = [\"G92 X0 Y0\"]",
+        None,
+        "does not say that the wire stands at the start",
+    );
+    check(
+        "begin = [\"G92 X{x} Y{y}\", \"G91\"]",
+        None,
+        "G90 or G91 as coordinates say",
+    );
+    check(
+        "begin = [\"G92 X{x} Y{y}\", \"G20\"]",
+        None,
+        "lead elsewhere",
+    );
     check("begin = [\"G90\", \"G01 X5 Y5\"]", None, "moves the wire");
     check("begin = [\"G90 X\"]", None, "cannot be read again");
-    check("contour-begin = [\"G90\"]", Some(Side::Left), "does not switch the correction on");
-    let unknown = Effective { profile: Err("there is no profile \"x\", expected generic".into()), ..Effective::default() };
+    check(
+        "contour-begin = [\"G90\"]",
+        Some(Side::Left),
+        "does not switch the correction on",
+    );
+    let unknown = Effective {
+        profile: Err("there is no profile \"x\", expected generic".into()),
+        ..Effective::default()
+    };
     assert_eq!(
         write(&[path_of(&hole(), None)], 1.0, &unknown),
-        Err(ProofError::Refused("there is no profile \"x\", expected generic".into()))
+        Err(ProofError::Refused(
+            "there is no profile \"x\", expected generic".into()
+        ))
     );
 }
 
 #[test]
 fn several_contours_are_joined_by_stops_and_a_rapid() {
     let paths = [
-        path_of(&[line([0.0, 0.0], [1.0, 0.0]), line([1.0, 0.0], [1.0, 1.0]), line([1.0, 1.0], [0.0, 0.0])], None),
-        path_of(&[line([5.0, 2.0], [6.0, 2.0]), line([6.0, 2.0], [6.0, 3.0]), line([6.0, 3.0], [5.0, 2.0])], None),
+        path_of(
+            &[
+                line([0.0, 0.0], [1.0, 0.0]),
+                line([1.0, 0.0], [1.0, 1.0]),
+                line([1.0, 1.0], [0.0, 0.0]),
+            ],
+            None,
+        ),
+        path_of(
+            &[
+                line([5.0, 2.0], [6.0, 2.0]),
+                line([6.0, 2.0], [6.0, 3.0]),
+                line([6.0, 3.0], [5.0, 2.0]),
+            ],
+            None,
+        ),
     ];
-    let text = |jumps| write(&paths, 1.0, &Effective { jumps, ..profile("fast-wire") }).expect("a program").text;
-    let (first, second) = ("G01 X1000 Y0\nG01 X0 Y1000\nG01 X-1000 Y-1000\n", "G01 X1000 Y0\nG01 X0 Y1000\nG01 X-1000 Y-1000\nM02\n");
-    assert_eq!(text(Jumps::Blocks), format!("G92 X0 Y0\nG91\n{first}M00\nG00 X5000 Y2000\nM00\n{second}"));
-    assert_eq!(text(Jumps::None), format!("G92 X0 Y0\nG91\n{first}M00\nG92 X5000 Y2000\n{second}"));
+    let text = |jumps| {
+        write(
+            &paths,
+            1.0,
+            &Effective {
+                jumps,
+                ..profile("fast-wire")
+            },
+        )
+        .expect("a program")
+        .text
+    };
+    let (first, second) = (
+        "G01 X1000 Y0\nG01 X0 Y1000\nG01 X-1000 Y-1000\n",
+        "G01 X1000 Y0\nG01 X0 Y1000\nG01 X-1000 Y-1000\nM02\n",
+    );
+    assert_eq!(
+        text(Jumps::Blocks),
+        format!("G92 X0 Y0\nG91\n{first}M00\nG00 X5000 Y2000\nM00\n{second}")
+    );
+    assert_eq!(
+        text(Jumps::None),
+        format!("G92 X0 Y0\nG91\n{first}M00\nG92 X5000 Y2000\n{second}")
+    );
     for jumps in [Jumps::Blocks, Jumps::None] {
         let document = Document::read(text(jumps).into_bytes());
         assert_eq!(document.findings(), []);
@@ -129,20 +216,27 @@ fn several_contours_are_joined_by_stops_and_a_rapid() {
 
 /// A closed contour of lines and arcs about a middle, entered from there; mm.
 fn contour() -> impl Strategy<Value = Vec<Segment>> {
-    let corner = (2.0_f64..30.0, prop_oneof![3 => Just(0.0), 2 => -1.5_f64..1.5, 1 => -0.02_f64..0.02]);
+    let corner = (
+        2.0_f64..30.0,
+        prop_oneof![3 => Just(0.0), 2 => -1.5_f64..1.5, 1 => -0.02_f64..0.02],
+    );
     let corners = prop::collection::vec(corner, 3..12);
-    (corners, -200.0_f64..200.0, -200.0_f64..200.0, 0.0_f64..1.0).prop_map(|(corners, x, y, turned)| {
-        let middle = Point::new(x, y);
-        let count = corners.len();
-        let at = |index: usize| {
-            let angle = (index as f64 + turned) / count as f64 * std::f64::consts::TAU;
-            middle + crate::geometry::direction(angle) * corners[index % count].0
-        };
-        let mut segments = vec![Segment::line(middle, at(0))];
-        segments.extend((0..count).map(|index| Segment::from_bulge(at(index), at((index + 1) % count), corners[index].1)));
-        segments.push(Segment::line(at(0), middle));
-        segments
-    })
+    (corners, -200.0_f64..200.0, -200.0_f64..200.0, 0.0_f64..1.0).prop_map(
+        |(corners, x, y, turned)| {
+            let middle = Point::new(x, y);
+            let count = corners.len();
+            let at = |index: usize| {
+                let angle = (index as f64 + turned) / count as f64 * std::f64::consts::TAU;
+                middle + crate::geometry::direction(angle) * corners[index % count].0
+            };
+            let mut segments = vec![Segment::line(middle, at(0))];
+            segments.extend((0..count).map(|index| {
+                Segment::from_bulge(at(index), at((index + 1) % count), corners[index].1)
+            }));
+            segments.push(Segment::line(at(0), middle));
+            segments
+        },
+    )
 }
 
 proptest! {
@@ -183,8 +277,14 @@ proptest! {
 
 #[test]
 fn centres_are_told_from_what_is_written() {
-    for (rule, name) in [(CenterRule::StartToCenter, "generic"), (CenterRule::Absolute, "robofil")] {
+    for (rule, name) in [
+        (CenterRule::StartToCenter, "generic"),
+        (CenterRule::Absolute, "robofil"),
+    ] {
         let program = write(&[path_of(&hole(), None)], 1.0, &profile(name)).unwrap();
-        assert_eq!(Document::read(program.text.into_bytes()).reading().absolute, rule);
+        assert_eq!(
+            Document::read(program.text.into_bytes()).reading().absolute,
+            rule
+        );
     }
 }

@@ -8,7 +8,9 @@ use super::super::layout::push_fields;
 use super::super::parse::StatedPoint;
 use super::super::plain::{Alike, alike};
 use super::super::rules::position_mismatch::Mismatched;
-use super::super::rules::{self, Site, TextFix, block_number, missing_end, not_closed, position_mismatch, text_after_end};
+use super::super::rules::{
+    self, Site, TextFix, block_number, missing_end, not_closed, position_mismatch, text_after_end,
+};
 use super::super::run::{BlockEntry, Entry, Move, Sum, What, travel_of};
 use super::{At, Document};
 use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault};
@@ -27,13 +29,17 @@ impl Document {
             }
         }
         if found > 0 {
-            fixes[1..].iter_mut().for_each(|fix| (fix.preferred, fix.in_fix_all) = (false, false));
+            fixes[1..]
+                .iter_mut()
+                .for_each(|fix| (fix.preferred, fix.in_fix_all) = (false, false));
         }
         fixes
     }
 
     fn fixes_of(&self, finding: &Finding) -> Vec<TextFix> {
-        let Place::Text { range } = &finding.place else { return Vec::new() };
+        let Place::Text { range } = &finding.place else {
+            return Vec::new();
+        };
         let fault = match &finding.detail {
             Detail::Program(fault) => fault,
             Detail::Syntax(_) => return self.letter_fixes(range),
@@ -42,13 +48,15 @@ impl Document {
         match &**fault {
             ProgramFault::MissingEnd { word } => missing_end::fixes(&self.text, range.end, word),
             ProgramFault::TextAfterEnd { .. } => match self.view.end {
-                Some(end) => text_after_end::fixes(&self.text, self.range_of(end, &self.view.starts).start),
+                Some(end) => {
+                    text_after_end::fixes(&self.text, self.range_of(end, &self.view.starts).start)
+                }
                 None => Vec::new(),
             },
             ProgramFault::NotClosed { .. } => self.closing_fixes(range),
-            ProgramFault::DoubledNumber { .. } | ProgramFault::NumberOutOfOrder { .. } | ProgramFault::Unnumbered { .. } => {
-                self.number_fixes(range)
-            }
+            ProgramFault::DoubledNumber { .. }
+            | ProgramFault::NumberOutOfOrder { .. }
+            | ProgramFault::Unnumbered { .. } => self.number_fixes(range),
             ProgramFault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
             fault => self.block_fixes(range, fault),
         }
@@ -59,12 +67,20 @@ impl Document {
         let own = self.range_of(at, &self.view.starts);
         let stated = entry.stated_end()?;
         let before = self.stated_before(at)?;
-        let next = self.next_block(at).and_then(|next| Some((next.stated_end()?, next.travel)));
-        let goes_on = next.map(|(end, travel)| position_mismatch::mismatch(&stated, &travel, &end).is_none());
+        let next = self
+            .next_block(at)
+            .and_then(|next| Some((next.stated_end()?, next.travel)));
+        let goes_on =
+            next.map(|(end, travel)| position_mismatch::mismatch(&stated, &travel, &end).is_none());
         let line = self.text.line_range(self.text.line_of(own.start));
-        let is_behind = |piece: &&Piece| piece.field == Field::Coordinates && line.start + piece.range.start >= own.end;
+        let is_behind = |piece: &&Piece| {
+            piece.field == Field::Coordinates && line.start + piece.range.start >= own.end
+        };
         let pieces = pieces(self.text.bytes().get(line.clone())?, &self.words());
-        let coordinates = pieces.iter().find(is_behind).map(|piece| line.start + piece.range.start..line.start + piece.range.end)?;
+        let coordinates = pieces
+            .iter()
+            .find(is_behind)
+            .map(|piece| line.start + piece.range.start..line.start + piece.range.end)?;
         let section = self.section_of(at)?;
         Some(position_mismatch::fixes(&Mismatched {
             text: self.text.bytes(),
@@ -83,21 +99,36 @@ impl Document {
     pub(super) fn stated_before(&self, at: At) -> Option<StatedPoint> {
         (0..=at.run).rev().find_map(|run| {
             let of = self.runs.get(run)?;
-            let end = if run == at.run { at.entry } else { of.entries.len() };
-            of.entries.get(..end)?.iter().rev().find_map(|entry| match &entry.what {
-                What::Block(block) => Some(block.stated_end()),
-                What::StartPoint(at) => Some(Some(StatedPoint { at: *at, decimals: 3 })),
-                What::Unread => Some(None),
-                What::Word { .. } | What::Text { .. } | What::CommentedBlock { .. } => None,
-            })
+            let end = if run == at.run {
+                at.entry
+            } else {
+                of.entries.len()
+            };
+            of.entries
+                .get(..end)?
+                .iter()
+                .rev()
+                .find_map(|entry| match &entry.what {
+                    What::Block(block) => Some(block.stated_end()),
+                    What::StartPoint(at) => Some(Some(StatedPoint {
+                        at: *at,
+                        decimals: 3,
+                    })),
+                    What::Unread => Some(None),
+                    What::Word { .. } | What::Text { .. } | What::CommentedBlock { .. } => None,
+                })
         })?
     }
 
     fn next_block(&self, at: At) -> Option<&BlockEntry> {
-        self.runs.iter().enumerate().skip(at.run).find_map(|(run, of)| {
-            let from = if run == at.run { at.entry + 1 } else { 0 };
-            of.entries.get(from..)?.iter().find_map(Entry::block)
-        })
+        self.runs
+            .iter()
+            .enumerate()
+            .skip(at.run)
+            .find_map(|(run, of)| {
+                let from = if run == at.run { at.entry + 1 } else { 0 };
+                of.entries.get(from..)?.iter().find_map(Entry::block)
+            })
     }
 
     /// The block that a range lies in or before.
@@ -105,20 +136,34 @@ impl Document {
         let run = self.run_at(range.start);
         let of = self.runs.get(run)?;
         let local = range.start.checked_sub(self.base(run))?;
-        let entry = of.entries.partition_point(|entry| entry.range().end <= local);
+        let entry = of
+            .entries
+            .partition_point(|entry| entry.range().end <= local);
         Some((At { run, entry }, of.entries.get(entry)?.block()?))
     }
 
     fn block_fixes(&self, range: &Range<usize>, fault: &ProgramFault) -> Vec<TextFix> {
-        let Some((at, entry)) = self.block_at(range) else { return Vec::new() };
+        let Some((at, entry)) = self.block_at(range) else {
+            return Vec::new();
+        };
         let own = self.range_of(at, &self.view.starts);
         // A number that stands before the block belongs to it.
-        let block = if matches!(fault, ProgramFault::BlockNumberAsB { .. }) { range.clone() } else { own.clone() };
-        let Some(fields) = fields_of(self.text.bytes(), own) else { return Vec::new() };
+        let block = if matches!(fault, ProgramFault::BlockNumberAsB { .. }) {
+            range.clone()
+        } else {
+            own.clone()
+        };
+        let Some(fields) = fields_of(self.text.bytes(), own) else {
+            return Vec::new();
+        };
         let line = self.text.line_of(block.start);
         let site = Site {
             text: self.text.bytes(),
-            range: if matches!(fault, ProgramFault::MissingB) { range.clone() } else { block },
+            range: if matches!(fault, ProgramFault::MissingB) {
+                range.clone()
+            } else {
+                block
+            },
             line: self.text.line_start(line)..self.text.line_start(line + 1),
             fields,
             block: entry.block,
@@ -130,9 +175,17 @@ impl Document {
 
     /// Whether the contour of a block closes with other blocks in its place.
     fn closes_with(&self, at: At, entry: &BlockEntry, blocks: &[Block]) -> bool {
-        let Some(section) = self.section_of(at) else { return false };
-        let new = blocks.iter().map(travel_of).fold(Move::default(), Move::plus);
-        let mut sum = Sum { travel: section.sum.travel.minus(entry.travel).plus(new), ..section.sum };
+        let Some(section) = self.section_of(at) else {
+            return false;
+        };
+        let new = blocks
+            .iter()
+            .map(travel_of)
+            .fold(Move::default(), Move::plus);
+        let mut sum = Sum {
+            travel: section.sum.travel.minus(entry.travel).plus(new),
+            ..section.sum
+        };
         if self.blocks_of(&section).next() == Some(at) {
             sum.first = blocks.first().map(travel_of).or(sum.first);
         }
@@ -144,8 +197,12 @@ impl Document {
 
     /// A straight block that closes the contour.
     fn closing_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
-        let Some((at, _)) = self.block_at(range) else { return Vec::new() };
-        let Some(section) = self.section_of(at) else { return Vec::new() };
+        let Some((at, _)) = self.block_at(range) else {
+            return Vec::new();
+        };
+        let Some(section) = self.section_of(at) else {
+            return Vec::new();
+        };
         let [x, y] = not_closed::gap(&section.sum).map(|um| um.round() as i64);
         let largest = self.limits.largest();
         if x.abs().max(y.abs()) > largest || (x, y) == (0, 0) {
@@ -153,17 +210,31 @@ impl Document {
         }
         let block = line_block(Node { x: 0, y: 0 }, Node { x, y });
         let own = self.text.bytes().get(range.clone()).unwrap_or_default();
-        let layout = if own.contains(&b' ') { Layout::Aligned } else { Layout::Compact };
+        let layout = if own.contains(&b' ') {
+            Layout::Aligned
+        } else {
+            Layout::Compact
+        };
         let mut text = missing_end::line_end_of(&self.text).as_bytes().to_vec();
         if let Some(number) = self.number_behind(at) {
             text.extend_from_slice(format!("N{number} ").as_bytes());
         }
         push_fields(&mut text, layout, &block, None);
         let behind = self.text.line_range(self.text.line_of(range.start)).end;
-        let Ok(text) = String::from_utf8(text) else { return Vec::new() };
+        let Ok(text) = String::from_utf8(text) else {
+            return Vec::new();
+        };
         let length = (x as f64).hypot(y as f64) / 1000.0;
-        let edit = vec![TextEdit { range: behind..behind, text }];
-        vec![crate::finding::Fix { kind: FixKind::Close { length }, preferred: true, in_fix_all: false, edit }]
+        let edit = vec![TextEdit {
+            range: behind..behind,
+            text,
+        }];
+        vec![crate::finding::Fix {
+            kind: FixKind::Close { length },
+            preferred: true,
+            in_fix_all: false,
+            edit,
+        }]
     }
 
     /// The number that a block behind another one has, where the two before it are numbered.
@@ -171,18 +242,31 @@ impl Document {
         let own = self.entry(at)?.number()?;
         let before = (0..=at.run).rev().find_map(|run| {
             let of = self.runs.get(run)?;
-            let end = if run == at.run { at.entry } else { of.entries.len() };
-            of.entries.get(..end)?.iter().rev().find(|entry| entry.block().is_some())
+            let end = if run == at.run {
+                at.entry
+            } else {
+                of.entries.len()
+            };
+            of.entries
+                .get(..end)?
+                .iter()
+                .rev()
+                .find(|entry| entry.block().is_some())
         });
-        own.checked_add(own.checked_sub(before?.number()?).filter(|step| *step > 0)?)
+        own.checked_add(
+            own.checked_sub(before?.number()?)
+                .filter(|step| *step > 0)?,
+        )
     }
 
     fn number_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
         let (places, blocks) = self.numbered(self.view.end);
         let found = block_number::look(&blocks);
-        let Some((index, _, meant)) =
-            found.into_iter().find(|(index, ..)| places.get(*index).is_some_and(|at| self.range_of(*at, &self.view.starts) == *range))
-        else {
+        let Some((index, _, meant)) = found.into_iter().find(|(index, ..)| {
+            places
+                .get(*index)
+                .is_some_and(|at| self.range_of(*at, &self.view.starts) == *range)
+        }) else {
             return Vec::new();
         };
         let mut fixes = Vec::new();
@@ -219,37 +303,82 @@ impl Document {
         let range = self.range_of(at, &self.view.starts);
         let has_number = self.entry(at).is_some_and(|entry| entry.number().is_some());
         let line = self.text.line_range(self.text.line_of(range.start));
-        let before = self.text.bytes().get(line.start..range.start).unwrap_or_default();
-        let digits_end = before.iter().rposition(u8::is_ascii_digit).map_or(0, |last| last + 1);
-        let digits_start = before[..digits_end].iter().rposition(|byte| !byte.is_ascii_digit()).map_or(0, |last| last + 1);
+        let before = self
+            .text
+            .bytes()
+            .get(line.start..range.start)
+            .unwrap_or_default();
+        let digits_end = before
+            .iter()
+            .rposition(u8::is_ascii_digit)
+            .map_or(0, |last| last + 1);
+        let digits_start = before[..digits_end]
+            .iter()
+            .rposition(|byte| !byte.is_ascii_digit())
+            .map_or(0, |last| last + 1);
         if has_number && digits_end > 0 {
             // Padding is kept as wide as it was.
             let width = (digits_end - digits_start).min(WIDEST_COLUMN);
             let padded = before.get(digits_start) == Some(&b'0');
-            let text = if padded { format!("{number:0width$}") } else { number.to_string() };
-            return TextEdit { range: line.start + digits_start..line.start + digits_end, text };
+            let text = if padded {
+                format!("{number:0width$}")
+            } else {
+                number.to_string()
+            };
+            return TextEdit {
+                range: line.start + digits_start..line.start + digits_end,
+                text,
+            };
         }
-        TextEdit { range: range.start..range.start, text: format!("N{number} ") }
+        TextEdit {
+            range: range.start..range.start,
+            text: format!("N{number} "),
+        }
     }
 
     fn letter_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
         match self.text.bytes().get(range.clone()) {
             Some(b"O" | b"o") => {
-                let edit = vec![TextEdit { range: range.clone(), text: "0".into() }];
-                vec![crate::finding::Fix { kind: FixKind::ZeroForO, preferred: true, in_fix_all: true, edit }]
+                let edit = vec![TextEdit {
+                    range: range.clone(),
+                    text: "0".into(),
+                }];
+                vec![crate::finding::Fix {
+                    kind: FixKind::ZeroForO,
+                    preferred: true,
+                    in_fix_all: true,
+                    edit,
+                }]
             }
             Some(bytes) => {
-                let place = |start: usize, length: usize| range.start + start..range.start + start + length;
+                let place =
+                    |start: usize, length: usize| range.start + start..range.start + start + length;
                 let alike = alike(bytes);
-                let plain =
-                    |found: &Alike| TextEdit { range: place(found.at, found.length), text: (found.likeness.ascii() as char).to_string() };
-                let fix = |kind, edit| vec![crate::finding::Fix { kind, preferred: true, in_fix_all: true, edit }];
+                let plain = |found: &Alike| TextEdit {
+                    range: place(found.at, found.length),
+                    text: (found.likeness.ascii() as char).to_string(),
+                };
+                let fix = |kind, edit| {
+                    vec![crate::finding::Fix {
+                        kind,
+                        preferred: true,
+                        in_fix_all: true,
+                        edit,
+                    }]
+                };
                 if alike.iter().any(|found| found.likeness.is_letter()) {
                     return fix(FixKind::PlainLetters, alike.iter().map(plain).collect());
                 }
-                let commas = decimal_commas(bytes).map(|at| TextEdit { range: place(at, 1), text: ".".into() });
+                let commas = decimal_commas(bytes).map(|at| TextEdit {
+                    range: place(at, 1),
+                    text: ".".into(),
+                });
                 let commas: Vec<TextEdit> = commas.collect();
-                if commas.len() == 2 { fix(FixKind::DecimalPoints, commas) } else { Vec::new() }
+                if commas.len() == 2 {
+                    fix(FixKind::DecimalPoints, commas)
+                } else {
+                    Vec::new()
+                }
             }
             None => Vec::new(),
         }
@@ -258,6 +387,10 @@ impl Document {
 
 /// The commas of coordinates that stand between two digits.
 fn decimal_commas(text: &[u8]) -> impl Iterator<Item = usize> + '_ {
-    let is_digit = |at: Option<usize>| at.and_then(|at| text.get(at)).is_some_and(u8::is_ascii_digit);
-    memchr::memchr_iter(b',', text).filter(move |&at| is_digit(at.checked_sub(1)) && is_digit(Some(at + 1)))
+    let is_digit = |at: Option<usize>| {
+        at.and_then(|at| text.get(at))
+            .is_some_and(u8::is_ascii_digit)
+    };
+    memchr::memchr_iter(b',', text)
+        .filter(move |&at| is_digit(at.checked_sub(1)) && is_digit(Some(at + 1)))
 }

@@ -4,7 +4,9 @@ use super::super::block::Motion;
 use super::super::fields::{Fields, fields_of};
 use super::super::layout::{push_end_point, push_fields, push_to_comment_column};
 use super::super::parse::{StatedPoint, before_comment, two_numbers};
-use super::super::repair::{BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs};
+use super::super::repair::{
+    BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
+};
 use super::super::rules::{TextFix, axis_of, motion_name};
 use super::super::run::{Entry, Move, What};
 use super::{At, Document, Section};
@@ -18,9 +20,14 @@ use std::ops::Range;
 impl Document {
     /// The repairs of the contour in which a finding lies, the most likely one first.
     pub(super) fn contour_fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        let Place::Text { range } = &finding.place else { return Vec::new() };
+        let Place::Text { range } = &finding.place else {
+            return Vec::new();
+        };
         let scope = match finding.rule {
-            Rule::NotClosed | Rule::PathCrossesItself | Rule::BlockNumber | Rule::PositionMismatch => Scope::All,
+            Rule::NotClosed
+            | Rule::PathCrossesItself
+            | Rule::BlockNumber
+            | Rule::PositionMismatch => Scope::All,
             Rule::WrongJ
             | Rule::LengthInJ
             | Rule::JOverTurn
@@ -33,29 +40,61 @@ impl Document {
             | Rule::TooManyDigits => Scope::Blocks,
             _ => return Vec::new(),
         };
-        let Some(at) = self.entry_at(range) else { return Vec::new() };
-        let Some(section) = self.section_of(at) else { return Vec::new() };
-        let Some((places, pieces)) = self.pieces_of(&section, &self.view.starts) else { return Vec::new() };
+        let Some(at) = self.entry_at(range) else {
+            return Vec::new();
+        };
+        let Some(section) = self.section_of(at) else {
+            return Vec::new();
+        };
+        let Some((places, pieces)) = self.pieces_of(&section, &self.view.starts) else {
+            return Vec::new();
+        };
         let start = places.first().and_then(|first| self.stated_before(*first));
         let number = places.first().and_then(|first| self.number_before(*first));
         let is_closed = self.closes(&self.view, &section) && section.sum.unread == 0;
-        let path = Path { pieces: &pieces, start, number, limits: &self.limits, is_jump: section.is_jump, is_closed };
+        let path = Path {
+            pieces: &pieces,
+            start,
+            number,
+            limits: &self.limits,
+            is_jump: section.is_jump,
+            is_closed,
+        };
         let found = repairs(&path, scope);
         let fix = |(nth, repair): (usize, &Repair)| {
             let (kind, mut edit) = self.edit_of(&repair.change, &places, &pieces)?;
             edit.sort_by_key(|edit| edit.range.start);
-            Some(Fix { kind, preferred: nth == 0, in_fix_all: repair.is_sure, edit })
+            Some(Fix {
+                kind,
+                preferred: nth == 0,
+                in_fix_all: repair.is_sure,
+                edit,
+            })
         };
         found.iter().enumerate().filter_map(fix).collect()
     }
 
     /// The block that keeps a contour open, by its number in the section, where no other repair is as likely.
-    pub(super) fn blamed(&self, section: &Section, starts: &[(usize, usize)]) -> Option<(usize, ProgramFault)> {
+    pub(super) fn blamed(
+        &self,
+        section: &Section,
+        starts: &[(usize, usize)],
+    ) -> Option<(usize, ProgramFault)> {
         let (places, pieces) = self.pieces_of(section, starts)?;
         let start = places.first().and_then(|first| self.stated_before(*first));
         let number = places.first().and_then(|first| self.number_before(*first));
-        let path = Path { pieces: &pieces, start, number, limits: &self.limits, is_jump: section.is_jump, is_closed: false };
-        let best = repairs(&path, Scope::Blocks).into_iter().next().filter(|repair| repair.is_sure && repair.is_whole)?;
+        let path = Path {
+            pieces: &pieces,
+            start,
+            number,
+            limits: &self.limits,
+            is_jump: section.is_jump,
+            is_closed: false,
+        };
+        let best = repairs(&path, Scope::Blocks)
+            .into_iter()
+            .next()
+            .filter(|repair| repair.is_sure && repair.is_whole)?;
         match best.change {
             Change::Delete { index } => Some((index, ProgramFault::TwinKeepsOpen)),
             Change::Replace { index, block, slip } => {
@@ -63,13 +102,32 @@ impl Document {
                 let fault = match slip {
                     Slip::Motion => {
                         let [found, meant] = [old.motion, block.motion].map(motion_name);
-                        ProgramFault::QuadrantKeepsOpen { found, meant, is_sure: true }
+                        ProgramFault::QuadrantKeepsOpen {
+                            found,
+                            meant,
+                            is_sure: true,
+                        }
                     }
-                    Slip::Axis => ProgramFault::AxisKeepsOpen { axis: axis_of(old.axis), is_sure: true },
+                    Slip::Axis => ProgramFault::AxisKeepsOpen {
+                        axis: axis_of(old.axis),
+                        is_sure: true,
+                    },
                     Slip::Exchanged => ProgramFault::ExchangedKeepsOpen,
-                    Slip::Number(Number::X, _) => ProgramFault::NumberKeepsOpen { axis: Axis::X, value: old.x, meant: block.x },
-                    Slip::Number(Number::Y, _) => ProgramFault::NumberKeepsOpen { axis: Axis::Y, value: old.y, meant: block.y },
-                    Slip::Number(Number::J, _) => ProgramFault::JKeepsOpen { j: old.j, meant: block.j, is_sure: true },
+                    Slip::Number(Number::X, _) => ProgramFault::NumberKeepsOpen {
+                        axis: Axis::X,
+                        value: old.x,
+                        meant: block.x,
+                    },
+                    Slip::Number(Number::Y, _) => ProgramFault::NumberKeepsOpen {
+                        axis: Axis::Y,
+                        value: old.y,
+                        meant: block.y,
+                    },
+                    Slip::Number(Number::J, _) => ProgramFault::JKeepsOpen {
+                        j: old.j,
+                        meant: block.j,
+                        is_sure: true,
+                    },
                     Slip::Coordinates | Slip::Unread { .. } => return None,
                 };
                 Some((index, fault))
@@ -82,7 +140,11 @@ impl Document {
     fn number_before(&self, at: At) -> Option<u32> {
         (0..=at.run).rev().find_map(|run| {
             let of = self.runs.get(run)?;
-            let end = if run == at.run { at.entry } else { of.entries.len() };
+            let end = if run == at.run {
+                at.entry
+            } else {
+                of.entries.len()
+            };
             of.entries.get(..end)?.iter().rev().find_map(Entry::number)
         })
     }
@@ -92,12 +154,18 @@ impl Document {
         let run = self.run_at(range.start);
         let of = self.runs.get(run)?;
         let local = range.start.checked_sub(self.base(run))?;
-        let entry = of.entries.partition_point(|entry| entry.range().end <= local);
+        let entry = of
+            .entries
+            .partition_point(|entry| entry.range().end <= local);
         (entry < of.entries.len()).then_some(At { run, entry })
     }
 
     /// The blocks of a contour, those that cannot be read among them; `None` where there are too few or too many, or they are 4B.
-    fn pieces_of(&self, section: &Section, starts: &[(usize, usize)]) -> Option<(Vec<At>, Vec<Piece>)> {
+    fn pieces_of(
+        &self,
+        section: &Section,
+        starts: &[(usize, usize)],
+    ) -> Option<(Vec<At>, Vec<Piece>)> {
         if !BLOCKS.contains(&(section.sum.blocks + section.sum.unread)) {
             return None;
         }
@@ -111,7 +179,13 @@ impl Document {
                         return None;
                     }
                     let fields = fields_of(self.text.bytes(), own.clone())?;
-                    let digits = |range: &Range<usize>| self.text.bytes().get(range.clone()).unwrap_or_default().to_vec();
+                    let digits = |range: &Range<usize>| {
+                        self.text
+                            .bytes()
+                            .get(range.clone())
+                            .unwrap_or_default()
+                            .to_vec()
+                    };
                     Piece {
                         block: Some(block.block),
                         loose: None,
@@ -125,7 +199,10 @@ impl Document {
                 What::Unread => {
                     let line = self.text.line_range(self.text.line_of(own.start));
                     let text = self.text.bytes().get(line).unwrap_or_default();
-                    let behind = text.iter().position(|byte| *byte == b';').and_then(|at| two_numbers(before_comment(&text[at + 1..])));
+                    let behind = text
+                        .iter()
+                        .position(|byte| *byte == b';')
+                        .and_then(|at| two_numbers(before_comment(&text[at + 1..])));
                     Piece {
                         block: None,
                         loose: loose(before_comment(text)),
@@ -149,22 +226,41 @@ impl Document {
         let [(first_run, first_part), (last_run, last_part)] = section.parts;
         (first_run..=last_run).flat_map(move |run| {
             let entries = self.runs.get(run).map(|of| {
-                let from = if run == first_run { of.parts.get(first_part).map_or(0, |part| part.entries.start) } else { 0 };
-                let to = if run == last_run { of.parts.get(last_part).map_or(0, |part| part.entries.end) } else { of.entries.len() };
+                let from = if run == first_run {
+                    of.parts
+                        .get(first_part)
+                        .map_or(0, |part| part.entries.start)
+                } else {
+                    0
+                };
+                let to = if run == last_run {
+                    of.parts.get(last_part).map_or(0, |part| part.entries.end)
+                } else {
+                    of.entries.len()
+                };
                 from..to
             });
-            entries.into_iter().flatten().map(move |entry| At { run, entry })
+            entries
+                .into_iter()
+                .flatten()
+                .map(move |entry| At { run, entry })
         })
     }
 
-    fn edit_of(&self, change: &Change, places: &[At], pieces: &[Piece]) -> Option<(FixKind, Vec<TextEdit>)> {
+    fn edit_of(
+        &self,
+        change: &Change,
+        places: &[At],
+        pieces: &[Piece],
+    ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
         let own = |index: usize| Some(self.range_of(*places.get(index)?, &self.view.starts));
         let line = |index: usize| Some(self.text.line_of(own(index)?.start));
         let whole = |line: usize| self.text.line_start(line)..self.text.line_start(line + 1);
         let is_alone = |index: usize| {
             let own_line = line(index)?;
-            let is_other = |other: Option<usize>| other.and_then(line).is_none_or(|line| line != own_line);
+            let is_other =
+                |other: Option<usize>| other.and_then(line).is_none_or(|line| line != own_line);
             Some(is_other(index.checked_sub(1)) && is_other(index.checked_add(1)))
         };
         match change {
@@ -173,33 +269,74 @@ impl Document {
                 let line = self.text.line_range(line(*index)?);
                 let range = line.start + loose.range.start..line.start + loose.range.end;
                 let found = text.get(range.clone())?;
-                let layout = if found.contains(&b' ') { Layout::Aligned } else { Layout::Compact };
+                let layout = if found.contains(&b' ') {
+                    Layout::Aligned
+                } else {
+                    Layout::Compact
+                };
                 let mut made = Vec::new();
                 push_fields(&mut made, layout, block, None);
                 if found.iter().all(|byte| !byte.is_ascii_uppercase()) {
                     made.make_ascii_lowercase();
                 }
                 let made = String::from_utf8(made).ok()?;
-                Some((FixKind::RestoreBlock { block: made.clone() }, vec![TextEdit { range, text: made }]))
+                Some((
+                    FixKind::RestoreBlock {
+                        block: made.clone(),
+                    },
+                    vec![TextEdit { range, text: made }],
+                ))
             }
             Change::Replace { index, block, slip } => {
                 let old = pieces.get(*index)?.block?;
                 let fields = fields_of(text, own(*index)?)?;
-                Some((kind_of(&old, block, slip), changed_fields(text, &fields, &old, block)))
+                Some((
+                    kind_of(&old, block, slip),
+                    changed_fields(text, &fields, &old, block),
+                ))
             }
-            Change::Delete { index } if is_alone(*index)? => {
-                Some((FixKind::DeleteTwin, vec![TextEdit { range: whole(line(*index)?), text: String::new() }]))
-            }
-            Change::Delete { index } => Some((FixKind::DeleteTwin, vec![TextEdit { range: own(*index)?, text: String::new() }])),
+            Change::Delete { index } if is_alone(*index)? => Some((
+                FixKind::DeleteTwin,
+                vec![TextEdit {
+                    range: whole(line(*index)?),
+                    text: String::new(),
+                }],
+            )),
+            Change::Delete { index } => Some((
+                FixKind::DeleteTwin,
+                vec![TextEdit {
+                    range: own(*index)?,
+                    text: String::new(),
+                }],
+            )),
             Change::Exchange { index } => {
                 let (one, other) = (own(*index)?, own(index + 1)?);
                 // With what stands behind and before them, where each has its line.
-                let (one, other) = match (is_alone(*index)? && is_alone(index + 1)?, line(*index)?, line(index + 1)?) {
+                let (one, other) = match (
+                    is_alone(*index)? && is_alone(index + 1)?,
+                    line(*index)?,
+                    line(index + 1)?,
+                ) {
                     (true, a, b) => (self.text.line_range(a), self.text.line_range(b)),
                     _ => (one, other),
                 };
-                let taken = |range: &Range<usize>| Some(std::str::from_utf8(text.get(range.clone())?).ok()?.to_owned());
-                let edits = vec![TextEdit { text: taken(&other)?, range: one.clone() }, TextEdit { text: taken(&one)?, range: other }];
+                let taken = |range: &Range<usize>| {
+                    Some(
+                        std::str::from_utf8(text.get(range.clone())?)
+                            .ok()?
+                            .to_owned(),
+                    )
+                };
+                let edits = vec![
+                    TextEdit {
+                        text: taken(&other)?,
+                        range: one.clone(),
+                    },
+                    TextEdit {
+                        text: taken(&one)?,
+                        range: other,
+                    },
+                ];
                 Some((FixKind::ExchangeBlocks, edits))
             }
             Change::Insert { index, block } => self.insertion(*index, block, places, pieces),
@@ -207,7 +344,13 @@ impl Document {
     }
 
     /// A line more, written as its neighbour is.
-    fn insertion(&self, index: usize, block: &Block, places: &[At], pieces: &[Piece]) -> Option<(FixKind, Vec<TextEdit>)> {
+    fn insertion(
+        &self,
+        index: usize,
+        block: &Block,
+        places: &[At],
+        pieces: &[Piece],
+    ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
         let model = index.saturating_sub(1);
         let own = self.range_of(*places.get(model)?, &self.view.starts);
@@ -215,42 +358,84 @@ impl Document {
         let found = text.get(own.clone())?;
         let is_spaced = found.contains(&b' ');
         let number = |index: usize| pieces.get(index).and_then(|piece| piece.number);
-        let step = places
-            .len()
-            .checked_sub(1)
-            .and_then(|last| (0..last).filter_map(|at| number(at + 1)?.checked_sub(number(at)?)).filter(|step| *step > 0).min());
+        let step = places.len().checked_sub(1).and_then(|last| {
+            (0..last)
+                .filter_map(|at| number(at + 1)?.checked_sub(number(at)?))
+                .filter(|step| *step > 0)
+                .min()
+        });
         let mut made = Vec::new();
-        if let Some(number) = number(model).zip(step).map(|(own, step)| if index == 0 { own } else { own.saturating_add(step) }) {
+        if let Some(number) = number(model).zip(step).map(|(own, step)| {
+            if index == 0 {
+                own
+            } else {
+                own.saturating_add(step)
+            }
+        }) {
             made.extend_from_slice(&renumbered(text.get(line.start..own.start)?, number));
         }
-        push_fields(&mut made, if is_spaced { Layout::Aligned } else { Layout::Compact }, block, None);
+        push_fields(
+            &mut made,
+            if is_spaced {
+                Layout::Aligned
+            } else {
+                Layout::Compact
+            },
+            block,
+            None,
+        );
         let before = match index.checked_sub(1) {
             Some(before) => pieces.get(before).and_then(|piece| piece.stated),
             None => places.first().and_then(|first| self.stated_before(*first)),
         };
-        let is_stated = pieces.get(model).is_some_and(|piece| piece.stated.is_some());
+        let is_stated = pieces
+            .get(model)
+            .is_some_and(|piece| piece.stated.is_some());
         if let Some(before) = before.filter(|_| is_stated) {
             let [x, y] = super::super::run::travel_of(block).meant_um();
             let um = |mm: f64, by: f64| (mm * 1000.0 + by).round() as i64;
             push_to_comment_column(&mut made, block);
-            push_end_point(&mut made, Node { x: um(before.at[0], x), y: um(before.at[1], y) });
+            push_end_point(
+                &mut made,
+                Node {
+                    x: um(before.at[0], x),
+                    y: um(before.at[1], y),
+                },
+            );
         }
         let made = String::from_utf8(made).ok()?;
         let line_end = super::super::rules::missing_end::line_end_of(&self.text);
         let edit = match index {
-            0 => TextEdit { range: line.start..line.start, text: format!("{made}{line_end}") },
-            _ => TextEdit { range: line.end..line.end, text: format!("{line_end}{made}") },
+            0 => TextEdit {
+                range: line.start..line.start,
+                text: format!("{made}{line_end}"),
+            },
+            _ => TextEdit {
+                range: line.end..line.end,
+                text: format!("{line_end}{made}"),
+            },
         };
         let [x, y] = super::super::run::travel_of(block).meant_um();
         let is_arc = !matches!(block.motion, Motion::Line(_));
-        Some((FixKind::InsertBlock { length: x.hypot(y) / 1000.0, is_arc }, vec![edit]))
+        Some((
+            FixKind::InsertBlock {
+                length: x.hypot(y) / 1000.0,
+                is_arc,
+            },
+            vec![edit],
+        ))
     }
 }
 
 /// What stands before a block, with another number in it.
 fn renumbered(prefix: &[u8], number: u32) -> Vec<u8> {
-    let Some(last) = prefix.iter().rposition(u8::is_ascii_digit) else { return Vec::new() };
-    let first = prefix[..last].iter().rposition(|byte| !byte.is_ascii_digit()).map_or(0, |before| before + 1);
+    let Some(last) = prefix.iter().rposition(u8::is_ascii_digit) else {
+        return Vec::new();
+    };
+    let first = prefix[..last]
+        .iter()
+        .rposition(|byte| !byte.is_ascii_digit())
+        .map_or(0, |before| before + 1);
     let digits = number.to_string();
     let mut made = prefix[..first].to_vec();
     // Columns stay where spaces give room for one more digit.
@@ -267,11 +452,22 @@ fn renumbered(prefix: &[u8], number: u32) -> Vec<u8> {
 
 fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
     match slip {
-        Slip::Motion => FixKind::SetMotion { name: motion_name(new.motion) },
-        Slip::Axis => FixKind::SetAxis { axis: axis_of(new.axis), j: (old.j != new.j).then_some(new.j) },
+        Slip::Motion => FixKind::SetMotion {
+            name: motion_name(new.motion),
+        },
+        Slip::Axis => FixKind::SetAxis {
+            axis: axis_of(new.axis),
+            j: (old.j != new.j).then_some(new.j),
+        },
         Slip::Exchanged => FixKind::ExchangeXAndY,
-        Slip::Number(Number::X, _) => FixKind::SetEnd { axis: Axis::X, value: new.x },
-        Slip::Number(Number::Y, _) => FixKind::SetEnd { axis: Axis::Y, value: new.y },
+        Slip::Number(Number::X, _) => FixKind::SetEnd {
+            axis: Axis::X,
+            value: new.x,
+        },
+        Slip::Number(Number::Y, _) => FixKind::SetEnd {
+            axis: Axis::Y,
+            value: new.y,
+        },
         Slip::Number(Number::J, _) => FixKind::SetJ { j: new.j },
         Slip::Coordinates | Slip::Unread { .. } => FixKind::FollowCoordinates,
     }
@@ -279,15 +475,31 @@ fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
 
 /// The fields that differ, in the case of the block.
 fn changed_fields(text: &[u8], fields: &Fields, old: &Block, new: &Block) -> Vec<TextEdit> {
-    let is_lower = text.get(fields.motion.start).is_some_and(u8::is_ascii_lowercase);
+    let is_lower = text
+        .get(fields.motion.start)
+        .is_some_and(u8::is_ascii_lowercase);
     let cased = |text: String| if is_lower { text.to_lowercase() } else { text };
     let all = [
         (&fields.x, new.x.to_string(), new.x == old.x),
         (&fields.y, new.y.to_string(), new.y == old.y),
         (&fields.j, new.j.to_string(), new.j == old.j),
-        (&fields.axis, cased(format!("G{}", axis_of(new.axis).letter())), new.axis == old.axis),
-        (&fields.motion, cased(motion_name(new.motion).into()), new.motion == old.motion),
+        (
+            &fields.axis,
+            cased(format!("G{}", axis_of(new.axis).letter())),
+            new.axis == old.axis,
+        ),
+        (
+            &fields.motion,
+            cased(motion_name(new.motion).into()),
+            new.motion == old.motion,
+        ),
     ];
-    let edit = |(range, text, _): (&Range<usize>, String, bool)| TextEdit { range: range.clone(), text };
-    all.into_iter().filter(|(.., is_same)| !is_same).map(edit).collect()
+    let edit = |(range, text, _): (&Range<usize>, String, bool)| TextEdit {
+        range: range.clone(),
+        text,
+    };
+    all.into_iter()
+        .filter(|(.., is_same)| !is_same)
+        .map(edit)
+        .collect()
 }

@@ -17,23 +17,43 @@ enum Kept {
 impl Document {
     /// All findings as the reader and the rules see them, in no order.
     pub fn findings(&self) -> Vec<Finding> {
-        let of_blocks = self.locals().map(|(run, local)| self.materialized(run, local));
-        of_blocks.chain(self.view.findings.iter().cloned()).collect()
+        let of_blocks = self
+            .locals()
+            .map(|(run, local)| self.materialized(run, local));
+        of_blocks
+            .chain(self.view.findings.iter().cloned())
+            .collect()
     }
 
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there are.
     pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
         let mut order: Vec<(Severity, usize, Kept)> = Vec::new();
-        for (run, of) in self.runs.iter().enumerate().filter(|(_, of)| !of.faults.is_empty()) {
-            for (index, local) in of.faults.iter().enumerate().filter(|(_, local)| self.counts(run, local)) {
+        for (run, of) in self
+            .runs
+            .iter()
+            .enumerate()
+            .filter(|(_, of)| !of.faults.is_empty())
+        {
+            for (index, local) in of
+                .faults
+                .iter()
+                .enumerate()
+                .filter(|(_, local)| self.counts(run, local))
+            {
                 if let Some(severity) = severity(local.rule, self.own_severity(run, local)) {
-                    order.push((severity, local.range.start + self.base(run), Kept::InBlock { run, index }));
+                    order.push((
+                        severity,
+                        local.range.start + self.base(run),
+                        Kept::InBlock { run, index },
+                    ));
                 }
             }
         }
         for (index, finding) in self.view.findings.iter().enumerate() {
-            if let (Some(severity), Place::Text { range }) = (severity(finding.rule, finding.severity), &finding.place) {
+            if let (Some(severity), Place::Text { range }) =
+                (severity(finding.rule, finding.severity), &finding.place)
+            {
                 order.push((severity, range.start, Kept::OnWhole { index }));
             }
         }
@@ -42,16 +62,25 @@ impl Document {
         order.truncate(limit);
         let made = order.into_iter().filter_map(|(severity, _, which)| {
             let finding = match which {
-                Kept::InBlock { run, index } => self.materialized(run, self.runs.get(run)?.faults.get(index)?),
+                Kept::InBlock { run, index } => {
+                    self.materialized(run, self.runs.get(run)?.faults.get(index)?)
+                }
                 Kept::OnWhole { index } => self.view.findings.get(index)?.clone(),
             };
-            Some(Finding { severity, ..finding })
+            Some(Finding {
+                severity,
+                ..finding
+            })
         });
         (made.collect(), count)
     }
 
     fn locals(&self) -> impl Iterator<Item = (usize, &Local)> {
-        let all = self.runs.iter().enumerate().flat_map(|(run, of)| of.faults.iter().map(move |local| (run, local)));
+        let all = self
+            .runs
+            .iter()
+            .enumerate()
+            .flat_map(|(run, of)| of.faults.iter().map(move |local| (run, local)));
         all.filter(|(run, local)| self.counts(*run, local))
     }
 
@@ -60,11 +89,18 @@ impl Document {
     }
 
     fn is_unusual_only(&self, run: usize, local: &Local) -> bool {
-        local.counts == Counts::MildIfClosed && self.section_of_local(run, local).is_none_or(|section| self.closes(&self.view, &section))
+        local.counts == Counts::MildIfClosed
+            && self
+                .section_of_local(run, local)
+                .is_none_or(|section| self.closes(&self.view, &section))
     }
 
     fn own_severity(&self, run: usize, local: &Local) -> Severity {
-        if self.is_unusual_only(run, local) { Severity::Information } else { local.rule.default_severity() }
+        if self.is_unusual_only(run, local) {
+            Severity::Information
+        } else {
+            local.rule.default_severity()
+        }
     }
 
     fn counts(&self, run: usize, local: &Local) -> bool {
@@ -85,13 +121,22 @@ impl Document {
         let block = local.range.start + base..local.range.end + base;
         let range = match local.spot {
             rules::Spot::Block => block,
-            spot => fields_of(self.text.bytes(), block.clone()).map_or(block.clone(), |fields| spot.range(&fields, block)),
+            spot => fields_of(self.text.bytes(), block.clone())
+                .map_or(block.clone(), |fields| spot.range(&fields, block)),
         };
         let detail = match &local.detail {
-            Detail::Program(fault) if self.is_unusual_only(run, local) => Detail::Program(Box::new(fault.as_unusual())),
+            Detail::Program(fault) if self.is_unusual_only(run, local) => {
+                Detail::Program(Box::new(fault.as_unusual()))
+            }
             detail => detail.clone(),
         };
         let severity = self.own_severity(run, local);
-        Finding { rule: local.rule, severity, place: Place::Text { range }, detail, related: Vec::new() }
+        Finding {
+            rule: local.rule,
+            severity,
+            place: Place::Text { range },
+            detail,
+            related: Vec::new(),
+        }
     }
 }

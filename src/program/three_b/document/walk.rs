@@ -44,7 +44,11 @@ impl Document {
         (0..first).for_each(|run| walk.skip(run));
         let mut steps = Vec::new();
         for run in first..=last {
-            walk.run(run, |bytes| bytes.start <= range.end && range.start <= bytes.end, &mut |step| steps.push(step));
+            walk.run(
+                run,
+                |bytes| bytes.start <= range.end && range.start <= bytes.end,
+                &mut |step| steps.push(step),
+            );
         }
         steps
     }
@@ -53,15 +57,29 @@ impl Document {
     pub fn blocks_in(&self, range: Range<usize>) -> Vec<PlacedBlock> {
         let mut blocks = Vec::new();
         for run in self.run_at(range.start)..=self.run_at(range.end) {
-            let (Some(of), (base, first_line)) = (self.runs.get(run), self.view.starts.get(run).copied().unwrap_or_default()) else {
+            let (Some(of), (base, first_line)) = (
+                self.runs.get(run),
+                self.view.starts.get(run).copied().unwrap_or_default(),
+            ) else {
                 continue;
             };
             for entry in &of.entries {
                 let own = entry.range().start + base..entry.range().end + base;
-                if let Some(block) = entry.block().filter(|_| own.start <= range.end && range.start <= own.end) {
+                if let Some(block) = entry
+                    .block()
+                    .filter(|_| own.start <= range.end && range.start <= own.end)
+                {
                     let (line, number) = (first_line + entry.line as usize, entry.number());
-                    let (part, stated_end) = (block.part(), block.stated_end().map(|stated| stated.at));
-                    blocks.push(PlacedBlock { range: own, line, number, block: block.block, part, stated_end });
+                    let (part, stated_end) =
+                        (block.part(), block.stated_end().map(|stated| stated.at));
+                    blocks.push(PlacedBlock {
+                        range: own,
+                        line,
+                        number,
+                        block: block.block,
+                        part,
+                        stated_end,
+                    });
                 }
             }
         }
@@ -81,30 +99,57 @@ impl Document {
         let run = self.run_at(offset);
         let local = offset.saturating_sub(self.base(run));
         let entries = &self.runs.get(run)?.entries;
-        let behind = At { run, entry: entries.partition_point(|entry| entry.range().end <= local) };
+        let behind = At {
+            run,
+            entry: entries.partition_point(|entry| entry.range().end <= local),
+        };
         if self.view.end.is_some_and(|end| end < behind) {
             return None;
         }
         let parts = &self.runs.get(run)?.parts;
-        let part = parts.partition_point(|part| part.entries.end < behind.entry).min(parts.len().saturating_sub(1));
-        self.chain(&self.section_of_part(&self.view, (run, part))?, Some(behind))
+        let part = parts
+            .partition_point(|part| part.entries.end < behind.entry)
+            .min(parts.len().saturating_sub(1));
+        self.chain(
+            &self.section_of_part(&self.view, (run, part))?,
+            Some(behind),
+        )
     }
 
     /// The first word behind a byte, up to the end of the program.
     pub fn word_behind(&self, offset: usize) -> Option<Range<usize>> {
         let first = self.run_at(offset);
-        let words =
-            self.runs.iter().enumerate().skip(first).flat_map(|(run, of)| {
-                of.parts.iter().filter(|part| part.word.is_some()).map(move |part| At { run, entry: part.entries.end })
+        let words = self
+            .runs
+            .iter()
+            .enumerate()
+            .skip(first)
+            .flat_map(|(run, of)| {
+                of.parts
+                    .iter()
+                    .filter(|part| part.word.is_some())
+                    .map(move |part| At {
+                        run,
+                        entry: part.entries.end,
+                    })
             });
-        let found = words.map(|at| self.range_of(at, &self.view.starts)).find(|range| range.start > offset)?;
-        let is_over = self.view.end.is_some_and(|end| self.range_of(end, &self.view.starts).start < found.start);
+        let found = words
+            .map(|at| self.range_of(at, &self.view.starts))
+            .find(|range| range.start > offset)?;
+        let is_over = self
+            .view
+            .end
+            .is_some_and(|end| self.range_of(end, &self.view.starts).start < found.start);
         (!is_over).then_some(found)
     }
 
     /// The line of the first block of 4B, from 0.
     pub(in crate::program) fn first_four_b_line(&self) -> Option<usize> {
-        let mut all = self.runs.iter().enumerate().flat_map(|(run, of)| of.entries.iter().map(move |entry| (run, entry)));
+        let mut all = self
+            .runs
+            .iter()
+            .enumerate()
+            .flat_map(|(run, of)| of.entries.iter().map(move |entry| (run, entry)));
         let is_four_b = |entry: &Entry| entry.block().is_some_and(|block| block.part().is_some());
         let (run, entry) = all.find(|(_, entry)| is_four_b(entry))?;
         Some(self.view.starts.get(run)?.1 + entry.line as usize)
@@ -112,7 +157,10 @@ impl Document {
 
     pub fn first_block(&self) -> Option<Range<usize>> {
         let run = self.runs.iter().position(|run| run.blocks > 0)?;
-        let entry = self.runs[run].entries.iter().position(|entry| entry.block().is_some())?;
+        let entry = self.runs[run]
+            .entries
+            .iter()
+            .position(|entry| entry.block().is_some())?;
         Some(self.range_of(At { run, entry }, &self.view.starts))
     }
 
@@ -128,9 +176,17 @@ impl Document {
             range.start <= offset && offset <= range.end
         };
         let run = self.run_at(offset);
-        let entries = self.runs.get(run)?.entries.iter().enumerate().filter(|(_, entry)| entry.block().is_some());
+        let entries = self
+            .runs
+            .get(run)?
+            .entries
+            .iter()
+            .enumerate()
+            .filter(|(_, entry)| entry.block().is_some());
         let is_in_program = |at: &At| self.view.end.is_none_or(|end| *at < end);
-        entries.map(|(entry, _)| At { run, entry }).rfind(|at| touches(at) && is_in_program(at))
+        entries
+            .map(|(entry, _)| At { run, entry })
+            .rfind(|at| touches(at) && is_in_program(at))
     }
 
     /// Blocks of a section before one of its entries.
@@ -138,13 +194,31 @@ impl Document {
         let mut count = 0;
         for run in section.parts[0].0..=at.run {
             let Some(of) = self.runs.get(run) else { break };
-            let parts = if run == section.parts[0].0 { section.parts[0].1.. } else { 0.. };
+            let parts = if run == section.parts[0].0 {
+                section.parts[0].1..
+            } else {
+                0..
+            };
             for part in of.parts.get(parts).unwrap_or_default() {
-                if (At { run, entry: part.entries.end }) <= at {
+                if (At {
+                    run,
+                    entry: part.entries.end,
+                }) <= at
+                {
                     count += part.sum.blocks;
-                } else if (At { run, entry: part.entries.start }) <= at {
-                    let before = of.entries.get(part.entries.start..at.entry.min(part.entries.end));
-                    count += before.unwrap_or_default().iter().filter(|entry| entry.block().is_some()).count();
+                } else if (At {
+                    run,
+                    entry: part.entries.start,
+                }) <= at
+                {
+                    let before = of
+                        .entries
+                        .get(part.entries.start..at.entry.min(part.entries.end));
+                    count += before
+                        .unwrap_or_default()
+                        .iter()
+                        .filter(|entry| entry.block().is_some())
+                        .count();
                 }
             }
         }
@@ -153,31 +227,62 @@ impl Document {
 
     /// The blocks of a section, up to an entry where one is named, by their ends.
     pub(super) fn chain(&self, section: &Section, until: Option<At>) -> Option<Chain<'static>> {
-        let end = until.unwrap_or(At { run: usize::MAX, entry: 0 });
+        let end = until.unwrap_or(At {
+            run: usize::MAX,
+            entry: 0,
+        });
         let [(first_run, first_part), (last_run, last_part)] = section.parts;
         // Entries of the section in a run, as far as they count.
         let entries = |run: usize| -> Range<usize> {
-            let Some(of) = self.runs.get(run) else { return 0..0 };
-            let from = if run == first_run { of.parts.get(first_part).map_or(0, |part| part.entries.start) } else { 0 };
-            let to = if run == last_run { of.parts.get(last_part).map_or(0, |part| part.entries.end) } else { of.entries.len() };
-            let to = if run == end.run { to.min(end.entry) } else { to };
+            let Some(of) = self.runs.get(run) else {
+                return 0..0;
+            };
+            let from = if run == first_run {
+                of.parts
+                    .get(first_part)
+                    .map_or(0, |part| part.entries.start)
+            } else {
+                0
+            };
+            let to = if run == last_run {
+                of.parts.get(last_part).map_or(0, |part| part.entries.end)
+            } else {
+                of.entries.len()
+            };
+            let to = if run == end.run {
+                to.min(end.entry)
+            } else {
+                to
+            };
             from..to.max(from)
         };
         let last_run = last_run.min(end.run);
         let blocks_in = |run: usize| {
             let of = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
-            of.get(entries(run)).unwrap_or_default().iter().filter_map(Entry::block)
+            of.get(entries(run))
+                .unwrap_or_default()
+                .iter()
+                .filter_map(Entry::block)
         };
         let is_whole = |run: usize| run != first_run && run != last_run;
         let (mut count, mut arcs, mut travel) = (0, 0, Move::default());
         for run in first_run..=last_run {
-            match self.runs.get(run).filter(|of| is_whole(run) && of.parts.len() == 1) {
+            match self
+                .runs
+                .get(run)
+                .filter(|of| is_whole(run) && of.parts.len() == 1)
+            {
                 Some(of) => {
                     let sum = &of.parts[0].sum;
-                    (count, arcs, travel) = (count + sum.blocks, arcs + sum.arcs, travel.plus(sum.travel));
+                    (count, arcs, travel) =
+                        (count + sum.blocks, arcs + sum.arcs, travel.plus(sum.travel));
                 }
                 None => blocks_in(run).for_each(|block| {
-                    (count, arcs, travel) = (count + 1, arcs + usize::from(!block.is_line()), travel.plus(block.travel));
+                    (count, arcs, travel) = (
+                        count + 1,
+                        arcs + usize::from(!block.is_line()),
+                        travel.plus(block.travel),
+                    );
                 }),
             }
         }
@@ -200,31 +305,56 @@ impl Document {
                 let own = entries(run);
                 walk.run(run, |_| true, &mut |step| steps.push((run, step)));
                 let range = |entry: usize| self.range_of(At { run, entry }, &self.view.starts);
-                let (from, to) = (range(own.start).start, own.end.checked_sub(1).map_or(0, |last| range(last).end));
+                let (from, to) = (
+                    range(own.start).start,
+                    own.end.checked_sub(1).map_or(0, |last| range(last).end),
+                );
                 steps.retain(|(of, step)| {
-                    *of != run || (step.moves() && step.range.start >= from && step.range.end <= to && !own.is_empty())
+                    *of != run
+                        || (step.moves()
+                            && step.range.start >= from
+                            && step.range.end <= to
+                            && !own.is_empty())
                 });
             }
-            steps.into_iter().map(|(_, step)| step).collect::<Vec<Step>>()
+            steps
+                .into_iter()
+                .map(|(_, step)| step)
+                .collect::<Vec<Step>>()
         };
         let head = steps_of(first_run..head_end.max(first_run), &mut walk);
         (head_end..tail_start).for_each(|run| walk.skip(run));
         let tail = steps_of(tail_start..(last_run + 1).max(tail_start), &mut walk);
         let [x, y] = travel.meant_um();
-        let stop = SectionWay::of(self, section).stop().filter(|stop| *stop < count);
-        (count > 0).then(|| Chain::by_ends(head, tail, (count, arcs), Vector::new(x, y)).stopping(stop))
+        let stop = SectionWay::of(self, section)
+            .stop()
+            .filter(|stop| *stop < count);
+        (count > 0)
+            .then(|| Chain::by_ends(head, tail, (count, arcs), Vector::new(x, y)).stopping(stop))
     }
 
     fn walk(&self) -> Walk<'_> {
-        let mut starts = self.runs.iter().take_while(|run| run.blocks == 0).chain(self.runs.iter().find(|run| run.blocks > 0));
+        let mut starts = self
+            .runs
+            .iter()
+            .take_while(|run| run.blocks == 0)
+            .chain(self.runs.iter().find(|run| run.blocks > 0));
         let start = starts.find_map(|run| {
-            run.entries.iter().take_while(|entry| entry.block().is_none()).find_map(|entry| match entry.what {
-                What::StartPoint(at) => Some(at),
-                _ => None,
-            })
+            run.entries
+                .iter()
+                .take_while(|entry| entry.block().is_none())
+                .find_map(|entry| match entry.what {
+                    What::StartPoint(at) => Some(at),
+                    _ => None,
+                })
         });
         let [x, y] = start.unwrap_or([0.0, 0.0]).map(|mm| (mm * 1000.0).round());
-        Walk { document: self, at: Point::new(x, y), start_is_known: start.is_some(), section: 0 }
+        Walk {
+            document: self,
+            at: Point::new(x, y),
+            start_is_known: start.is_some(),
+            section: 0,
+        }
     }
 }
 
@@ -238,19 +368,34 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// Goes through a run, and hands out the steps whose bytes are `wanted`.
-    fn run(&mut self, index: usize, wanted: impl Fn(&Range<usize>) -> bool, each: &mut dyn FnMut(Step)) {
+    fn run(
+        &mut self,
+        index: usize,
+        wanted: impl Fn(&Range<usize>) -> bool,
+        each: &mut dyn FnMut(Step),
+    ) {
         let document = self.document;
-        let Some(run) = document.runs.get(index) else { return };
+        let Some(run) = document.runs.get(index) else {
+            return;
+        };
         let (base, first_line) = document.view.starts.get(index).copied().unwrap_or_default();
         let mut part = 0;
         let mut is_jump = document.is_jump((index, 0));
         for (entry_index, entry) in run.entries.iter().enumerate() {
-            let at = At { run: index, entry: entry_index };
+            let at = At {
+                run: index,
+                entry: entry_index,
+            };
             if document.view.end.is_some_and(|end| at > end) {
                 return;
             }
             let range = entry.range().start + base..entry.range().end + base;
-            let (line, number, contour, start) = (first_line + entry.line as usize, entry.number(), self.section, self.at);
+            let (line, number, contour, start) = (
+                first_line + entry.line as usize,
+                entry.number(),
+                self.section,
+                self.at,
+            );
             match &entry.what {
                 What::Block(block) => {
                     let [x, y] = block.travel.machine;
@@ -262,26 +407,53 @@ impl Walk<'_> {
                             true => Kind::Line,
                             false => Kind::Arc,
                         };
-                        each(Step { range, line, number, kind, start, end, ideal: meant(&block.block, start), contour });
+                        each(Step {
+                            range,
+                            line,
+                            number,
+                            kind,
+                            start,
+                            end,
+                            ideal: meant(&block.block, start),
+                            contour,
+                        });
                     }
                 }
                 What::Word { .. } => {
-                    let kind = if document.view.end == Some(at) { Kind::End } else { Kind::Pause };
+                    let kind = if document.view.end == Some(at) {
+                        Kind::End
+                    } else {
+                        Kind::Pause
+                    };
                     if wanted(&range) {
-                        each(Step { range, line, number, kind, start, end: start, ideal: None, contour });
+                        each(Step {
+                            range,
+                            line,
+                            number,
+                            kind,
+                            start,
+                            end: start,
+                            ideal: None,
+                            contour,
+                        });
                     }
                     part += 1;
                     self.section += usize::from(!document.is_tab((index, part)));
                     is_jump = document.is_jump((index, part));
                 }
-                What::StartPoint(_) | What::Text { .. } | What::CommentedBlock { .. } | What::Unread => {}
+                What::StartPoint(_)
+                | What::Text { .. }
+                | What::CommentedBlock { .. }
+                | What::Unread => {}
             }
         }
     }
 
     /// Goes through a run without a look.
     fn skip(&mut self, index: usize) {
-        let Some(run) = self.document.runs.get(index) else { return };
+        let Some(run) = self.document.runs.get(index) else {
+            return;
+        };
         if self.document.view.end.is_some_and(|end| end.run <= index) {
             return self.run(index, |_| false, &mut |_| {});
         }

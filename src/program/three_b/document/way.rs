@@ -34,17 +34,42 @@ const SLACK: f64 = 1.0;
 
 impl<'a> SectionWay<'a> {
     pub fn of(document: &'a Document, section: &Section) -> SectionWay<'a> {
-        let mut way = SectionWay { document, parts: Vec::new(), count: 0, arcs: 0, travel: Move::default(), stop: None };
+        let mut way = SectionWay {
+            document,
+            parts: Vec::new(),
+            count: 0,
+            arcs: 0,
+            travel: Move::default(),
+            stop: None,
+        };
         let [(first_run, first_part), (last_run, last_part)] = section.parts;
-        for (run, of) in document.runs.iter().enumerate().take(last_run + 1).skip(first_run) {
+        for (run, of) in document
+            .runs
+            .iter()
+            .enumerate()
+            .take(last_run + 1)
+            .skip(first_run)
+        {
             let from = if run == first_run { first_part } else { 0 };
-            let to = if run == last_run { last_part + 1 } else { of.parts.len() };
-            for (index, part) in of.parts.get(from..to).unwrap_or_default().iter().enumerate() {
+            let to = if run == last_run {
+                last_part + 1
+            } else {
+                of.parts.len()
+            };
+            for (index, part) in of
+                .parts
+                .get(from..to)
+                .unwrap_or_default()
+                .iter()
+                .enumerate()
+            {
                 if part.sum.blocks > 0 {
                     way.push(run, part);
                 }
                 let is_last = (run, from + index) == section.parts[1];
-                way.stop = way.stop.or((part.word.is_some() && !is_last).then_some(way.count));
+                way.stop = way
+                    .stop
+                    .or((part.word.is_some() && !is_last).then_some(way.count));
             }
         }
         way
@@ -52,25 +77,43 @@ impl<'a> SectionWay<'a> {
 
     fn push(&mut self, run: usize, part: &Part) {
         let (first, start) = (self.count, self.travel);
-        self.parts.push(WayPart { run, entries: part.entries.clone(), first, start, bounds: part.bounds, pieces: OnceCell::new() });
+        self.parts.push(WayPart {
+            run,
+            entries: part.entries.clone(),
+            first,
+            start,
+            bounds: part.bounds,
+            pieces: OnceCell::new(),
+        });
         self.count += part.sum.blocks;
         self.arcs += part.sum.arcs;
         self.travel = self.travel.plus(part.sum.travel);
     }
 
     fn entries(&self, part: &WayPart) -> impl Iterator<Item = &'a super::super::run::BlockEntry> {
-        let entries = self.document.runs.get(part.run).and_then(|run| run.entries.get(part.entries.clone()));
+        let entries = self
+            .document
+            .runs
+            .get(part.run)
+            .and_then(|run| run.entries.get(part.entries.clone()));
         entries.unwrap_or_default().iter().filter_map(Entry::block)
     }
 
     fn part_of(&self, index: usize) -> Option<&WayPart> {
-        self.parts.get(self.parts.partition_point(|part| part.first <= index).checked_sub(1)?)
+        self.parts.get(
+            self.parts
+                .partition_point(|part| part.first <= index)
+                .checked_sub(1)?,
+        )
     }
 
     fn pieces<'b>(&self, part: &'b WayPart) -> &'b [Segment] {
         part.pieces.get_or_init(|| {
             let [x, y] = part.start.meant_um();
-            pieces_of(self.entries(part)).into_iter().map(|piece| piece.moved(Vector::new(x, y))).collect()
+            pieces_of(self.entries(part))
+                .into_iter()
+                .map(|piece| piece.moved(Vector::new(x, y)))
+                .collect()
         })
     }
 }
@@ -97,10 +140,15 @@ impl Way for SectionWay<'_> {
             self.travel
         } else {
             let part = self.part_of(index)?;
-            self.entries(part).take(index - part.first).fold(part.start, |at, entry| at.plus(entry.travel))
+            self.entries(part)
+                .take(index - part.first)
+                .fold(part.start, |at, entry| at.plus(entry.travel))
         };
         let ([x, y], [a, b]) = (at.meant_um(), at.machine);
-        Some(Node { stands: Point::new(a as f64, b as f64), meant: Point::new(x, y) })
+        Some(Node {
+            stands: Point::new(a as f64, b as f64),
+            meant: Point::new(x, y),
+        })
     }
 
     fn piece(&self, index: usize) -> Option<Segment> {
@@ -108,13 +156,27 @@ impl Way for SectionWay<'_> {
         self.pieces(part).get(index - part.first).copied()
     }
 
-    fn pieces_about(&self, at: Point, reach: f64, each: &mut dyn FnMut(usize, &Segment) -> bool) -> Option<()> {
+    fn pieces_about(
+        &self,
+        at: Point,
+        reach: f64,
+        each: &mut dyn FnMut(usize, &Segment) -> bool,
+    ) -> Option<()> {
         let place = Bounds::of_disc(at, reach + SLACK);
         for part in &self.parts {
             let [x, y] = part.start.meant_um();
             let by = Vector::new(x, y);
-            let bounds = Bounds { min: part.bounds.min + by, max: part.bounds.max + by };
-            if bounds.touches(&place) && self.pieces(part).iter().zip(part.first..).any(|(piece, index)| each(index, piece)) {
+            let bounds = Bounds {
+                min: part.bounds.min + by,
+                max: part.bounds.max + by,
+            };
+            if bounds.touches(&place)
+                && self
+                    .pieces(part)
+                    .iter()
+                    .zip(part.first..)
+                    .any(|(piece, index)| each(index, piece))
+            {
                 break;
             }
         }

@@ -19,16 +19,28 @@ const LOOKED_BACK: usize = 500;
 pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let text = document.text();
     let line = text.line_range(text.line_of(offset));
-    let before = text.bytes().get(line.start..offset.clamp(line.start, line.end)).unwrap_or_default();
+    let before = text
+        .bytes()
+        .get(line.start..offset.clamp(line.start, line.end))
+        .unwrap_or_default();
     let typed = Typed::of(before, document);
     match typed {
         Some(typed) => typed.tails(document, line.start, offset),
         None => {
             // A word that has been begun is replaced.
-            let letters = before.iter().rev().take_while(|byte| byte.is_ascii_alphabetic()).count();
+            let letters = before
+                .iter()
+                .rev()
+                .take_while(|byte| byte.is_ascii_alphabetic())
+                .count();
             let rest = &before[..before.len() - letters];
-            let is_new = rest.iter().all(|byte| matches!(byte, b' ' | b'\t')) || rest.ends_with(b": ");
-            if is_new { beginnings(document, offset - letters, offset) } else { Vec::new() }
+            let is_new =
+                rest.iter().all(|byte| matches!(byte, b' ' | b'\t')) || rest.ends_with(b": ");
+            if is_new {
+                beginnings(document, offset - letters, offset)
+            } else {
+                Vec::new()
+            }
         }
     }
 }
@@ -49,17 +61,31 @@ impl Typed {
             let number = || std::str::from_utf8(bytes).ok()?.parse::<i64>().ok();
             match (piece.field, &mut typed) {
                 (Field::Separator, Some(typed)) => typed.numbers.push(None),
-                (Field::Separator, None) => typed = Some(Typed { numbers: vec![None], axis: None, begun: None }),
+                (Field::Separator, None) => {
+                    typed = Some(Typed {
+                        numbers: vec![None],
+                        axis: None,
+                        begun: None,
+                    })
+                }
                 (Field::X | Field::Y | Field::J, Some(typed)) => {
                     if let Some(last) = typed.numbers.last_mut() {
                         *last = number();
                     }
                 }
                 (Field::Axis, Some(typed)) => {
-                    let is_x = bytes.last().is_some_and(|byte| byte.eq_ignore_ascii_case(&b'X'));
-                    typed.axis = Some(if is_x { CountingAxis::X } else { CountingAxis::Y });
+                    let is_x = bytes
+                        .last()
+                        .is_some_and(|byte| byte.eq_ignore_ascii_case(&b'X'));
+                    typed.axis = Some(if is_x {
+                        CountingAxis::X
+                    } else {
+                        CountingAxis::Y
+                    });
                 }
-                (Field::Strange, Some(typed)) if piece.range.end == before.len() => typed.begun = Some(piece.range.start),
+                (Field::Strange, Some(typed)) if piece.range.end == before.len() => {
+                    typed.begun = Some(piece.range.start)
+                }
                 _ => typed = None,
             }
         }
@@ -73,7 +99,10 @@ impl Typed {
         let range = self.begun.map_or(offset, |begun| line_start + begun)..offset;
         let candidates = match (self.numbers[2], self.axis) {
             (None, None) => shapes(x, y, document.largest()),
-            (Some(j), None) => [CountingAxis::X, CountingAxis::Y].into_iter().flat_map(|axis| motions(x, y, j, axis)).collect(),
+            (Some(j), None) => [CountingAxis::X, CountingAxis::Y]
+                .into_iter()
+                .flat_map(|axis| motions(x, y, j, axis))
+                .collect(),
             (Some(j), Some(axis)) => motions(x, y, j, axis),
             (None, Some(_)) => Vec::new(),
         };
@@ -89,7 +118,13 @@ impl Typed {
             };
             let text = whole.get(skipped..)?.to_owned();
             let about = about(&decode(&block, start).ok()?);
-            Some(Completion { label: text.clone(), about, text, range: range.clone(), is_snippet: false })
+            Some(Completion {
+                label: text.clone(),
+                about,
+                text,
+                range: range.clone(),
+                is_snippet: false,
+            })
         };
         candidates.into_iter().filter_map(completion).collect()
     }
@@ -99,15 +134,28 @@ impl Typed {
 fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
     let origin = Node { x: 0, y: 0 };
     let corners = corners(x, y);
-    let mut blocks: Vec<Block> = corners.iter().filter(|&&corner| corner != origin).map(|&corner| line_block(origin, corner)).collect();
+    let mut blocks: Vec<Block> = corners
+        .iter()
+        .filter(|&&corner| corner != origin)
+        .map(|&corner| line_block(origin, corner))
+        .collect();
     for sweep in [TAU, PI, FRAC_PI_2] {
         for turn in [1.0, -1.0] {
             for &corner in corners.iter().filter(|&&corner| corner != origin) {
                 let start = point_of(corner);
-                let arc = Arc::from_center(Point::origin(), start.coords.norm(), start.y.atan2(start.x), sweep * turn);
+                let arc = Arc::from_center(
+                    Point::origin(),
+                    start.coords.norm(),
+                    start.y.atan2(start.x),
+                    sweep * turn,
+                );
                 let Some(end) = snap(arc.end) else { continue };
                 let mut encoded = Vec::new();
-                let piece = Segment::Arc(Arc { start, end: point_of(end), ..arc });
+                let piece = Segment::Arc(Arc {
+                    start,
+                    end: point_of(end),
+                    ..arc
+                });
                 if encode(&piece, corner, end, largest, &mut encoded).is_some()
                     && let [one] = encoded[..]
                     && !matches!(one.block.motion, Motion::Line(_))
@@ -124,7 +172,10 @@ fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
 fn corners(x: i64, y: i64) -> Vec<Node> {
     let mut corners: Vec<Node> = Vec::new();
     for (sign_x, sign_y) in [(1, 1), (-1, 1), (-1, -1), (1, -1)] {
-        let corner = Node { x: sign_x * x, y: sign_y * y };
+        let corner = Node {
+            x: sign_x * x,
+            y: sign_y * y,
+        };
         if !corners.contains(&corner) {
             corners.push(corner);
         }
@@ -134,15 +185,24 @@ fn corners(x: i64, y: i64) -> Vec<Node> {
 
 /// Blocks with these numbers and each Z that they can have.
 fn motions(x: i64, y: i64, j: i64, axis: CountingAxis) -> Vec<Block> {
-    let kinds: [fn(Quadrant) -> Motion; 3] = [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
+    let kinds: [fn(Quadrant) -> Motion; 3] =
+        [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
     let mut blocks = Vec::new();
     for kind in kinds {
         for corner in corners(x, y) {
             let quadrant = match kind(Quadrant::First) {
                 Motion::Clockwise(_) => Quadrant::clockwise(corner.x, corner.y),
-                Motion::Line(_) | Motion::CounterClockwise(_) => Quadrant::counter_clockwise(corner.x, corner.y),
+                Motion::Line(_) | Motion::CounterClockwise(_) => {
+                    Quadrant::counter_clockwise(corner.x, corner.y)
+                }
             };
-            blocks.push(Block { x, y, j, axis, motion: kind(quadrant) });
+            blocks.push(Block {
+                x,
+                y,
+                j,
+                axis,
+                motion: kind(quadrant),
+            });
         }
     }
     blocks
@@ -154,11 +214,26 @@ fn about(piece: &Segment) -> String {
     match piece {
         Segment::Line(line) => format!("line to ({}, {})", mm(line.end.x), mm(line.end.y)),
         Segment::Arc(arc) => {
-            let turn = if arc.sweep > 0.0 { "counter-clockwise" } else { "clockwise" };
+            let turn = if arc.sweep > 0.0 {
+                "counter-clockwise"
+            } else {
+                "clockwise"
+            };
             if arc.is_full_turn() {
-                return format!("circle R {}, {turn}, about ({}, {})", mm(arc.radius), mm(arc.center.x), mm(arc.center.y));
+                return format!(
+                    "circle R {}, {turn}, about ({}, {})",
+                    mm(arc.radius),
+                    mm(arc.center.x),
+                    mm(arc.center.y)
+                );
             }
-            format!("arc R {}, {:.1}° {turn}, to ({}, {})", mm(arc.radius), arc.sweep.abs().to_degrees(), mm(arc.end.x), mm(arc.end.y))
+            format!(
+                "arc R {}, {:.1}° {turn}, to ({}, {})",
+                mm(arc.radius),
+                arc.sweep.abs().to_degrees(),
+                mm(arc.end.x),
+                mm(arc.end.y)
+            )
         }
     }
 }
@@ -169,7 +244,10 @@ fn stand(document: &Document, offset: usize) -> Point {
     let line = text.line_of(offset);
     let from = text.line_start(line.saturating_sub(LOOKED_BACK));
     let steps = document.steps_in(from..offset);
-    steps.iter().rfind(|step| step.range.end <= offset).map_or_else(|| document.start(), |step| step.end)
+    steps
+        .iter()
+        .rfind(|step| step.range.end <= offset)
+        .map_or_else(|| document.start(), |step| step.end)
 }
 
 /// What can begin a line.
@@ -187,7 +265,8 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
     let mut targets: Vec<(&str, Point)> = Vec::new();
     if let Some(chain) = document.chain_before(start) {
         let first = chain.step(0);
-        targets.extend(first.map(|first| ("back to the start of the program's contour", first.start)));
+        targets
+            .extend(first.map(|first| ("back to the start of the program's contour", first.start)));
         targets.extend(first.map(|first| ("to the end of the lead-in", first.end)));
         let closed = passage_of(&chain).is_some_and(|passage| passage.closed);
         if closed && chain.count() > 1 {
@@ -196,7 +275,9 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
         }
     }
     for (label, target) in targets {
-        let (Some(from), Some(to)) = (snap(at), snap(target)) else { continue };
+        let (Some(from), Some(to)) = (snap(at), snap(target)) else {
+            continue;
+        };
         if from != to {
             let mut out = Vec::new();
             push_fields(&mut out, Layout::Compact, &line_block(from, to), None);
@@ -213,7 +294,15 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
         is_snippet: true,
     });
     let words = document.words();
-    found.push(plain(words.pause, "pause: the wire is cut or threaded".into(), words.pause.to_owned()));
-    found.push(plain(words.end, "end of the program".into(), words.end.to_owned()));
+    found.push(plain(
+        words.pause,
+        "pause: the wire is cut or threaded".into(),
+        words.pause.to_owned(),
+    ));
+    found.push(plain(
+        words.end,
+        "end of the program".into(),
+        words.end.to_owned(),
+    ));
     found
 }

@@ -9,7 +9,9 @@ use crate::program::edits::joined;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::{point_of, snap as node_of};
-use crate::program::three_b::layout::{push_block_number, push_end_point, push_fields, push_to_comment_column};
+use crate::program::three_b::layout::{
+    push_block_number, push_end_point, push_fields, push_to_comment_column,
+};
 use crate::program::three_b::parse::{Item, StatedPoint, Word, Words, before_comment, read_line};
 use crate::program::three_b::plain::with_plain_marks;
 use crate::settings::Layout;
@@ -29,19 +31,36 @@ const LOOKED_AT: usize = 1000;
 /// Blocks, words, block numbers, comments and the header with the start stay. Block numbers and end points of the checking layout
 /// are left out of the other two together; an end point that is not the block's own is a fault and stays in every layout. Each block
 /// gets a line of its own. Formatting twice is formatting once.
-pub fn format(text: &SourceText, layout: Option<Layout>, words: &Words<'_>, lines: Range<usize>) -> Vec<TextEdit> {
+pub fn format(
+    text: &SourceText,
+    layout: Option<Layout>,
+    words: &Words<'_>,
+    lines: Range<usize>,
+) -> Vec<TextEdit> {
     let layout = layout.unwrap_or_else(|| layout_of(text, words));
     // The numbers of the checking layout hang on all blocks, the rest on those before.
-    let end = if layout == Layout::Checking { text.line_count() } else { lines.end.min(text.line_count()) };
+    let end = if layout == Layout::Checking {
+        text.line_count()
+    } else {
+        lines.end.min(text.line_count())
+    };
     let read = |first: usize| Chunk::read(text, words, first..(first + AT_ONCE).min(end));
     let firsts: Vec<usize> = (0..end).step_by(AT_ONCE).collect();
     let is_long = firsts.len() > 2;
-    let mut chunks: Vec<Chunk> = if is_long { firsts.into_par_iter().map(read).collect() } else { firsts.into_iter().map(read).collect() };
+    let mut chunks: Vec<Chunk> = if is_long {
+        firsts.into_par_iter().map(read).collect()
+    } else {
+        firsts.into_iter().map(read).collect()
+    };
     let numbers_count_blocks = numbers_count_blocks(&chunks);
     let mut walk = Walk::new(layout);
     chunks.iter_mut().for_each(|chunk| walk.go_through(chunk));
     let form = |chunk: &Chunk| chunk.form(text, words, layout, numbers_count_blocks, &lines);
-    let formed: Vec<Edits> = if is_long { chunks.par_iter().map(form).collect() } else { chunks.iter().map(form).collect() };
+    let formed: Vec<Edits> = if is_long {
+        chunks.par_iter().map(form).collect()
+    } else {
+        chunks.iter().map(form).collect()
+    };
     let mut edits = Edits::default();
     formed.into_iter().for_each(|next| edits.append(text, next));
     joined(edits.list, text)
@@ -57,9 +76,18 @@ fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
     for line in 0..text.line_count() {
         let bytes = &text.bytes()[text.line_range(line)];
         read_line(bytes, 0, words, |item| {
-            let Item::Block { range, stated_end, .. } = item else { return };
+            let Item::Block {
+                range, stated_end, ..
+            } = item
+            else {
+                return;
+            };
             let spaced = bytes.get(range).is_some_and(|block| block.contains(&b' '));
-            votes[if stated_end.is_some() { 2 } else { usize::from(spaced) }] += 1;
+            votes[if stated_end.is_some() {
+                2
+            } else {
+                usize::from(spaced)
+            }] += 1;
         });
         if votes.iter().sum::<usize>() >= LOOKED_AT {
             break;
@@ -75,11 +103,16 @@ fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
 
 /// True where every block that has a number has its own ordinal.
 fn numbers_count_blocks(chunks: &[Chunk]) -> bool {
-    let numbers = chunks.iter().flat_map(|chunk| &chunk.items).filter_map(|item| match item {
-        Item::Block { number, .. } => Some(*number),
-        _ => None,
-    });
-    numbers.zip(1_u32..).all(|(number, ordinal)| number.is_none_or(|number| number == ordinal))
+    let numbers = chunks
+        .iter()
+        .flat_map(|chunk| &chunk.items)
+        .filter_map(|item| match item {
+            Item::Block { number, .. } => Some(*number),
+            _ => None,
+        });
+    numbers
+        .zip(1_u32..)
+        .all(|(number, ordinal)| number.is_none_or(|number| number == ordinal))
 }
 
 /// Some lines as the reader finds them, and what comes of them on the way through the program.
@@ -126,26 +159,43 @@ impl Chunk {
             // The reader skips a byte order mark at offset 0 only.
             let shift = usize::from(line > 0);
             let mut is_sound = true;
-            read_line(&text.bytes()[text.line_range(line)], shift, words, |mut item| match &mut item {
-                Item::Fault(_) | Item::Text { .. } => is_sound = false,
-                Item::CommentedBlock { .. } => {}
-                Item::Block { range, .. } | Item::Word { range, .. } | Item::StartPoint { range, .. } => {
-                    *range = range.start - shift..range.end - shift;
-                    chunk.ways.push(way_of(&item));
-                    chunk.items.push(item);
-                }
-            });
+            read_line(
+                &text.bytes()[text.line_range(line)],
+                shift,
+                words,
+                |mut item| match &mut item {
+                    Item::Fault(_) | Item::Text { .. } => is_sound = false,
+                    Item::CommentedBlock { .. } => {}
+                    Item::Block { range, .. }
+                    | Item::Word { range, .. }
+                    | Item::StartPoint { range, .. } => {
+                        *range = range.start - shift..range.end - shift;
+                        chunk.ways.push(way_of(&item));
+                        chunk.items.push(item);
+                    }
+                },
+            );
             // Wide marks and spaces among the fields stay as they stand.
             let line = &text.bytes()[text.line_range(line)];
             let code = before_comment(line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line));
             is_sound &= code.is_ascii() || with_plain_marks(code).is_none();
-            chunk.lines.push(Line { end: chunk.items.len(), is_sound });
+            chunk.lines.push(Line {
+                end: chunk.items.len(),
+                is_sound,
+            });
         }
         chunk
     }
 
     /// The edits of those of its lines that are asked for.
-    fn form(&self, text: &SourceText, words: &Words<'_>, layout: Layout, numbers_count_blocks: bool, lines: &Range<usize>) -> Edits {
+    fn form(
+        &self,
+        text: &SourceText,
+        words: &Words<'_>,
+        layout: Layout,
+        numbers_count_blocks: bool,
+        lines: &Range<usize>,
+    ) -> Edits {
         let mut edits = Edits::default();
         let (mut ordinal, mut is_over, mut first) = (self.ordinal, self.is_over, 0);
         for (line, Line { end, is_sound }) in (self.first_line..).zip(&self.lines) {
@@ -154,8 +204,17 @@ impl Chunk {
                 let range = text.line_range(line);
                 let bytes = &text.bytes()[range.clone()];
                 let pieces = Vec::new();
-                let mut writer =
-                    Writer { words, layout, numbers_count_blocks, ordinal, is_over, items, stated, pieces, is_sound: *is_sound };
+                let mut writer = Writer {
+                    words,
+                    layout,
+                    numbers_count_blocks,
+                    ordinal,
+                    is_over,
+                    items,
+                    stated,
+                    pieces,
+                    is_sound: *is_sound,
+                };
                 if let Some(formed) = writer.form(bytes, line_end(text, line)) {
                     edits.replace(text, line, range, &formed);
                 }
@@ -169,26 +228,49 @@ impl Chunk {
 }
 
 fn way_of(item: &Item) -> Option<Way> {
-    let Item::Block { block, .. } = item else { return None };
+    let Item::Block { block, .. } = item else {
+        return None;
+    };
     let segment = decode(block, Point::origin()).ok()?;
-    Some(Way { by: segment.end().coords, is_arc: segment.as_arc().is_some() })
+    Some(Way {
+        by: segment.end().coords,
+        is_arc: segment.as_arc().is_some(),
+    })
 }
 
 fn count_blocks(items: &[Item]) -> u64 {
-    items.iter().filter(|item| matches!(item, Item::Block { .. })).count() as u64
+    items
+        .iter()
+        .filter(|item| matches!(item, Item::Block { .. }))
+        .count() as u64
 }
 
 fn has_end(items: &[Item]) -> bool {
-    items.iter().any(|item| matches!(item, Item::Word { word: Word::End, .. }))
+    items.iter().any(|item| {
+        matches!(
+            item,
+            Item::Word {
+                word: Word::End,
+                ..
+            }
+        )
+    })
 }
 
 /// The line end of a line; of the one before it where it has none.
 fn line_end(text: &SourceText, line: usize) -> &str {
     let end_of = |line: usize| {
-        let bytes = text.bytes().get(text.line_range(line).end..text.line_start(line + 1)).unwrap_or_default();
-        std::str::from_utf8(bytes).ok().filter(|end| !end.is_empty())
+        let bytes = text
+            .bytes()
+            .get(text.line_range(line).end..text.line_start(line + 1))
+            .unwrap_or_default();
+        std::str::from_utf8(bytes)
+            .ok()
+            .filter(|end| !end.is_empty())
     };
-    end_of(line).or_else(|| end_of(line.checked_sub(1)?)).unwrap_or("\n")
+    end_of(line)
+        .or_else(|| end_of(line.checked_sub(1)?))
+        .unwrap_or("\n")
 }
 
 /// A line in its new form: text, and the bytes of the old line that stand behind it as they are.
@@ -211,7 +293,16 @@ struct Walk {
 
 impl Walk {
     fn new(layout: Layout) -> Walk {
-        Walk { layout, ordinal: 0, stand: Stand { at: Point::origin(), trust: Trust::Known, arcs: 0.0 }, is_over: false }
+        Walk {
+            layout,
+            ordinal: 0,
+            stand: Stand {
+                at: Point::origin(),
+                trust: Trust::Known,
+                arcs: 0.0,
+            },
+            is_over: false,
+        }
     }
 
     /// Follows the machine through some lines.
@@ -222,16 +313,30 @@ impl Walk {
             if !is_sound {
                 self.stand.trust = Trust::Lost;
             }
-            for (item, way) in chunk.items[first..*end].iter().zip(&chunk.ways[first..*end]) {
+            for (item, way) in chunk.items[first..*end]
+                .iter()
+                .zip(&chunk.ways[first..*end])
+            {
                 let stand = &mut self.stand;
                 let mut stated = Stated::Absent(None);
                 match item {
-                    Item::Block { stated_end, .. } => stated = stand.go_on(*stated_end, *way, self.layout),
-                    Item::Word { word: Word::Pause, .. } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
-                    Item::StartPoint { at: [x, y], .. } => {
-                        *stand = Stand { at: Point::new(x * 1000.0, y * 1000.0), trust: Trust::Known, arcs: 0.0 };
+                    Item::Block { stated_end, .. } => {
+                        stated = stand.go_on(*stated_end, *way, self.layout)
                     }
-                    Item::Word { .. } | Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => {}
+                    Item::Word {
+                        word: Word::Pause, ..
+                    } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
+                    Item::StartPoint { at: [x, y], .. } => {
+                        *stand = Stand {
+                            at: Point::new(x * 1000.0, y * 1000.0),
+                            trust: Trust::Known,
+                            arcs: 0.0,
+                        };
+                    }
+                    Item::Word { .. }
+                    | Item::Text { .. }
+                    | Item::CommentedBlock { .. }
+                    | Item::Fault(_) => {}
                 }
                 chunk.stated.push(stated);
             }
@@ -260,21 +365,55 @@ impl Writer<'_> {
     /// The line in its new form, `None` where it stays as it is.
     fn form(&mut self, line: &[u8], line_end: &str) -> Option<Formed> {
         self.pieces = pieces(line, self.words);
-        let from = if line.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-        let end = line.iter().rposition(|byte| !matches!(byte, b' ' | b'\t')).map_or(0, |last| last + 1).max(from);
-        let trimmed = || (end < line.len()).then(|| Formed { from: line.len(), head: String::new(), kept: from..end });
+        let from = if line.starts_with(b"\xef\xbb\xbf") {
+            3
+        } else {
+            0
+        };
+        let end = line
+            .iter()
+            .rposition(|byte| !matches!(byte, b' ' | b'\t'))
+            .map_or(0, |last| last + 1)
+            .max(from);
+        let trimmed = || {
+            (end < line.len()).then(|| Formed {
+                from: line.len(),
+                head: String::new(),
+                kept: from..end,
+            })
+        };
         let is_strange = |byte: &u8| matches!(byte, 0x0b | 0x0c | 0x1a);
         if !self.is_sound || self.is_over || line.iter().any(is_strange) {
             return None;
         }
-        let has = |field: Field| self.pieces.iter().filter(|piece| piece.field == field).count();
+        let has = |field: Field| {
+            self.pieces
+                .iter()
+                .filter(|piece| piece.field == field)
+                .count()
+        };
         let numbers = self
             .items
             .iter()
-            .filter(|item| matches!(item, Item::Block { number: Some(_), .. } | Item::Word { number: Some(_), .. }))
+            .filter(|item| {
+                matches!(
+                    item,
+                    Item::Block {
+                        number: Some(_),
+                        ..
+                    } | Item::Word {
+                        number: Some(_),
+                        ..
+                    }
+                )
+            })
             .count();
         // A header stands alone; a number that no block has would be lost.
-        if self.items.is_empty() || has(Field::StartPoint) > 0 || has(Field::Strange) > 0 || has(Field::Number) != numbers {
+        if self.items.is_empty()
+            || has(Field::StartPoint) > 0
+            || has(Field::Strange) > 0
+            || has(Field::Number) != numbers
+        {
             return trimmed();
         }
         let mut head = Vec::with_capacity(64);
@@ -285,10 +424,22 @@ impl Writer<'_> {
                 head.extend_from_slice(line_end.as_bytes());
             }
             match item {
-                Item::Block { block, number, range, part, .. } => {
+                Item::Block {
+                    block,
+                    number,
+                    range,
+                    part,
+                    ..
+                } => {
                     ordinal += 1;
                     let numbers = (*number, ordinal);
-                    self.push_block(&mut head, (block, part.as_ref()), numbers, stated, self.coordinates_behind(line, range.end))?;
+                    self.push_block(
+                        &mut head,
+                        (block, part.as_ref()),
+                        numbers,
+                        stated,
+                        self.coordinates_behind(line, range.end),
+                    )?;
                     last_block = Some(block);
                 }
                 Item::Word { range, number, .. } => {
@@ -298,13 +449,22 @@ impl Writer<'_> {
                     head.extend(line.get(range.clone())?.to_ascii_uppercase());
                     last_block = None;
                 }
-                Item::StartPoint { .. } | Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => return trimmed(),
+                Item::StartPoint { .. }
+                | Item::Text { .. }
+                | Item::CommentedBlock { .. }
+                | Item::Fault(_) => return trimmed(),
             }
         }
-        let comment = self.pieces.last().filter(|piece| piece.field == Field::Comment).map(|piece| piece.range.clone());
+        let comment = self
+            .pieces
+            .last()
+            .filter(|piece| piece.field == Field::Comment)
+            .map(|piece| piece.range.clone());
         if let Some(comment) = &comment {
             match last_block {
-                Some(block) if self.layout == Layout::Aligned => push_to_comment_column(&mut head, block),
+                Some(block) if self.layout == Layout::Aligned => {
+                    push_to_comment_column(&mut head, block)
+                }
                 _ => head.push(b' '),
             }
             // Behind coordinates a remark without its mark would belong to them.
@@ -313,8 +473,14 @@ impl Writer<'_> {
             }
         }
         let kept = comment.map_or(end..end, |comment| comment.start..end);
-        let formed = Formed { from, head: String::from_utf8(head).ok()?, kept };
-        let is_same = formed.from == from && end == line.len() && line.get(from..formed.kept.start) == Some(formed.head.as_bytes());
+        let formed = Formed {
+            from,
+            head: String::from_utf8(head).ok()?,
+            kept,
+        };
+        let is_same = formed.from == from
+            && end == line.len()
+            && line.get(from..formed.kept.start) == Some(formed.head.as_bytes());
         (!is_same && self.reads_the_same(line, &formed)).then_some(formed)
     }
 
@@ -340,7 +506,9 @@ impl Writer<'_> {
         match (self.layout, number) {
             (Layout::Compact | Layout::Aligned, Some(_)) if matches!(stated, Stated::Right(_)) => {}
             (_, Some(number)) => self.push_number(head, number)?,
-            (Layout::Checking, None) if self.numbers_count_blocks => push_block_number(head, ordinal),
+            (Layout::Checking, None) if self.numbers_count_blocks => {
+                push_block_number(head, ordinal)
+            }
             (Layout::Checking, None) => head.extend_from_slice(BLANK_NUMBER),
             (_, None) => {}
         }
@@ -364,8 +532,13 @@ impl Writer<'_> {
 
     /// The coordinates as they stand behind a block that ends at `end`.
     fn coordinates_behind<'l>(&self, line: &'l [u8], end: usize) -> &'l [u8] {
-        let piece = self.pieces.get(self.pieces.partition_point(|piece| piece.range.start < end));
-        piece.filter(|piece| piece.field == Field::Coordinates).and_then(|piece| line.get(piece.range.clone())).unwrap_or_default()
+        let piece = self
+            .pieces
+            .get(self.pieces.partition_point(|piece| piece.range.start < end));
+        piece
+            .filter(|piece| piece.field == Field::Coordinates)
+            .and_then(|piece| line.get(piece.range.clone()))
+            .unwrap_or_default()
     }
 
     /// Reads the new form and compares: the same blocks, numbers that stand, words, in the same order, and no fault.
@@ -380,17 +553,41 @@ impl Writer<'_> {
         }
         let is_same = |(old, new): (&Item, &Item)| match (old, new) {
             (
-                Item::Block { block: old, number, stated_end, part, .. },
-                Item::Block { block: new, number: new_number, stated_end: new_end, part: new_part, .. },
+                Item::Block {
+                    block: old,
+                    number,
+                    stated_end,
+                    part,
+                    ..
+                },
+                Item::Block {
+                    block: new,
+                    number: new_number,
+                    stated_end: new_end,
+                    part: new_part,
+                    ..
+                },
             ) => {
-                let number_is_kept = new_number.is_none() || number.is_none() || number == new_number;
+                let number_is_kept =
+                    new_number.is_none() || number.is_none() || number == new_number;
                 let end_is_kept = match (stated_end, new_end) {
-                    (Some(old), Some(new)) => (0..2).all(|axis| (old.at[axis] - new.at[axis]).abs() <= 0.0006),
+                    (Some(old), Some(new)) => {
+                        (0..2).all(|axis| (old.at[axis] - new.at[axis]).abs() <= 0.0006)
+                    }
                     _ => true,
                 };
                 old == new && part == new_part && number_is_kept && end_is_kept
             }
-            (Item::Word { word: old, number, .. }, Item::Word { word: new, number: new_number, .. }) => old == new && number == new_number,
+            (
+                Item::Word {
+                    word: old, number, ..
+                },
+                Item::Word {
+                    word: new,
+                    number: new_number,
+                    ..
+                },
+            ) => old == new && number == new_number,
             _ => false,
         };
         again.len() == self.items.len() && self.items.iter().zip(&again).all(is_same)
@@ -413,8 +610,13 @@ impl Stand {
     /// Where stated points stay in the text, what follows is held against them; where they go, against the blocks alone, so that
     /// formatting again finds the same.
     fn go_on(&mut self, stated: Option<StatedPoint>, way: Option<Way>, layout: Layout) -> Stated {
-        let stated = stated.and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
-        let told = if layout == Layout::Checking { stated } else { None };
+        let stated = stated
+            .and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
+        let told = if layout == Layout::Checking {
+            stated
+        } else {
+            None
+        };
         match way {
             Some(Way { by, is_arc }) => {
                 self.arcs += f64::from(u8::from(is_arc));
@@ -426,11 +628,17 @@ impl Stand {
         if let Some(node) = told
             && (self.trust != Trust::Known || self.is_near(node))
         {
-            *self = Stand { at: point_of(node), trust: Trust::Known, arcs: 0.0 };
+            *self = Stand {
+                at: point_of(node),
+                trust: Trust::Known,
+                arcs: 0.0,
+            };
             return Stated::Right(node);
         }
         match (stated, self.trust) {
-            (Some(node), Trust::Known | Trust::UnlessStated) if self.is_near(node) => Stated::Right(node),
+            (Some(node), Trust::Known | Trust::UnlessStated) if self.is_near(node) => {
+                Stated::Right(node)
+            }
             (Some(_), _) => Stated::Wrong,
             (None, Trust::Lost) => Stated::Absent(None),
             (None, _) => Stated::Absent(node_of(self.at)),
@@ -476,7 +684,10 @@ impl Edits {
         let kept = old.get(formed.kept.clone()).unwrap_or_default();
         let Ok(kept_text) = std::str::from_utf8(kept) else {
             // Bytes in another code page are not touched, so they are in no edit.
-            self.push(range.start + formed.from.min(formed.kept.start)..range.start + formed.kept.start, formed.head.clone());
+            self.push(
+                range.start + formed.from.min(formed.kept.start)..range.start + formed.kept.start,
+                formed.head.clone(),
+            );
             self.push(range.start + formed.kept.end..range.end, String::new());
             self.last_line = None;
             return;
@@ -488,9 +699,15 @@ impl Edits {
             return;
         }
         let previous = line.checked_sub(1);
-        match self.list.last_mut().filter(|_| previous.is_some() && self.last_line == previous) {
+        match self
+            .list
+            .last_mut()
+            .filter(|_| previous.is_some() && self.last_line == previous)
+        {
             Some(edit) => {
-                edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..range.start]).unwrap_or("\n"));
+                edit.text.push_str(
+                    std::str::from_utf8(&text.bytes()[edit.range.end..range.start]).unwrap_or("\n"),
+                );
                 edit.text.push_str(&formed.head);
                 edit.text.push_str(kept_text);
                 edit.range.end = range.end;
@@ -499,7 +716,10 @@ impl Edits {
                 if self.list.is_empty() {
                     self.first_line = Some(line);
                 }
-                self.list.push(TextEdit { range: range.start + formed.from..range.end, text: [&formed.head, kept_text].concat() });
+                self.list.push(TextEdit {
+                    range: range.start + formed.from..range.end,
+                    text: [&formed.head, kept_text].concat(),
+                });
             }
         }
         self.last_line = Some(line);
@@ -510,13 +730,17 @@ impl Edits {
         if next.list.is_empty() {
             return;
         }
-        let follows = self.last_line.is_some() && self.last_line.map(|last| last + 1) == next.first_line;
+        let follows =
+            self.last_line.is_some() && self.last_line.map(|last| last + 1) == next.first_line;
         if self.list.is_empty() {
             self.first_line = next.first_line;
         }
         if let Some(edit) = self.list.last_mut().filter(|_| follows) {
             let first = next.list.remove(0);
-            edit.text.push_str(std::str::from_utf8(&text.bytes()[edit.range.end..first.range.start]).unwrap_or("\n"));
+            edit.text.push_str(
+                std::str::from_utf8(&text.bytes()[edit.range.end..first.range.start])
+                    .unwrap_or("\n"),
+            );
             edit.text.push_str(&first.text);
             edit.range.end = first.range.end;
         }

@@ -11,7 +11,10 @@ pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
     let text = document.text();
     let line = text.line_range(text.line_of(word.start));
     let bytes = text.bytes().get(line.clone())?;
-    let field = pieces(bytes, &document.words()).into_iter().find(|piece| line.start + piece.range.start == word.start)?.field;
+    let field = pieces(bytes, &document.words())
+        .into_iter()
+        .find(|piece| line.start + piece.range.start == word.start)?
+        .field;
     let mut holder: Option<Block> = None;
     read_line(bytes, line.start, &document.words(), |item| {
         if let Item::Block { block, range, .. } = item
@@ -69,17 +72,29 @@ pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
 fn about_motion(motion: Motion) -> String {
     match motion {
         Motion::Line(quadrant) => {
-            let way = ["+X, or up to the right", "+Y, or up to the left", "−X, or down to the left", "−Y, or down to the right"];
+            let way = [
+                "+X, or up to the right",
+                "+Y, or up to the left",
+                "−X, or down to the left",
+                "−Y, or down to the right",
+            ];
             let number = quadrant.number();
-            format!("**L{number}** line into quadrant {number}: {}", way[usize::from(number) - 1])
+            format!(
+                "**L{number}** line into quadrant {number}: {}",
+                way[usize::from(number) - 1]
+            )
         }
         Motion::Clockwise(quadrant) => {
             let number = quadrant.number();
-            format!("**SR{number}** clockwise arc that starts in quadrant {number} about its centre")
+            format!(
+                "**SR{number}** clockwise arc that starts in quadrant {number} about its centre"
+            )
         }
         Motion::CounterClockwise(quadrant) => {
             let number = quadrant.number();
-            format!("**NR{number}** counter-clockwise arc that starts in quadrant {number} about its centre")
+            format!(
+                "**NR{number}** counter-clockwise arc that starts in quadrant {number} about its centre"
+            )
         }
     }
 }

@@ -3,7 +3,9 @@
 //! The reader in [`super::super::parse`] says what a sound line means. Here nothing is judged: an editor asks where the cursor stands
 //! while a block is still being written.
 
-use crate::program::three_b::parse::{Word, Words, before_comment, is_remark, start_point, two_numbers};
+use crate::program::three_b::parse::{
+    Word, Words, before_comment, is_remark, start_point, two_numbers,
+};
 use std::ops::Range;
 
 /// What a piece of a line is.
@@ -45,8 +47,16 @@ pub struct Piece {
 
 /// Cuts a line, without its line end, into pieces. Space between them belongs to none.
 pub fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
-    let mut cutter =
-        Cutter { line, at: if line.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 }, block: Expected::Nothing, is_behind_block: false };
+    let mut cutter = Cutter {
+        line,
+        at: if line.starts_with(b"\xef\xbb\xbf") {
+            3
+        } else {
+            0
+        },
+        block: Expected::Nothing,
+        is_behind_block: false,
+    };
     let mut found = Vec::with_capacity(12);
     while let Some(piece) = cutter.next(words) {
         found.push(piece);
@@ -75,7 +85,10 @@ struct Cutter<'a> {
 
 impl Cutter<'_> {
     fn skip_space(&mut self) {
-        while matches!(self.line.get(self.at), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|')) {
+        while matches!(
+            self.line.get(self.at),
+            Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|')
+        ) {
             self.at += 1;
         }
     }
@@ -109,9 +122,15 @@ impl Cutter<'_> {
         let start = self.at;
         let byte = *self.line.get(start)?;
         let rest = &self.line[start..];
-        if self.is_behind_block && self.block == Expected::Nothing && is_remark(self.line, start, words) {
+        if self.is_behind_block
+            && self.block == Expected::Nothing
+            && is_remark(self.line, start, words)
+        {
             self.run_to_end();
-            return Some(Piece { field: Field::Comment, range: start..self.at });
+            return Some(Piece {
+                field: Field::Comment,
+                range: start..self.at,
+            });
         }
         let field = match byte.to_ascii_uppercase() {
             b';' => self.behind_semicolon(rest),
@@ -129,11 +148,15 @@ impl Cutter<'_> {
                 };
                 Field::Separator
             }
-            b'0'..=b'9' if self.block_number_field().is_some() && self.number_is_missing_before() => {
+            b'0'..=b'9'
+                if self.block_number_field().is_some() && self.number_is_missing_before() =>
+            {
                 self.digits();
                 self.block_number_field().unwrap_or(Field::Strange)
             }
-            b'0'..=b'9' | b'-' | b'+' | b'.' if start > 0 && two_numbers(before_comment(rest)).is_some() => {
+            b'0'..=b'9' | b'-' | b'+' | b'.'
+                if start > 0 && two_numbers(before_comment(rest)).is_some() =>
+            {
                 self.at = start + before_comment(rest).trim_ascii_end().len();
                 Field::Coordinates
             }
@@ -147,7 +170,9 @@ impl Cutter<'_> {
                 }
             }
             b'L' if self.block == Expected::Motion => self.motion(start, 1),
-            b'S' | b'N' if self.block == Expected::Motion && self.next_is(b'R') => self.motion(start, 2),
+            b'S' | b'N' if self.block == Expected::Motion && self.next_is(b'R') => {
+                self.motion(start, 2)
+            }
             b'D' if self.block == Expected::Motion && self.is_convexity() => {
                 self.at += if self.next_is(b'D') { 2 } else { 1 };
                 Field::Convexity
@@ -166,7 +191,10 @@ impl Cutter<'_> {
             }
             _ => self.word(words, rest, start),
         };
-        Some(Piece { field, range: start..self.at })
+        Some(Piece {
+            field,
+            range: start..self.at,
+        })
     }
 
     /// The number that the last separator opened.
@@ -182,24 +210,35 @@ impl Cutter<'_> {
 
     /// True when nothing but space stands between the last `B` and the cursor.
     fn number_is_missing_before(&self) -> bool {
-        self.line[..self.at].trim_ascii_end().last().is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'))
+        self.line[..self.at]
+            .trim_ascii_end()
+            .last()
+            .is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'))
     }
 
     fn next_is(&self, letter: u8) -> bool {
-        self.line.get(self.at + 1).is_some_and(|byte| byte.eq_ignore_ascii_case(&letter))
+        self.line
+            .get(self.at + 1)
+            .is_some_and(|byte| byte.eq_ignore_ascii_case(&letter))
     }
 
     /// `D` or `DD` with the motion of a 4B block behind it.
     fn is_convexity(&self) -> bool {
         let rest = &self.line[self.at..];
-        let letters = rest.iter().take_while(|byte| byte.eq_ignore_ascii_case(&b'D')).count();
+        let letters = rest
+            .iter()
+            .take_while(|byte| byte.eq_ignore_ascii_case(&b'D'))
+            .count();
         let behind = rest[letters..].trim_ascii_start().first();
-        letters <= 2 && behind.is_some_and(|byte| matches!(byte.to_ascii_uppercase(), b'L' | b'S' | b'N'))
+        letters <= 2
+            && behind.is_some_and(|byte| matches!(byte.to_ascii_uppercase(), b'L' | b'S' | b'N'))
     }
 
     /// True when the letters and digits at the cursor are a pause or end word.
     fn is_word(&self, words: &Words<'_>) -> bool {
-        words.meaning(words.letters_of(&self.line[self.at..])).is_some()
+        words
+            .meaning(words.letters_of(&self.line[self.at..]))
+            .is_some()
     }
 
     /// The number of a row: `12 `, `12.`, `12:`, `12)`, `(12)`, with a block behind it.
@@ -212,8 +251,10 @@ impl Cutter<'_> {
         // A bare number that hangs on the block is one of its own that lost its B.
         let has_digits = has_digits && !mark.is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'));
         let (end, mut behind) = (self.at, self.line[self.at..].iter());
-        let is_number =
-            has_digits && behind.find(|byte| !matches!(byte, b' ' | b'\t')).is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'));
+        let is_number = has_digits
+            && behind
+                .find(|byte| !matches!(byte, b' ' | b'\t'))
+                .is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'));
         self.at = if is_number { end } else { start };
         is_number
     }
@@ -263,14 +304,20 @@ impl Cutter<'_> {
     /// To the end of the line, space left out.
     fn run_to_end(&mut self) {
         let rest = &self.line[self.at..];
-        let length = rest.iter().rposition(|byte| !matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0x1a)).map_or(0, |last| last + 1);
+        let length = rest
+            .iter()
+            .rposition(|byte| !matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0x1a))
+            .map_or(0, |last| last + 1);
         self.at += length.max(1);
     }
 
     /// To the next space or comment.
     fn strange(&mut self, start: usize) -> Field {
         let rest = &self.line[start..];
-        let length = rest.iter().position(|byte| byte.is_ascii_whitespace() || *byte == b';').unwrap_or(rest.len());
+        let length = rest
+            .iter()
+            .position(|byte| byte.is_ascii_whitespace() || *byte == b';')
+            .unwrap_or(rest.len());
         // At least one byte, so that there is an end.
         self.at = start + length.max(1);
         Field::Strange
@@ -285,14 +332,23 @@ mod tests {
     #[track_caller]
     fn check(line: &str, expected: &str) {
         let found = pieces(line.as_bytes(), &Words::default());
-        let shown: Vec<String> = found.iter().map(|piece| format!("{:?} {}", piece.field, &line[piece.range.clone()])).collect();
+        let shown: Vec<String> = found
+            .iter()
+            .map(|piece| format!("{:?} {}", piece.field, &line[piece.range.clone()]))
+            .collect();
         assert_eq!(shown.join(" | "), expected, "{line}");
     }
 
     #[test]
     fn lines_fall_into_their_fields() {
-        check("B9900B0B39600GYNR1", "Separator B | X 9900 | Separator B | Y 0 | Separator B | J 39600 | Axis GY | Motion NR1");
-        check("BBB9900GXL1", "Separator B | Separator B | Separator B | J 9900 | Axis GX | Motion L1");
+        check(
+            "B9900B0B39600GYNR1",
+            "Separator B | X 9900 | Separator B | Y 0 | Separator B | J 39600 | Axis GY | Motion NR1",
+        );
+        check(
+            "BBB9900GXL1",
+            "Separator B | Separator B | Separator B | J 9900 | Axis GX | Motion L1",
+        );
         check(
             "n 12: b 1 b2 b 3 g x l 1",
             "Number n 12: | Separator b | X 1 | Separator b | Y 2 | Separator b | J 3 | Axis g x | Motion l 1",
@@ -301,7 +357,10 @@ mod tests {
             "B1B0B1GXL1 ; 1.0 , -2 ; so",
             "Separator B | X 1 | Separator B | Y 0 | Separator B | J 1 | Axis GX | Motion L1 | Coordinates ; 1.0 , -2 | Comment ; so",
         );
-        check("B1B0B1GXL1 1 2", "Separator B | X 1 | Separator B | Y 0 | Separator B | J 1 | Axis GX | Motion L1 | Coordinates 1 2");
+        check(
+            "B1B0B1GXL1 1 2",
+            "Separator B | X 1 | Separator B | Y 0 | Separator B | J 1 | Axis GX | Motion L1 | Coordinates 1 2",
+        );
         check(
             "B1B2B3B4GXDDSR3",
             "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Separator B | Radius 4 | Axis GX | Convexity DD | Motion SR3",
@@ -311,15 +370,24 @@ mod tests {
         check("|B 1|B 2|", "Separator B | X 1 | Separator B | Y 2");
         check("(plate)", "Comment (plate)");
         check("; Start Point = 1 , 2", "StartPoint ; Start Point = 1 , 2");
-        check("B1B0B1GXL1 block N2", "Separator B | X 1 | Separator B | Y 0 | Separator B | J 1 | Axis GX | Motion L1 | Comment block N2");
+        check(
+            "B1B0B1GXL1 block N2",
+            "Separator B | X 1 | Separator B | Y 0 | Separator B | J 1 | Axis GX | Motion L1 | Comment block N2",
+        );
         check("D ; thread", "Pause D | Comment ; thread");
-        check("B1B2B3GXL1DD", "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Axis GX | Motion L1 | End DD");
+        check(
+            "B1B2B3GXL1DD",
+            "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Axis GX | Motion L1 | End DD",
+        );
     }
 
     #[test]
     fn what_is_unfinished_or_damaged_is_cut_as_far_as_it_goes() {
         check("B1B", "Separator B | X 1 | Separator B");
-        check("B1B2B3G", "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Strange G");
+        check(
+            "B1B2B3G",
+            "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Strange G",
+        );
         check("9900B0B9900GXL1", "Strange 9900B0B9900GXL1");
         check("B1x2 D", "Separator B | X 1 | Strange x2 | Pause D");
         check("N", "Strange N");

@@ -5,10 +5,19 @@ use crate::program::language::Signature;
 use crate::program::three_b::Document;
 
 const THREE_B: &[(&str, &str)] = &[
-    ("X", "µm without sign: of a line its end from its start, of an arc its start from its centre"),
+    (
+        "X",
+        "µm without sign: of a line its end from its start, of an arc its start from its centre",
+    ),
     ("Y", "µm without sign, as X"),
-    ("J", "counting length in µm: the block's projection on the axis that G names, of an arc added up between the axis crossings"),
-    ("G", "counting axis, `GX` or `GY`: of a line its larger component, of an arc the axis that its end lies further from"),
+    (
+        "J",
+        "counting length in µm: the block's projection on the axis that G names, of an arc added up between the axis crossings",
+    ),
+    (
+        "G",
+        "counting axis, `GX` or `GY`: of a line its larger component, of an arc the axis that its end lies further from",
+    ),
     (
         "Z",
         "`L1` to `L4` line, `NR1` to `NR4` counter-clockwise, `SR1` to `SR4` clockwise; the number is the quadrant of the line's direction or of the arc's start",
@@ -21,7 +30,10 @@ const FOUR_B: &[(&str, &str)] = &[
     THREE_B[2],
     ("R", "radius of the arc in µm"),
     THREE_B[3],
-    ("D", "`D` convex, `DD` concave: whether the correction makes the arc larger or smaller"),
+    (
+        "D",
+        "`D` convex, `DD` concave: whether the correction makes the arc larger or smaller",
+    ),
     THREE_B[4],
 ];
 
@@ -34,12 +46,20 @@ pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
     let all = pieces(bytes, &document.words());
     let is_four_b = all.iter().any(|piece| piece.field == Field::Radius);
     let last = all.iter().rfind(|piece| piece.range.start < cursor)?;
-    let separators = all.iter().take_while(|piece| piece.range.start < cursor).filter(|piece| piece.field == Field::Separator).count();
+    let separators = all
+        .iter()
+        .take_while(|piece| piece.range.start < cursor)
+        .filter(|piece| piece.field == Field::Separator)
+        .count();
     let inside = cursor <= last.range.end;
     let part = match last.field {
-        Field::Separator | Field::X | Field::Y | Field::J | Field::Radius => separators.checked_sub(1)?.min(3),
+        Field::Separator | Field::X | Field::Y | Field::J | Field::Radius => {
+            separators.checked_sub(1)?.min(3)
+        }
         Field::Axis if inside => 4,
-        Field::Axis | Field::Convexity if is_four_b => 5 + usize::from(last.field == Field::Convexity && !inside),
+        Field::Axis | Field::Convexity if is_four_b => {
+            5 + usize::from(last.field == Field::Convexity && !inside)
+        }
         Field::Axis => 6,
         Field::Motion if inside => 6,
         Field::Strange if separators >= 3 => 4,
@@ -56,5 +76,9 @@ pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
         };
         ("B X B Y B J G Z", THREE_B, active)
     };
-    Some(Signature { label, parameters, active })
+    Some(Signature {
+        label,
+        parameters,
+        active,
+    })
 }

@@ -21,12 +21,22 @@ use std::collections::BTreeMap;
 
 pub const OPENING: Refactoring = Refactoring {
     id: "refactor.rewrite.correct.opening",
-    title: |settings| format!("Apply the correction of {:.3} mm inside (opening)", settings.correction),
+    title: |settings| {
+        format!(
+            "Apply the correction of {:.3} mm inside (opening)",
+            settings.correction
+        )
+    },
     rewrite: |sheet| corrected(sheet, Role::Opening),
 };
 pub const PUNCH: Refactoring = Refactoring {
     id: "refactor.rewrite.correct.punch",
-    title: |settings| format!("Apply the correction of {:.3} mm outside (punch)", settings.correction),
+    title: |settings| {
+        format!(
+            "Apply the correction of {:.3} mm outside (punch)",
+            settings.correction
+        )
+    },
     rewrite: |sheet| corrected(sheet, Role::Punch),
 };
 
@@ -40,7 +50,10 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
     for contour in content.contours.iter().filter(|contour| !contour.is_way) {
         content.refuse_pause(contour)?;
         if !contour.closed {
-            return Err(format!("contour {} is open: the side of the wire is not known", contour.ordinal));
+            return Err(format!(
+                "contour {} is open: the side of the wire is not known",
+                contour.ordinal
+            ));
         }
         let handle = contour.ordinal.to_string();
         let first = contour.own_rows().start;
@@ -57,7 +70,11 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
         let is_reversed = matches!(content.rows[first].piece, Segment::Arc(arc) if arc.is_full_turn() && arc.sweep < 0.0);
         let outline = drawing::Contour::new(&drawing, [(id, is_reversed)], true);
         let twice_area = outline.twice_area(&drawing);
-        outlines.push(Outline { contour: outline, role, twice_area });
+        outlines.push(Outline {
+            contour: outline,
+            role,
+            twice_area,
+        });
     }
     let layout = match content.rows.first() {
         Some(row) if row.coordinates.is_some() => Layout::Checking,
@@ -75,9 +92,10 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
     let paths = plan(&drawing, &outlines, &settings, None).map_err(|refusal| match refusal {
         Refusal::Sentence(sentence) => sentence,
         Refusal::Cancelled => "the path was given up".into(),
-        Refusal::Findings(findings) => {
-            findings.first().map_or_else(|| "no path can be made".into(), |finding| crate::message::en::sentence(finding, 1.0))
-        }
+        Refusal::Findings(findings) => findings.first().map_or_else(
+            || "no path can be made".into(),
+            |finding| crate::message::en::sentence(finding, 1.0),
+        ),
     })?;
     let program = write(&paths, 1.0, &settings).map_err(|error| error.to_string())?;
     replaced(sheet, content, &program.text)
@@ -86,30 +104,58 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
 /// The new program in the place of all blocks, words included.
 fn replaced(sheet: &Sheet<'_>, content: &Content, program: &str) -> Result<Vec<TextEdit>, String> {
     let text = sheet.document.text();
-    let first = content.rows.first().map_or(0, |row| text.line_start(row.line));
-    let last = sheet.trace.steps.iter().map(|step| step.line).max().unwrap_or(0);
+    let first = content
+        .rows
+        .first()
+        .map_or(0, |row| text.line_start(row.line));
+    let last = sheet
+        .trace
+        .steps
+        .iter()
+        .map(|step| step.line)
+        .max()
+        .unwrap_or(0);
     let end = text.line_range(last).end;
     // The header that stands there is right as well, and the start stays where it was.
     let blocks = match program.strip_prefix("; Start Point") {
-        Some(rest) if content.header.is_some() || !sheet.trace.start_is_known => rest.split_once('\n').map_or(rest, |(_, rest)| rest),
+        Some(rest) if content.header.is_some() || !sheet.trace.start_is_known => {
+            rest.split_once('\n').map_or(rest, |(_, rest)| rest)
+        }
         _ => program,
     };
-    let line_end = text.bytes().get(text.line_range(0).end..text.line_start(1)).filter(|end| !end.is_empty()).unwrap_or(b"\n");
+    let line_end = text
+        .bytes()
+        .get(text.line_range(0).end..text.line_start(1))
+        .filter(|end| !end.is_empty())
+        .unwrap_or(b"\n");
     let line_end = std::str::from_utf8(line_end).map_err(|error| error.to_string())?;
     let new = blocks.trim_end().replace('\n', line_end);
-    Ok(vec![TextEdit { range: first..end.max(first), text: new }])
+    Ok(vec![TextEdit {
+        range: first..end.max(first),
+        text: new,
+    }])
 }
 
-fn geometry(content: &Content, contour: &Contour, nodes: &[(crate::program::three_b::Node, crate::program::three_b::Node)]) -> Geometry {
+fn geometry(
+    content: &Content,
+    contour: &Contour,
+    nodes: &[(crate::program::three_b::Node, crate::program::three_b::Node)],
+) -> Geometry {
     let own = contour.own_rows();
     if let (1, Segment::Arc(arc)) = (own.len(), content.piece_from(own.start, nodes[own.start].0)) {
-        return Geometry::Circle { center: arc.center / 1000.0, radius: arc.radius / 1000.0 };
+        return Geometry::Circle {
+            center: arc.center / 1000.0,
+            radius: arc.radius / 1000.0,
+        };
     }
     let vertex = |index: usize| {
         let [x, y] = in_mm(point(nodes[index].0));
         Vertex::new(x, y, content.rows[index].piece.bulge())
     };
-    Geometry::Polyline { closed: true, vertices: own.map(vertex).collect() }
+    Geometry::Polyline {
+        closed: true,
+        vertices: own.map(vertex).collect(),
+    }
 }
 
 fn point(node: crate::program::three_b::Node) -> Point {

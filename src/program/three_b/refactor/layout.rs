@@ -28,5 +28,10 @@ pub const CHECKING: Refactoring = Refactoring {
 
 fn laid_out(sheet: &Sheet<'_>, layout: Layout) -> Result<Vec<TextEdit>, String> {
     let text = sheet.document.text();
-    Ok(format(text, Some(layout), &sheet.document.words(), 0..text.line_count()))
+    Ok(format(
+        text,
+        Some(layout),
+        &sheet.document.words(),
+        0..text.line_count(),
+    ))
 }

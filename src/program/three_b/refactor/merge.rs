@@ -17,7 +17,11 @@ use crate::program::three_b::encode::{Encoded, line_block};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-pub const MERGE: Refactoring = Refactoring { id: "refactor.rewrite.merge", title: |_| "Merge collinear blocks".into(), rewrite: merge };
+pub const MERGE: Refactoring = Refactoring {
+    id: "refactor.rewrite.merge",
+    title: |_| "Merge collinear blocks".into(),
+    rewrite: merge,
+};
 
 /// How far a node may lie from the line that takes its place, µm: half the diagonal of the grid, which is what snapping costs.
 const ASIDE: f64 = 0.75;
@@ -26,10 +30,17 @@ fn merge(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
     let nodes = content.nodes()?;
     let selected = sheet.selected_rows(content);
-    let mut rewrite = Rewrite { end: sheet.trace.end(), ..Rewrite::default() };
+    let mut rewrite = Rewrite {
+        end: sheet.trace.end(),
+        ..Rewrite::default()
+    };
     for contour in &content.contours {
         // Ways in and out end where the contour begins, whatever their direction.
-        let parts = [contour.rows.start..contour.own_rows().start, contour.own_rows(), contour.own_rows().end..contour.rows.end];
+        let parts = [
+            contour.rows.start..contour.own_rows().start,
+            contour.own_rows(),
+            contour.own_rows().end..contour.rows.end,
+        ];
         for part in parts {
             let mut index = part.start.max(selected.start);
             while index < part.end.min(selected.end) {
@@ -37,8 +48,21 @@ fn merge(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
                 if run.len() > 1 {
                     let (from, to) = (nodes[run.start].0, nodes[run.end - 1].1);
                     let piece = Segment::line(point(from), point(to));
-                    let encoded = Encoded { block: line_block(from, to), from, to, piece };
-                    rewrite.rows.insert(run.start, vec![New { encoded, part: None, source: run.start, exact: true }]);
+                    let encoded = Encoded {
+                        block: line_block(from, to),
+                        from,
+                        to,
+                        piece,
+                    };
+                    rewrite.rows.insert(
+                        run.start,
+                        vec![New {
+                            encoded,
+                            part: None,
+                            source: run.start,
+                            exact: true,
+                        }],
+                    );
                     for left_out in run.start + 1..run.end {
                         rewrite.rows.insert(left_out, Vec::new());
                     }
@@ -58,9 +82,16 @@ fn run(content: &Content, nodes: &[(Node, Node)], rows: Range<usize>) -> Range<u
     if !is_line(&content.rows[start]) {
         return start..end;
     }
-    while end < rows.end && is_line(&content.rows[end]) && content.rows[end].comment.is_none() && !content.rows[end].is_behind_pause {
+    while end < rows.end
+        && is_line(&content.rows[end])
+        && content.rows[end].comment.is_none()
+        && !content.rows[end].is_behind_pause
+    {
         let (from, to) = (nodes[start].0, nodes[end].1);
-        let whole = Line { start: point(from), end: point(to) };
+        let whole = Line {
+            start: point(from),
+            end: point(to),
+        };
         let length = (to.x - from.x).abs().max((to.y - from.y).abs());
         let mut last = 0.0;
         // Every node on the way lies beside the line, and none goes back.

@@ -60,8 +60,16 @@ pub const ALL: [Refactoring; 18] = [
 /// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
 ///
 /// `wanted` chooses by id.
-pub fn proposals(document: &Document, settings: &Effective, selection: Range<usize>, wanted: impl Fn(&str) -> bool) -> Vec<Proposal> {
-    let chosen: Vec<&Refactoring> = ALL.iter().filter(|refactoring| wanted(refactoring.id)).collect();
+pub fn proposals(
+    document: &Document,
+    settings: &Effective,
+    selection: Range<usize>,
+    wanted: impl Fn(&str) -> bool,
+) -> Vec<Proposal> {
+    let chosen: Vec<&Refactoring> = ALL
+        .iter()
+        .filter(|refactoring| wanted(refactoring.id))
+        .collect();
     if chosen.is_empty() {
         return Vec::new();
     }
@@ -69,7 +77,11 @@ pub fn proposals(document: &Document, settings: &Effective, selection: Range<usi
     let propose = |refactoring: &Refactoring| {
         let edits = (refactoring.rewrite)(&sheet);
         let changes = edits.as_ref().map_or(true, |edits| !edits.is_empty());
-        changes.then(|| Proposal { id: refactoring.id, title: (refactoring.title)(settings), edits })
+        changes.then(|| Proposal {
+            id: refactoring.id,
+            title: (refactoring.title)(settings),
+            edits,
+        })
     };
     chosen.into_iter().filter_map(propose).collect()
 }

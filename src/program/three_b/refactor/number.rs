@@ -23,11 +23,23 @@ pub const WITHOUT_NUMBERS: Refactoring = Refactoring {
 };
 
 /// The edits, once the blocks read the same behind them.
-fn unproved(sheet: &Sheet<'_>, edits: fn(&Document, usize) -> Vec<TextEdit>) -> Result<Vec<TextEdit>, String> {
+fn unproved(
+    sheet: &Sheet<'_>,
+    edits: fn(&Document, usize) -> Vec<TextEdit>,
+) -> Result<Vec<TextEdit>, String> {
     let program = Document::ThreeB(sheet.document.clone());
     let edits = edits(&program, program.text().line_count());
-    let after = three_b::Document::read_with(super::rewrite::applied(program.text().bytes(), &edits), sheet.settings);
-    let ideals = |trace: &crate::program::trace::Trace| trace.steps.iter().map(|step| (step.kind, step.ideal)).collect::<Vec<_>>();
+    let after = three_b::Document::read_with(
+        super::rewrite::applied(program.text().bytes(), &edits),
+        sheet.settings,
+    );
+    let ideals = |trace: &crate::program::trace::Trace| {
+        trace
+            .steps
+            .iter()
+            .map(|step| (step.kind, step.ideal))
+            .collect::<Vec<_>>()
+    };
     if ideals(&after.trace().as_meant()) != ideals(&sheet.trace) {
         return Err("the new program reads otherwise than it was meant".into());
     }

@@ -17,13 +17,19 @@ use crate::program::three_b::encode::Encoded;
 use crate::text::TextEdit;
 use std::ops::Range;
 
-pub const REVERSE: Refactoring =
-    Refactoring { id: "refactor.rewrite.reverse", title: |_| "Reverse the direction of the contour".into(), rewrite: reverse };
+pub const REVERSE: Refactoring = Refactoring {
+    id: "refactor.rewrite.reverse",
+    title: |_| "Reverse the direction of the contour".into(),
+    rewrite: reverse,
+};
 
 fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
     let nodes = content.nodes()?;
-    let mut rewrite = Rewrite { end: sheet.trace.end(), ..Rewrite::default() };
+    let mut rewrite = Rewrite {
+        end: sheet.trace.end(),
+        ..Rewrite::default()
+    };
     for contour in sheet.selected_contours(content) {
         content.refuse_pause(contour)?;
         let rows = if contour.closed {
@@ -32,10 +38,15 @@ fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
             (rewrite.start, rewrite.end) = (nodes.last().map(|(_, to)| *to), sheet.trace.start);
             contour.rows.clone()
         } else {
-            return Err(format!("contour {} is open: what follows begins at its end", contour.ordinal));
+            return Err(format!(
+                "contour {} is open: what follows begins at its end",
+                contour.ordinal
+            ));
         };
         for (index, source) in rows.clone().zip(rows.rev()) {
-            rewrite.rows.insert(index, reversed(content, source, nodes[source])?);
+            rewrite
+                .rows
+                .insert(index, reversed(content, source, nodes[source])?);
         }
     }
     rewrite.edits(sheet, content)
@@ -45,7 +56,9 @@ fn reverse(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
 fn reversed(content: &Content, index: usize, (from, to): (Node, Node)) -> Result<Vec<New>, String> {
     let row = &content.rows[index];
     let piece = content.piece_from(index, from).reversed();
-    let Motion::Line(quadrant) = row.block.motion else { return encoded(&piece, to, from, row.part, index, content.largest) };
+    let Motion::Line(quadrant) = row.block.motion else {
+        return encoded(&piece, to, from, row.part, index, content.largest);
+    };
     // The same numbers into the opposite quadrant.
     let opposite = match quadrant {
         Quadrant::First => Quadrant::Third,
@@ -55,7 +68,17 @@ fn reversed(content: &Content, index: usize, (from, to): (Node, Node)) -> Result
     };
     let mut block = row.block;
     block.motion = Motion::Line(opposite);
-    Ok(vec![New { encoded: Encoded { block, from: to, to: from, piece }, part: row.part, source: index, exact: true }])
+    Ok(vec![New {
+        encoded: Encoded {
+            block,
+            from: to,
+            to: from,
+            piece,
+        },
+        part: row.part,
+        source: index,
+        exact: true,
+    }])
 }
 
 /// The blocks of some rows in their own order, as they stand.
@@ -63,7 +86,12 @@ pub(super) fn kept(content: &Content, rows: Range<usize>, nodes: &[(Node, Node)]
     let keep = |index: usize| {
         let (row, (from, to)) = (&content.rows[index], nodes[index]);
         New {
-            encoded: Encoded { block: row.block, from, to, piece: content.piece_from(index, from) },
+            encoded: Encoded {
+                block: row.block,
+                from,
+                to,
+                piece: content.piece_from(index, from),
+            },
             part: row.part,
             source: index,
             exact: true,

@@ -7,7 +7,9 @@ use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::{Encoded, encode};
-use crate::program::three_b::layout::{push_end_point, push_fields, push_start_point, push_to_comment_column};
+use crate::program::three_b::layout::{
+    push_end_point, push_fields, push_start_point, push_to_comment_column,
+};
 use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::proof::Proof;
 use crate::settings::Layout;
@@ -44,11 +46,26 @@ const EXACT: f64 = 1e-3;
 const END_TOLERANCE: f64 = 2.0;
 
 /// The blocks of a piece between two nodes, for the row `source`; none of their numbers is above `largest`.
-pub fn encoded(piece: &Segment, from: Node, to: Node, part: Option<PartArc>, source: usize, largest: i64) -> Result<Vec<New>, String> {
+pub fn encoded(
+    piece: &Segment,
+    from: Node,
+    to: Node,
+    part: Option<PartArc>,
+    source: usize,
+    largest: i64,
+) -> Result<Vec<New>, String> {
     let mut blocks = Vec::new();
     encode(&fitted(piece, from, to), from, to, largest, &mut blocks)
         .ok_or_else(|| format!("no blocks within tolerance lead from {from:?} to {to:?}"))?;
-    Ok(blocks.into_iter().map(|encoded| New { encoded, part, source, exact: false }).collect())
+    Ok(blocks
+        .into_iter()
+        .map(|encoded| New {
+            encoded,
+            part,
+            source,
+            exact: false,
+        })
+        .collect())
 }
 
 /// The piece between its nodes. An arc keeps its direction; its centre goes to the nearest place that is as far from both nodes,
@@ -99,15 +116,27 @@ impl Rewrite {
         Ok(renumbered(sheet, content, document, edits))
     }
 
-    fn header(&self, text: &SourceText, header: &Range<usize>, start: Node) -> Result<TextEdit, String> {
+    fn header(
+        &self,
+        text: &SourceText,
+        header: &Range<usize>,
+        start: Node,
+    ) -> Result<TextEdit, String> {
         let mut line = Vec::new();
         push_start_point(&mut line, start);
         let line = String::from_utf8(line).map_err(|error| error.to_string())?;
         // Only the header itself: what may stand before it in its line stays.
         let old = text.bytes().get(header.clone()).unwrap_or_default();
         let line = line.trim_end();
-        let new = if old.starts_with(b";") { line } else { line.trim_start_matches("; ") };
-        Ok(TextEdit { range: header.clone(), text: new.to_owned() })
+        let new = if old.starts_with(b";") {
+            line
+        } else {
+            line.trim_start_matches("; ")
+        };
+        Ok(TextEdit {
+            range: header.clone(),
+            text: new.to_owned(),
+        })
     }
 
     fn prove_blocks(&self, sheet: &Sheet<'_>) -> Result<(), String> {
@@ -115,7 +144,12 @@ impl Rewrite {
         let words = sheet.document.words();
         for new in self.rows.values().flatten() {
             let mut line = Vec::new();
-            push_fields(&mut line, Layout::Compact, &new.encoded.block, new.part.as_ref());
+            push_fields(
+                &mut line,
+                Layout::Compact,
+                &new.encoded.block,
+                new.part.as_ref(),
+            );
             if !new.exact {
                 proof.check_line(&line, &words, &new.encoded, new.part)?;
                 continue;
@@ -126,13 +160,19 @@ impl Rewrite {
                     read = Some((block, part));
                 }
             });
-            let Encoded { block, from, piece, .. } = new.encoded;
+            let Encoded {
+                block, from, piece, ..
+            } = new.encoded;
             let along = decode(&block, point(from)).is_ok_and(|decoded| {
                 let apart = |share| (decoded.point_at(share) - piece.point_at(share)).norm();
-                [0.0, 0.5, 1.0].into_iter().all(|share| apart(share) <= EXACT)
+                [0.0, 0.5, 1.0]
+                    .into_iter()
+                    .all(|share| apart(share) <= EXACT)
             });
             if read != Some((block, new.part)) || !along {
-                return Err(format!("{block:?} does not run along its piece of the path"));
+                return Err(format!(
+                    "{block:?} does not run along its piece of the path"
+                ));
             }
         }
         Ok(())
@@ -150,39 +190,75 @@ impl Rewrite {
         blocks
     }
 
-    fn prove_program(&self, sheet: &Sheet<'_>, after: &Document, expected: &[(Block, Option<PartArc>)]) -> Result<(), String> {
+    fn prove_program(
+        &self,
+        sheet: &Sheet<'_>,
+        after: &Document,
+        expected: &[(Block, Option<PartArc>)],
+    ) -> Result<(), String> {
         let again = Sheet::new(after, sheet.settings, 0..0);
-        let content = again.content().map_err(|reason| format!("the new program cannot be read: {reason}"))?;
-        let blocks: Vec<_> = content.rows.iter().map(|row| (row.block, row.part)).collect();
+        let content = again
+            .content()
+            .map_err(|reason| format!("the new program cannot be read: {reason}"))?;
+        let blocks: Vec<_> = content
+            .rows
+            .iter()
+            .map(|row| (row.block, row.part))
+            .collect();
         if blocks != expected {
             return Err("the new program reads otherwise than it was meant".into());
         }
-        let arcs = content.rows.iter().filter(|row| row.piece.as_arc().is_some()).count() as f64;
-        let start = self.start.map_or(sheet.trace.start, |node| Point::new(node.x as f64, node.y as f64));
+        let arcs = content
+            .rows
+            .iter()
+            .filter(|row| row.piece.as_arc().is_some())
+            .count() as f64;
+        let start = self.start.map_or(sheet.trace.start, |node| {
+            Point::new(node.x as f64, node.y as f64)
+        });
         // Without a header the program counts from its own start.
         let end = again.trace.end() + (start - again.trace.start);
         let miss = (end - self.end).norm();
         let before = content_arcs(sheet);
         if miss > END_TOLERANCE + arcs.max(before) {
-            return Err(format!("the new program ends {miss:.1} µm from where it should"));
+            return Err(format!(
+                "the new program ends {miss:.1} µm from where it should"
+            ));
         }
         Ok(())
     }
 }
 
 fn content_arcs(sheet: &Sheet<'_>) -> f64 {
-    sheet.content().map_or(0, |content| content.rows.iter().filter(|row| row.piece.as_arc().is_some()).count()) as f64
+    sheet.content().map_or(0, |content| {
+        content
+            .rows
+            .iter()
+            .filter(|row| row.piece.as_arc().is_some())
+            .count()
+    }) as f64
 }
 
 /// What stands in the place of one row: its number stays, its comment goes with its block.
-fn slot(text: &SourceText, content: &Content, index: usize, news: &[New]) -> Result<TextEdit, String> {
+fn slot(
+    text: &SourceText,
+    content: &Content,
+    index: usize,
+    news: &[New],
+) -> Result<TextEdit, String> {
     let row = &content.rows[index];
     let Some(first) = news.first() else {
         // The whole line goes, its line end with it.
-        return Ok(TextEdit { range: text.line_start(row.line)..text.line_start(row.line + 1), text: String::new() });
+        return Ok(TextEdit {
+            range: text.line_start(row.line)..text.line_start(row.line + 1),
+            text: String::new(),
+        });
     };
     let comment_moves = first.source != index;
-    let mut end = row.coordinates.as_ref().map_or(row.range.end, |coordinates| coordinates.end);
+    let mut end = row
+        .coordinates
+        .as_ref()
+        .map_or(row.range.end, |coordinates| coordinates.end);
     if let (true, Some(comment)) = (comment_moves, &row.comment) {
         end = comment.end;
     }
@@ -197,26 +273,47 @@ fn slot(text: &SourceText, content: &Content, index: usize, news: &[New]) -> Res
             push_to_comment_column(&mut out, block);
             push_end_point(&mut out, new.encoded.to);
         }
-        let carried = content.rows.get(new.source).and_then(|source| source.comment.clone());
+        let carried = content
+            .rows
+            .get(new.source)
+            .and_then(|source| source.comment.clone());
         if let (true, true, Some(comment)) = (position == 0, comment_moves, carried) {
             out.push(b' ');
             out.extend_from_slice(text.bytes().get(comment).unwrap_or_default());
         }
     }
     if !comment_moves && news.len() > 1 && row.comment.is_some() {
-        return Err(format!("line {}: a comment stands behind a block that becomes several", row.line + 1));
+        return Err(format!(
+            "line {}: a comment stands behind a block that becomes several",
+            row.line + 1
+        ));
     }
-    let text = String::from_utf8(out).map_err(|_| format!("line {}: the comment is in another code page", row.line + 1))?;
-    Ok(TextEdit { range: row.range.start..end, text })
+    let text = String::from_utf8(out)
+        .map_err(|_| format!("line {}: the comment is in another code page", row.line + 1))?;
+    Ok(TextEdit {
+        range: row.range.start..end,
+        text,
+    })
 }
 
 fn line_end(text: &SourceText, line: usize) -> &[u8] {
-    let end_of = |line: usize| text.bytes().get(text.line_range(line).end..text.line_start(line + 1)).filter(|end| !end.is_empty());
-    end_of(line).or_else(|| end_of(line.checked_sub(1)?)).unwrap_or(b"\n")
+    let end_of = |line: usize| {
+        text.bytes()
+            .get(text.line_range(line).end..text.line_start(line + 1))
+            .filter(|end| !end.is_empty())
+    };
+    end_of(line)
+        .or_else(|| end_of(line.checked_sub(1)?))
+        .unwrap_or(b"\n")
 }
 
 /// A program whose numbers counted its blocks goes on doing so.
-fn renumbered(sheet: &Sheet<'_>, content: &Content, after: Document, edits: Vec<TextEdit>) -> Vec<TextEdit> {
+fn renumbered(
+    sheet: &Sheet<'_>,
+    content: &Content,
+    after: Document,
+    edits: Vec<TextEdit>,
+) -> Vec<TextEdit> {
     let counts = |trace: &crate::program::trace::Trace| {
         let mut blocks = trace.steps.iter().filter(|step| step.moves()).zip(1_u32..);
         blocks.all(|(step, ordinal)| step.number == Some(ordinal))
@@ -231,10 +328,18 @@ fn renumbered(sheet: &Sheet<'_>, content: &Content, after: Document, edits: Vec<
     let old = sheet.document.text().bytes();
     // One edit from the first byte that differs to the last.
     let start = old.iter().zip(&new).take_while(|(a, b)| a == b).count();
-    let same_end = old.iter().rev().zip(new.iter().rev()).take_while(|(a, b)| a == b).count();
+    let same_end = old
+        .iter()
+        .rev()
+        .zip(new.iter().rev())
+        .take_while(|(a, b)| a == b)
+        .count();
     let kept_end = same_end.min(old.len() - start).min(new.len() - start);
     match String::from_utf8(new[start..new.len() - kept_end].to_vec()) {
-        Ok(text) => vec![TextEdit { range: start..old.len() - kept_end, text }],
+        Ok(text) => vec![TextEdit {
+            range: start..old.len() - kept_end,
+            text,
+        }],
         Err(_) => edits,
     }
 }

@@ -30,7 +30,10 @@ pub const MM_TO_INCH: Refactoring = Refactoring {
 pub fn scaled(sheet: &Sheet<'_>, factor: f64) -> Result<Vec<TextEdit>, String> {
     const LARGEST_FACTOR: f64 = 1e4;
     if !(factor.is_finite() && factor > 1.0 / LARGEST_FACTOR && factor < LARGEST_FACTOR) {
-        return Err(format!("the factor is {factor}, expected one between {} and {LARGEST_FACTOR}", 1.0 / LARGEST_FACTOR));
+        return Err(format!(
+            "the factor is {factor}, expected one between {} and {LARGEST_FACTOR}",
+            1.0 / LARGEST_FACTOR
+        ));
     }
     let content = sheet.content()?;
     content.refuse_four_b()?;
@@ -45,7 +48,10 @@ pub fn scaled(sheet: &Sheet<'_>, factor: f64) -> Result<Vec<TextEdit>, String> {
         let piece = scaled_segment(&content.piece_from(index, nodes[index].0), factor);
         let news = encoded(&piece, from, to, None, index, content.largest)?;
         if news.is_empty() {
-            return Err(format!("line {}: the block becomes shorter than 1 µm", row.line + 1));
+            return Err(format!(
+                "line {}: the block becomes shorter than 1 µm",
+                row.line + 1
+            ));
         }
         rewrite.rows.insert(index, news);
         rewrite.end = Point::new(to.x as f64, to.y as f64);

@@ -73,10 +73,20 @@ pub struct Content {
 }
 
 impl<'a> Sheet<'a> {
-    pub fn new(document: &'a Document, settings: &'a Effective, selection: Range<usize>) -> Sheet<'a> {
+    pub fn new(
+        document: &'a Document,
+        settings: &'a Effective,
+        selection: Range<usize>,
+    ) -> Sheet<'a> {
         let trace = document.trace().as_meant();
         let content = content(document, &trace, settings.largest_number());
-        Sheet { document, settings, selection, trace, content }
+        Sheet {
+            document,
+            settings,
+            selection,
+            trace,
+            content,
+        }
     }
 
     /// The blocks; the error says which line cannot be read.
@@ -106,16 +116,26 @@ impl<'a> Sheet<'a> {
     pub fn selected_contours<'c>(&self, content: &'c Content) -> Vec<&'c Contour> {
         let lines = self.selected_lines();
         let cut = || content.contours.iter().filter(|contour| !contour.is_way);
-        let touched = |contour: &&Contour| content.rows[contour.rows.clone()].iter().any(|row| lines.contains(&row.line));
+        let touched = |contour: &&Contour| {
+            content.rows[contour.rows.clone()]
+                .iter()
+                .any(|row| lines.contains(&row.line))
+        };
         let chosen: Vec<&Contour> = cut().filter(touched).collect();
-        if chosen.is_empty() { cut().collect() } else { chosen }
+        if chosen.is_empty() {
+            cut().collect()
+        } else {
+            chosen
+        }
     }
 }
 
 impl Content {
     /// The nodes of each row on the µm grid, from and to. Contours close exactly: what their arcs drift is taken back arc by arc.
     pub fn nodes(&self) -> Result<Vec<(Node, Node)>, String> {
-        let node = |point: Point| snap(point).ok_or_else(|| "the path runs too far out for a program".to_owned());
+        let node = |point: Point| {
+            snap(point).ok_or_else(|| "the path runs too far out for a program".to_owned())
+        };
         let mut nodes = Vec::with_capacity(self.rows.len());
         // What has been taken back so far.
         let mut shift = Vector::zeros();
@@ -126,7 +146,11 @@ impl Content {
                 (Some(first), Some(last)) if contour.closed => last.to - first.from,
                 _ => Vector::zeros(),
             };
-            let arcs = rows.iter().filter(|row| row.piece.as_arc().is_some()).count().max(1) as f64;
+            let arcs = rows
+                .iter()
+                .filter(|row| row.piece.as_arc().is_some())
+                .count()
+                .max(1) as f64;
             let (before, mut passed) = (shift, 0.0);
             for index in contour.rows.clone() {
                 let row = &self.rows[index];
@@ -144,14 +168,20 @@ impl Content {
     /// The piece of a row, moved so that it begins at `from`.
     pub fn piece_from(&self, row: usize, from: Node) -> Segment {
         let row = &self.rows[row];
-        moved(&row.piece, Point::new(from.x as f64, from.y as f64) - row.from)
+        moved(
+            &row.piece,
+            Point::new(from.x as f64, from.y as f64) - row.from,
+        )
     }
 
     /// An error where the contour pauses before its tab: the pause stands where it stands.
     pub fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
         let rows = self.rows.get(contour.rows.clone()).unwrap_or_default();
         match rows.iter().skip(1).find(|row| row.is_behind_pause) {
-            Some(row) => Err(format!("the contour pauses before line {}, to hold the part while its tab is cut", row.line + 1)),
+            Some(row) => Err(format!(
+                "the contour pauses before line {}, to hold the part while its tab is cut",
+                row.line + 1
+            )),
             None => Ok(()),
         }
     }
@@ -159,7 +189,10 @@ impl Content {
     /// An error where a block carries 4B's radius: the program then holds the part's contour.
     pub fn refuse_four_b(&self) -> Result<(), String> {
         match self.rows.iter().find(|row| row.part.is_some()) {
-            Some(row) => Err(format!("line {}: a 4B block cannot be calculated anew", row.line + 1)),
+            Some(row) => Err(format!(
+                "line {}: a 4B block cannot be calculated anew",
+                row.line + 1
+            )),
             None => Ok(()),
         }
     }
@@ -173,7 +206,12 @@ fn rounded(vector: Vector) -> Vector {
 pub fn moved(segment: &Segment, by: Vector) -> Segment {
     match segment {
         Segment::Line(Line { start, end }) => Segment::line(start + by, end + by),
-        Segment::Arc(arc) => Segment::Arc(Arc { center: arc.center + by, start: arc.start + by, end: arc.end + by, ..*arc }),
+        Segment::Arc(arc) => Segment::Arc(Arc {
+            center: arc.center + by,
+            start: arc.start + by,
+            end: arc.end + by,
+            ..*arc
+        }),
     }
 }
 
@@ -182,7 +220,11 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
     let words = document.words();
     let mut steps = trace.steps.iter().filter(|step| step.moves());
     // Words that end programs elsewhere may stand before the one that ends this one.
-    let end = trace.steps.iter().find(|step| step.kind == Kind::End).map(|step| step.range.start);
+    let end = trace
+        .steps
+        .iter()
+        .find(|step| step.kind == Kind::End)
+        .map(|step| step.range.start);
     let (mut rows, mut header, mut fault, mut is_over) = (Vec::new(), None, None, false);
     let mut is_behind_pause = false;
     for line in 0..text.line_count() {
@@ -191,22 +233,38 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
         }
         let range = text.line_range(line);
         let bytes = &text.bytes()[range.clone()];
-        let place = |found: Option<&Range<usize>>| found.map(|found| range.start + found.start..range.start + found.end);
+        let place = |found: Option<&Range<usize>>| {
+            found.map(|found| range.start + found.start..range.start + found.end)
+        };
         let (mut blocks, cut) = (0, std::cell::OnceCell::new());
         let piece_of = |field: Field| {
             let pieces = cut.get_or_init(|| pieces(bytes, &words));
-            pieces.iter().rev().find(|piece| piece.field == field).map(|piece| &piece.range)
+            pieces
+                .iter()
+                .rev()
+                .find(|piece| piece.field == field)
+                .map(|piece| &piece.range)
         };
         read_line(bytes, range.start, &words, |item| match item {
             _ if is_over => {}
-            Item::Block { block, part, range: own, stated_end, .. } => {
+            Item::Block {
+                block,
+                part,
+                range: own,
+                stated_end,
+                ..
+            } => {
                 blocks += 1;
                 let step = steps.next().filter(|step| step.range.start == own.start);
                 let Some((step, piece)) = step.and_then(|step| Some((step, step.ideal?))) else {
-                    fault.get_or_insert_with(|| format!("line {}: the block leads nowhere", line + 1));
+                    fault.get_or_insert_with(|| {
+                        format!("line {}: the block leads nowhere", line + 1)
+                    });
                     return;
                 };
-                let is_spaced = bytes.get(own.start - range.start..own.end - range.start).is_some_and(|block| block.contains(&b' '));
+                let is_spaced = bytes
+                    .get(own.start - range.start..own.end - range.start)
+                    .is_some_and(|block| block.contains(&b' '));
                 rows.push(Row {
                     line,
                     is_behind_pause: std::mem::take(&mut is_behind_pause),
@@ -217,12 +275,22 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
                     to: step.end,
                     piece,
                     coordinates: stated_end.and_then(|_| place(piece_of(Field::Coordinates))),
-                    comment: if memchr::memchr(b';', bytes).is_some() { place(piece_of(Field::Comment)) } else { None },
-                    layout: if is_spaced { Layout::Aligned } else { Layout::Compact },
+                    comment: if memchr::memchr(b';', bytes).is_some() {
+                        place(piece_of(Field::Comment))
+                    } else {
+                        None
+                    },
+                    layout: if is_spaced {
+                        Layout::Aligned
+                    } else {
+                        Layout::Compact
+                    },
                 });
             }
             // One that stands behind blocks says nothing of the start.
-            Item::StartPoint { range, .. } => header = header.clone().or(Some(range).filter(|_| rows.is_empty())),
+            Item::StartPoint { range, .. } => {
+                header = header.clone().or(Some(range).filter(|_| rows.is_empty()))
+            }
             Item::Fault(found) => {
                 fault.get_or_insert_with(|| format!("line {}: {}", line + 1, found.sentence()));
             }
@@ -236,27 +304,59 @@ fn content(document: &Document, trace: &Trace, largest: i64) -> Result<Content, 
             }
         });
         if blocks > 1 {
-            fault.get_or_insert_with(|| format!("line {} holds {blocks} blocks: format the program first", line + 1));
+            fault.get_or_insert_with(|| {
+                format!(
+                    "line {} holds {blocks} blocks: format the program first",
+                    line + 1
+                )
+            });
         }
     }
     match fault {
         Some(sentence) => Err(sentence),
         None if rows.is_empty() => Err("the program has no block".into()),
-        None => Ok(Content { contours: contours(trace), rows, header, largest }),
+        None => Ok(Content {
+            contours: contours(trace),
+            rows,
+            header,
+            largest,
+        }),
     }
 }
 
 fn contours(trace: &Trace) -> Vec<Contour> {
     let (mut row, mut ordinal) = (0, 0);
-    let moves = |steps: Range<usize>| trace.steps.get(steps).unwrap_or_default().iter().filter(|step| step.moves()).count();
+    let moves = |steps: Range<usize>| {
+        trace
+            .steps
+            .get(steps)
+            .unwrap_or_default()
+            .iter()
+            .filter(|step| step.moves())
+            .count()
+    };
     let contour = |passage: Passage| {
         let rows = row..row + moves(passage.steps.clone());
         row = rows.end;
-        let is_way = passage.is_way || trace.steps.get(passage.steps.start).is_some_and(|step| step.kind == Kind::Rapid);
+        let is_way = passage.is_way
+            || trace
+                .steps
+                .get(passage.steps.start)
+                .is_some_and(|step| step.kind == Kind::Rapid);
         ordinal += usize::from(!is_way);
         let own = passage.contour_steps();
-        let (lead_in, lead_out) = (moves(passage.steps.start..own.start), moves(own.end..passage.steps.end));
-        Contour { ordinal, rows, lead_in, lead_out, closed: passage.closed, is_way }
+        let (lead_in, lead_out) = (
+            moves(passage.steps.start..own.start),
+            moves(own.end..passage.steps.end),
+        );
+        Contour {
+            ordinal,
+            rows,
+            lead_in,
+            lead_out,
+            closed: passage.closed,
+            is_way,
+        }
     };
     passages(trace).into_iter().map(contour).collect()
 }

@@ -28,14 +28,30 @@ fn split(sheet: &Sheet<'_>) -> Result<Vec<TextEdit>, String> {
         return Ok(Vec::new());
     }
     let nodes = content.nodes()?;
-    let mut rewrite = Rewrite { end: sheet.trace.end(), ..Rewrite::default() };
+    let mut rewrite = Rewrite {
+        end: sheet.trace.end(),
+        ..Rewrite::default()
+    };
     for index in long {
         let row = &content.rows[index];
         if row.part.is_some() {
-            return Err(format!("line {}: a 4B block cannot be calculated anew", row.line + 1));
+            return Err(format!(
+                "line {}: a 4B block cannot be calculated anew",
+                row.line + 1
+            ));
         }
         let (from, to) = nodes[index];
-        rewrite.rows.insert(index, encoded(&content.piece_from(index, from), from, to, None, index, largest)?);
+        rewrite.rows.insert(
+            index,
+            encoded(
+                &content.piece_from(index, from),
+                from,
+                to,
+                None,
+                index,
+                largest,
+            )?,
+        );
     }
     rewrite.edits(sheet, content)
 }

@@ -16,16 +16,24 @@ fn refactored(id: &str, text: &str) -> Result<String, String> {
     let offset = text.find('|').unwrap_or(0);
     let text = text.replacen('|', "", 1);
     let document = read(&text);
-    let found = proposals(&document, &Effective::default(), offset..offset, |known| known == id);
+    let found = proposals(&document, &Effective::default(), offset..offset, |known| {
+        known == id
+    });
     match found.into_iter().next() {
         None => Ok(text),
-        Some(proposal) => Ok(String::from_utf8(applied(text.as_bytes(), &proposal.edits?)).unwrap()),
+        Some(proposal) => {
+            Ok(String::from_utf8(applied(text.as_bytes(), &proposal.edits?)).unwrap())
+        }
     }
 }
 
 #[track_caller]
 fn check(id: &str, text: &str, expected: &str) {
-    assert_eq!(refactored(&format!("refactor.rewrite.{id}"), text).as_deref(), Ok(expected), "{id} of {text}");
+    assert_eq!(
+        refactored(&format!("refactor.rewrite.{id}"), text).as_deref(),
+        Ok(expected),
+        "{id} of {text}"
+    );
 }
 
 #[track_caller]
@@ -47,9 +55,21 @@ fn contours_are_reversed_between_their_ways() {
         "B5B0B5GXL1\nB0B5B5GYL2\nB5B0B5GXL3\nB0B5B5GYL4\nD\n|B7B0B7GXL1\nB0B7B7GYL2\nB7B7B7GYL3\nDD\n",
         "B5B0B5GXL1\nB0B5B5GYL2\nB5B0B5GXL3\nB0B5B5GYL4\nD\nB7B7B7GYL1\nB0B7B7GYL4\nB7B0B7GXL3\nDD\n",
     );
-    check("reverse", "; Start Point = 1 , 2\nB5B0B5GXL1\nB0B9B9GYL2\nDD\n", "; Start Point = 1.005 , 2.009\nB0B9B9GYL4\nB5B0B5GXL3\nDD\n");
-    refused("reverse", "B5B0B5GXL1\nB0B9B9GYL2\nD\nB0B9B9GYL2\nDD\n", "contour 1 is open");
-    refused("reverse", "B5B0B5GXL1\nB0B9GYL2\nDD\n", "line 2: column 5: found `GYL2`");
+    check(
+        "reverse",
+        "; Start Point = 1 , 2\nB5B0B5GXL1\nB0B9B9GYL2\nDD\n",
+        "; Start Point = 1.005 , 2.009\nB0B9B9GYL4\nB5B0B5GXL3\nDD\n",
+    );
+    refused(
+        "reverse",
+        "B5B0B5GXL1\nB0B9B9GYL2\nD\nB0B9B9GYL2\nDD\n",
+        "contour 1 is open",
+    );
+    refused(
+        "reverse",
+        "B5B0B5GXL1\nB0B9GYL2\nDD\n",
+        "line 2: column 5: found `GYL2`",
+    );
 }
 
 #[test]
@@ -59,8 +79,16 @@ fn a_contour_begins_where_the_cursor_is() {
         "B5000B0B5000GXL1\nB0B5000B5000GYL2\nB10000B0B10000GXL3\n|B0B10000B10000GYL4\nB10000B0B10000GXL1\nB0B5000B5000GYL2\nB5000B0B5000GXL3\nDD\n",
         "B5000B5000B5000GXL2\nB0B10000B10000GYL4\nB10000B0B10000GXL1\nB0B5000B5000GYL2\nB0B5000B5000GYL2\nB10000B0B10000GXL3\nB5000B5000B5000GXL4\nDD\n",
     );
-    check("startHere", "B5B0B5GXL1\n|B0B5B5GYL2\nB5B5B5GYL3\nDD\n", "B0B5B5GYL2\nB5B5B5GYL3\nB5B0B5GXL1\nDD\n");
-    refused("startHere", "|B5000B0B5000GXL1\nB5000B0B20000GYNR1\nB5000B0B5000GXL3\n", "the block leads to the contour");
+    check(
+        "startHere",
+        "B5B0B5GXL1\n|B0B5B5GYL2\nB5B5B5GYL3\nDD\n",
+        "B0B5B5GYL2\nB5B5B5GYL3\nB5B0B5GXL1\nDD\n",
+    );
+    refused(
+        "startHere",
+        "|B5000B0B5000GXL1\nB5000B0B20000GYNR1\nB5000B0B5000GXL3\n",
+        "the block leads to the contour",
+    );
     refused("startHere", "; x|\nB5B0B5GXL1\n", "no block is selected");
 }
 
@@ -80,13 +108,21 @@ fn programs_are_mirrored_and_rotated_to_the_last_micron() {
         "; R10\nN1 B9900B0B9900GXL3 ; in\nN2 B9900B0B19800GYSR2 ; half\nN3 B9900B0B19800GYSR4\nN4 B9900B0B9900GXL1\nDD\n",
     );
     check("mirror.y", "B3B4B4GYL1\n", "B3B4B4GYL4\n");
-    check("rotate.left", "BBB5GXL1\nB4B4B4GYL1\n; Start Point = 1 , 2\n", "B0B0B5GYL2\nB4B4B4GXL2\n; Start Point = 1 , 2\n");
+    check(
+        "rotate.left",
+        "BBB5GXL1\nB4B4B4GYL1\n; Start Point = 1 , 2\n",
+        "B0B0B5GYL2\nB4B4B4GXL2\n; Start Point = 1 , 2\n",
+    );
     check(
         "rotate.right",
         "; Start Point = 1.0 , 2.0\nB3000B4000B4000GYL1 ; 4.0 , 6.0\n",
         "; Start Point = 2.000 , -1.000\nB4000B3000B4000GXL4  ;      6.000 ,     -4.000\n",
     );
-    check("rotate.half", "B0B5000B10000B5000GXDDNR2\n", "B0B5000B10000B5000GXDDNR4\n");
+    check(
+        "rotate.half",
+        "B0B5000B10000B5000GXDDNR2\n",
+        "B0B5000B10000B5000GXDDNR4\n",
+    );
 }
 
 #[test]
@@ -96,12 +132,19 @@ fn programs_are_scaled_and_close_again() {
         "B100B0B100GXL1\nB100B0B400GYNR1\nB100B0B100GXL3\nDD\n",
         "B2540B0B2540GXL1\nB2540B0B10160GYNR1\nB2540B0B2540GXL3\nDD\n",
     );
-    refused("scale.mmToInch", "B10B0B10GXL1\nDD\n", "line 1: the block becomes shorter than 1 µm");
+    refused(
+        "scale.mmToInch",
+        "B10B0B10GXL1\nDD\n",
+        "line 1: the block becomes shorter than 1 µm",
+    );
     let document = read("B10B0B10GXL1\n");
     let settings = Effective::default();
     let sheet = Sheet::new(&document, &settings, 0..0);
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
-        assert!(scaled(&sheet, factor).is_err_and(|reason| reason.contains("expected one between")), "{factor}");
+        assert!(
+            scaled(&sheet, factor).is_err_and(|reason| reason.contains("expected one between")),
+            "{factor}"
+        );
     }
 }
 
@@ -111,19 +154,43 @@ fn long_blocks_are_split_and_merge_again() {
     let split = "N1 B750000B0B750000GXL1\nN2 B750000B0B750000GXL1\nN3 B0B5B5GYL2\nDD\n";
     check("split", long, split);
     check("merge", split, split);
-    check("merge", "N1 B2000B1000B2000GXL1\nN2 B4000B2000B4000GXL1\nN3 B0B5B5GYL2\n", "N1 B6000B3000B6000GXL1\nN2 B0B5B5GYL2\n");
+    check(
+        "merge",
+        "N1 B2000B1000B2000GXL1\nN2 B4000B2000B4000GXL1\nN3 B0B5B5GYL2\n",
+        "N1 B6000B3000B6000GXL1\nN2 B0B5B5GYL2\n",
+    );
     // A comment marks a place, and back is not on.
-    check("merge", "B2B0B2GXL1\nB2B0B2GXL1 ; here\nB2B0B2GXL1\n", "B2B0B2GXL1\nB4B0B4GXL1 ; here\n");
-    check("merge", "B2B0B2GXL1\nB1B0B1GXL3\n", "B2B0B2GXL1\nB1B0B1GXL3\n");
+    check(
+        "merge",
+        "B2B0B2GXL1\nB2B0B2GXL1 ; here\nB2B0B2GXL1\n",
+        "B2B0B2GXL1\nB4B0B4GXL1 ; here\n",
+    );
+    check(
+        "merge",
+        "B2B0B2GXL1\nB1B0B1GXL3\n",
+        "B2B0B2GXL1\nB1B0B1GXL3\n",
+    );
 }
 
 #[test]
 fn the_correction_is_applied_to_the_parts_contour() {
     let part = "; plate\nB10000B0B10000GXL1\nB10000B0B40000GYNR1\nB10000B0B10000GXL3\nDD\n";
-    check("correct.opening", part, "; plate\nB9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n");
+    check(
+        "correct.opening",
+        part,
+        "; plate\nB9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n",
+    );
     refused("correct.punch", part, "lead");
-    refused("correct.opening", "B10000B0B10000GXL1\nB50B0B200GYNR1\nB10000B0B10000GXL3\nDD\n", "does not fit");
-    refused("correct.opening", "B10000B0B10000GXL1\nB0B5B5GYL2\nDD\n", "is open");
+    refused(
+        "correct.opening",
+        "B10000B0B10000GXL1\nB50B0B200GYNR1\nB10000B0B10000GXL3\nDD\n",
+        "does not fit",
+    );
+    refused(
+        "correct.opening",
+        "B10000B0B10000GXL1\nB0B5B5GYL2\nDD\n",
+        "is open",
+    );
 }
 
 #[test]
@@ -131,20 +198,35 @@ fn what_changes_nothing_is_not_offered() {
     let document = read("B5B0B5GXL1\nB0B5B5GYL2\nB5B5B5GYL3\nDD\n");
     let all = proposals(&document, &Effective::default(), 0..0, |_| true);
     let ids: Vec<&str> = all.iter().map(|proposal| proposal.id).collect();
-    for absent in ["refactor.rewrite.merge", "refactor.rewrite.split", "refactor.rewrite.layout.compact", "refactor.rewrite.startHere"] {
+    for absent in [
+        "refactor.rewrite.merge",
+        "refactor.rewrite.split",
+        "refactor.rewrite.layout.compact",
+        "refactor.rewrite.startHere",
+    ] {
         assert!(!ids.contains(&absent), "{absent} in {ids:?}");
     }
-    assert!(ids.contains(&"refactor.rewrite.reverse") && ids.contains(&"refactor.rewrite.number"), "{ids:?}");
+    assert!(
+        ids.contains(&"refactor.rewrite.reverse") && ids.contains(&"refactor.rewrite.number"),
+        "{ids:?}"
+    );
 }
 
 /// A closed contour of lines and arcs about the origin, cut from there: its nodes on the grid and its bulges.
 fn any_contour() -> impl Strategy<Value = Vec<(i64, i64, f64)>> {
-    let corner = (5_000_i64..25_000, prop_oneof![2 => Just(0.0), 1 => 0.05_f64..0.6, 1 => -0.3_f64..-0.05]);
+    let corner = (
+        5_000_i64..25_000,
+        prop_oneof![2 => Just(0.0), 1 => 0.05_f64..0.6, 1 => -0.3_f64..-0.05],
+    );
     prop::collection::vec(corner, 4..14).prop_map(|corners| {
         let step = std::f64::consts::TAU / corners.len() as f64;
         let vertex = |(index, (radius, bulge)): (usize, (i64, f64))| {
             let (sin, cos) = (index as f64 * step).sin_cos();
-            ((radius as f64 * cos).round() as i64, (radius as f64 * sin).round() as i64, bulge)
+            (
+                (radius as f64 * cos).round() as i64,
+                (radius as f64 * sin).round() as i64,
+                bulge,
+            )
         };
         corners.into_iter().enumerate().map(vertex).collect()
     })
@@ -156,15 +238,38 @@ fn program_of(contour: &[(i64, i64, f64)]) -> Option<String> {
     let point = |node: Node| Point::new(node.x as f64, node.y as f64);
     let origin = Node { x: 0, y: 0 };
     let first = node(contour.first()?);
-    encode(&Segment::line(point(origin), point(first)), origin, first, LARGEST, &mut blocks)?;
+    encode(
+        &Segment::line(point(origin), point(first)),
+        origin,
+        first,
+        LARGEST,
+        &mut blocks,
+    )?;
     for (index, vertex) in contour.iter().enumerate() {
         let (from, to) = (node(vertex), node(&contour[(index + 1) % contour.len()]));
-        encode(&Segment::from_bulge(point(from), point(to), vertex.2), from, to, LARGEST, &mut blocks)?;
+        encode(
+            &Segment::from_bulge(point(from), point(to), vertex.2),
+            from,
+            to,
+            LARGEST,
+            &mut blocks,
+        )?;
     }
-    encode(&Segment::line(point(first), point(origin)), first, origin, LARGEST, &mut blocks)?;
+    encode(
+        &Segment::line(point(first), point(origin)),
+        first,
+        origin,
+        LARGEST,
+        &mut blocks,
+    )?;
     let mut text = Vec::new();
     for block in &blocks {
-        super::super::layout::push_fields(&mut text, crate::settings::Layout::Compact, &block.block, None);
+        super::super::layout::push_fields(
+            &mut text,
+            crate::settings::Layout::Compact,
+            &block.block,
+            None,
+        );
         text.push(b'\n');
     }
     String::from_utf8(text).ok().map(|text| text + "DD\n")
@@ -174,10 +279,22 @@ fn program_of(contour: &[(i64, i64, f64)]) -> Option<String> {
 fn measure(text: &str) -> (f64, f64) {
     let trace = read(text).trace();
     let found = passages(&trace);
-    assert_eq!((found.len(), found[0].lead_in, found[0].lead_out, found[0].closed), (1, 1, 1, true), "{text}");
+    assert_eq!(
+        (
+            found.len(),
+            found[0].lead_in,
+            found[0].lead_out,
+            found[0].closed
+        ),
+        (1, 1, 1, true),
+        "{text}"
+    );
     let steps = &trace.steps[found[0].contour_steps()];
     let ideals = || steps.iter().filter_map(|step| step.ideal.as_ref());
-    (ideals().map(|ideal| ideal.twice_area(steps[0].start)).sum(), ideals().map(Segment::length).sum())
+    (
+        ideals().map(|ideal| ideal.twice_area(steps[0].start)).sum(),
+        ideals().map(Segment::length).sum(),
+    )
 }
 
 proptest! {
@@ -225,8 +342,16 @@ proptest! {
 
 #[test]
 fn end_words_of_other_controllers_end_no_program_before_its_own() {
-    check("mirror.x", "B5B0B5GXL1\nE\nB0B5B5GYL2\nE\n", "B5B0B5GXL3\nE\nB0B5B5GYL2\nE\n");
-    check("mirror.x", "B5B0B5GXL1\nE\nB0B5B5GYL2\nDD B7B0B7GXL1\n", "B5B0B5GXL3\nE\nB0B5B5GYL2\nDD B7B0B7GXL1\n");
+    check(
+        "mirror.x",
+        "B5B0B5GXL1\nE\nB0B5B5GYL2\nE\n",
+        "B5B0B5GXL3\nE\nB0B5B5GYL2\nE\n",
+    );
+    check(
+        "mirror.x",
+        "B5B0B5GXL1\nE\nB0B5B5GYL2\nDD B7B0B7GXL1\n",
+        "B5B0B5GXL3\nE\nB0B5B5GYL2\nDD B7B0B7GXL1\n",
+    );
 }
 
 #[test]

@@ -18,27 +18,77 @@ use crate::text::TextEdit;
 pub const MIRROR_X: Refactoring = Refactoring {
     id: "refactor.rewrite.mirror.x",
     title: |_| "Mirror left and right (X to −X)".into(),
-    rewrite: |sheet| transformed(sheet, Transform { xx: -1, xy: 0, yx: 0, yy: 1 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: -1,
+                xy: 0,
+                yx: 0,
+                yy: 1,
+            },
+        )
+    },
 };
 pub const MIRROR_Y: Refactoring = Refactoring {
     id: "refactor.rewrite.mirror.y",
     title: |_| "Mirror up and down (Y to −Y)".into(),
-    rewrite: |sheet| transformed(sheet, Transform { xx: 1, xy: 0, yx: 0, yy: -1 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: 1,
+                xy: 0,
+                yx: 0,
+                yy: -1,
+            },
+        )
+    },
 };
 pub const ROTATE_LEFT: Refactoring = Refactoring {
     id: "refactor.rewrite.rotate.left",
     title: |_| "Rotate by 90° counter-clockwise".into(),
-    rewrite: |sheet| transformed(sheet, Transform { xx: 0, xy: -1, yx: 1, yy: 0 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: 0,
+                xy: -1,
+                yx: 1,
+                yy: 0,
+            },
+        )
+    },
 };
 pub const ROTATE_RIGHT: Refactoring = Refactoring {
     id: "refactor.rewrite.rotate.right",
     title: |_| "Rotate by 90° clockwise".into(),
-    rewrite: |sheet| transformed(sheet, Transform { xx: 0, xy: 1, yx: -1, yy: 0 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: 0,
+                xy: 1,
+                yx: -1,
+                yy: 0,
+            },
+        )
+    },
 };
 pub const ROTATE_HALF: Refactoring = Refactoring {
     id: "refactor.rewrite.rotate.half",
     title: |_| "Rotate by 180°".into(),
-    rewrite: |sheet| transformed(sheet, Transform { xx: -1, xy: 0, yx: 0, yy: -1 }),
+    rewrite: |sheet| {
+        transformed(
+            sheet,
+            Transform {
+                xx: -1,
+                xy: 0,
+                yx: 0,
+                yy: -1,
+            },
+        )
+    },
 };
 
 /// `x' = xx·x + xy·y`, `y' = yx·x + yy·y`, all of them 0, 1 or −1.
@@ -61,7 +111,10 @@ impl Transform {
     }
 
     fn of_vector(self, v: Vector) -> Vector {
-        Vector::new(self.xx as f64 * v.x + self.xy as f64 * v.y, self.yx as f64 * v.x + self.yy as f64 * v.y)
+        Vector::new(
+            self.xx as f64 * v.x + self.xy as f64 * v.y,
+            self.yx as f64 * v.x + self.yy as f64 * v.y,
+        )
     }
 
     fn of_point(self, point: Point) -> Point {
@@ -74,7 +127,9 @@ impl Transform {
 
     fn of_segment(self, segment: &Segment) -> Segment {
         match segment {
-            Segment::Line(line) => Segment::line(self.of_point(line.start), self.of_point(line.end)),
+            Segment::Line(line) => {
+                Segment::line(self.of_point(line.start), self.of_point(line.end))
+            }
             Segment::Arc(arc) => {
                 let from_center = self.of_vector(arc.start - arc.center);
                 Segment::Arc(Arc {
@@ -82,7 +137,11 @@ impl Transform {
                     start: self.of_point(arc.start),
                     end: self.of_point(arc.end),
                     start_angle: from_center.y.atan2(from_center.x),
-                    sweep: if self.mirrors() { -arc.sweep } else { arc.sweep },
+                    sweep: if self.mirrors() {
+                        -arc.sweep
+                    } else {
+                        arc.sweep
+                    },
                     radius: arc.radius,
                 })
             }
@@ -127,11 +186,19 @@ impl Transform {
         let (x, y) = self.of_numbers(block.x, block.y);
         let axis = match motion {
             // A line at 45° counts by its quadrant.
-            Motion::Line(Quadrant::First | Quadrant::Third) if x.abs() == y.abs() && x != 0 => CountingAxis::Y,
+            Motion::Line(Quadrant::First | Quadrant::Third) if x.abs() == y.abs() && x != 0 => {
+                CountingAxis::Y
+            }
             Motion::Line(_) if x.abs() == y.abs() && x != 0 => CountingAxis::X,
             _ => self.of_axis(block.axis),
         };
-        Block { x: x.abs(), y: y.abs(), j: block.j, axis, motion }
+        Block {
+            x: x.abs(),
+            y: y.abs(),
+            j: block.j,
+            axis,
+            motion,
+        }
     }
 }
 
@@ -146,9 +213,22 @@ fn transformed(sheet: &Sheet<'_>, transform: Transform) -> Result<Vec<TextEdit>,
             to: transform.of_node(to),
             piece: transform.of_segment(&content.piece_from(index, from)),
         };
-        (index, vec![New { encoded, part: row.part, source: index, exact: true }])
+        (
+            index,
+            vec![New {
+                encoded,
+                part: row.part,
+                source: index,
+                exact: true,
+            }],
+        )
     };
     let start = nodes.first().map(|(from, _)| transform.of_node(*from));
     let end = transform.of_point(sheet.trace.end());
-    Rewrite { rows: content.rows.iter().enumerate().map(of_row).collect(), start, end }.edits(sheet, content)
+    Rewrite {
+        rows: content.rows.iter().enumerate().map(of_row).collect(),
+        start,
+        end,
+    }
+    .edits(sheet, content)
 }

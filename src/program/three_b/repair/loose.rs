@@ -84,7 +84,10 @@ pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
         Some(b'X') => axis = Some(CountingAxis::X),
         Some(b'Y') => axis = Some(CountingAxis::Y),
         // Another letter in its place.
-        Some(letter) if has_g && letter.is_ascii_alphabetic() && !matches!(letter, b'L' | b'S' | b'N' | b'R' | b'D') => {}
+        Some(letter)
+            if has_g
+                && letter.is_ascii_alphabetic()
+                && !matches!(letter, b'L' | b'S' | b'N' | b'R' | b'D') => {}
         _ => at = at.wrapping_sub(1),
     }
     at = at.wrapping_add(1);
@@ -103,7 +106,10 @@ pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
     let mut has_kind = kinds.len() < 3;
     at += usize::from(has_kind);
     skip(&mut at);
-    if has_kind && !matches!(kinds, [only] if matches!(only(Quadrant::First), Motion::Line(_))) && upper(at) == Some(b'R') {
+    if has_kind
+        && !matches!(kinds, [only] if matches!(only(Quadrant::First), Motion::Line(_)))
+        && upper(at) == Some(b'R')
+    {
         at += 1;
     } else if matches!(kinds, [only] if !matches!(only(Quadrant::First), Motion::Line(_))) {
         missing += 1;
@@ -113,7 +119,9 @@ pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
         end = at;
     }
     skip(&mut at);
-    let quadrant = text.get(at).and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
+    let quadrant = text
+        .get(at)
+        .and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
     if text.get(at).is_some_and(u8::is_ascii_digit) {
         at += 1;
         end = at;
@@ -121,22 +129,45 @@ pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
     }
     missing += usize::from(quadrant.is_none());
     let rest = text.get(at..).unwrap_or_default();
-    let is_over = rest.iter().find(|byte| !matches!(byte, b' ' | b'\t' | b'|')).is_none_or(|byte| !byte.is_ascii_alphanumeric());
+    let is_over = rest
+        .iter()
+        .find(|byte| !matches!(byte, b' ' | b'\t' | b'|'))
+        .is_none_or(|byte| !byte.is_ascii_alphanumeric());
     let is_block = has_g || axis.is_some() || has_kind;
     if !is_over || !is_block || !(2..=3).contains(&numbers.len()) {
         return None;
     }
-    let kind_of = |motion: &Motion| kinds.iter().any(|kind| QUADRANTS.iter().any(|quadrant| kind(*quadrant) == *motion));
+    let kind_of = |motion: &Motion| {
+        kinds
+            .iter()
+            .any(|kind| QUADRANTS.iter().any(|quadrant| kind(*quadrant) == *motion))
+    };
     let is_in = |motion: &Motion| quadrant.is_none_or(|quadrant| quadrant_of(*motion) == quadrant);
-    let motions = motions().filter(|motion| kind_of(motion) && is_in(motion)).collect();
-    Some(Loose { range: start..end, numbers, axis, motions, marks, missing })
+    let motions = motions()
+        .filter(|motion| kind_of(motion) && is_in(motion))
+        .collect();
+    Some(Loose {
+        range: start..end,
+        numbers,
+        axis,
+        motions,
+        marks,
+        missing,
+    })
 }
 
-const QUADRANTS: [Quadrant; 4] = [Quadrant::First, Quadrant::Second, Quadrant::Third, Quadrant::Fourth];
+const QUADRANTS: [Quadrant; 4] = [
+    Quadrant::First,
+    Quadrant::Second,
+    Quadrant::Third,
+    Quadrant::Fourth,
+];
 
 fn quadrant_of(motion: Motion) -> Quadrant {
     match motion {
-        Motion::Line(quadrant) | Motion::Clockwise(quadrant) | Motion::CounterClockwise(quadrant) => quadrant,
+        Motion::Line(quadrant)
+        | Motion::Clockwise(quadrant)
+        | Motion::CounterClockwise(quadrant) => quadrant,
     }
 }
 
@@ -154,7 +185,17 @@ impl Loose {
             for axis in axes {
                 for motion in &self.motions {
                     let [x, y, j] = numbers;
-                    readings.push(Reading { block: Block { x, y, j, axis: *axis, motion: *motion }, unknown, keys: keys + more });
+                    readings.push(Reading {
+                        block: Block {
+                            x,
+                            y,
+                            j,
+                            axis: *axis,
+                            motion: *motion,
+                        },
+                        unknown,
+                        keys: keys + more,
+                    });
                 }
             }
         }
@@ -163,12 +204,20 @@ impl Loose {
 
     /// X, Y and J, which of them is unknown, and how many keys that takes.
     fn triples(&self) -> Vec<([i64; 3], Option<Number>, usize)> {
-        let value = |digits: &[u8]| digits.iter().fold(0_i64, |value, digit| value * 10 + i64::from(digit - b'0'));
+        let value = |digits: &[u8]| {
+            digits
+                .iter()
+                .fold(0_i64, |value, digit| value * 10 + i64::from(digit - b'0'))
+        };
         let mut triples = Vec::new();
         match &self.numbers[..] {
             [x, y, j] => {
                 let unknown = j.is_empty().then_some(Number::J);
-                triples.push(([value(x), value(y), value(j)], unknown, usize::from(unknown.is_some())));
+                triples.push((
+                    [value(x), value(y), value(j)],
+                    unknown,
+                    usize::from(unknown.is_some()),
+                ));
             }
             [one, other] => {
                 let (a, b) = (value(one), value(other));
@@ -199,24 +248,64 @@ mod tests {
             assert_eq!("nothing", expected, "{text}");
             return;
         };
-        let numbers: Vec<String> = loose.numbers.iter().map(|digits| String::from_utf8_lossy(digits).into_owned()).collect();
-        let said = format!("{} {:?} {} of {:?}", numbers.join(" "), loose.axis, loose.motions.len(), &text[loose.range.clone()]);
+        let numbers: Vec<String> = loose
+            .numbers
+            .iter()
+            .map(|digits| String::from_utf8_lossy(digits).into_owned())
+            .collect();
+        let said = format!(
+            "{} {:?} {} of {:?}",
+            numbers.join(" "),
+            loose.axis,
+            loose.motions.len(),
+            &text[loose.range.clone()]
+        );
         assert_eq!(said, expected, "{text}");
     }
 
     #[test]
     fn what_is_there_of_a_broken_block_is_read() {
-        check("B9900B0B9900XL1", "9900 0 9900 Some(X) 1 of \"B9900B0B9900XL1\"");
-        check("N  7: B 9.900 B 0 B 9900 GX  L1  ; 1 , 2", "9900 0 9900 Some(X) 1 of \"B 9.900 B 0 B 9900 GX  L1\"");
-        check("B9900B0B9900GL1", "9900 0 9900 None 1 of \"B9900B0B9900GL1\"");
+        check(
+            "B9900B0B9900XL1",
+            "9900 0 9900 Some(X) 1 of \"B9900B0B9900XL1\"",
+        );
+        check(
+            "N  7: B 9.900 B 0 B 9900 GX  L1  ; 1 , 2",
+            "9900 0 9900 Some(X) 1 of \"B 9.900 B 0 B 9900 GX  L1\"",
+        );
+        check(
+            "B9900B0B9900GL1",
+            "9900 0 9900 None 1 of \"B9900B0B9900GL1\"",
+        );
         check("B9900B0B9900L1", "9900 0 9900 None 1 of \"B9900B0B9900L1\"");
-        check("B9900B0B9900GX", "9900 0 9900 Some(X) 12 of \"B9900B0B9900GX\"");
-        check("B9900B0B9900GXN", "9900 0 9900 Some(X) 4 of \"B9900B0B9900GXN\"");
-        check("B9900B0B9900GXS2", "9900 0 9900 Some(X) 1 of \"B9900B0B9900GXS2\"");
-        check("B9900B0B9900GXR2", "9900 0 9900 Some(X) 2 of \"B9900B0B9900GXR2\"");
-        check("B9900B-9900GXL2 ; a remark", "9900 9900 Some(X) 1 of \"B9900B-9900GXL2\"");
-        check("B9900B0B9900GXL7", "9900 0 9900 Some(X) 4 of \"B9900B0B9900GXL7\"");
-        check("B9900B0B9900GZL1", "9900 0 9900 None 1 of \"B9900B0B9900GZL1\"");
+        check(
+            "B9900B0B9900GX",
+            "9900 0 9900 Some(X) 12 of \"B9900B0B9900GX\"",
+        );
+        check(
+            "B9900B0B9900GXN",
+            "9900 0 9900 Some(X) 4 of \"B9900B0B9900GXN\"",
+        );
+        check(
+            "B9900B0B9900GXS2",
+            "9900 0 9900 Some(X) 1 of \"B9900B0B9900GXS2\"",
+        );
+        check(
+            "B9900B0B9900GXR2",
+            "9900 0 9900 Some(X) 2 of \"B9900B0B9900GXR2\"",
+        );
+        check(
+            "B9900B-9900GXL2 ; a remark",
+            "9900 9900 Some(X) 1 of \"B9900B-9900GXL2\"",
+        );
+        check(
+            "B9900B0B9900GXL7",
+            "9900 0 9900 Some(X) 4 of \"B9900B0B9900GXL7\"",
+        );
+        check(
+            "B9900B0B9900GZL1",
+            "9900 0 9900 None 1 of \"B9900B0B9900GZL1\"",
+        );
         check("B9900GXL1", "nothing");
         check("9900", "nothing");
         check("B1B2B3B4B5", "nothing");

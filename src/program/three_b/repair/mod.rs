@@ -72,18 +72,11 @@ pub(super) enum Change {
         slip: Slip,
     },
     /// One of two equal blocks goes.
-    Delete {
-        index: usize,
-    },
+    Delete { index: usize },
     /// The block changes places with the next one.
-    Exchange {
-        index: usize,
-    },
+    Exchange { index: usize },
     /// A block comes before another one.
-    Insert {
-        index: usize,
-        block: Block,
-    },
+    Insert { index: usize, block: Block },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -173,7 +166,10 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
     }
     let mut found = search.changes(scope);
     found.truncate(LOOKED_AT);
-    let mut judged: Vec<(usize, f64, Change, Move)> = found.into_iter().filter_map(|(change, cost)| search.judged(change, cost)).collect();
+    let mut judged: Vec<(usize, f64, Change, Move)> = found
+        .into_iter()
+        .filter_map(|(change, cost)| search.judged(change, cost))
+        .collect();
     judged.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     // Of those that lead the same way the first is the plainest; what crosses itself as before comes last.
     let mut kept: Vec<(usize, f64, Change, Move)> = Vec::new();
@@ -189,31 +185,47 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
         };
         if let Some(known) = kept.iter().position(is_known) {
             // Two numbers of one block that may each be wrong: which is not known.
-            is_either |= known == 0 && field(&kept[0].2) != field(&change) && cost - kept[0].1 < CLEARLY;
+            is_either |=
+                known == 0 && field(&kept[0].2) != field(&change) && cost - kept[0].1 < CLEARLY;
             continue;
         }
         if search.crosses(Some(&change)) {
-            let is_as_before = crosses_now && !matches!(change, Change::Exchange { .. }) && crossing.len() < HANDED_OUT;
+            let is_as_before = crosses_now
+                && !matches!(change, Change::Exchange { .. })
+                && crossing.len() < HANDED_OUT;
             crossing.extend(is_as_before.then_some((left, cost, change, by)));
         } else {
             kept.push((left, cost, change, by));
         }
     }
     if kept.is_empty() {
-        let made = crossing.into_iter().map(|(left, _, change, _)| Repair { change, is_sure: false, is_whole: left == 0 });
+        let made = crossing.into_iter().map(|(left, _, change, _)| Repair {
+            change,
+            is_sure: false,
+            is_whole: left == 0,
+        });
         return made.collect();
     }
     let best = kept.first().map(|(left, cost, ..)| (*left, *cost));
     // A block that stands twice says more than one that could be lost.
-    let is_twin = kept.first().is_some_and(|(_, _, change, _)| matches!(change, Change::Delete { .. }));
+    let is_twin = kept
+        .first()
+        .is_some_and(|(_, _, change, _)| matches!(change, Change::Delete { .. }));
     let counts = |change: &Change| !is_twin || !matches!(change, Change::Insert { .. });
-    let rival = kept.iter().skip(1).find(|(_, _, change, _)| counts(change)).map(|(_, cost, ..)| *cost);
+    let rival = kept
+        .iter()
+        .skip(1)
+        .find(|(_, _, change, _)| counts(change))
+        .map(|(_, cost, ..)| *cost);
     let is_clear = best.is_some_and(|(_, cost)| rival.is_none_or(|rival| rival - cost >= CLEARLY));
-    let made = kept.into_iter().enumerate().map(|(nth, (left, _, change, _))| Repair {
-        change,
-        is_sure: nth == 0 && is_clear && !is_either && search.may_be_sure(&change, left),
-        is_whole: left == 0,
-    });
+    let made = kept
+        .into_iter()
+        .enumerate()
+        .map(|(nth, (left, _, change, _))| Repair {
+            change,
+            is_sure: nth == 0 && is_clear && !is_either && search.may_be_sure(&change, left),
+            is_whole: left == 0,
+        });
     made.collect()
 }
 
@@ -228,14 +240,20 @@ fn restored(block: &Block, keys: usize) -> f64 {
 /// The number that a repair changes.
 fn field(change: &Change) -> Option<Number> {
     match change {
-        Change::Replace { slip: Slip::Number(number, _), .. } => Some(*number),
+        Change::Replace {
+            slip: Slip::Number(number, _),
+            ..
+        } => Some(*number),
         _ => None,
     }
 }
 
 fn at(change: &Change) -> usize {
     match change {
-        Change::Replace { index, .. } | Change::Delete { index } | Change::Exchange { index } | Change::Insert { index, .. } => *index,
+        Change::Replace { index, .. }
+        | Change::Delete { index }
+        | Change::Exchange { index }
+        | Change::Insert { index, .. } => *index,
     }
 }
 
@@ -246,10 +264,14 @@ fn is_alike(one: &Change, other: &Change) -> bool {
         _ => None,
     };
     let radius = |change: &Change| match change {
-        Change::Replace { block, .. } if !matches!(block.motion, Motion::Line(_)) => (block.x as f64).hypot(block.y as f64),
+        Change::Replace { block, .. } if !matches!(block.motion, Motion::Line(_)) => {
+            (block.x as f64).hypot(block.y as f64)
+        }
         _ => 0.0,
     };
-    std::mem::discriminant(one) == std::mem::discriminant(other) && kind(one) == kind(other) && (radius(one) - radius(other)).abs() <= 3.0
+    std::mem::discriminant(one) == std::mem::discriminant(other)
+        && kind(one) == kind(other)
+        && (radius(one) - radius(other)).abs() <= 3.0
 }
 
 struct Search<'a> {
@@ -270,21 +292,32 @@ impl<'a> Search<'a> {
     fn of(path: &'a Path<'a>) -> Search<'a> {
         let item = |piece: &Piece| Item {
             travel: piece.travel,
-            is_arc: piece.block.is_some_and(|block| !matches!(block.motion, Motion::Line(_))),
+            is_arc: piece
+                .block
+                .is_some_and(|block| !matches!(block.motion, Motion::Line(_))),
             stated: piece.stated,
             number: piece.number,
             is_unread: piece.block.is_none(),
             is_faulty: piece.is_faulty,
-            way: piece.block.as_ref().and_then(|block| meant(block, Point::origin())),
+            way: piece
+                .block
+                .as_ref()
+                .and_then(|block| meant(block, Point::origin())),
             block: piece.block,
         };
         let items: Vec<Item> = path.pieces.iter().map(item).collect();
-        let steps = items.windows(2).filter_map(|pair| pair[1].number?.checked_sub(pair[0].number?)).filter(|step| *step > 0);
+        let steps = items
+            .windows(2)
+            .filter_map(|pair| pair[1].number?.checked_sub(pair[0].number?))
+            .filter(|step| *step > 0);
         let is_mirrored = is_mirrored(&items);
         let mut search = Search {
             path,
             step: steps.min(),
-            arcs: items.iter().filter(|item| item.is_arc || item.is_unread).count(),
+            arcs: items
+                .iter()
+                .filter(|item| item.is_arc || item.is_unread)
+                .count(),
             items,
             before: Against::default(),
             joints: Joints::default(),
@@ -300,17 +333,31 @@ impl<'a> Search<'a> {
     }
 
     fn against(&self, items: &[Item]) -> Against {
-        let mut against = Against { unread: 0, faulty: 0, off: 0, out_of_turn: 0, is_open: false };
+        let mut against = Against {
+            unread: 0,
+            faulty: 0,
+            off: 0,
+            out_of_turn: 0,
+            is_open: false,
+        };
         let (mut before, mut off_before): (_, Option<[f64; 2]>) = (self.path.start, None);
         // Counting may begin anew in each contour.
         let first = items.iter().find_map(|item| item.number);
-        let mut last = self.path.number.filter(|before| first.is_some_and(|first| first > *before));
+        let mut last = self
+            .path
+            .number
+            .filter(|before| first.is_some_and(|first| first > *before));
         for item in items {
             against.unread += usize::from(item.is_unread);
             against.faulty += usize::from(item.is_faulty);
-            let off = before.as_ref().zip(item.stated.as_ref()).and_then(|(from, to)| mismatch(from, &item.travel, to));
+            let off = before
+                .as_ref()
+                .zip(item.stated.as_ref())
+                .and_then(|(from, to)| mismatch(from, &item.travel, to));
             // One end point that is off on its own is off once there and once back.
-            let goes_back = off.zip(off_before).is_some_and(|([x, y], [a, b])| (a + x).abs() <= STATED && (b + y).abs() <= STATED);
+            let goes_back = off
+                .zip(off_before)
+                .is_some_and(|([x, y], [a, b])| (a + x).abs() <= STATED && (b + y).abs() <= STATED);
             against.off += usize::from(off.is_some() && !goes_back);
             off_before = off.filter(|_| !goes_back);
             before = item.stated;
@@ -336,22 +383,35 @@ impl<'a> Search<'a> {
     fn wanted(&self, index: usize) -> Vec<(Wanted, bool)> {
         let item = &self.items[index];
         if let Some((from, to)) = self.stated(index) {
-            let is_off = item.is_unread || item.is_faulty || mismatch(&from, &item.travel, &to).is_some();
+            let is_off =
+                item.is_unread || item.is_faulty || mismatch(&from, &item.travel, &to).is_some();
             let by = [0, 1].map(|axis| (to.at[axis] - from.at[axis]) * 1000.0);
-            return if is_off { vec![(Wanted { by, near: STATED }, true)] } else { Vec::new() };
+            return if is_off {
+                vec![(Wanted { by, near: STATED }, true)]
+            } else {
+                Vec::new()
+            };
         }
         let others_unread = self.before.unread - usize::from(item.is_unread);
         let others_faulty = self.before.faulty - usize::from(item.is_faulty);
         let ends = index == 0 || index + 1 == self.items.len();
-        if !self.closes || others_unread + others_faulty > 0 || (ends && self.is_mirrored && !item.is_faulty) {
+        if !self.closes
+            || others_unread + others_faulty > 0
+            || (ends && self.is_mirrored && !item.is_faulty)
+        {
             return Vec::new();
         }
         let near = tolerance(self.arcs);
-        let total = self.items.iter().fold(Move::default(), |sum, item| sum.plus(item.travel));
+        let total = self
+            .items
+            .iter()
+            .fold(Move::default(), |sum, item| sum.plus(item.travel));
         let mut wanted: Vec<(Wanted, bool)> = Vec::new();
         let mut take = |by: Move| {
             let by = by.meant_um();
-            let is_known = wanted.iter().any(|(known, _)| (known.by[0] - by[0]).hypot(known.by[1] - by[1]) < 1.0);
+            let is_known = wanted
+                .iter()
+                .any(|(known, _)| (known.by[0] - by[0]).hypot(known.by[1] - by[1]) < 1.0);
             if !is_known && self.items.len() >= 3 {
                 wanted.push((Wanted { by, near }, false));
             }
@@ -369,7 +429,11 @@ impl<'a> Search<'a> {
             && index > 0
             && index + 1 < self.items.len()
         {
-            take(item.travel.plus(first.travel).minus(total.minus(last.travel)));
+            take(
+                item.travel
+                    .plus(first.travel)
+                    .minus(total.minus(last.travel)),
+            );
         }
         wanted
     }
@@ -379,7 +443,10 @@ impl<'a> Search<'a> {
         let mut found = Vec::new();
         for index in 0..self.items.len() {
             self.replacements(index, &mut found);
-            let (Some(own), Some(next)) = (self.items[index].block, self.items.get(index + 1).and_then(|next| next.block)) else {
+            let (Some(own), Some(next)) = (
+                self.items[index].block,
+                self.items.get(index + 1).and_then(|next| next.block),
+            ) else {
                 continue;
             };
             let numbers = (self.items[index].number, self.items[index + 1].number);
@@ -396,7 +463,9 @@ impl<'a> Search<'a> {
 
     fn replacements(&self, index: usize, found: &mut Vec<(Change, f64)>) {
         let piece = &self.path.pieces[index];
-        let mut take = |block: Block, slip: Slip, cost: f64| found.push((Change::Replace { index, block, slip }, cost));
+        let mut take = |block: Block, slip: Slip, cost: f64| {
+            found.push((Change::Replace { index, block, slip }, cost))
+        };
         let wanted = self.wanted(index);
         let Some(block) = &piece.block else {
             let Some(loose) = &piece.loose else { return };
@@ -406,17 +475,28 @@ impl<'a> Search<'a> {
                     let slip = Slip::Unread { keys: reading.keys };
                     let made = match reading.unknown {
                         None => Some(reading.block),
-                        Some(number) => solved(&reading.block, number, wanted).map(|(value, _)| with(&reading.block, number, value)),
+                        Some(number) => solved(&reading.block, number, wanted)
+                            .map(|(value, _)| with(&reading.block, number, value)),
                     };
-                    if let Some(made) = made.filter(|made| wanted.is_met(made) && is_sound(made, self.path.limits)) {
-                        take(made, slip, restored(&made, reading.keys) + MISS * wanted.miss(&made));
+                    if let Some(made) =
+                        made.filter(|made| wanted.is_met(made) && is_sound(made, self.path.limits))
+                    {
+                        take(
+                            made,
+                            slip,
+                            restored(&made, reading.keys) + MISS * wanted.miss(&made),
+                        );
                     }
                 }
             }
             // What it says by itself, where nothing says where it leads.
             for reading in readings.iter().filter(|reading| reading.unknown.is_none()) {
                 if is_sound(&reading.block, self.path.limits) {
-                    take(reading.block, Slip::Unread { keys: reading.keys }, restored(&reading.block, reading.keys) + 1.0);
+                    take(
+                        reading.block,
+                        Slip::Unread { keys: reading.keys },
+                        restored(&reading.block, reading.keys) + 1.0,
+                    );
                 }
             }
             return;
@@ -428,7 +508,10 @@ impl<'a> Search<'a> {
                     Slip::Number(Number::J, Digits::Any) => 1.6,
                     Slip::Number(_, Digits::Any) => 2.6,
                     // What is written like a line is one.
-                    Slip::Motion if is_line(block) != is_line(&changed) && block.j == block.x.max(block.y) => {
+                    Slip::Motion
+                        if is_line(block) != is_line(&changed)
+                            && block.j == block.x.max(block.y) =>
+                    {
                         if is_line(&changed) {
                             0.9
                         } else {
@@ -437,7 +520,11 @@ impl<'a> Search<'a> {
                     }
                     _ => 1.0,
                 };
-                let cost = if slip == Slip::Motion && !is_usual(&changed) { cost + UNUSUAL } else { cost };
+                let cost = if slip == Slip::Motion && !is_usual(&changed) {
+                    cost + UNUSUAL
+                } else {
+                    cost
+                };
                 take(changed, slip, cost + MISS * wanted.miss(&changed));
             }
             if let Some(line) = straight(wanted).filter(|line| *is_stated && line != block) {
@@ -449,9 +536,16 @@ impl<'a> Search<'a> {
     fn exchanges(&self, found: &mut Vec<(Change, f64)>) {
         for index in 0..self.items.len().saturating_sub(1) {
             let (own, next) = (&self.items[index], &self.items[index + 1]);
-            let is_out_of_turn = own.number.zip(next.number).is_some_and(|(own, next)| own > next);
-            let is_off = self.stated(index).is_some_and(|(from, to)| mismatch(&from, &own.travel, &to).is_some());
-            let may_be = is_out_of_turn || is_off || (self.before.count() == 0 && own.number.is_none() && own.stated.is_none());
+            let is_out_of_turn = own
+                .number
+                .zip(next.number)
+                .is_some_and(|(own, next)| own > next);
+            let is_off = self
+                .stated(index)
+                .is_some_and(|(from, to)| mismatch(&from, &own.travel, &to).is_some());
+            let may_be = is_out_of_turn
+                || is_off
+                || (self.before.count() == 0 && own.number.is_none() && own.stated.is_none());
             if may_be && own.block.is_some() && next.block.is_some() && own.block != next.block {
                 found.push((Change::Exchange { index }, 1.2));
             }
@@ -462,26 +556,44 @@ impl<'a> Search<'a> {
         if self.before.unread + self.before.faulty > 0 {
             return;
         }
-        let total = self.items.iter().fold(Move::default(), |sum, item| sum.plus(item.travel)).meant_um();
+        let total = self
+            .items
+            .iter()
+            .fold(Move::default(), |sum, item| sum.plus(item.travel))
+            .meant_um();
         let lead = self.items[0].travel.meant_um();
         let mut gaps = vec![total.map(|um| -um)];
         if !self.is_mirrored {
             gaps.push([lead[0] - total[0], lead[1] - total[1]]);
         }
         let is_number_lost = |index: usize| {
-            let numbers =
-                index.checked_sub(1).and_then(|before| self.items[before].number).zip(self.items.get(index).and_then(|item| item.number));
-            numbers.zip(self.step).is_some_and(|((before, own), step)| own == before.saturating_add(2 * step))
+            let numbers = index
+                .checked_sub(1)
+                .and_then(|before| self.items[before].number)
+                .zip(self.items.get(index).and_then(|item| item.number));
+            numbers
+                .zip(self.step)
+                .is_some_and(|((before, own), step)| own == before.saturating_add(2 * step))
         };
-        let lost: Vec<usize> = (1..self.items.len()).filter(|index| is_number_lost(*index)).collect();
+        let lost: Vec<usize> = (1..self.items.len())
+            .filter(|index| is_number_lost(*index))
+            .collect();
         for index in 0..=self.items.len() {
-            let stated = if index < self.items.len() { self.stated(index) } else { None };
-            let off = stated.filter(|(from, to)| mismatch(from, &self.items[index].travel, to).is_some());
+            let stated = if index < self.items.len() {
+                self.stated(index)
+            } else {
+                None
+            };
+            let off =
+                stated.filter(|(from, to)| mismatch(from, &self.items[index].travel, to).is_some());
             if let Some((from, to)) = off {
                 let own = self.items[index].travel.meant_um();
                 let gap = [0, 1].map(|axis| (to.at[axis] - from.at[axis]) * 1000.0 - own[axis]);
                 self.insert(index, gap, found);
-            } else if self.before.is_open && (lost.is_empty() || lost.contains(&index)) && self.before.off == 0 {
+            } else if self.before.is_open
+                && (lost.is_empty() || lost.contains(&index))
+                && self.before.off == 0
+            {
                 gaps.iter().for_each(|gap| self.insert(index, *gap, found));
             }
         }
@@ -492,9 +604,18 @@ impl<'a> Search<'a> {
     fn may_be_sure(&self, change: &Change, left: usize) -> bool {
         match change {
             Change::Insert { .. } => false,
-            Change::Replace { slip: Slip::Coordinates, .. } => left == 0,
-            Change::Replace { index, block, slip: Slip::Motion } if !matches!(block.motion, Motion::Line(_)) => {
-                self.items[*index].is_arc || block.j != block.x.max(block.y) || self.stated(*index).is_some()
+            Change::Replace {
+                slip: Slip::Coordinates,
+                ..
+            } => left == 0,
+            Change::Replace {
+                index,
+                block,
+                slip: Slip::Motion,
+            } if !matches!(block.motion, Motion::Line(_)) => {
+                self.items[*index].is_arc
+                    || block.j != block.x.max(block.y)
+                    || self.stated(*index).is_some()
             }
             _ => true,
         }
@@ -506,9 +627,19 @@ impl<'a> Search<'a> {
         if across.norm() < 10.0 {
             return;
         }
-        let wanted = Wanted { by: gap, near: STATED };
-        let before = index.checked_sub(1).and_then(|before| self.items[before].tangents()).map(|tangents| tangents[1]);
-        let behind = self.items.get(index).and_then(|item| item.tangents()).map(|tangents| tangents[0]);
+        let wanted = Wanted {
+            by: gap,
+            near: STATED,
+        };
+        let before = index
+            .checked_sub(1)
+            .and_then(|before| self.items[before].tangents())
+            .map(|tangents| tangents[1]);
+        let behind = self
+            .items
+            .get(index)
+            .and_then(|item| item.tangents())
+            .map(|tangents| tangents[0]);
         // The way in meets the contour with a corner.
         let is_at_lead = self.is_mirrored && (index <= 1 || index + 1 >= self.items.len());
         if let (Some(from), Some(to), false) = (before, behind, is_at_lead) {
@@ -518,12 +649,28 @@ impl<'a> Search<'a> {
                 let (start, end) = (Point::origin(), Point::new(gap[0].round(), gap[1].round()));
                 let arc = Segment::from_bulge(start, end, (half / 2.0).tan());
                 let mut blocks = Vec::new();
-                let node = Node { x: gap[0].round() as i64, y: gap[1].round() as i64 };
-                let made = encode(&arc, Node { x: 0, y: 0 }, node, self.path.limits.largest(), &mut blocks);
+                let node = Node {
+                    x: gap[0].round() as i64,
+                    y: gap[1].round() as i64,
+                };
+                let made = encode(
+                    &arc,
+                    Node { x: 0, y: 0 },
+                    node,
+                    self.path.limits.largest(),
+                    &mut blocks,
+                );
                 if let (Some(()), [one]) = (made, &blocks[..]) {
                     // A half turn or more joins two sides of a slot, where all else runs smoothly, and is a corner's line elsewhere.
-                    let is_likely = half.abs() < 1.45 || 2 * self.joints.round > self.items.len() as i32 - 2;
-                    found.push((Change::Insert { index, block: one.block }, if is_likely { 2.2 } else { 5.0 }));
+                    let is_likely =
+                        half.abs() < 1.45 || 2 * self.joints.round > self.items.len() as i32 - 2;
+                    found.push((
+                        Change::Insert {
+                            index,
+                            block: one.block,
+                        },
+                        if is_likely { 2.2 } else { 5.0 },
+                    ));
                 }
             }
         }
@@ -546,19 +693,29 @@ impl<'a> Search<'a> {
             block: Some(*block),
         };
         match change {
-            Change::Replace { index, block, .. } => items[*index] = new(block, self.items.get(*index)),
+            Change::Replace { index, block, .. } => {
+                items[*index] = new(block, self.items.get(*index))
+            }
             Change::Delete { index } => {
                 items.remove(*index);
             }
             Change::Exchange { index } => items.swap(*index, *index + 1),
             Change::Insert { index, block } => {
                 let mut item = new(block, None);
-                let before = index.checked_sub(1).and_then(|before| self.items.get(before));
-                item.number = before.and_then(|before| before.number).zip(self.step).map(|(number, step)| number.saturating_add(step));
+                let before = index
+                    .checked_sub(1)
+                    .and_then(|before| self.items.get(before));
+                item.number = before
+                    .and_then(|before| before.number)
+                    .zip(self.step)
+                    .map(|(number, step)| number.saturating_add(step));
                 let from = before.map_or(self.path.start, |before| before.stated);
                 item.stated = from.map(|from| {
                     let [x, y] = item.travel.meant_um();
-                    StatedPoint { at: [from.at[0] + x / 1000.0, from.at[1] + y / 1000.0], decimals: from.decimals }
+                    StatedPoint {
+                        at: [from.at[0] + x / 1000.0, from.at[1] + y / 1000.0],
+                        decimals: from.decimals,
+                    }
                 });
                 items.insert(*index, item);
             }
@@ -582,19 +739,47 @@ impl<'a> Search<'a> {
         let is_better = match change {
             // Where nothing else is wrong it has to run on better.
             Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && doubled <= 0,
-            Change::Replace { slip: Slip::Unread { .. }, .. } => left < was || (left == was && after.is_open),
+            Change::Replace {
+                slip: Slip::Unread { .. },
+                ..
+            } => left < was || (left == was && after.is_open),
             Change::Insert { .. } => left == 0,
-            _ => left < was && after.unread <= self.before.unread && after.faulty <= self.before.faulty && after.off <= self.before.off,
+            _ => {
+                left < was
+                    && after.unread <= self.before.unread
+                    && after.faulty <= self.before.faulty
+                    && after.off <= self.before.off
+            }
         };
         let is_stated = self.before.off > after.off;
-        if !is_better || (doubled > 0 && !is_stated && !matches!(change, Change::Replace { slip: Slip::Unread { .. }, .. })) {
+        if !is_better
+            || (doubled > 0
+                && !is_stated
+                && !matches!(
+                    change,
+                    Change::Replace {
+                        slip: Slip::Unread { .. },
+                        ..
+                    }
+                ))
+        {
             return None;
         }
         let gain = f64::from(gain.clamp(-2, 2));
         let turns = (joints.turns - self.joints.turns + was_joined.turns).clamp(-3.0, 3.0);
-        let leads = if !self.is_mirrored && is_mirrored(&items) { 0.8 } else { 0.0 };
-        let weighed = if is_stated { cost - 0.3 * gain } else { cost - leads - 0.6 * gain + 0.3 * turns + 1.5 * f64::from(doubled) };
-        let by = items.get(at(&change)).map_or(Move::default(), |item| item.travel);
+        let leads = if !self.is_mirrored && is_mirrored(&items) {
+            0.8
+        } else {
+            0.0
+        };
+        let weighed = if is_stated {
+            cost - 0.3 * gain
+        } else {
+            cost - leads - 0.6 * gain + 0.3 * turns + 1.5 * f64::from(doubled)
+        };
+        let by = items
+            .get(at(&change))
+            .map_or(Move::default(), |item| item.travel);
         Some((left, weighed, change, by))
     }
 
@@ -614,7 +799,12 @@ fn ways(items: &[Item]) -> Vec<(Segment, Move)> {
         let [x, y] = at.meant_um();
         let start = Point::new(x, y);
         at = at.plus(item.travel);
-        ways.push((item.way.map_or(Segment::line(start, start), |way| way.moved(Vector::new(x, y))), at));
+        ways.push((
+            item.way.map_or(Segment::line(start, start), |way| {
+                way.moved(Vector::new(x, y))
+            }),
+            at,
+        ));
     }
     ways
 }
@@ -622,7 +812,10 @@ fn ways(items: &[Item]) -> Vec<(Segment, Move)> {
 fn is_closed(items: &[Item]) -> bool {
     let node = |at: &Move| {
         let ([x, y], [stands_x, stands_y]) = (at.meant_um(), at.machine);
-        WayNode { stands: Point::new(stands_x as f64, stands_y as f64), meant: Point::new(x, y) }
+        WayNode {
+            stands: Point::new(stands_x as f64, stands_y as f64),
+            meant: Point::new(x, y),
+        }
     };
     let mut way = HeldWay::from(node(&Move::default()), Writing::default());
     for (item, (piece, end)) in items.iter().zip(ways(items)) {
@@ -635,7 +828,9 @@ fn is_closed(items: &[Item]) -> bool {
 fn is_mirrored(items: &[Item]) -> bool {
     let is_line = |item: &Item| !item.is_arc && !item.is_unread;
     match items {
-        [first, _, .., last] => is_line(first) && is_line(last) && first.travel.plus(last.travel).is_within(3.0),
+        [first, _, .., last] => {
+            is_line(first) && is_line(last) && first.travel.plus(last.travel).is_within(3.0)
+        }
         _ => false,
     }
 }
@@ -643,7 +838,9 @@ fn is_mirrored(items: &[Item]) -> bool {
 fn joints(items: &[Item]) -> Joints {
     let mut joints = Joints::default();
     for pair in items.windows(2) {
-        let (Some([_, from]), Some([to, _])) = (pair[0].tangents(), pair[1].tangents()) else { continue };
+        let (Some([_, from]), Some([to, _])) = (pair[0].tangents(), pair[1].tangents()) else {
+            continue;
+        };
         let angle = turn(from, to).abs();
         joints.smooth += i32::from(angle <= SMOOTH);
         joints.round += i32::from(angle <= SMOOTH && (pair[0].is_arc || pair[1].is_arc));

@@ -51,7 +51,10 @@ pub(super) struct Wanted {
 
 impl Wanted {
     pub fn is_met(&self, block: &Block) -> bool {
-        let own = Move { machine: self.by.map(|um| um.round() as i64), meant: self.by.map(|um| (um * 1e3).round() as i64) };
+        let own = Move {
+            machine: self.by.map(|um| um.round() as i64),
+            meant: self.by.map(|um| (um * 1e3).round() as i64),
+        };
         travel_of(block).minus(own).is_within(self.near)
     }
 
@@ -68,7 +71,9 @@ impl Wanted {
 
 /// True for a block in which no rule finds a fault.
 pub(in super::super) fn is_sound(block: &Block, limits: &Limits) -> bool {
-    let is_fault = |sight: &rules::Sight| sight.rule != Rule::SmallRadius && !matches!(sight.counts, Counts::IfInside { .. });
+    let is_fault = |sight: &rules::Sight| {
+        sight.rule != Rule::SmallRadius && !matches!(sight.counts, Counts::IfInside { .. })
+    };
     !rules::look(block, None, limits).iter().any(is_fault)
 }
 
@@ -80,13 +85,25 @@ pub(super) fn is_usual(block: &Block) -> bool {
     };
     let (sx, sy) = quadrant.signs();
     let (x, y) = (block.x * sx as i64, block.y * sy as i64);
-    (x, y) == (0, 0) || quadrant == if is_clockwise { Quadrant::clockwise(x, y) } else { Quadrant::counter_clockwise(x, y) }
+    (x, y) == (0, 0)
+        || quadrant
+            == if is_clockwise {
+                Quadrant::clockwise(x, y)
+            } else {
+                Quadrant::counter_clockwise(x, y)
+            }
 }
 
-const QUADRANTS: [Quadrant; 4] = [Quadrant::First, Quadrant::Second, Quadrant::Third, Quadrant::Fourth];
+const QUADRANTS: [Quadrant; 4] = [
+    Quadrant::First,
+    Quadrant::Second,
+    Quadrant::Third,
+    Quadrant::Fourth,
+];
 
 pub(super) fn motions() -> impl Iterator<Item = Motion> {
-    let kinds: [fn(Quadrant) -> Motion; 3] = [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
+    let kinds: [fn(Quadrant) -> Motion; 3] =
+        [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
     kinds.into_iter().flat_map(|kind| QUADRANTS.map(kind))
 }
 
@@ -98,7 +115,12 @@ pub(super) fn other(axis: CountingAxis) -> CountingAxis {
 }
 
 /// The sound blocks that differ from one by a slip and lead where it is wanted. `digits` are its numbers as they are written.
-pub(super) fn blocks_to(block: &Block, digits: &[Vec<u8>; 3], wanted: &Wanted, limits: &Limits) -> Vec<(Block, Slip)> {
+pub(super) fn blocks_to(
+    block: &Block,
+    digits: &[Vec<u8>; 3],
+    wanted: &Wanted,
+    limits: &Limits,
+) -> Vec<(Block, Slip)> {
     let mut found = Vec::new();
     let mut take = |changed: Block, slip: Slip| {
         if changed != *block && wanted.is_met(&changed) && is_sound(&changed, limits) {
@@ -108,13 +130,28 @@ pub(super) fn blocks_to(block: &Block, digits: &[Vec<u8>; 3], wanted: &Wanted, l
     for motion in motions() {
         take(Block { motion, ..*block }, Slip::Motion);
     }
-    take(Block { axis: other(block.axis), ..*block }, Slip::Axis);
-    take(Block { x: block.y, y: block.x, ..*block }, Slip::Exchanged);
+    take(
+        Block {
+            axis: other(block.axis),
+            ..*block
+        },
+        Slip::Axis,
+    );
+    take(
+        Block {
+            x: block.y,
+            y: block.x,
+            ..*block
+        },
+        Slip::Exchanged,
+    );
     for number in [Number::X, Number::Y, Number::J] {
         for (value, how) in values(block, number, digits, wanted) {
             let changed = with(block, number, value);
             // A full turn, or a line in another scale, comes of no number that was not nearly written.
-            let is_scaled = number == Number::J && matches!(block.motion, Motion::Line(_)) && value != block.x.max(block.y);
+            let is_scaled = number == Number::J
+                && matches!(block.motion, Motion::Line(_))
+                && value != block.x.max(block.y);
             if how == Digits::One || !(is_scaled || is_full_turn(&changed)) {
                 take(changed, Slip::Number(number, how));
             }
@@ -124,7 +161,10 @@ pub(super) fn blocks_to(block: &Block, digits: &[Vec<u8>; 3], wanted: &Wanted, l
 }
 
 fn is_full_turn(block: &Block) -> bool {
-    meant(block, Point::origin()).as_ref().and_then(Segment::as_arc).is_some_and(Arc::is_full_turn)
+    meant(block, Point::origin())
+        .as_ref()
+        .and_then(Segment::as_arc)
+        .is_some_and(Arc::is_full_turn)
 }
 
 pub(super) fn with(block: &Block, number: Number, value: i64) -> Block {
@@ -136,23 +176,44 @@ pub(super) fn with(block: &Block, number: Number, value: i64) -> Block {
 }
 
 /// Values of a number with which a block may lead where it is wanted: those that are one digit from what is written first.
-fn values(block: &Block, number: Number, digits: &[Vec<u8>; 3], wanted: &Wanted) -> Vec<(i64, Digits)> {
+fn values(
+    block: &Block,
+    number: Number,
+    digits: &[Vec<u8>; 3],
+    wanted: &Wanted,
+) -> Vec<(i64, Digits)> {
     let written = match number {
         Number::X => &digits[0],
         Number::Y => &digits[1],
         Number::J => &digits[2],
     };
-    let Some((value, within)) = solved(block, number, wanted) else { return Vec::new() };
+    let Some((value, within)) = solved(block, number, wanted) else {
+        return Vec::new();
+    };
     let near = (value - within).max(0)..=value.saturating_add(within);
-    let mut slips: Vec<i64> = near.filter(|value| is_likely(written, value.to_string().as_bytes())).collect();
+    let mut slips: Vec<i64> = near
+        .filter(|value| is_likely(written, value.to_string().as_bytes()))
+        .collect();
     slips.sort_by_key(|slip| slip.abs_diff(value));
-    slips.into_iter().map(|slip| (slip, Digits::One)).chain([(value, Digits::Any)]).collect()
+    slips
+        .into_iter()
+        .map(|slip| (slip, Digits::One))
+        .chain([(value, Digits::Any)])
+        .collect()
 }
 
 /// True for a slip that hands make: a digit more is one that is doubled.
 fn is_likely(written: &[u8], meant: &[u8]) -> bool {
-    let doubled = |at: usize| written.get(at) == written.get(at + 1) || (at > 0 && written.get(at - 1) == written.get(at));
-    let one_more = || written.iter().zip(meant).take_while(|(a, b)| a == b).count();
+    let doubled = |at: usize| {
+        written.get(at) == written.get(at + 1) || (at > 0 && written.get(at - 1) == written.get(at))
+    };
+    let one_more = || {
+        written
+            .iter()
+            .zip(meant)
+            .take_while(|(a, b)| a == b)
+            .count()
+    };
     is_slip(written, meant) && (written.len() <= meant.len() || doubled(one_more()))
 }
 
@@ -162,18 +223,27 @@ const ROUND: i64 = 40;
 /// The value of a number that leads where it is wanted, and how far it is uncertain, µm.
 pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(i64, i64)> {
     let [dx, dy] = wanted.by;
-    let whole = |value: f64| (value.is_finite() && (0.0..1e12).contains(&value)).then_some(value.round() as i64);
+    let whole = |value: f64| {
+        (value.is_finite() && (0.0..1e12).contains(&value)).then_some(value.round() as i64)
+    };
     match (block.motion, number) {
         (Motion::Line(_), Number::X) => Some((whole(dx.abs())?, wanted.near.ceil() as i64)),
         (Motion::Line(_), Number::Y) => Some((whole(dy.abs())?, wanted.near.ceil() as i64)),
         (Motion::Line(_), Number::J) => {
-            let along = if block.axis == CountingAxis::X { dx } else { dy };
+            let along = if block.axis == CountingAxis::X {
+                dx
+            } else {
+                dy
+            };
             let larger = block.x.max(block.y);
             // The projection where it leads there, without what the others have added up to.
             let near = (along.abs() - larger as f64).abs() <= wanted.near;
             Some((if near { larger } else { whole(along.abs())? }, 0))
         }
-        (Motion::Clockwise(quadrant) | Motion::CounterClockwise(quadrant), Number::X | Number::Y) => {
+        (
+            Motion::Clockwise(quadrant) | Motion::CounterClockwise(quadrant),
+            Number::X | Number::Y,
+        ) => {
             // |d + s P|² = |P|²: the end is as far from the centre as the start.
             let (sx, sy) = quadrant.signs();
             let (own, other, known) = match number {
@@ -190,7 +260,9 @@ pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(
             Some((value, within.clamp(2, ROUND)))
         }
         (_, Number::J) => {
-            let Some(Segment::Arc(arc)) = meant(&Block { j: 1, ..*block }, Point::origin()) else { return None };
+            let Some(Segment::Arc(arc)) = meant(&Block { j: 1, ..*block }, Point::origin()) else {
+                return None;
+            };
             let end = wanted.end();
             if ((end - arc.center).norm() - arc.radius).abs() > wanted.near {
                 return None;

@@ -21,7 +21,9 @@ pub(in super::super) const FIRST: usize = 16;
 /// them are out of turn, the numbers follow another rule, and nothing is said.
 pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, ProgramFault, Option<u32>)> {
     let first = blocks.iter().find_map(|block| block.number);
-    let Some(mut sequence) = Sequence::of(&blocks[..blocks.len().min(FIRST)], first) else { return Vec::new() };
+    let Some(mut sequence) = Sequence::of(&blocks[..blocks.len().min(FIRST)], first) else {
+        return Vec::new();
+    };
     for (index, block) in blocks.iter().enumerate() {
         sequence.push(block, blocks.get(index + 1), index);
     }
@@ -43,12 +45,25 @@ impl<P> Sequence<P> {
     /// `blocks` are up to [`FIRST`] of the first ones, `first` the first number of all; `None` where these tell no step.
     pub fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence<P>> {
         let step = usual_step(blocks)?;
-        Some(Sequence { step, first: first?, before: None, blocks: 0, numbered: 0, without: 0, found: Vec::new() })
+        Some(Sequence {
+            step,
+            first: first?,
+            before: None,
+            blocks: 0,
+            numbered: 0,
+            without: 0,
+            found: Vec::new(),
+        })
     }
 
     /// Takes the next block; `next` is the one behind it.
     pub fn push(&mut self, block: &Numbered, next: Option<&Numbered>, place: P) {
-        let Sequence { step, first, before, .. } = *self;
+        let Sequence {
+            step,
+            first,
+            before,
+            ..
+        } = *self;
         self.blocks += 1;
         self.numbered += usize::from(block.number.is_some());
         self.without += usize::from(block.number.is_none() && !block.is_unread);
@@ -58,17 +73,28 @@ impl<P> Sequence<P> {
             None if block.is_unread => self.before = before.map(|_| expected),
             None => {
                 let takes_one = follows(expected.saturating_add(step));
-                self.found.push((place, ProgramFault::Unnumbered { expected }, takes_one.then_some(expected)));
+                self.found.push((
+                    place,
+                    ProgramFault::Unnumbered { expected },
+                    takes_one.then_some(expected),
+                ));
                 if takes_one {
                     self.before = Some(expected);
                 }
             }
-            Some(number) if number == expected || (block.is_after_pause && number == first) => self.before = Some(number),
+            Some(number) if number == expected || (block.is_after_pause && number == first) => {
+                self.before = Some(number)
+            }
             Some(number) => {
-                let is_seen = before.is_some_and(|before| (first..=before).contains(&number) && (number - first).is_multiple_of(step));
+                let is_seen = before.is_some_and(|before| {
+                    (first..=before).contains(&number) && (number - first).is_multiple_of(step)
+                });
                 let meant = follows(expected.saturating_add(step)).then_some(expected);
-                let fault =
-                    if is_seen { ProgramFault::DoubledNumber { number } } else { ProgramFault::NumberOutOfOrder { expected, number } };
+                let fault = if is_seen {
+                    ProgramFault::DoubledNumber { number }
+                } else {
+                    ProgramFault::NumberOutOfOrder { expected, number }
+                };
                 self.found.push((place, fault, meant));
                 self.before = match (meant, is_seen) {
                     (Some(meant), _) => Some(meant),
@@ -82,7 +108,9 @@ impl<P> Sequence<P> {
     /// Takes `count` blocks at once that are numbered from `first` on to `last` by `step`, where they are in their turn; false where they
     /// are not.
     pub fn skip(&mut self, first: u32, last: u32, step: u32, count: usize) -> bool {
-        let expected = self.before.map_or(self.first, |before| before.saturating_add(self.step));
+        let expected = self
+            .before
+            .map_or(self.first, |before| before.saturating_add(self.step));
         let is_next = first == expected && (step == self.step || count == 1);
         if is_next {
             self.before = Some(last);
@@ -93,12 +121,17 @@ impl<P> Sequence<P> {
     }
 
     pub fn found(mut self) -> Vec<(P, ProgramFault, Option<u32>)> {
-        let out_of_turn = self.found.iter().filter(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. })).count();
+        let out_of_turn = self
+            .found
+            .iter()
+            .filter(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }))
+            .count();
         if 2 * out_of_turn > self.numbered {
             return Vec::new();
         }
         if 4 * self.without > self.blocks {
-            self.found.retain(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }));
+            self.found
+                .retain(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }));
         }
         self.found
     }
@@ -107,9 +140,16 @@ impl<P> Sequence<P> {
 /// The difference that most of the numbers have to the one before; the smaller one of two that are as frequent.
 fn usual_step(blocks: &[Numbered]) -> Option<u32> {
     let step = |pair: &[Numbered]| pair[1].number?.checked_sub(pair[0].number?);
-    let steps: Vec<u32> = blocks.windows(2).filter_map(step).filter(|step| *step > 0).collect();
+    let steps: Vec<u32> = blocks
+        .windows(2)
+        .filter_map(step)
+        .filter(|step| *step > 0)
+        .collect();
     let count = |step: u32| steps.iter().filter(|other| **other == step).count();
-    steps.iter().copied().max_by(|a, b| count(*a).cmp(&count(*b)).then(b.cmp(a)))
+    steps
+        .iter()
+        .copied()
+        .max_by(|a, b| count(*a).cmp(&count(*b)).then(b.cmp(a)))
 }
 
 #[cfg(test)]
@@ -132,10 +172,15 @@ mod tests {
             .map(|(index, fault, meant)| {
                 let kind = match fault {
                     ProgramFault::DoubledNumber { number } => format!("{number} twice"),
-                    ProgramFault::NumberOutOfOrder { expected, number } => format!("{number} for {expected}"),
+                    ProgramFault::NumberOutOfOrder { expected, number } => {
+                        format!("{number} for {expected}")
+                    }
                     _ => "none".into(),
                 };
-                format!("{index}: {kind}{}", meant.map_or_else(String::new, |meant| format!(" = {meant}")))
+                format!(
+                    "{index}: {kind}{}",
+                    meant.map_or_else(String::new, |meant| format!(" = {meant}"))
+                )
             })
             .collect();
         assert_eq!(found.join(", "), expected, "{numbers:?}");

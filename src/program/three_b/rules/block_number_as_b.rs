@@ -5,8 +5,13 @@ use crate::finding::FixKind;
 use crate::text::TextEdit;
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
-    let Some(&b) = site.text.get(site.range.start) else { return Vec::new() };
+    let Some(&b) = site.text.get(site.range.start) else {
+        return Vec::new();
+    };
     let n = if b == b'b' { "n" } else { "N" };
-    let edit = vec![TextEdit { range: site.range.start..site.range.start + 1, text: n.into() }];
+    let edit = vec![TextEdit {
+        range: site.range.start..site.range.start + 1,
+        text: n.into(),
+    }];
     vec![one_edit(FixKind::NumberWithN, edit, true, true)]
 }

@@ -36,12 +36,21 @@ struct Change {
 
 /// The block whose one change closes the way, by its index, and what is wrong with it. `None` where there is none, or where several
 /// are as likely.
-pub(in super::super) fn culprit(sum: &Sum, blocks: &[&BlockEntry]) -> Option<(usize, ProgramFault)> {
-    let mut changes: Vec<Change> = (0..blocks.len()).filter_map(|index| change_of(index, sum, blocks)).collect();
+pub(in super::super) fn culprit(
+    sum: &Sum,
+    blocks: &[&BlockEntry],
+) -> Option<(usize, ProgramFault)> {
+    let mut changes: Vec<Change> = (0..blocks.len())
+        .filter_map(|index| change_of(index, sum, blocks))
+        .collect();
     if changes.iter().any(|change| change.is_stated) {
         changes.retain(|change| change.is_stated);
     }
-    let best = changes.iter().map(|change| change.smoother).max().filter(|best| *best >= 0)?;
+    let best = changes
+        .iter()
+        .map(|change| change.smoother)
+        .max()
+        .filter(|best| *best >= 0)?;
     changes.retain(|change| change.smoother == best);
     let change = changes.pop().filter(|_| changes.is_empty())?;
     let path = |changed: Option<Block>| crosses(blocks, change.index, changed, sum.arcs);
@@ -54,7 +63,11 @@ pub(in super::super) fn culprit(sum: &Sum, blocks: &[&BlockEntry]) -> Option<(us
 
 fn with_certainty(fault: ProgramFault, is_sure: bool) -> ProgramFault {
     match fault {
-        ProgramFault::QuadrantKeepsOpen { found, meant, .. } => ProgramFault::QuadrantKeepsOpen { found, meant, is_sure },
+        ProgramFault::QuadrantKeepsOpen { found, meant, .. } => ProgramFault::QuadrantKeepsOpen {
+            found,
+            meant,
+            is_sure,
+        },
         ProgramFault::AxisKeepsOpen { axis, .. } => ProgramFault::AxisKeepsOpen { axis, is_sure },
         ProgramFault::JKeepsOpen { j, meant, .. } => ProgramFault::JKeepsOpen { j, meant, is_sure },
         other => other,
@@ -67,23 +80,42 @@ fn change_of(index: usize, sum: &Sum, blocks: &[&BlockEntry]) -> Option<Change> 
     let before = index.checked_sub(1).and_then(|before| blocks.get(before));
     // Lead-in and lead-out that lie on each other are right, both of them.
     let (first, last) = (blocks.first()?, blocks.last()?);
-    if (index == 0 || index + 1 == blocks.len()) && first.travel.plus(last.travel).is_within(tolerance(0)) {
+    if (index == 0 || index + 1 == blocks.len())
+        && first.travel.plus(last.travel).is_within(tolerance(0))
+    {
         return None;
     }
-    let stated = before.and_then(|before| before.stated_end()).zip(entry.stated_end());
-    let fits = |travel: &Move| stated.is_none_or(|(from, to)| mismatch(&from, travel, &to).is_none());
+    let stated = before
+        .and_then(|before| before.stated_end())
+        .zip(entry.stated_end());
+    let fits =
+        |travel: &Move| stated.is_none_or(|(from, to)| mismatch(&from, travel, &to).is_none());
     if stated.is_some() && fits(&entry.travel) {
         return None;
     }
     let now = joints(blocks, index, &entry.block);
-    let weighed = candidates(entry, sum, index == 0).into_iter().filter_map(|(block, fault)| {
-        let then = joints(blocks, index, &block);
-        let doubles_back = then.doubled > now.doubled;
-        let fits = fits(&travel_of(&block));
-        (!doubles_back && fits).then(|| Change { index, block, fault, smoother: then.smooth - now.smooth, is_stated: stated.is_some() })
-    });
+    let weighed = candidates(entry, sum, index == 0)
+        .into_iter()
+        .filter_map(|(block, fault)| {
+            let then = joints(blocks, index, &block);
+            let doubles_back = then.doubled > now.doubled;
+            let fits = fits(&travel_of(&block));
+            (!doubles_back && fits).then(|| Change {
+                index,
+                block,
+                fault,
+                smoother: then.smooth - now.smooth,
+                is_stated: stated.is_some(),
+            })
+        });
     // Of several in one block the first is the plainest.
-    weighed.reduce(|best, other| if other.smoother > best.smoother { other } else { best })
+    weighed.reduce(|best, other| {
+        if other.smoother > best.smoother {
+            other
+        } else {
+            best
+        }
+    })
 }
 
 /// How a block meets its neighbours.
@@ -95,9 +127,18 @@ struct Joints {
 
 fn joints(blocks: &[&BlockEntry], index: usize, block: &Block) -> Joints {
     let segment = |block: &Block| meant(block, Point::origin());
-    let neighbour = |index: Option<usize>| index.and_then(|index| blocks.get(index)).and_then(|entry| segment(&entry.block));
-    let mut joints = Joints { smooth: 0, doubled: 0 };
-    let Some(own) = segment(block) else { return joints };
+    let neighbour = |index: Option<usize>| {
+        index
+            .and_then(|index| blocks.get(index))
+            .and_then(|entry| segment(&entry.block))
+    };
+    let mut joints = Joints {
+        smooth: 0,
+        doubled: 0,
+    };
+    let Some(own) = segment(block) else {
+        return joints;
+    };
     let mut meet = |from: Vector, to: Vector| {
         let angle = turn(from, to).abs();
         joints.smooth += i32::from(angle <= SMOOTH);
@@ -121,7 +162,11 @@ fn crosses(blocks: &[&BlockEntry], index: usize, changed: Option<Block>, arcs: u
         let [x, y] = at.meant_um();
         let start = Point::new(x, y);
         pieces.push(meant(&block, start).unwrap_or(Segment::line(start, start)));
-        at = at.plus(if nth == index { travel_of(&block) } else { entry.travel });
+        at = at.plus(if nth == index {
+            travel_of(&block)
+        } else {
+            entry.travel
+        });
     }
     !crossings(&pieces, arcs).is_empty()
 }
@@ -134,10 +179,18 @@ fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, Prog
         let whole = sum.travel.minus(travel).plus(new);
         let first = if is_first { Some(new) } else { sum.first };
         let near = tolerance(sum.arcs);
-        new != travel && (whole.is_within(near) || (sum.blocks >= 3 && first.is_some_and(|first| whole.minus(first).is_within(near))))
+        new != travel
+            && (whole.is_within(near)
+                || (sum.blocks >= 3
+                    && first.is_some_and(|first| whole.minus(first).is_within(near))))
     };
     let mut found = Vec::new();
-    let quadrants = [Quadrant::First, Quadrant::Second, Quadrant::Third, Quadrant::Fourth];
+    let quadrants = [
+        Quadrant::First,
+        Quadrant::Second,
+        Quadrant::Third,
+        Quadrant::Fourth,
+    ];
     let kinds: &[fn(Quadrant) -> Motion] = match block.motion {
         Motion::Line(_) => &[Motion::Line],
         Motion::Clockwise(_) => &[Motion::Clockwise, Motion::CounterClockwise],
@@ -148,7 +201,14 @@ fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, Prog
             let changed = Block { motion, ..*block };
             if motion != block.motion && closes(&changed) {
                 let (name, meant) = (motion_name(block.motion), motion_name(motion));
-                found.push((changed, ProgramFault::QuadrantKeepsOpen { found: name, meant, is_sure: false }));
+                found.push((
+                    changed,
+                    ProgramFault::QuadrantKeepsOpen {
+                        found: name,
+                        meant,
+                        is_sure: false,
+                    },
+                ));
             }
         }
     }
@@ -158,12 +218,25 @@ fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, Prog
     };
     let changed = Block { axis, ..*block };
     if !matches!(block.motion, Motion::Line(_)) && closes(&changed) {
-        found.push((changed, ProgramFault::AxisKeepsOpen { axis: axis_of(block.axis), is_sure: false }));
+        found.push((
+            changed,
+            ProgramFault::AxisKeepsOpen {
+                axis: axis_of(block.axis),
+                is_sure: false,
+            },
+        ));
     }
     if let Some(meant) = j_to_close(block, sum, is_first).filter(|j| *j > 0) {
         let changed = Block { j: meant, ..*block };
         if closes(&changed) {
-            found.push((changed, ProgramFault::JKeepsOpen { j: block.j, meant, is_sure: false }));
+            found.push((
+                changed,
+                ProgramFault::JKeepsOpen {
+                    j: block.j,
+                    meant,
+                    is_sure: false,
+                },
+            ));
         }
     }
     found
@@ -184,14 +257,28 @@ fn usual_first(block: &Block, quadrant: Quadrant) -> Quadrant {
 
 /// The J with which an arc ends where the contour needs it, where that lies on its circle.
 fn j_to_close(block: &Block, sum: &Sum, is_first: bool) -> Option<i64> {
-    let Some(Segment::Arc(arc)) = meant(block, Point::origin()) else { return None };
+    let Some(Segment::Arc(arc)) = meant(block, Point::origin()) else {
+        return None;
+    };
     let near = tolerance(sum.arcs);
-    let lead_in = sum.first.filter(|_| !is_first && sum.blocks >= 3).map(|first| first.meant_um());
-    let ends = [Some([0.0, 0.0]), lead_in].into_iter().flatten().map(|target| {
-        let [x, y] = sum.travel.meant_um();
-        arc.end + Vector::new(target[0] - x, target[1] - y)
-    });
+    let lead_in = sum
+        .first
+        .filter(|_| !is_first && sum.blocks >= 3)
+        .map(|first| first.meant_um());
+    let ends = [Some([0.0, 0.0]), lead_in]
+        .into_iter()
+        .flatten()
+        .map(|target| {
+            let [x, y] = sum.travel.meant_um();
+            arc.end + Vector::new(target[0] - x, target[1] - y)
+        });
     let on_circle = |end: &Point| ((end - arc.center).norm() - arc.radius).abs() <= near;
     let end = ends.into_iter().find(on_circle)?;
-    Some(counted(&Arc::about(arc.center, arc.start, end, arc.sweep > 0.0), block.axis).round() as i64)
+    Some(
+        counted(
+            &Arc::about(arc.center, arc.start, end, arc.sweep > 0.0),
+            block.axis,
+        )
+        .round() as i64,
+    )
 }

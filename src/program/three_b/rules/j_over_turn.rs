@@ -6,7 +6,15 @@ use crate::finding::{FixKind, ProgramFault};
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let turn = 4.0 * seen.radius();
     let is_over = !seen.is_line() && seen.block.j as f64 > turn + J_TOLERANCE;
-    is_over.then(|| Sight::at(Spot::J, ProgramFault::JOverTurn { j: seen.block.j, turn: turn.round() as i64 }))
+    is_over.then(|| {
+        Sight::at(
+            Spot::J,
+            ProgramFault::JOverTurn {
+                j: seen.block.j,
+                turn: turn.round() as i64,
+            },
+        )
+    })
 }
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
@@ -15,7 +23,14 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     let closing = candidates
         .into_iter()
         .filter(|&j| j > 0 && j <= turn)
-        .find(|&j| (site.closes_with)(&[crate::program::three_b::block::Block { j, ..site.block }]));
+        .find(|&j| {
+            (site.closes_with)(&[crate::program::three_b::block::Block { j, ..site.block }])
+        });
     let j = closing.unwrap_or(turn);
-    vec![one_edit(FixKind::SetJ { j }, vec![site.set_j(j)], closing.is_some(), closing.is_some())]
+    vec![one_edit(
+        FixKind::SetJ { j },
+        vec![site.set_j(j)],
+        closing.is_some(),
+        closing.is_some(),
+    )]
 }

@@ -9,7 +9,14 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
         return None;
     }
     let projection = seen.block.x.max(seen.block.y);
-    Some(Sight::at(Spot::J, ProgramFault::LengthInJ { j: seen.block.j, projection, axis: larger_axis(seen) }))
+    Some(Sight::at(
+        Spot::J,
+        ProgramFault::LengthInJ {
+            j: seen.block.j,
+            projection,
+            axis: larger_axis(seen),
+        },
+    ))
 }
 
 fn larger_axis(seen: &Seen) -> crate::finding::Axis {
@@ -22,5 +29,10 @@ fn larger_axis(seen: &Seen) -> crate::finding::Axis {
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     let projection = site.block.x.max(site.block.y);
-    vec![one_edit(FixKind::SetJ { j: projection }, vec![site.set_j(projection)], true, true)]
+    vec![one_edit(
+        FixKind::SetJ { j: projection },
+        vec![site.set_j(projection)],
+        true,
+        true,
+    )]
 }

@@ -6,7 +6,9 @@ use crate::program::three_b::parse::{Flaw, Item, Words, read_line};
 use crate::text::TextEdit;
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
-    let Some(line) = site.text.get(site.line.clone()) else { return Vec::new() };
+    let Some(line) = site.text.get(site.line.clone()) else {
+        return Vec::new();
+    };
     let mut found = None;
     read_line(line, site.line.start, &Words::default(), |item| {
         if let Item::Fault(fault) = item
@@ -18,6 +20,9 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     });
     let Some(at) = found else { return Vec::new() };
     let is_lower = line.contains(&b'b') && !line.contains(&b'B');
-    let edit = vec![TextEdit { range: at..at, text: if is_lower { "b" } else { "B" }.into() }];
+    let edit = vec![TextEdit {
+        range: at..at,
+        text: if is_lower { "b" } else { "B" }.into(),
+    }];
     vec![one_edit(FixKind::InsertB, edit, true, true)]
 }

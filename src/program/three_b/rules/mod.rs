@@ -61,7 +61,10 @@ impl Limits {
             digits: settings.digits,
             largest: settings.largest_number(),
             correction: settings.correction,
-            holds_part: matches!(settings.compensation, Compensation::None | Compensation::Controller),
+            holds_part: matches!(
+                settings.compensation,
+                Compensation::None | Compensation::Controller
+            ),
             side: settings.side,
             pass: settings.pass,
         }
@@ -123,7 +126,12 @@ pub(super) struct Sight {
 
 impl Sight {
     fn at(spot: Spot, fault: ProgramFault) -> Sight {
-        Sight { rule: fault.rule(), spot, detail: Detail::Program(Box::new(fault)), counts: Counts::Always }
+        Sight {
+            rule: fault.rule(),
+            spot,
+            detail: Detail::Program(Box::new(fault)),
+            counts: Counts::Always,
+        }
     }
 }
 
@@ -169,7 +177,11 @@ const OTHERS: [fn(&Seen) -> Option<Sight>; 7] = [
 
 /// What is wrong with a block for itself.
 pub(super) fn look(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Sight> {
-    let seen = Seen { block, part, limits };
+    let seen = Seen {
+        block,
+        part,
+        limits,
+    };
     match FIRST.iter().find_map(|look| look(&seen)) {
         Some(sight) => vec![sight],
         None => OTHERS.iter().filter_map(|look| look(&seen)).collect(),
@@ -194,7 +206,10 @@ pub(super) type TextFix = Fix<Vec<TextEdit>>;
 
 impl Site<'_> {
     fn replace(&self, range: &Range<usize>, text: impl Into<String>) -> TextEdit {
-        TextEdit { range: range.clone(), text: text.into() }
+        TextEdit {
+            range: range.clone(),
+            text: text.into(),
+        }
     }
 
     fn set_j(&self, j: i64) -> TextEdit {
@@ -202,27 +217,56 @@ impl Site<'_> {
     }
 
     fn set_axis(&self, axis: Axis) -> TextEdit {
-        let is_lower = self.text.get(self.fields.axis.start).is_some_and(u8::is_ascii_lowercase);
+        let is_lower = self
+            .text
+            .get(self.fields.axis.start)
+            .is_some_and(u8::is_ascii_lowercase);
         let text = format!("G{}", axis.letter());
-        self.replace(&self.fields.axis, if is_lower { text.to_lowercase() } else { text })
+        self.replace(
+            &self.fields.axis,
+            if is_lower { text.to_lowercase() } else { text },
+        )
     }
 
     fn set_motion(&self, name: &str) -> TextEdit {
-        let is_lower = self.text.get(self.fields.motion.start).is_some_and(u8::is_ascii_lowercase);
-        self.replace(&self.fields.motion, if is_lower { name.to_lowercase() } else { name.into() })
+        let is_lower = self
+            .text
+            .get(self.fields.motion.start)
+            .is_some_and(u8::is_ascii_lowercase);
+        self.replace(
+            &self.fields.motion,
+            if is_lower {
+                name.to_lowercase()
+            } else {
+                name.into()
+            },
+        )
     }
 
     /// The line with its line end where the block stands alone in it, else the block.
     fn whole(&self) -> Range<usize> {
         let outside = |range: Range<usize>| self.text.get(range).unwrap_or_default();
         let before = outside(self.line.start..self.range.start);
-        let is_alone = before.iter().all(|byte| !matches!(byte, b'B' | b'b' | b'D' | b'd'))
-            && !outside(self.range.end..self.line.end).iter().any(|byte| matches!(byte, b'B' | b'b' | b'D' | b'd'));
-        if is_alone { self.line.clone() } else { self.range.clone() }
+        let is_alone = before
+            .iter()
+            .all(|byte| !matches!(byte, b'B' | b'b' | b'D' | b'd'))
+            && !outside(self.range.end..self.line.end)
+                .iter()
+                .any(|byte| matches!(byte, b'B' | b'b' | b'D' | b'd'));
+        if is_alone {
+            self.line.clone()
+        } else {
+            self.range.clone()
+        }
     }
 
     fn delete(&self, kind: FixKind, in_fix_all: bool) -> TextFix {
-        Fix { kind, preferred: true, in_fix_all, edit: vec![self.replace(&self.whole(), "")] }
+        Fix {
+            kind,
+            preferred: true,
+            in_fix_all,
+            edit: vec![self.replace(&self.whole(), "")],
+        }
     }
 }
 
@@ -260,5 +304,10 @@ pub(super) fn motion_name(motion: Motion) -> &'static str {
 
 /// A fix that changes one thing, to be made without asking only where the contour then closes.
 fn one_edit(kind: FixKind, edit: Vec<TextEdit>, preferred: bool, in_fix_all: bool) -> TextFix {
-    Fix { kind, preferred, in_fix_all, edit }
+    Fix {
+        kind,
+        preferred,
+        in_fix_all,
+        edit,
+    }
 }

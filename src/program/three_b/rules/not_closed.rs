@@ -16,15 +16,23 @@ pub(in super::super) fn is_closed(sum: &Sum) -> bool {
     if sum.blocks == 0 || sum.travel.is_within(tolerance) {
         return true;
     }
-    let (Some(first), Some(last)) = (sum.first, sum.last) else { return false };
+    let (Some(first), Some(last)) = (sum.first, sum.last) else {
+        return false;
+    };
     if sum.blocks >= 3 && sum.travel.minus(first).is_within(tolerance) {
         return true;
     }
     // A lead-in may be two blocks, the second round to the contour.
-    if sum.blocks >= 6 && sum.second.is_some_and(|second| sum.travel.minus(first).minus(second).is_within(tolerance)) {
+    if sum.blocks >= 6
+        && sum
+            .second
+            .is_some_and(|second| sum.travel.minus(first).minus(second).is_within(tolerance))
+    {
         return true;
     }
-    sum.blocks >= 5 && sum.travel.minus(first).minus(last).is_within(tolerance) && !runs_along(first, last)
+    sum.blocks >= 5
+        && sum.travel.minus(first).minus(last).is_within(tolerance)
+        && !runs_along(first, last)
 }
 
 /// True where the second move runs against the first, or on in its direction, through the contour; within a few degrees.
@@ -42,10 +50,18 @@ pub(in super::super) fn gap(sum: &Sum) -> [f64; 2] {
         _ => to_start,
     };
     let length = |[x, y]: [f64; 2]| x.hypot(y);
-    if length(to_lead_in) < length(to_start) { to_lead_in } else { to_start }
+    if length(to_lead_in) < length(to_start) {
+        to_lead_in
+    } else {
+        to_start
+    }
 }
 
 /// `gap` leads from the end of the way to where it should be.
 pub(in super::super) fn fault([x, y]: [f64; 2], sum: &Sum) -> ProgramFault {
-    ProgramFault::NotClosed { x: -x, y: -y, blocks: sum.blocks }
+    ProgramFault::NotClosed {
+        x: -x,
+        y: -y,
+        blocks: sum.blocks,
+    }
 }

@@ -55,24 +55,52 @@ pub(in super::super) struct Way<'a> {
 
 /// Where a way that is held as a whole crosses itself.
 pub(in super::super) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
-    let way = Way { piece: &|index| pieces.get(index).copied(), count: pieces.len(), margin: margin(arcs), steps: Cell::new(0) };
+    let way = Way {
+        piece: &|index| pieces.get(index).copied(),
+        count: pieces.len(),
+        margin: margin(arcs),
+        steps: Cell::new(0),
+    };
     let boxes: Vec<Bounds> = pieces.iter().map(Segment::bounds).collect();
     let mut near = Vec::new();
-    near_each_other(pieces, &boxes, &mut |first, second| near.push((first, second)));
+    near_each_other(pieces, &boxes, &mut |first, second| {
+        near.push((first, second))
+    });
     way.crossings(near).0
 }
 
 /// Pairs of pieces that come near each other, the earlier first; neighbours are left out.
-pub(in crate::program) fn near_each_other(pieces: &[Segment], boxes: &[Bounds], found: &mut dyn FnMut(usize, usize)) {
+pub(in crate::program) fn near_each_other(
+    pieces: &[Segment],
+    boxes: &[Bounds],
+    found: &mut dyn FnMut(usize, usize),
+) {
     // Along the axis on which they spread.
-    let whole = boxes.iter().fold(Bounds::EMPTY, |whole, part| whole.merged(part));
+    let whole = boxes
+        .iter()
+        .fold(Bounds::EMPTY, |whole, part| whole.merged(part));
     let by_x = whole.width() >= whole.height();
-    let low = |index: usize| if by_x { boxes[index].min.x } else { boxes[index].min.y };
-    let high = |index: usize| if by_x { boxes[index].max.x } else { boxes[index].max.y };
+    let low = |index: usize| {
+        if by_x {
+            boxes[index].min.x
+        } else {
+            boxes[index].min.y
+        }
+    };
+    let high = |index: usize| {
+        if by_x {
+            boxes[index].max.x
+        } else {
+            boxes[index].max.y
+        }
+    };
     let mut order: Vec<usize> = (0..boxes.len().min(pieces.len())).collect();
     order.sort_by(|&a, &b| low(a).total_cmp(&low(b)));
     for (nth, &one) in order.iter().enumerate() {
-        for &other in order[nth + 1..].iter().take_while(|&&other| low(other) <= high(one) + NEARLY_ON) {
+        for &other in order[nth + 1..]
+            .iter()
+            .take_while(|&&other| low(other) <= high(one) + NEARLY_ON)
+        {
             let (first, second) = (one.min(other), one.max(other));
             let (a, b) = (&pieces[first], &pieces[second]);
             if second > first + 1 && come_near(a, &boxes[first], b, &boxes[second]) {
@@ -83,9 +111,19 @@ pub(in crate::program) fn near_each_other(pieces: &[Segment], boxes: &[Bounds], 
 }
 
 /// True where two pieces have a place in common, or nearly.
-pub(in super::super) fn come_near(a: &Segment, box_of_a: &Bounds, b: &Segment, box_of_b: &Bounds) -> bool {
-    let on = |piece: &Segment, other: &Segment| [other.start(), other.end()].iter().any(|&end| piece.distance_to(end) <= NEARLY_ON);
-    box_of_a.grown(NEARLY_ON).touches(box_of_b) && (!meetings(a, b).is_empty() || on(a, b) || on(b, a))
+pub(in super::super) fn come_near(
+    a: &Segment,
+    box_of_a: &Bounds,
+    b: &Segment,
+    box_of_b: &Bounds,
+) -> bool {
+    let on = |piece: &Segment, other: &Segment| {
+        [other.start(), other.end()]
+            .iter()
+            .any(|&end| piece.distance_to(end) <= NEARLY_ON)
+    };
+    box_of_a.grown(NEARLY_ON).touches(box_of_b)
+        && (!meetings(a, b).is_empty() || on(a, b) || on(b, a))
 }
 
 impl Way<'_> {
@@ -110,21 +148,33 @@ impl Way<'_> {
             }
             // At a joint of two blocks one crossing is met by each of them, and at both ends of a stretch that the two share.
             let is_known = |at: Point| {
-                let same = |known: &&Crossing| known.first.abs_diff(first) <= 1 && second - known.second <= MOST_ALONG;
-                let lies_on = |index: usize, at: Point| self.at(index).is_some_and(|piece| piece.distance_to(at) <= self.margin);
-                let runs_along =
-                    |index: usize| self.at(index).is_some_and(|piece| lies_on(first, piece.start()) && lies_on(first, piece.end()));
+                let same = |known: &&Crossing| {
+                    known.first.abs_diff(first) <= 1 && second - known.second <= MOST_ALONG
+                };
+                let lies_on = |index: usize, at: Point| {
+                    self.at(index)
+                        .is_some_and(|piece| piece.distance_to(at) <= self.margin)
+                };
+                let runs_along = |index: usize| {
+                    self.at(index).is_some_and(|piece| {
+                        lies_on(first, piece.start()) && lies_on(first, piece.end())
+                    })
+                };
                 let is_one = |known: &Crossing| {
                     if second - known.second > 1 {
                         return (known.second + 1..second).all(runs_along);
                     }
                     let middle = nalgebra::center(&known.at, &at);
                     (known.at - at).norm() <= 4.0 * self.margin
-                        || (lies_on(first, middle) && (lies_on(second, middle) || lies_on(known.second, middle)))
+                        || (lies_on(first, middle)
+                            && (lies_on(second, middle) || lies_on(known.second, middle)))
                 };
                 found.iter().rev().take(8).filter(same).any(is_one)
             };
-            let at = self.common(first, second).into_iter().find(|&at| !is_known(at) && self.crosses(first, second, at));
+            let at = self
+                .common(first, second)
+                .into_iter()
+                .find(|&at| !is_known(at) && self.crosses(first, second, at));
             found.extend(at.map(|at| Crossing { first, second, at }));
         }
         let is_all = is_all && !self.is_exhausted();
@@ -133,10 +183,20 @@ impl Way<'_> {
 
     /// The places that two pieces have in common.
     fn common(&self, first: usize, second: usize) -> Vec<Point> {
-        let (Some(a), Some(b)) = (self.at(first), self.at(second)) else { return Vec::new() };
+        let (Some(a), Some(b)) = (self.at(first), self.at(second)) else {
+            return Vec::new();
+        };
         let mut places = meetings(&a, &b);
-        places.extend([b.start(), b.end()].into_iter().filter(|&end| a.distance_to(end) <= ON));
-        places.extend([a.start(), a.end()].into_iter().filter(|&end| b.distance_to(end) <= ON));
+        places.extend(
+            [b.start(), b.end()]
+                .into_iter()
+                .filter(|&end| a.distance_to(end) <= ON),
+        );
+        places.extend(
+            [a.start(), a.end()]
+                .into_iter()
+                .filter(|&end| b.distance_to(end) <= ON),
+        );
         places
     }
 
@@ -151,7 +211,11 @@ impl Way<'_> {
             if self.is_shorter((first, second), at, 3.0 * reach) {
                 return false;
             }
-            let (Some(one), Some(other)) = (self.ends(first, at, reach), self.ends(second, at, reach)) else { return false };
+            let (Some(one), Some(other)) =
+                (self.ends(first, at, reach), self.ends(second, at, reach))
+            else {
+                return false;
+            };
             if let Some(alternate) = alternate(at, one, other, self.margin) {
                 return alternate;
             }
@@ -162,19 +226,28 @@ impl Way<'_> {
 
     /// Lead-in and lead-out end on the contour, and may come to it from different sides.
     fn is_where_leads_end(&self, first: usize, second: usize, at: Point) -> bool {
-        let near = |end: Option<Point>| end.is_some_and(|end| (end - at).norm() <= 2.0 * self.margin);
+        let near =
+            |end: Option<Point>| end.is_some_and(|end| (end - at).norm() <= 2.0 * self.margin);
         let piece = |index: usize| self.at(index);
         let back = |count: usize| self.count.checked_sub(count).and_then(piece);
         first <= 2
             && second + 3 >= self.count
-            && [0, 1].into_iter().any(|index| near(piece(index).map(|piece| piece.end())))
-            && ([1, 2].into_iter().any(|count| near(back(count).map(|piece| piece.start()))) || near(back(1).map(|piece| piece.end())))
+            && [0, 1]
+                .into_iter()
+                .any(|index| near(piece(index).map(|piece| piece.end())))
+            && ([1, 2]
+                .into_iter()
+                .any(|count| near(back(count).map(|piece| piece.start())))
+                || near(back(1).map(|piece| piece.end())))
     }
 
     /// Whether the way from `at` in one piece to `at` in another is shorter than `length`.
     fn is_shorter(&self, (first, second): (usize, usize), at: Point, length: f64) -> bool {
         let length_of = |index: usize| self.at(index).map_or(0.0, |piece| piece.length());
-        let share = |index: usize| self.at(index).map_or(0.0, |piece| piece.share_of(at).clamp(0.0, 1.0));
+        let share = |index: usize| {
+            self.at(index)
+                .map_or(0.0, |piece| piece.share_of(at).clamp(0.0, 1.0))
+        };
         let mut sum = length_of(first) * (1.0 - share(first)) + length_of(second) * share(second);
         for index in first + 1..second {
             if sum >= length {
@@ -190,7 +263,10 @@ impl Way<'_> {
 
     /// The way `reach` before and behind a place on one of its pieces, or where it begins or ends; `None` where that is at the place.
     fn ends(&self, index: usize, at: Point, reach: f64) -> Option<[Point; 2]> {
-        Some([self.along(index, at, reach, false)?, self.along(index, at, reach, true)?])
+        Some([
+            self.along(index, at, reach, false)?,
+            self.along(index, at, reach, true)?,
+        ])
     }
 
     fn along(&self, mut index: usize, at: Point, reach: f64, is_forward: bool) -> Option<Point> {
@@ -208,14 +284,22 @@ impl Way<'_> {
                 return None;
             }
             left -= rest;
-            let next = if is_forward { index.checked_add(1).filter(|next| *next < self.count) } else { index.checked_sub(1) };
+            let next = if is_forward {
+                index.checked_add(1).filter(|next| *next < self.count)
+            } else {
+                index.checked_sub(1)
+            };
             match next.and_then(|next| Some((next, self.at(next)?))) {
                 Some((next, found)) => {
                     (index, piece) = (next, found);
                     share = if is_forward { 0.0 } else { 1.0 };
                 }
                 None => {
-                    let end = if is_forward { piece.end() } else { piece.start() };
+                    let end = if is_forward {
+                        piece.end()
+                    } else {
+                        piece.start()
+                    };
                     return (reach - left > self.margin).then_some(end);
                 }
             }
@@ -232,7 +316,9 @@ fn alternate(at: Point, one: [Point; 2], other: [Point; 2], margin: f64) -> Opti
         a.dot(b) > 0.0 && across <= margin
     };
     let is_near = |end: &Vector| end.norm() <= margin;
-    if one.iter().chain(&other).any(is_near) || one.iter().any(|a| other.iter().any(|b| lie_together(a, b))) {
+    if one.iter().chain(&other).any(is_near)
+        || one.iter().any(|a| other.iter().any(|b| lie_together(a, b)))
+    {
         return None;
     }
     let angle = |end: Vector| positive_angle(end.y.atan2(end.x) - one[0].y.atan2(one[0].x));
@@ -253,17 +339,35 @@ mod tests {
             if mirrored {
                 way.iter_mut().for_each(|at| at.x = -at.x);
             }
-            let pieces: Vec<Segment> = way.windows(2).map(|pair| Segment::line(pair[0], pair[1])).collect();
-            let found: Vec<String> = crossings(&pieces, 0).iter().map(|one| format!("{}x{}", one.first, one.second)).collect();
+            let pieces: Vec<Segment> = way
+                .windows(2)
+                .map(|pair| Segment::line(pair[0], pair[1]))
+                .collect();
+            let found: Vec<String> = crossings(&pieces, 0)
+                .iter()
+                .map(|one| format!("{}x{}", one.first, one.second))
+                .collect();
             assert_eq!(found, expected, "{points:?} mirrored: {mirrored}");
         }
     }
 
     #[test]
     fn what_goes_through_crosses() {
-        check(&[(0.0, 0.0), (1000.0, 1000.0), (0.0, 1000.0), (1000.0, 0.0)], &["0x2"]);
+        check(
+            &[(0.0, 0.0), (1000.0, 1000.0), (0.0, 1000.0), (1000.0, 0.0)],
+            &["0x2"],
+        );
         // Through a joint of two blocks, and through the joints of both.
-        check(&[(0.0, 0.0), (500.0, 500.0), (1000.0, 1000.0), (0.0, 1000.0), (1000.0, 0.0)], &["0x3"]);
+        check(
+            &[
+                (0.0, 0.0),
+                (500.0, 500.0),
+                (1000.0, 1000.0),
+                (0.0, 1000.0),
+                (1000.0, 0.0),
+            ],
+            &["0x3"],
+        );
         check(
             &[
                 (-900.0, -900.0),
@@ -280,29 +384,108 @@ mod tests {
             &["2x5"],
         );
         // On one line for a while, from one side to the other.
-        check(&[(0.0, 0.0), (3000.0, 0.0), (3000.0, 2000.0), (1000.0, 0.0), (500.0, 0.0), (200.0, -1000.0)], &["0x2"]);
+        check(
+            &[
+                (0.0, 0.0),
+                (3000.0, 0.0),
+                (3000.0, 2000.0),
+                (1000.0, 0.0),
+                (500.0, 0.0),
+                (200.0, -1000.0),
+            ],
+            &["0x2"],
+        );
     }
 
     #[test]
     fn what_touches_does_not() {
-        check(&[(0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (500.0, 0.0), (0.0, 1000.0)], &[]);
-        check(&[(0.0, 0.0), (500.0, 500.0), (0.0, 1000.0), (1000.0, 1000.0), (500.0, 500.0), (1000.0, 0.0)], &[]);
-        check(&[(0.0, 0.0), (3000.0, 0.0), (3000.0, 2000.0), (1000.0, 0.0), (500.0, 0.0), (200.0, 1000.0)], &[]);
+        check(
+            &[
+                (0.0, 0.0),
+                (1000.0, 0.0),
+                (1000.0, 1000.0),
+                (500.0, 0.0),
+                (0.0, 1000.0),
+            ],
+            &[],
+        );
+        check(
+            &[
+                (0.0, 0.0),
+                (500.0, 500.0),
+                (0.0, 1000.0),
+                (1000.0, 1000.0),
+                (500.0, 500.0),
+                (1000.0, 0.0),
+            ],
+            &[],
+        );
+        check(
+            &[
+                (0.0, 0.0),
+                (3000.0, 0.0),
+                (3000.0, 2000.0),
+                (1000.0, 0.0),
+                (500.0, 0.0),
+                (200.0, 1000.0),
+            ],
+            &[],
+        );
         // It ends on itself.
-        check(&[(0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (500.0, 0.0)], &[]);
+        check(
+            &[(0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (500.0, 0.0)],
+            &[],
+        );
         // A contour with lead-in and lead-out: it may be come to from both sides.
-        check(&[(0.0, 0.0), (500.0, 500.0), (1000.0, 1000.0), (0.0, 1000.0), (500.0, 500.0), (1000.0, 0.0)], &[]);
+        check(
+            &[
+                (0.0, 0.0),
+                (500.0, 500.0),
+                (1000.0, 1000.0),
+                (0.0, 1000.0),
+                (500.0, 500.0),
+                (1000.0, 0.0),
+            ],
+            &[],
+        );
         // Lead-in and lead-out, on one way and on two.
         check(
-            &[(-9.0, -500.0), (0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (-1000.0, 1000.0), (-1000.0, 0.0), (0.0, 0.0), (-9.0, -500.0)],
+            &[
+                (-9.0, -500.0),
+                (0.0, 0.0),
+                (1000.0, 0.0),
+                (1000.0, 1000.0),
+                (-1000.0, 1000.0),
+                (-1000.0, 0.0),
+                (0.0, 0.0),
+                (-9.0, -500.0),
+            ],
             &[],
         );
         check(
-            &[(-99.0, -500.0), (0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (-1000.0, 1000.0), (-1000.0, 0.0), (0.0, 0.0), (99.0, -500.0)],
+            &[
+                (-99.0, -500.0),
+                (0.0, 0.0),
+                (1000.0, 0.0),
+                (1000.0, 1000.0),
+                (-1000.0, 1000.0),
+                (-1000.0, 0.0),
+                (0.0, 0.0),
+                (99.0, -500.0),
+            ],
             &[],
         );
         check(
-            &[(99.0, -500.0), (0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (-1000.0, 1000.0), (-1000.0, 0.0), (0.0, 0.0), (-99.0, -500.0)],
+            &[
+                (99.0, -500.0),
+                (0.0, 0.0),
+                (1000.0, 0.0),
+                (1000.0, 1000.0),
+                (-1000.0, 1000.0),
+                (-1000.0, 0.0),
+                (0.0, 0.0),
+                (-99.0, -500.0),
+            ],
             &[],
         );
     }

@@ -18,7 +18,11 @@ use std::ops::Range;
 const TOLERANCE: f64 = 4.0;
 
 /// Where the stated end lies from where the block leads, µm, on an axis on which that is too far.
-pub(in super::super) fn mismatch(before: &StatedPoint, travel: &Move, stated: &StatedPoint) -> Option<[f64; 2]> {
+pub(in super::super) fn mismatch(
+    before: &StatedPoint,
+    travel: &Move,
+    stated: &StatedPoint,
+) -> Option<[f64; 2]> {
     let rounding = 10_f64.powi(3 - i32::from(before.decimals.min(stated.decimals)));
     let allowed = TOLERANCE.max(TOLERANCE / 2.0 + rounding);
     let off = |moved: [f64; 2]| {
@@ -26,7 +30,10 @@ pub(in super::super) fn mismatch(before: &StatedPoint, travel: &Move, stated: &S
         [along(0), along(1)]
     };
     let is_far = |[x, y]: [f64; 2]| x.abs() > allowed || y.abs() > allowed;
-    let (meant, machine) = (off(travel.meant_um()), off(travel.machine.map(|um| um as f64)));
+    let (meant, machine) = (
+        off(travel.meant_um()),
+        off(travel.machine.map(|um| um as f64)),
+    );
     (is_far(meant) && is_far(machine)).then_some(meant)
 }
 
@@ -52,16 +59,36 @@ pub(in super::super) struct Mismatched<'a> {
 /// The coordinates become those of the block's end, or the block one that ends at them, as the coordinates behind allow. Made without
 /// asking only where the contour says which of the two is wrong.
 pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
-    let coordinates = if site.goes_on == Some(true) { None } else { set_coordinates(site) };
-    let block = if site.goes_on == Some(false) { None } else { set_block(site) };
-    let block_closes = block.as_ref().is_some_and(|(block, _)| (site.closes_with)(&[*block]));
+    let coordinates = if site.goes_on == Some(true) {
+        None
+    } else {
+        set_coordinates(site)
+    };
+    let block = if site.goes_on == Some(false) {
+        None
+    } else {
+        set_block(site)
+    };
+    let block_closes = block
+        .as_ref()
+        .is_some_and(|(block, _)| (site.closes_with)(&[*block]));
     let block_first = block_closes && !site.closes;
     let mut fixes = Vec::new();
     if let Some((kind, edit)) = coordinates {
-        fixes.push(one_edit(kind, edit, !block_first, site.closes && !block_closes && site.goes_on == Some(false)));
+        fixes.push(one_edit(
+            kind,
+            edit,
+            !block_first,
+            site.closes && !block_closes && site.goes_on == Some(false),
+        ));
     }
     if let Some((_, edit)) = block {
-        let fix = one_edit(FixKind::FollowCoordinates, edit, block_first || fixes.is_empty(), block_first && site.goes_on == Some(true));
+        let fix = one_edit(
+            FixKind::FollowCoordinates,
+            edit,
+            block_first || fixes.is_empty(),
+            block_first && site.goes_on == Some(true),
+        );
         fixes.insert(if block_first { 0 } else { fixes.len() }, fix);
     }
     fixes
@@ -69,20 +96,37 @@ pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
 
 fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
     let [x, y] = travel_of(&site.block).meant_um();
-    let at = [site.before.at[0] + x / 1000.0, site.before.at[1] + y / 1000.0];
+    let at = [
+        site.before.at[0] + x / 1000.0,
+        site.before.at[1] + y / 1000.0,
+    ];
     let bytes = site.text.get(site.coordinates.clone())?;
     // All of a number, `1e9` too.
-    let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');
+    let is_part =
+        |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');
     let mut edit = Vec::new();
     let mut from = 0;
     for value in at {
         let start = from + bytes.get(from..)?.iter().position(is_part)?;
-        let length = bytes[start..].iter().position(|byte| !is_part(byte)).unwrap_or(bytes.len() - start);
+        let length = bytes[start..]
+            .iter()
+            .position(|byte| !is_part(byte))
+            .unwrap_or(bytes.len() - start);
         let number = std::str::from_utf8(&bytes[start..start + length]).ok()?;
-        let places = number.split_once('.').map_or(0, |(_, places)| places.len().min(WIDEST_COLUMN));
+        let places = number
+            .split_once('.')
+            .map_or(0, |(_, places)| places.len().min(WIDEST_COLUMN));
         // A zero has no sign.
         let text = format!("{:.places$}", value + 0.0);
-        let text = if text.trim_start_matches('-').bytes().all(|byte| matches!(byte, b'0' | b'.')) { text.replace('-', "") } else { text };
+        let text = if text
+            .trim_start_matches('-')
+            .bytes()
+            .all(|byte| matches!(byte, b'0' | b'.'))
+        {
+            text.replace('-', "")
+        } else {
+            text
+        };
         let range = site.coordinates.start + start..site.coordinates.start + start + length;
         edit.extend((text != number).then_some(TextEdit { range, text }));
         from = start + length;
@@ -101,9 +145,21 @@ fn set_block(site: &Mismatched<'_>) -> Option<(Block, Vec<TextEdit>)> {
                 return None;
             }
             let out = end - arc.center;
-            let axis = if out.x.abs() <= out.y.abs() { CountingAxis::X } else { CountingAxis::Y };
-            let j = counted(&Arc::about(arc.center, arc.start, end, arc.sweep > 0.0), axis).round() as i64;
-            Block { j, axis, ..site.block }
+            let axis = if out.x.abs() <= out.y.abs() {
+                CountingAxis::X
+            } else {
+                CountingAxis::Y
+            };
+            let j = counted(
+                &Arc::about(arc.center, arc.start, end, arc.sweep > 0.0),
+                axis,
+            )
+            .round() as i64;
+            Block {
+                j,
+                axis,
+                ..site.block
+            }
         }
         _ if matches!(site.block.motion, Motion::Line(_)) => {
             let [x, y] = by.map(|um| um.round() as i64);
@@ -117,17 +173,48 @@ fn set_block(site: &Mismatched<'_>) -> Option<(Block, Vec<TextEdit>)> {
     if mismatch(&site.before, &travel_of(&block), &site.stated).is_some() {
         return None;
     }
-    let Fields { x, y, j, axis, motion, .. } = &site.fields;
-    let is_lower = site.text.get(motion.start).is_some_and(u8::is_ascii_lowercase);
-    let cased = |text: &str| if is_lower { text.to_lowercase() } else { text.to_owned() };
-    let axis_name = if block.axis == CountingAxis::X { "GX" } else { "GY" };
+    let Fields {
+        x,
+        y,
+        j,
+        axis,
+        motion,
+        ..
+    } = &site.fields;
+    let is_lower = site
+        .text
+        .get(motion.start)
+        .is_some_and(u8::is_ascii_lowercase);
+    let cased = |text: &str| {
+        if is_lower {
+            text.to_lowercase()
+        } else {
+            text.to_owned()
+        }
+    };
+    let axis_name = if block.axis == CountingAxis::X {
+        "GX"
+    } else {
+        "GY"
+    };
     let new = [
         (x, block.x.to_string(), block.x == site.block.x),
         (y, block.y.to_string(), block.y == site.block.y),
         (j, block.j.to_string(), block.j == site.block.j),
         (axis, cased(axis_name), block.axis == site.block.axis),
-        (motion, cased(motion_name(block.motion)), block.motion == site.block.motion),
+        (
+            motion,
+            cased(motion_name(block.motion)),
+            block.motion == site.block.motion,
+        ),
     ];
     let edit = new.into_iter().filter(|(.., is_same)| !is_same);
-    Some((block, edit.map(|(range, text, _)| TextEdit { range: range.clone(), text }).collect()))
+    Some((
+        block,
+        edit.map(|(range, text, _)| TextEdit {
+            range: range.clone(),
+            text,
+        })
+        .collect(),
+    ))
 }

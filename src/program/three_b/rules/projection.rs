@@ -44,5 +44,7 @@ fn length_of(block: &Block) -> Length {
     if factor >= 2 && near((factor * larger) as f64) {
         return Length::Ratio;
     }
-    Length::Misfit { is_certain: x == 0 || y == 0 }
+    Length::Misfit {
+        is_certain: x == 0 || y == 0,
+    }
 }

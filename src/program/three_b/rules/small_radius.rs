@@ -24,15 +24,23 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
         Some(part) if part.concave => Counts::Always,
         Some(_) => return None,
         None if !seen.limits.holds_part => return None,
-        None if matches!(seen.limits.side, SideSetting::Opening | SideSetting::Punch) => Counts::IfInside { turns_left },
+        None if matches!(seen.limits.side, SideSetting::Opening | SideSetting::Punch) => {
+            Counts::IfInside { turns_left }
+        }
         None => Counts::Always,
     };
     let stated = seen.part.map_or(0.0, |part| part.radius as f64);
     let radius = if stated > 0.0 { stated } else { seen.radius() };
     let required = seen.limits.correction * 1000.0;
     // A 4B controller refuses an arc as large as its correction, too.
-    let is_tight = if seen.part.is_some() { radius <= required + ROUNDING } else { radius < required - ROUNDING };
-    let Ok(Segment::Arc(arc)) = decode(seen.block, Point::origin()) else { return None };
+    let is_tight = if seen.part.is_some() {
+        radius <= required + ROUNDING
+    } else {
+        radius < required - ROUNDING
+    };
+    let Ok(Segment::Arc(arc)) = decode(seen.block, Point::origin()) else {
+        return None;
+    };
     if !is_tight {
         return None;
     }
@@ -49,9 +57,18 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
         sweep: arc.sweep,
         side,
         overcut: short * (1.0 - turn.cos()),
-        stock_left: if turn < PI { short * (1.0 / (turn / 2.0).cos() - 1.0) } else { f64::INFINITY },
+        stock_left: if turn < PI {
+            short * (1.0 / (turn / 2.0).cos() - 1.0)
+        } else {
+            f64::INFINITY
+        },
         pass: seen.limits.pass,
         no_fix: None,
     };
-    Some(Sight { rule: Rule::SmallRadius, spot: Spot::Block, detail: Detail::SmallRadius(Box::new(detail)), counts })
+    Some(Sight {
+        rule: Rule::SmallRadius,
+        spot: Spot::Block,
+        detail: Detail::SmallRadius(Box::new(detail)),
+        counts,
+    })
 }

@@ -7,6 +7,9 @@ use crate::text::{SourceText, TextEdit};
 /// Takes away all lines behind the one in which the program ends.
 pub(in super::super) fn fixes(text: &SourceText, end: usize) -> Vec<TextFix> {
     let kept = text.line_range(text.line_of(end)).end;
-    let edit = vec![TextEdit { range: kept..text.len(), text: String::new() }];
+    let edit = vec![TextEdit {
+        range: kept..text.len(),
+        text: String::new(),
+    }];
     vec![one_edit(FixKind::DeleteBehindEnd, edit, true, false)]
 }

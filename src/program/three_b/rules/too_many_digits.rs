@@ -12,9 +12,22 @@ use crate::settings::Layout;
 
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let block = seen.block;
-    let numbers = [(Spot::J, "J", block.j), (Spot::X, "X", block.x), (Spot::Y, "Y", block.y)];
-    let (spot, field, value) = numbers.into_iter().find(|(_, _, value)| *value > seen.limits.largest())?;
-    Some(Sight::at(spot, ProgramFault::TooManyDigits { field, value, digits: seen.limits.digits }))
+    let numbers = [
+        (Spot::J, "J", block.j),
+        (Spot::X, "X", block.x),
+        (Spot::Y, "Y", block.y),
+    ];
+    let (spot, field, value) = numbers
+        .into_iter()
+        .find(|(_, _, value)| *value > seen.limits.largest())?;
+    Some(Sight::at(
+        spot,
+        ProgramFault::TooManyDigits {
+            field,
+            value,
+            digits: seen.limits.digits,
+        },
+    ))
 }
 
 /// The way in pieces that fit. More than this many are a fault of the number, not of its size.
@@ -22,15 +35,26 @@ const MOST_PIECES: usize = 64;
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     // Where J contradicts X and Y a digit is wrong, not the block too long.
-    if decode(&site.block, Point::origin()) == Err(DecodeFault::WrongLength) || is_misfit(&site.block) {
+    if decode(&site.block, Point::origin()) == Err(DecodeFault::WrongLength)
+        || is_misfit(&site.block)
+    {
         return Vec::new();
     }
-    let Some(segment) = meant(&site.block, Point::origin()).filter(|segment| segment.length() <= site.largest as f64 * MOST_PIECES as f64)
+    let Some(segment) = meant(&site.block, Point::origin())
+        .filter(|segment| segment.length() <= site.largest as f64 * MOST_PIECES as f64)
     else {
         return Vec::new();
     };
     let mut pieces = Vec::new();
-    let made = snap(segment.end()).and_then(|end| encode(&segment, Node { x: 0, y: 0 }, end, site.largest, &mut pieces));
+    let made = snap(segment.end()).and_then(|end| {
+        encode(
+            &segment,
+            Node { x: 0, y: 0 },
+            end,
+            site.largest,
+            &mut pieces,
+        )
+    });
     if made.is_none() || pieces.len() < 2 || pieces.len() > MOST_PIECES {
         return Vec::new();
     }
@@ -39,8 +63,15 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
         Some(line) if line.ends_with(b"\r") => b"\r",
         _ => b"\n",
     };
-    let is_spaced = site.text.get(site.range.clone()).is_some_and(|block| block.contains(&b' '));
-    let layout = if is_spaced { Layout::Aligned } else { Layout::Compact };
+    let is_spaced = site
+        .text
+        .get(site.range.clone())
+        .is_some_and(|block| block.contains(&b' '));
+    let layout = if is_spaced {
+        Layout::Aligned
+    } else {
+        Layout::Compact
+    };
     let mut text = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         if index > 0 {
@@ -48,6 +79,15 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
         }
         push_fields(&mut text, layout, &piece.block, None);
     }
-    let Ok(text) = String::from_utf8(text) else { return Vec::new() };
-    vec![one_edit(FixKind::SplitBlock { pieces: pieces.len() }, vec![site.replace(&site.range, text)], true, true)]
+    let Ok(text) = String::from_utf8(text) else {
+        return Vec::new();
+    };
+    vec![one_edit(
+        FixKind::SplitBlock {
+            pieces: pieces.len(),
+        },
+        vec![site.replace(&site.range, text)],
+        true,
+        true,
+    )]
 }

@@ -18,13 +18,40 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
         // A ratio is as near to a tie as the line that it stands for.
         let scale = if other > 0 && j > other { j / other } else { 1 };
         let contradicts = other > 0 && (other - counted).saturating_mul(scale) > TIE;
-        return contradicts.then(|| Sight::at(Spot::Axis, ProgramFault::SmallerProjection { axis, counted, larger: other }));
+        return contradicts.then(|| {
+            Sight::at(
+                Spot::Axis,
+                ProgramFault::SmallerProjection {
+                    axis,
+                    counted,
+                    larger: other,
+                },
+            )
+        });
     }
-    let Ok(Segment::Arc(arc)) = decode(seen.block, Point::origin()) else { return None };
+    let Ok(Segment::Arc(arc)) = decode(seen.block, Point::origin()) else {
+        return None;
+    };
     let out = arc.end - arc.center;
-    let (along, across) = if axis == Axis::X { (out.x.abs(), out.y.abs()) } else { (out.y.abs(), out.x.abs()) };
-    let sight = || Sight::at(Spot::Axis, ProgramFault::ArcEndAxis { axis, x: out.x, y: out.y });
-    (along > across + ARC_TIE).then(|| Sight { counts: Counts::Always, ..sight() })
+    let (along, across) = if axis == Axis::X {
+        (out.x.abs(), out.y.abs())
+    } else {
+        (out.y.abs(), out.x.abs())
+    };
+    let sight = || {
+        Sight::at(
+            Spot::Axis,
+            ProgramFault::ArcEndAxis {
+                axis,
+                x: out.x,
+                y: out.y,
+            },
+        )
+    };
+    (along > across + ARC_TIE).then(|| Sight {
+        counts: Counts::Always,
+        ..sight()
+    })
 }
 
 fn other(axis: CountingAxis) -> CountingAxis {
@@ -37,7 +64,17 @@ fn other(axis: CountingAxis) -> CountingAxis {
 pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
     let axis = other(site.block.axis);
     let name = axis_of(axis);
-    let only_axis = |in_fix_all| one_edit(FixKind::SetAxis { axis: name, j: None }, vec![site.set_axis(name)], true, in_fix_all);
+    let only_axis = |in_fix_all| {
+        one_edit(
+            FixKind::SetAxis {
+                axis: name,
+                j: None,
+            },
+            vec![site.set_axis(name)],
+            true,
+            in_fix_all,
+        )
+    };
     if let ProgramFault::AxisKeepsOpen { is_sure, .. } = fault {
         return vec![only_axis(*is_sure)];
     }
@@ -56,11 +93,16 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
         };
         return vec![with_j(site, name, j, true)];
     }
-    let Ok(Segment::Arc(arc)) = decode(&site.block, Point::origin()) else { return Vec::new() };
+    let Ok(Segment::Arc(arc)) = decode(&site.block, Point::origin()) else {
+        return Vec::new();
+    };
     let same_end = counted_on(&arc, axis);
     let with_same_end = with_j(site, name, same_end, true);
     if (site.closes_with)(&[flipped]) {
-        return vec![only_axis(true), one_edit(with_same_end.kind, with_same_end.edit, false, false)];
+        return vec![
+            only_axis(true),
+            one_edit(with_same_end.kind, with_same_end.edit, false, false),
+        ];
     }
     vec![with_same_end]
 }
@@ -73,5 +115,10 @@ fn counted_on(arc: &Arc, axis: CountingAxis) -> i64 {
 fn with_j(site: &Site, axis: Axis, j: i64, in_fix_all: bool) -> TextFix {
     let mut edit = vec![site.set_j(j), site.set_axis(axis)];
     edit.sort_by_key(|edit| edit.range.start);
-    one_edit(FixKind::SetAxis { axis, j: Some(j) }, edit, true, in_fix_all)
+    one_edit(
+        FixKind::SetAxis { axis, j: Some(j) },
+        edit,
+        true,
+        in_fix_all,
+    )
 }

@@ -13,32 +13,79 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     if !seen.is_line() {
         return None;
     }
-    let Length::Misfit { is_certain } = length(seen) else { return None };
+    let Length::Misfit { is_certain } = length(seen) else {
+        return None;
+    };
     let axis = if x >= y { Axis::X } else { Axis::Y };
-    let sight = Sight::at(Spot::J, ProgramFault::WrongJ { j, projection: x.max(y), axis });
-    Some(Sight { counts: if is_certain { Counts::Always } else { Counts::IfOpen }, ..sight })
+    let sight = Sight::at(
+        Spot::J,
+        ProgramFault::WrongJ {
+            j,
+            projection: x.max(y),
+            axis,
+        },
+    );
+    Some(Sight {
+        counts: if is_certain {
+            Counts::Always
+        } else {
+            Counts::IfOpen
+        },
+        ..sight
+    })
 }
 
 pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
     if let ProgramFault::JKeepsOpen { meant, is_sure, .. } = *fault {
-        return vec![one_edit(FixKind::SetJ { j: meant }, vec![site.set_j(meant)], true, is_sure)];
+        return vec![one_edit(
+            FixKind::SetJ { j: meant },
+            vec![site.set_j(meant)],
+            true,
+            is_sure,
+        )];
     }
     let Block { x, y, j, .. } = site.block;
     let projection = x.max(y);
-    let by_j = Block { j: projection, ..site.block };
+    let by_j = Block {
+        j: projection,
+        ..site.block
+    };
     // The larger number with the digits that J has.
-    let (larger, other) = if x >= y { (&site.fields.x, y) } else { (&site.fields.y, x) };
-    let by_number = if x >= y { Block { x: j, ..site.block } } else { Block { y: j, ..site.block } };
-    let is_shifted = j > 0 && other <= j && (projection == 10 * j || 10 * projection == j || projection == 100 * j);
+    let (larger, other) = if x >= y {
+        (&site.fields.x, y)
+    } else {
+        (&site.fields.y, x)
+    };
+    let by_number = if x >= y {
+        Block { x: j, ..site.block }
+    } else {
+        Block { y: j, ..site.block }
+    };
+    let is_shifted = j > 0
+        && other <= j
+        && (projection == 10 * j || 10 * projection == j || projection == 100 * j);
     let number_closes = j > 0 && other <= j && (site.closes_with)(&[by_number]);
     let j_closes = (site.closes_with)(&[by_j]);
     let number_first = number_closes || (is_shifted && !j_closes);
     let field = if x >= y { Axis::X } else { Axis::Y };
-    let set_j = one_edit(FixKind::SetJ { j: projection }, vec![site.set_j(projection)], !number_first, j_closes || j == 0);
+    let set_j = one_edit(
+        FixKind::SetJ { j: projection },
+        vec![site.set_j(projection)],
+        !number_first,
+        j_closes || j == 0,
+    );
     let mut fixes = vec![set_j];
     if number_closes || is_shifted {
         let edit = vec![site.replace(larger, j.to_string())];
-        let set_number = one_edit(FixKind::SetEnd { axis: field, value: j }, edit, number_first, number_closes);
+        let set_number = one_edit(
+            FixKind::SetEnd {
+                axis: field,
+                value: j,
+            },
+            edit,
+            number_first,
+            number_closes,
+        );
         fixes.insert(if number_first { 0 } else { 1 }, set_number);
         // The contour says which of the two is wrong.
         if number_closes && !j_closes {

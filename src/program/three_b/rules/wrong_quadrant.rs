@@ -8,7 +8,9 @@ use crate::finding::{Axis, FixKind, ProgramFault};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
-    let Motion::Line(quadrant) = seen.block.motion else { return None };
+    let Motion::Line(quadrant) = seen.block.motion else {
+        return None;
+    };
     let Block { x, y, j, .. } = *seen.block;
     let axis = seen.axis();
     let along = match (x, y) {
@@ -24,17 +26,41 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     if belongs || j == 0 || along != axis {
         return None;
     }
-    let expected = if along == Axis::X { ["L1", "L3"] } else { ["L2", "L4"] };
-    let sight = Sight::at(Spot::Motion, ProgramFault::AxisQuadrant { found: motion_name(seen.block.motion), expected, axis: along });
-    Some(Sight { counts: if (x, y) == (0, 0) { Counts::Always } else { Counts::MildIfClosed }, ..sight })
+    let expected = if along == Axis::X {
+        ["L1", "L3"]
+    } else {
+        ["L2", "L4"]
+    };
+    let sight = Sight::at(
+        Spot::Motion,
+        ProgramFault::AxisQuadrant {
+            found: motion_name(seen.block.motion),
+            expected,
+            axis: along,
+        },
+    );
+    Some(Sight {
+        counts: if (x, y) == (0, 0) {
+            Counts::Always
+        } else {
+            Counts::MildIfClosed
+        },
+        ..sight
+    })
 }
 
 pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
     match fault {
         ProgramFault::QuadrantKeepsOpen { meant, is_sure, .. } => {
-            vec![one_edit(FixKind::SetMotion { name: meant }, vec![site.set_motion(meant)], true, *is_sure)]
+            vec![one_edit(
+                FixKind::SetMotion { name: meant },
+                vec![site.set_motion(meant)],
+                true,
+                *is_sure,
+            )]
         }
-        ProgramFault::AxisQuadrant { expected, .. } | ProgramFault::UnusualQuadrant { expected, .. } => {
+        ProgramFault::AxisQuadrant { expected, .. }
+        | ProgramFault::UnusualQuadrant { expected, .. } => {
             let is_fault = matches!(fault, ProgramFault::AxisQuadrant { .. });
             let motion = |name: &str| match name {
                 "L1" => Motion::Line(Quadrant::First),
@@ -42,18 +68,39 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
                 "L3" => Motion::Line(Quadrant::Third),
                 _ => Motion::Line(Quadrant::Fourth),
             };
-            let closing = expected.iter().copied().find(|name| (site.closes_with)(&[Block { motion: motion(name), ..site.block }]));
+            let closing = expected.iter().copied().find(|name| {
+                (site.closes_with)(&[Block {
+                    motion: motion(name),
+                    ..site.block
+                }])
+            });
             // The half axis that the controller takes it for now.
             let same = match (site.block.motion, expected[0]) {
-                (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => expected[0],
+                (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => {
+                    expected[0]
+                }
                 _ => expected[1],
             };
-            let first = if is_fault { closing.unwrap_or(same) } else { same };
+            let first = if is_fault {
+                closing.unwrap_or(same)
+            } else {
+                same
+            };
             let mut names = vec![first];
             // The other one leads the other way, which nobody has a reason to want where the contour closes.
-            names.extend(expected.iter().copied().filter(|name| is_fault && *name != first));
+            names.extend(
+                expected
+                    .iter()
+                    .copied()
+                    .filter(|name| is_fault && *name != first),
+            );
             let fix = |(index, name): (usize, &'static str)| {
-                one_edit(FixKind::SetMotion { name }, vec![site.set_motion(name)], index == 0, index == 0 && is_fault && closing.is_some())
+                one_edit(
+                    FixKind::SetMotion { name },
+                    vec![site.set_motion(name)],
+                    index == 0,
+                    index == 0 && is_fault && closing.is_some(),
+                )
             };
             names.into_iter().enumerate().map(fix).collect()
         }

@@ -13,15 +13,22 @@ pub(in crate::server) fn hover(state: &mut State, params: &HoverParams) -> Resul
     let encoding = state.encoding;
     let open = state.document(at.text_document.uri.as_str())?;
     let markdown = |value: String, range| Hover {
-        contents: HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value }),
+        contents: HoverContents::Markup(MarkupContent {
+            kind: MarkupKind::Markdown,
+            value,
+        }),
         range: Some(lsp_range(range)),
     };
     if let Some(program) = program_in(open).and_then(|document| document.program()) {
-        let found = program::language::hover(program, offset_of(program.text(), at.position, encoding));
-        return Ok(found.map(|found| markdown(found.text, range_of(program.text(), found.range, encoding))));
+        let found =
+            program::language::hover(program, offset_of(program.text(), at.position, encoding));
+        return Ok(found
+            .map(|found| markdown(found.text, range_of(program.text(), found.range, encoding))));
     }
     let settings = open.document().map(|document| document.settings().clone());
-    let (Some(dxf), Some(settings)) = (dxf_in(open), settings) else { return Ok(None) };
+    let (Some(dxf), Some(settings)) = (dxf_in(open), settings) else {
+        return Ok(None);
+    };
     let unit = settings.unit_of(dxf.drawing());
     let found = dxf::language::hover(dxf, offset_of(dxf.text(), at.position, encoding), unit);
     Ok(found.map(|found| markdown(found.text, range_of(dxf.text(), found.range, encoding))))

@@ -44,11 +44,16 @@ fn dxf_in(open: &Open) -> Option<&dxf::Document> {
 
 /// The program that is open; `None` where it is something else.
 fn program_in(open: &Open) -> Option<&Arc<Document>> {
-    open.document().filter(|document| document.program().is_some())
+    open.document()
+        .filter(|document| document.program().is_some())
 }
 
 fn offset_of(text: &SourceText, position: Position, encoding: Encoding) -> usize {
-    text.offset_of(position.line as usize, position.character as usize, encoding)
+    text.offset_of(
+        position.line as usize,
+        position.character as usize,
+        encoding,
+    )
 }
 
 /// Looks at a whole text, on a worker where it is long. Documents that are no DXF are answered with null.
@@ -75,10 +80,17 @@ fn whole(
         return;
     };
     let at_once = shot.text.len() <= AT_ONCE;
-    run(state, name, uri, (stamp, at_once), errand, move |cancel, _| {
-        let stop = || cancel.is_cancelled() || shot.is_outdated();
-        work(&shot.text, &stop).unwrap_or_else(|| Err(moved_on()))
-    });
+    run(
+        state,
+        name,
+        uri,
+        (stamp, at_once),
+        errand,
+        move |cancel, _| {
+            let stop = || cancel.is_cancelled() || shot.is_outdated();
+            work(&shot.text, &stop).unwrap_or_else(|| Err(moved_on()))
+        },
+    );
 }
 
 /// Looks at a whole program, on a worker where it is long. Documents that are no program are answered with null.
@@ -102,8 +114,15 @@ fn whole_program(
         return;
     };
     let at_once = document.text().is_none_or(|text| text.len() <= AT_ONCE);
-    run(state, name, uri, (stamp, at_once), errand, move |_, _| match document.program() {
-        Some(program) => work(program, document.settings()),
-        None => Ok(b"null".to_vec()),
-    });
+    run(
+        state,
+        name,
+        uri,
+        (stamp, at_once),
+        errand,
+        move |_, _| match document.program() {
+            Some(program) => work(program, document.settings()),
+            None => Ok(b"null".to_vec()),
+        },
+    );
 }

@@ -8,7 +8,9 @@ use crate::server::convert::{lsp_range, range_of};
 use crate::server::requests::{Errand, written};
 use crate::server::state::State;
 use crate::text::{Encoding, SourceText};
-use ls_types::{DocumentHighlight, DocumentHighlightKind, Location, Position, TextDocumentPositionParams, Uri};
+use ls_types::{
+    DocumentHighlight, DocumentHighlightKind, Location, Position, TextDocumentPositionParams, Uri,
+};
 
 /// Places of one answer.
 const LIMIT: usize = 10_000;
@@ -20,10 +22,20 @@ pub(in crate::server) enum Question {
     Highlight,
 }
 
-pub(in crate::server) fn navigate(state: &mut State, at: &TextDocumentPositionParams, question: Question, errand: Errand) {
+pub(in crate::server) fn navigate(
+    state: &mut State,
+    at: &TextDocumentPositionParams,
+    question: Question,
+    errand: Errand,
+) {
     let encoding = state.encoding;
     let uri = at.text_document.uri.clone();
-    if state.documents.get(uri.as_str()).and_then(program_in).is_some() {
+    if state
+        .documents
+        .get(uri.as_str())
+        .and_then(program_in)
+        .is_some()
+    {
         navigate_program(state, uri, at.position, question, errand);
         return;
     }
@@ -34,45 +46,101 @@ pub(in crate::server) fn navigate(state: &mut State, at: &TextDocumentPositionPa
         let _ = errand.reply.send(known);
         return;
     };
-    whole(state, "Looking for names", at.text_document.uri.as_str(), errand, move |text, stop| {
-        let found = occurrences(text, &name, LIMIT, stop)?;
-        Some(match question {
-            Question::Highlight => {
-                let highlight = |found: &Occurrence| DocumentHighlight {
-                    range: lsp_range(range_of(text, found.range.clone(), encoding)),
-                    kind: Some(if found.defines { DocumentHighlightKind::WRITE } else { DocumentHighlightKind::READ }),
-                };
-                written(&found.iter().map(highlight).collect::<Vec<_>>())
-            }
-            Question::Definition => written(&locations(text, &uri, &found, |found| found.defines, encoding)),
-            Question::References { with_definition } => {
-                written(&locations(text, &uri, &found, |found| with_definition || !found.defines, encoding))
-            }
-        })
-    });
+    whole(
+        state,
+        "Looking for names",
+        at.text_document.uri.as_str(),
+        errand,
+        move |text, stop| {
+            let found = occurrences(text, &name, LIMIT, stop)?;
+            Some(match question {
+                Question::Highlight => {
+                    let highlight = |found: &Occurrence| DocumentHighlight {
+                        range: lsp_range(range_of(text, found.range.clone(), encoding)),
+                        kind: Some(if found.defines {
+                            DocumentHighlightKind::WRITE
+                        } else {
+                            DocumentHighlightKind::READ
+                        }),
+                    };
+                    written(&found.iter().map(highlight).collect::<Vec<_>>())
+                }
+                Question::Definition => written(&locations(
+                    text,
+                    &uri,
+                    &found,
+                    |found| found.defines,
+                    encoding,
+                )),
+                Question::References { with_definition } => written(&locations(
+                    text,
+                    &uri,
+                    &found,
+                    |found| with_definition || !found.defines,
+                    encoding,
+                )),
+            })
+        },
+    );
 }
 
-fn navigate_program(state: &mut State, uri: Uri, position: Position, question: Question, errand: Errand) {
+fn navigate_program(
+    state: &mut State,
+    uri: Uri,
+    position: Position,
+    question: Question,
+    errand: Errand,
+) {
     let encoding = state.encoding;
     let name = uri.as_str().to_owned();
-    whole_program(state, "Looking for what belongs together", &name, errand, move |program, _| {
-        let text = program.text();
-        let offset = offset_of(text, position, encoding);
-        let place = |range| lsp_range(range_of(text, range, encoding));
-        let location = |range| Location { uri: uri.clone(), range: place(range) };
-        match question {
-            Question::Definition => written(&match_of(program, offset).into_iter().map(location).collect::<Vec<_>>()),
-            Question::References { .. } => {
-                let all = pauses(program);
-                let asked = all.iter().any(|range| range.start <= offset && offset <= range.end);
-                written(&all.into_iter().filter(|_| asked).take(LIMIT).map(location).collect::<Vec<_>>())
+    whole_program(
+        state,
+        "Looking for what belongs together",
+        &name,
+        errand,
+        move |program, _| {
+            let text = program.text();
+            let offset = offset_of(text, position, encoding);
+            let place = |range| lsp_range(range_of(text, range, encoding));
+            let location = |range| Location {
+                uri: uri.clone(),
+                range: place(range),
+            };
+            match question {
+                Question::Definition => written(
+                    &match_of(program, offset)
+                        .into_iter()
+                        .map(location)
+                        .collect::<Vec<_>>(),
+                ),
+                Question::References { .. } => {
+                    let all = pauses(program);
+                    let asked = all
+                        .iter()
+                        .any(|range| range.start <= offset && offset <= range.end);
+                    written(
+                        &all.into_iter()
+                            .filter(|_| asked)
+                            .take(LIMIT)
+                            .map(location)
+                            .collect::<Vec<_>>(),
+                    )
+                }
+                Question::Highlight => {
+                    let highlight = |range| DocumentHighlight {
+                        range: place(range),
+                        kind: Some(DocumentHighlightKind::TEXT),
+                    };
+                    written(
+                        &highlights(program, offset)
+                            .into_iter()
+                            .map(highlight)
+                            .collect::<Vec<_>>(),
+                    )
+                }
             }
-            Question::Highlight => {
-                let highlight = |range| DocumentHighlight { range: place(range), kind: Some(DocumentHighlightKind::TEXT) };
-                written(&highlights(program, offset).into_iter().map(highlight).collect::<Vec<_>>())
-            }
-        }
-    });
+        },
+    );
 }
 
 fn locations(
@@ -82,6 +150,13 @@ fn locations(
     wanted: impl Fn(&Occurrence) -> bool,
     encoding: Encoding,
 ) -> Vec<Location> {
-    let location = |found: &Occurrence| Location { uri: uri.clone(), range: lsp_range(range_of(text, found.range.clone(), encoding)) };
-    found.iter().filter(|found| wanted(found)).map(location).collect()
+    let location = |found: &Occurrence| Location {
+        uri: uri.clone(),
+        range: lsp_range(range_of(text, found.range.clone(), encoding)),
+    };
+    found
+        .iter()
+        .filter(|found| wanted(found))
+        .map(location)
+        .collect()
 }

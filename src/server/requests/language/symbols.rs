@@ -8,34 +8,67 @@ use crate::server::convert::{lsp_range, range_of};
 use crate::server::requests::{Errand, written};
 use crate::server::state::State;
 use crate::text::{Encoding, SourceText};
-use ls_types::{DocumentSymbol, DocumentSymbolResponse, Location, Range, SymbolInformation, SymbolKind, Uri};
+use ls_types::{
+    DocumentSymbol, DocumentSymbolResponse, Location, Range, SymbolInformation, SymbolKind, Uri,
+};
 use std::ops::Range as Bytes;
 use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn document_symbol(state: &mut State, uri: Uri, errand: Errand) {
     let (encoding, hierarchical) = (state.encoding, state.client.abilities.hierarchical_symbols);
-    if state.documents.get(uri.as_str()).and_then(program_in).is_some() {
+    if state
+        .documents
+        .get(uri.as_str())
+        .and_then(program_in)
+        .is_some()
+    {
         let name = uri.as_str().to_owned();
-        whole_program(state, "Listing symbols", &name, errand, move |program, _| {
-            let tree = program::language::symbols(program).into_iter().map(Listed::of_program).collect();
-            answer(program.text(), tree, hierarchical, &uri, encoding)
-        });
+        whole_program(
+            state,
+            "Listing symbols",
+            &name,
+            errand,
+            move |program, _| {
+                let tree = program::language::symbols(program)
+                    .into_iter()
+                    .map(Listed::of_program)
+                    .collect();
+                answer(program.text(), tree, hierarchical, &uri, encoding)
+            },
+        );
         return;
     }
-    let snapshot = state.documents.get(uri.as_str()).and_then(|open| match &open.content {
-        crate::server::content::Content::Read(document) => document.snapshot(),
-        _ => None,
-    });
+    let snapshot = state
+        .documents
+        .get(uri.as_str())
+        .and_then(|open| match &open.content {
+            crate::server::content::Content::Read(document) => document.snapshot(),
+            _ => None,
+        });
     let name = uri.as_str().to_owned();
-    whole(state, "Listing symbols", &name, errand, move |text, stop| {
-        let tree = outline(text, stop)?;
-        let contours = snapshot.map_or_else(Vec::new, |snapshot| notes(&snapshot.drawing, &snapshot.outlines));
-        let tree = symbols(tree, &contours);
-        if stop() {
-            return None;
-        }
-        Some(answer(text, tree.into_iter().map(Listed::of_dxf).collect(), hierarchical, &uri, encoding))
-    });
+    whole(
+        state,
+        "Listing symbols",
+        &name,
+        errand,
+        move |text, stop| {
+            let tree = outline(text, stop)?;
+            let contours = snapshot.map_or_else(Vec::new, |snapshot| {
+                notes(&snapshot.drawing, &snapshot.outlines)
+            });
+            let tree = symbols(tree, &contours);
+            if stop() {
+                return None;
+            }
+            Some(answer(
+                text,
+                tree.into_iter().map(Listed::of_dxf).collect(),
+                hierarchical,
+                &uri,
+                encoding,
+            ))
+        },
+    );
 }
 
 /// A symbol as the protocol names it, with its places still in bytes.
@@ -52,7 +85,14 @@ impl Listed {
     fn of_dxf(node: Node) -> Listed {
         let (name, kind) = (name_of(&node), kind_of(&node));
         let children = node.children.into_iter().map(Listed::of_dxf).collect();
-        Listed { name, detail: node.detail, kind, range: node.range, selection: node.selection, children }
+        Listed {
+            name,
+            detail: node.detail,
+            kind,
+            range: node.range,
+            selection: node.selection,
+            children,
+        }
     }
 
     fn of_program(symbol: program::language::Symbol) -> Listed {
@@ -65,14 +105,36 @@ impl Listed {
             Of::Run => SymbolKind::ARRAY,
             Of::Word => SymbolKind::EVENT,
         };
-        let children = symbol.children.into_iter().map(Listed::of_program).collect();
-        Listed { name: symbol.name, detail: symbol.detail, kind, range: symbol.range, selection: symbol.selection, children }
+        let children = symbol
+            .children
+            .into_iter()
+            .map(Listed::of_program)
+            .collect();
+        Listed {
+            name: symbol.name,
+            detail: symbol.detail,
+            kind,
+            range: symbol.range,
+            selection: symbol.selection,
+            children,
+        }
     }
 }
 
-fn answer(text: &SourceText, tree: Vec<Listed>, hierarchical: bool, uri: &Uri, encoding: Encoding) -> Result<Vec<u8>> {
+fn answer(
+    text: &SourceText,
+    tree: Vec<Listed>,
+    hierarchical: bool,
+    uri: &Uri,
+    encoding: Encoding,
+) -> Result<Vec<u8>> {
     if hierarchical {
-        return written(&tree.into_iter().map(|node| nested(text, node, encoding)).collect::<Vec<_>>());
+        return written(
+            &tree
+                .into_iter()
+                .map(|node| nested(text, node, encoding))
+                .collect::<Vec<_>>(),
+        );
     }
     let mut flat = Vec::new();
     flatten(text, tree, None, uri, encoding, &mut flat);
@@ -80,7 +142,11 @@ fn answer(text: &SourceText, tree: Vec<Listed>, hierarchical: bool, uri: &Uri, e
 }
 
 fn notes(drawing: &Drawing, outlines: &[Outline]) -> Vec<ContourNote> {
-    let handle = |piece: &crate::drawing::Piece| drawing.get(piece.entity).map(|entity| entity.handle.clone());
+    let handle = |piece: &crate::drawing::Piece| {
+        drawing
+            .get(piece.entity)
+            .map(|entity| entity.handle.clone())
+    };
     let note = |outline: &Outline| ContourNote {
         closed: outline.contour.closed,
         segments: outline.contour.len(),
@@ -91,11 +157,17 @@ fn notes(drawing: &Drawing, outlines: &[Outline]) -> Vec<ContourNote> {
 
 fn name_of(node: &Node) -> String {
     let name = match node.kind {
-        NodeKind::Section | NodeKind::Contours | NodeKind::Contour | NodeKind::Group => node.name.to_string(),
+        NodeKind::Section | NodeKind::Contours | NodeKind::Contour | NodeKind::Group => {
+            node.name.to_string()
+        }
         _ => format!("{} {}", node.record, node.name).trim().to_owned(),
     };
     // A symbol without a name is refused by editors.
-    if name.is_empty() { "unnamed".into() } else { name }
+    if name.is_empty() {
+        "unnamed".into()
+    } else {
+        name
+    }
 }
 
 fn kind_of(node: &Node) -> SymbolKind {
@@ -113,7 +185,11 @@ fn kind_of(node: &Node) -> SymbolKind {
 
 #[expect(deprecated, reason = "the type has a field of that kind")]
 fn nested(text: &SourceText, node: Listed, encoding: Encoding) -> DocumentSymbol {
-    let children: Vec<DocumentSymbol> = node.children.into_iter().map(|child| nested(text, child, encoding)).collect();
+    let children: Vec<DocumentSymbol> = node
+        .children
+        .into_iter()
+        .map(|child| nested(text, child, encoding))
+        .collect();
     DocumentSymbol {
         name: node.name,
         detail: (!node.detail.is_empty()).then_some(node.detail),
@@ -127,14 +203,24 @@ fn nested(text: &SourceText, node: Listed, encoding: Encoding) -> DocumentSymbol
 }
 
 #[expect(deprecated, reason = "the type has a field of that kind")]
-fn flatten(text: &SourceText, nodes: Vec<Listed>, holder: Option<&str>, uri: &Uri, encoding: Encoding, flat: &mut Vec<SymbolInformation>) {
+fn flatten(
+    text: &SourceText,
+    nodes: Vec<Listed>,
+    holder: Option<&str>,
+    uri: &Uri,
+    encoding: Encoding,
+    flat: &mut Vec<SymbolInformation>,
+) {
     for node in nodes {
         flat.push(SymbolInformation {
             name: node.name.clone(),
             kind: node.kind,
             tags: None,
             deprecated: None,
-            location: Location { uri: uri.clone(), range: lsp_range(range_of(text, node.range, encoding)) },
+            location: Location {
+                uri: uri.clone(),
+                range: lsp_range(range_of(text, node.range, encoding)),
+            },
             container_name: holder.map(str::to_owned),
         });
         flatten(text, node.children, Some(&node.name), uri, encoding, flat);

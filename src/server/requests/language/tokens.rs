@@ -9,8 +9,9 @@ use crate::server::requests::{Errand, written};
 use crate::server::state::State;
 use crate::text::{Encoding, SourceText};
 use ls_types::{
-    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta, SemanticTokensFullOptions, SemanticTokensLegend,
-    SemanticTokensOptions, SemanticTokensRangeResult, SemanticTokensServerCapabilities, Uri,
+    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
+    SemanticTokensFullOptions, SemanticTokensLegend, SemanticTokensOptions,
+    SemanticTokensRangeResult, SemanticTokensServerCapabilities, Uri,
 };
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -23,7 +24,10 @@ const LINES: usize = 10_000;
 
 pub(in crate::server) fn capabilities() -> SemanticTokensServerCapabilities {
     SemanticTokensServerCapabilities::SemanticTokensOptions(SemanticTokensOptions {
-        legend: SemanticTokensLegend { token_types: TokenKind::ALL.map(type_of).to_vec(), token_modifiers: Vec::new() },
+        legend: SemanticTokensLegend {
+            token_types: TokenKind::ALL.map(type_of).to_vec(),
+            token_modifiers: Vec::new(),
+        },
         range: Some(true),
         full: Some(SemanticTokensFullOptions::Delta { delta: Some(true) }),
         ..SemanticTokensOptions::default()
@@ -61,13 +65,22 @@ fn kind_of(kind: WordKind) -> Option<TokenKind> {
 }
 
 /// The tokens of some lines of a program, at most `limit`.
-fn tokens_of(program: &program::Document, lines: std::ops::Range<usize>, limit: usize) -> Vec<Token> {
+fn tokens_of(
+    program: &program::Document,
+    lines: std::ops::Range<usize>,
+    limit: usize,
+) -> Vec<Token> {
     let text = program.text();
     let mut found = Vec::new();
     for line in lines.start..lines.end.min(text.line_count()) {
         let begin = text.line_start(line);
         let token = |part: program::language::Part| {
-            Some(Token { line, start: part.range.start - begin, length: part.range.len(), kind: kind_of(part.kind)? })
+            Some(Token {
+                line,
+                start: part.range.start - begin,
+                length: part.range.len(),
+                kind: kind_of(part.kind)?,
+            })
         };
         found.extend(words_of(program, line).into_iter().filter_map(token));
         if found.len() >= limit {
@@ -89,7 +102,10 @@ fn all_tokens_of(program: &program::Document) -> Vec<Token> {
     let mut found = Vec::new();
     // As many at once as there may be need for.
     for some in firsts.chunks(16) {
-        let chunks: Vec<Vec<Token>> = some.par_iter().map(|&first| tokens_of(program, first..first + CHUNK, LIMIT)).collect();
+        let chunks: Vec<Vec<Token>> = some
+            .par_iter()
+            .map(|&first| tokens_of(program, first..first + CHUNK, LIMIT))
+            .collect();
         found.extend(chunks.into_iter().flatten());
         if found.len() >= LIMIT {
             found.truncate(LIMIT);
@@ -100,10 +116,19 @@ fn all_tokens_of(program: &program::Document) -> Vec<Token> {
 }
 
 /// Answers with all tokens; with what has changed since the answer `previous`, where that is known.
-pub(in crate::server) fn full(state: &mut State, uri: &Uri, previous: Option<String>, errand: Errand) {
+pub(in crate::server) fn full(
+    state: &mut State,
+    uri: &Uri,
+    previous: Option<String>,
+    errand: Errand,
+) {
     let (encoding, deltas) = (state.encoding, state.client.abilities.token_deltas);
     let memory = match state.document(uri.as_str()) {
-        Ok(open) => Memory { kept: deltas.then(|| open.tokens.clone()), stamp: open.stamp, previous },
+        Ok(open) => Memory {
+            kept: deltas.then(|| open.tokens.clone()),
+            stamp: open.stamp,
+            previous,
+        },
         Err(error) => {
             let _ = errand.reply.send(Err(error));
             return;
@@ -113,21 +138,41 @@ pub(in crate::server) fn full(state: &mut State, uri: &Uri, previous: Option<Str
         let _ = errand.reply.send(unchanged);
         return;
     }
-    if state.documents.get(uri.as_str()).and_then(program_in).is_some() {
-        whole_program(state, "Colouring", uri.as_str(), errand, move |program, _| {
-            let tokens = all_tokens_of(program);
-            memory.answer(encoded(program.text(), &tokens, encoding))
-        });
+    if state
+        .documents
+        .get(uri.as_str())
+        .and_then(program_in)
+        .is_some()
+    {
+        whole_program(
+            state,
+            "Colouring",
+            uri.as_str(),
+            errand,
+            move |program, _| {
+                let tokens = all_tokens_of(program);
+                memory.answer(encoded(program.text(), &tokens, encoding))
+            },
+        );
         return;
     }
-    whole(state, "Colouring", uri.as_str(), errand, move |text, stop| {
-        let tokens = tokens(text, LIMIT, stop)?;
-        if tokens.len() >= LIMIT {
-            tracing::warn!("only the first {LIMIT} tokens of a text of {} lines are coloured", text.line_count());
-        }
-        let data = encoded(text, &tokens, encoding);
-        (!stop()).then(|| memory.answer(data))
-    });
+    whole(
+        state,
+        "Colouring",
+        uri.as_str(),
+        errand,
+        move |text, stop| {
+            let tokens = tokens(text, LIMIT, stop)?;
+            if tokens.len() >= LIMIT {
+                tracing::warn!(
+                    "only the first {LIMIT} tokens of a text of {} lines are coloured",
+                    text.line_count()
+                );
+            }
+            let data = encoded(text, &tokens, encoding);
+            (!stop()).then(|| memory.answer(data))
+        },
+    );
 }
 
 /// What is known of earlier answers when a request comes.
@@ -143,14 +188,25 @@ impl Memory {
     fn unchanged(&self) -> Option<Result<Vec<u8>>> {
         let previous = self.previous.as_deref()?;
         let is_current = self.kept.as_ref()?.is_current(previous, self.stamp);
-        is_current.then(|| written(&SemanticTokensDelta { result_id: Some(previous.to_owned()), edits: Vec::new() }))
+        is_current.then(|| {
+            written(&SemanticTokensDelta {
+                result_id: Some(previous.to_owned()),
+                edits: Vec::new(),
+            })
+        })
     }
 
     fn answer(&self, data: Vec<SemanticToken>) -> Result<Vec<u8>> {
-        let kept = self.kept.as_ref().map(|kept| kept.replace(self.previous.as_deref(), self.stamp, &data));
+        let kept = self
+            .kept
+            .as_ref()
+            .map(|kept| kept.replace(self.previous.as_deref(), self.stamp, &data));
         let (result_id, edit) = kept.unwrap_or_default();
         match edit {
-            Some(edit) => written(&SemanticTokensDelta { result_id, edits: vec![edit] }),
+            Some(edit) => written(&SemanticTokensDelta {
+                result_id,
+                edits: vec![edit],
+            }),
             None => written(&SemanticTokens { result_id, data }),
         }
     }
@@ -158,10 +214,17 @@ impl Memory {
 
 /// A typed result that holds the token of the true one.
 pub(in crate::server) fn standing_for(token: serde_json::Value) -> SemanticTokens {
-    SemanticTokens { result_id: token.as_str().map(str::to_owned), data: Vec::new() }
+    SemanticTokens {
+        result_id: token.as_str().map(str::to_owned),
+        data: Vec::new(),
+    }
 }
 
-pub(in crate::server) fn range(state: &mut State, uri: &Uri, range: Range) -> Result<Option<SemanticTokensRangeResult>> {
+pub(in crate::server) fn range(
+    state: &mut State,
+    uri: &Uri,
+    range: Range,
+) -> Result<Option<SemanticTokensRangeResult>> {
     let encoding = state.encoding;
     let open = state.document(uri.as_str())?;
     let first = range.start.line as usize;
@@ -169,13 +232,20 @@ pub(in crate::server) fn range(state: &mut State, uri: &Uri, range: Range) -> Re
     let end = range.end.line as usize + usize::from(range.end.character > 0);
     let lines = first..end.min(first.saturating_add(LINES));
     let data = if let Some(program) = program_in(open).and_then(|document| document.program()) {
-        encoded(program.text(), &tokens_of(program, lines, usize::MAX), encoding)
+        encoded(
+            program.text(),
+            &tokens_of(program, lines, usize::MAX),
+            encoding,
+        )
     } else if let Some(dxf) = dxf_in(open) {
         encoded(dxf.text(), &tokens_in(dxf, lines), encoding)
     } else {
         return Ok(None);
     };
-    Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens { result_id: None, data })))
+    Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
+        result_id: None,
+        data,
+    })))
 }
 
 fn encoded(text: &SourceText, tokens: &[Token], encoding: Encoding) -> Vec<SemanticToken> {
@@ -197,7 +267,11 @@ fn encoded(text: &SourceText, tokens: &[Token], encoding: Encoding) -> Vec<Seman
         let delta_line = token.line - line;
         data.push(SemanticToken {
             delta_line: number(delta_line),
-            delta_start: number(if delta_line == 0 { from.saturating_sub(character) } else { from }),
+            delta_start: number(if delta_line == 0 {
+                from.saturating_sub(character)
+            } else {
+                from
+            }),
             length: number(length),
             token_type: token.kind as u32,
             token_modifiers_bitset: 0,
