@@ -48,6 +48,7 @@ pub fn schema() -> Value {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "wedm protocol",
         "description": format!("Every message of the wedm/ name space, protocol {PROTOCOL}."),
+        "protocol": PROTOCOL,
         "methods": methods,
         "commands": commands,
         "settings": settings,

@@ -1,118 +1,844 @@
-// The messages of the server's own name space, as docs/protocol.md has them.
-
-import type { CodeAction, CodeActionParams, Diagnostic, Position, Range } from "vscode-languageserver-protocol";
+// Made out of docs/protocol.schema.json by generate-protocol.mjs: edit neither by hand.
 
 /** Version of the name space that this extension speaks. */
 export const PROTOCOL = 1;
 
-/** Errors of the server that the user is shown as they are. */
-export const REFUSED = -32803;
-export const CONTENT_MODIFIED = -32801;
-export const INVALID_PARAMS = -32602;
+export type SegmentKind = "line" | "arc" | "circle";
+/**
+ * A point `[x, y]` in drawing units.
+ *
+ * @minItems 2
+ * @maxItems 2
+ */
+export type Point = [number, number];
+/**
+ * Direction in which a closed contour is travelled as it was drawn.
+ */
+export type Direction = "ccw" | "cw";
+/**
+ * What an outline is of: decides on which side of it the wire runs.
+ */
+export type Role = "opening" | "punch" | "both" | "ignore";
+/**
+ * Side of the contour on which the wire runs, where neither the entity nor its layer says.
+ */
+export type SideSetting = ("opening" | "punch") | "both" | "auto";
+export type UnitSetting = "mm" | "inch";
+/**
+ * Severity of a rule, or off.
+ */
+export type RuleSeverity = "error" | "warning" | "information" | "hint" | "off";
+export type Layout = "compact" | "aligned" | "checking";
+/**
+ * Direction in which a closed contour is cut.
+ */
+export type Direction2 = "ccw" | "cw" | "as-drawn";
+/**
+ * How the wire path rounds a convex corner of the part.
+ */
+export type Corner = "arc" | "intersection";
+/**
+ * One point, or one for each contour by the handle of an entity in it.
+ */
+export type PointSetting =
+  | [number, number]
+  | {
+      /**
+       * @minItems 2
+       * @maxItems 2
+       */
+      [k: string]: [number, number];
+    };
+/**
+ * Which contour is cut after which. What lies within a contour always comes before it: the part drops when the contour round it is cut.
+ */
+export type Order = "as-drawn" | "inside-first" | "nearest" | "as-picked";
+/**
+ * What happens between the contours of one program.
+ */
+export type Jumps = "none" | "blocks";
+/**
+ * Where the correction is applied.
+ */
+export type Compensation = "path" | "controller" | "none";
+/**
+ * G90 or G91.
+ */
+export type Coordinates = "absolute" | "incremental";
+/**
+ * Where absolute coordinates count from.
+ */
+export type Zero = "drawing" | "start";
+/**
+ * Millimetres with a decimal point, or whole micrometres without one.
+ */
+export type NumberUnit = "mm" | "um";
+/**
+ * How I and J lead to an arc's centre.
+ */
+export type CenterRule = ("start-to-center" | "center-to-start") | "absolute";
+export type LineEnd = "lf" | "crlf";
+/**
+ * What a piece of the path follows.
+ */
+export type PathSource = ("segment" | "lead-in" | "lead-out") | "corner";
+/**
+ * What a step of the program does.
+ */
+export type StepKind = ("line" | "arc" | "pause" | "end") | "rapid";
+/**
+ * The level that has the last word on the correction.
+ */
+export type CorrectionSource = "default" | "client" | "file";
+/**
+ * Side of the entity's own direction on which the wire runs.
+ */
+export type SideName = "left" | "right";
 
-/** Kind of the action that makes every safe repair. */
-export const FIX_ALL = "source.fixAll.wedm";
-
-export type Point = [x: number, y: number];
-
-export interface Segment {
+/**
+ * Params and result of each request.
+ */
+export interface Methods {
+  "wedm/inspect": {
+    params: Inspect;
+    result: Inspection;
+  };
+  "wedm/contours": {
+    params: DrawingName;
+    result: Contours;
+  };
+  "wedm/toolpath": {
+    params: OptionsOf;
+    result: Toolpath;
+  };
+  "wedm/picture": {
+    params: OptionsOf;
+    result: Picture;
+  };
+  "wedm/simulate": {
+    params: Simulate;
+    result: Simulation;
+  };
+  "wedm/locate": {
+    params: Locate;
+    result: Located | null;
+  };
+  "wedm/settings": {
+    params: DrawingName;
+    result: SettingsInForce;
+  };
+  "wedm/generate": {
+    params: Generate;
+    result: Program;
+  };
+}
+/**
+ * Params of `wedm/inspect`.
+ */
+export interface Inspect {
+  uri: string;
+  /**
+   * Only this entity.
+   */
+  handle?: string;
+}
+/**
+ * Every entity that has plane geometry, in machining order.
+ */
+export interface Inspection {
+  /**
+   * Millimetres in one drawing unit.
+   */
+  unitsToMm: number;
+  entities: InspectedEntity[];
+}
+export interface InspectedEntity {
+  handle: string;
+  /**
+   * The DXF name: LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE.
+   */
+  type: string;
+  layer: string;
+  closed: boolean;
+  /**
+   * False where it is no part of a contour: its layer is frozen or switched off, its role is `ignore`, or it is a point.
+   */
+  cut: boolean;
+  segments: InspectedSegment[];
+}
+/**
+ * Geometry of one segment in drawing units.
+ */
+export interface InspectedSegment {
+  /**
+   * Index within the entity: that of the vertex it starts in.
+   */
   index: number;
-  kind: "line" | "arc" | "circle";
+  kind: SegmentKind;
   start: Point;
   end: Point;
   length: number;
   center?: Point;
   radius?: number;
-  /** Degrees, positive counter-clockwise. */
+  /**
+   * Degrees, positive counter-clockwise.
+   */
   sweep?: number;
-  /** `ok`, or the names of the rules at fault with a comma between. */
+  /**
+   * `tan(sweep / 4)`; left out for lines and for a full turn, which has none.
+   */
+  bulge?: number;
+  /**
+   * `ok`, or the names of the rules of which an error or a warning lies here, with a comma between.
+   */
   verdict: string;
 }
-
-export interface InspectedEntity {
-  handle: string;
-  type: string;
-  layer: string;
-  closed: boolean;
-  segments: Segment[];
+export interface DrawingName {
+  uri: string;
 }
-
-export interface Inspection {
+/**
+ * Contours in machining order.
+ */
+export interface Contours {
+  /**
+   * Millimetres in one drawing unit.
+   */
   unitsToMm: number;
-  entities: InspectedEntity[];
+  contours: ContoursContour[];
 }
-
+/**
+ * A contour; `area` and `direction` are those of a closed one.
+ */
+export interface ContoursContour {
+  closed: boolean;
+  direction?: Direction;
+  role: Role;
+  /**
+   * Square drawing units, arcs counted in.
+   */
+  area?: number;
+  /**
+   * Drawing units, along the segments.
+   */
+  length: number;
+  /**
+   * Its place among the cuts, from 0: as drawn, but what lies within another contour before it. Missing for what is not cut, and in
+   * a drawing of more than 20,000 contours.
+   */
+  order?: number;
+  /**
+   * The start mark beside it: a TEXT or MTEXT "O", or a POINT.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  mark?: [number, number];
+  /**
+   * In the direction of travel.
+   */
+  segments: ContourPiece[];
+  /**
+   * Ends that lay apart within the join tolerance and were taken as one.
+   */
+  gaps: Gap[];
+}
+/**
+ * Geometry of one segment in drawing units.
+ */
+export interface ContourPiece {
+  handle: string;
+  /**
+   * Index within the entity.
+   */
+  segment: number;
+  /**
+   * Travelled against the entity's own direction.
+   */
+  reversed: boolean;
+  kind: SegmentKind;
+  start: Point;
+  end: Point;
+  length: number;
+  center?: Point;
+  radius?: number;
+  /**
+   * Degrees, positive counter-clockwise.
+   */
+  sweep?: number;
+  /**
+   * `tan(sweep / 4)`; left out for lines and for a full turn, which has none.
+   */
+  bulge?: number;
+}
+/**
+ * A gap that chaining closed.
+ */
+export interface Gap {
+  /**
+   * Index in the contour's `segments` of the one that ends here.
+   */
+  after: number;
+  /**
+   * Drawing units.
+   */
+  distance: number;
+}
+/**
+ * Params of `wedm/toolpath` and `wedm/picture`; `wedm/contours` takes the `uri` alone.
+ */
+export interface OptionsOf {
+  uri: string;
+  /**
+   * Laid over every other level of settings for this request.
+   */
+  options?: Settings;
+}
+/**
+ * One level of settings: built-in, `initializationOptions`, `workspace/configuration`, `wedm.toml`, a request's `options`, the command line.
+ */
+export interface Settings {
+  /**
+   * Wire radius + spark gap in mm: how far the wire's centre runs from the contour.
+   */
+  correction?: number;
+  /**
+   * mm. With `gap` it says the correction where that is not set; beside it, how thick the wire is.
+   */
+  wireDiameter?: number;
+  /**
+   * Spark gap in mm; see `wireDiameter`.
+   */
+  gap?: number;
+  side?: SideSetting;
+  /**
+   * Unit of drawings that do not state one.
+   */
+  units?: UnitSetting;
+  /**
+   * mm added to the correction when a fix chooses its radius.
+   */
+  margin?: number;
+  passes?: Passes;
+  /**
+   * Role by layer name.
+   */
+  layers?: {
+    [k: string]: Role;
+  };
+  /**
+   * Role by the handle of an entity: comes before those of layers and colours. Handles are those of one drawing.
+   */
+  contours?: {
+    [k: string]: Role;
+  };
+  /**
+   * Role by colour, where neither entity nor layer has one: `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255`
+   * (AutoCAD colour index) or `#rrggbb`.
+   */
+  colors?: {
+    [k: string]: Role;
+  };
+  /**
+   * How near the arcs lie to the ellipses and splines that they stand for, in mm.
+   */
+  arcFit?: number;
+  /**
+   * Severity by rule name.
+   */
+  rules?: {
+    [k: string]: RuleSeverity;
+  };
+  program?: ProgramSettings;
+  /**
+   * Profiles of ISO programs by name.
+   */
+  profiles?: {
+    [k: string]: ProfileSettings;
+  };
+}
+/**
+ * Corrections of a multi-pass cut.
+ */
+export interface Passes {
+  /**
+   * Correction of each pass in mm, falling.
+   */
+  corrections?: number[];
+}
+/**
+ * How a program is written.
+ */
+export interface ProgramSettings {
+  layout?: Layout;
+  direction?: Direction2;
+  corner?: Corner;
+  /**
+   * Thread hole in drawing units; a table by handle for several contours.
+   */
+  thread?: PointSetting;
+  /**
+   * Point on the contour in drawing units where the cut begins; a table by handle for several contours.
+   */
+  entry?: PointSetting;
+  /**
+   * Length of the lead-in in mm when no thread hole is given.
+   */
+  leadIn?: number;
+  order?: Order;
+  jumps?: Jumps;
+  compensation?: Compensation;
+  /**
+   * Digits of the controller's numbers in 3B: a block with a longer one is split. 4 to 9.
+   */
+  digits?: number;
+  /**
+   * In what the numbers of an ISO program are that does not say so (G20, G21).
+   */
+  units?: UnitSetting;
+  /**
+   * How ISO programs are written: a profile that ships, or one of `profiles`.
+   */
+  profile?: string;
+  /**
+   * Word that ends the program.
+   */
+  end?: string;
+  /**
+   * Word that pauses it, to thread the wire.
+   */
+  pause?: string;
+}
+/**
+ * What somebody has set of a profile.
+ */
+export interface ProfileSettings {
+  /**
+   * The profile whose values hold where none is set: one that ships, `generic` by default.
+   */
+  base?: string;
+  coordinates?: Coordinates;
+  zero?: Zero;
+  unit?: NumberUnit;
+  /**
+   * Digits behind the point of millimetres: 3 to 6.
+   */
+  decimals?: number;
+  center?: CenterRule;
+  /**
+   * False: a full circle is written as two halves, which every control takes.
+   */
+  fullCircles?: boolean;
+  /**
+   * True: G00 to G03 and coordinates that have not changed are left out.
+   */
+  modal?: boolean;
+  /**
+   * Between the words of a block.
+   */
+  spaces?: boolean;
+  /**
+   * Step of the N numbers; 0 for none.
+   */
+  numbers?: number;
+  lineEnd?: LineEnd;
+  /**
+   * Lines before everything. `{x}` and `{y}` are the place where the wire is threaded first.
+   */
+  begin?: string[];
+  /**
+   * Lines before each contour. `{side}` is G41 or G42; a line with it is left out where the offset is in the coordinates.
+   */
+  contourBegin?: string[];
+  /**
+   * Lines before the way out of each contour, where the control offsets it.
+   */
+  contourEnd?: string[];
+  /**
+   * Lines at which the wire is taken out or threaded, between contours.
+   */
+  pause?: string[];
+  /**
+   * Lines at the end.
+   */
+  end?: string[];
+}
+/**
+ * Wire paths in machining order.
+ */
+export interface Toolpath {
+  /**
+   * Millimetres in one drawing unit.
+   */
+  unitsToMm: number;
+  paths: ToolpathPath[];
+}
+/**
+ * The path for one contour in one pass.
+ */
+export interface ToolpathPath {
+  /**
+   * Index of the contour in the reply of `wedm/contours`.
+   */
+  contour: number;
+  /**
+   * 1-based number of the pass.
+   */
+  pass: number;
+  /**
+   * How far the path lies from the contour, drawing units.
+   */
+  correction: number;
+  threadHole: Point;
+  /**
+   * Drawing units, leads included.
+   */
+  length: number;
+  segments: PathPiece[];
+}
+/**
+ * Geometry of one segment in drawing units.
+ */
+export interface PathPiece {
+  source: PathSource;
+  handle?: string;
+  /**
+   * Index within the entity.
+   */
+  segment?: number;
+  kind: SegmentKind;
+  start: Point;
+  end: Point;
+  length: number;
+  center?: Point;
+  radius?: number;
+  /**
+   * Degrees, positive counter-clockwise.
+   */
+  sweep?: number;
+  /**
+   * `tan(sweep / 4)`; left out for lines and for a full turn, which has none.
+   */
+  bulge?: number;
+}
+/**
+ * Result of `wedm/picture`.
+ */
+export interface Picture {
+  svg: string;
+}
+/**
+ * Params of `wedm/simulate`.
+ */
+export interface Simulate {
+  uri: string;
+  /**
+   * mm/min: with it the reply says how many minutes the way takes.
+   */
+  feed?: number;
+}
+/**
+ * Result of `wedm/simulate`.
+ */
+export interface Simulation {
+  blocks: SimulatedBlock[];
+  /**
+   * From the program's start to where the machine ends, µm.
+   */
+  closure: Closure;
+  /**
+   * mm, along the lines and arcs; ways without a cut are counted in.
+   */
+  length: number;
+  /**
+   * The largest deviation of a block, µm.
+   */
+  deviation: number;
+  /**
+   * The text says where the program begins; else that is the origin.
+   */
+  startIsKnown: boolean;
+  /**
+   * Not there where nothing moves.
+   */
+  bounds?: SimulatedBounds;
+  /**
+   * At the feed that was asked for.
+   */
+  minutes?: number;
+}
+/**
+ * A block or word and what it makes the machine do; points in µm, in the program's own frame.
+ */
+export interface SimulatedBlock {
+  /**
+   * Line of the text, from 0.
+   */
+  line: number;
+  /**
+   * Number that the block carries.
+   */
+  number?: number;
+  kind: StepKind;
+  start: Point;
+  /**
+   * Where the machine stops.
+   */
+  end: Point;
+  /**
+   * Where the line or arc ends that the block means; not there where it means none.
+   */
+  idealEnd?: Point;
+  /**
+   * From the ideal end to the machine's, µm.
+   */
+  deviation: number;
+  center?: Point;
+  radius?: number;
+  /**
+   * Degrees, positive counter-clockwise.
+   */
+  sweep?: number;
+  /**
+   * Index of the contour; a pause is between two of them.
+   */
+  contour: number;
+}
+/**
+ * Drift that a controller which only counts J accumulates on the way round, µm.
+ */
+export interface Closure {
+  x: number;
+  y: number;
+}
+/**
+ * A box, µm.
+ */
+export interface SimulatedBounds {
+  min: Point;
+  max: Point;
+}
+/**
+ * Params of `wedm/locate`: either `position`, or `handle` with or without `segment`.
+ */
+export interface Locate {
+  uri: string;
+  /**
+   * A place in the text; the answer is what is written there.
+   */
+  position?: Position;
+  /**
+   * An entity; the answer is where it is written.
+   */
+  handle?: string;
+  /**
+   * One of its segments.
+   */
+  segment?: number;
+}
+/**
+ * Zero-based line and character, counted as the client and the server agreed on in the handshake.
+ */
+export interface Position {
+  line: number;
+  character: number;
+}
+/**
+ * Result of `wedm/locate`; null where nothing with geometry is written.
+ */
 export interface Located {
   handle: string;
+  /**
+   * Missing where the place is of the entity, and of none of its segments: the head of a polyline.
+   */
   segment?: number;
+  /**
+   * The number that a finding on the segment stands at, or the entity's name.
+   */
   range: Range;
 }
-
+export interface Range {
+  start: Position;
+  end: Position;
+}
+/**
+ * Result of `wedm/settings`.
+ */
 export interface SettingsInForce {
-  /** mm */
+  /**
+   * mm; what radii are held against: the largest of `corrections`.
+   */
   correction: number;
+  /**
+   * mm; that of each pass.
+   */
   corrections: number[];
-  correctionFrom: "default" | "client" | "file";
-  side: string;
+  correctionFrom: CorrectionSource;
+  side: SideSetting;
+  /**
+   * URI of the `wedm.toml` that holds for the document, where there is one.
+   */
   file?: string;
 }
-
-/** What a contour is: which side of it the wire runs on. */
-export type Role = "opening" | "punch" | "both" | "ignore";
-
-export interface Contour {
-  closed: boolean;
-  role: Role;
-  /** Drawing units. */
-  length: number;
-  segments: { handle: string; segment: number }[];
+/**
+ * Params of `wedm/generate`.
+ */
+export interface Generate {
+  uri: string;
+  /**
+   * Language of the program: `3b`, `4b` or `iso`.
+   */
+  format: string;
+  /**
+   * Only the contours that hold one of these entities.
+   */
+  handles?: string[];
+  /**
+   * Laid over every other level of settings for this request.
+   */
+  options?: Settings;
+  /**
+   * Make the program although errors stand in the drawing.
+   */
+  force?: boolean;
 }
-
-export interface Contours {
-  unitsToMm: number;
-  contours: Contour[];
-}
-
-export type Format = "3b" | "4b" | "iso";
-
-export interface Generated {
+/**
+ * Result of `wedm/generate`: a program that has been decoded again and held against its path.
+ */
+export interface Program {
   program: string;
+  /**
+   * Number of blocks.
+   */
   blocks: number;
-  /** mm */
+  /**
+   * Length of the path in mm.
+   */
   length: number;
-  /** µm */
-  closure: { x: number; y: number };
-  /** Largest distance of a decoded block from the path, µm. */
+  closure: Closure;
+  /**
+   * Largest distance in µm between the end of a decoded block and the path.
+   */
   deviation: number;
   warnings: Diagnostic[];
 }
-
-/** One block of a program as the controller runs it; points in µm. */
-export interface Block {
-  line: number;
-  number?: number;
-  kind: string;
-  start: Point;
-  end: Point;
-  deviation?: number;
+/**
+ * One finding. In a drawing's diagnostics the line is the segment's index within its entity.
+ */
+export interface Diagnostic {
+  range: Range;
+  /**
+   * 1 error, 2 warning, 3 information, 4 hint.
+   */
+  severity: number;
+  /**
+   * Name of the rule.
+   */
+  code: string;
+  codeDescription?: CodeDescription;
+  /**
+   * Always `wedm`.
+   */
+  source: string;
+  message: string;
+  /**
+   * Sent to clients that can show it.
+   */
+  relatedInformation?: RelatedInformation[];
+  data?: FindingData;
 }
-
-export interface Simulation {
-  blocks: Block[];
-  closure: { x: number; y: number };
-  /** mm */
-  length: number;
-  minutes?: number;
+export interface CodeDescription {
+  /**
+   * The rule's page of documentation.
+   */
+  href: string;
 }
-
-/** Params and result of each request. */
-export interface Methods {
-  "wedm/inspect": [{ uri: string; handle?: string }, Inspection];
-  "wedm/contours": [{ uri: string }, Contours];
-  "wedm/picture": [{ uri: string; options?: object }, { svg: string }];
-  "wedm/locate": [{ uri: string; position: Position } | { uri: string; handle: string; segment?: number }, Located | null];
-  "wedm/settings": [{ uri: string }, SettingsInForce];
-  "wedm/generate": [{ uri: string; format: Format; options?: object; force?: boolean }, Generated];
-  "textDocument/codeAction": [CodeActionParams, CodeAction[] | null];
-  "wedm/simulate": [{ uri: string }, Simulation];
+/**
+ * Another place that a finding concerns, and what is there.
+ */
+export interface RelatedInformation {
+  location: Location;
+  message: string;
+}
+export interface Location {
+  uri: string;
+  range: Range;
+}
+/**
+ * What a finding is about, in drawing units and degrees. Only what the finding has is there.
+ */
+export interface FindingData {
+  handle?: string;
+  /**
+   * Index of the segment within its entity: that of the vertex it starts in.
+   */
+  segment?: number;
+  radius?: number;
+  /**
+   * The correction that the radius is held against.
+   */
+  required?: number;
+  center?: Point;
+  start?: Point;
+  end?: Point;
+  /**
+   * Degrees, positive counter-clockwise.
+   */
+  sweep?: number;
+  side?: SideName;
+  /**
+   * What an untrimmed offset cuts beyond the wire's contour.
+   */
+  overcut?: number;
+  /**
+   * What stays when the control trims; left out where it is without bound.
+   */
+  stockLeft?: number;
+  /**
+   * 1-based number of the pass with the largest correction, where several are set.
+   */
+  pass?: number;
+  /**
+   * Why no fix is offered: `narrow-slot`, `seals-contour`, `short-segment`, `spoils`, `no-neighbour`, `not-editable` or `program`.
+   */
+  noFix?: string;
+  /**
+   * Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
+   */
+  turn?: number;
+  /**
+   * How much the wire leaves standing in a corner, or of a part that it does not reach: the distance of the farthest point from
+   * what is cut.
+   */
+  uncut?: number;
+  /**
+   * The point where two segments meet, or near which a part is lost.
+   */
+  at?: Point;
+  /**
+   * Width of a slot, distance of two ends, or deviation of chords from their circle.
+   */
+  distance?: number;
+  length?: number;
+  /**
+   * Kind of entity that is not cut.
+   */
+  kind?: string;
+  /**
+   * How many the finding stands for.
+   */
+  count?: number;
+  /**
+   * The other segment or entity, where two are concerned.
+   */
+  related?: RelatedPlace[];
+}
+/**
+ * Another place that a finding concerns.
+ */
+export interface RelatedPlace {
+  handle: string;
+  /**
+   * Index of the segment within its entity; not there where the entity as a whole is meant.
+   */
+  segment?: number;
 }

@@ -1,6 +1,6 @@
 // Moves the wire along its way: slider, play and pause, speed, and the figures of the block that is being cut.
 
-import type { Block } from "../src/protocol";
+import type { SimulatedBlock } from "../src/protocol";
 import { element, host } from "./page";
 import type { Sheet } from "./sheet";
 import { type Spot, Track } from "./track";
@@ -21,7 +21,7 @@ export class Player {
   #sheet: Sheet | null = null;
   #pieces: SVGPathElement[] = [];
   #track = new Track([]);
-  #blocks = new Map<number, Block>();
+  #blocks = new Map<number, SimulatedBlock>();
   #distance = 0;
   #playing = false;
   #last = 0;
@@ -47,7 +47,7 @@ export class Player {
   }
 
   /** A new picture: the wire stays at its share of the way where it is the same document. */
-  put(sheet: Sheet, blocks: readonly Block[], sameDocument: boolean): void {
+  put(sheet: Sheet, blocks: readonly SimulatedBlock[], sameDocument: boolean): void {
     const share = sameDocument && this.#track.length > 0 ? this.#distance / this.#track.length : 0;
     if (!sameDocument) {
       this.#pause();
@@ -192,7 +192,7 @@ export class Player {
     if (block !== undefined) {
       const [x, y] = block.end;
       facts.splice(1, 0, `to ${(x / 1000).toFixed(3)}, ${(y / 1000).toFixed(3)}`);
-      if (block.deviation !== undefined && block.deviation !== 0) {
+      if (block.deviation !== 0) {
         facts.push(`${block.deviation.toFixed(2)} µm off`);
       }
     }

@@ -1,10 +1,12 @@
 // Makes every safe repair in one undo step.
 
 import * as vscode from "vscode";
-import { type CodeAction, ResponseError, TextDocumentEdit } from "vscode-languageclient/node";
+import { type CodeAction, LSPErrorCodes, ResponseError, TextDocumentEdit } from "vscode-languageclient/node";
 import type { Front } from "../front";
-import { CONTENT_MODIFIED, FIX_ALL } from "../protocol";
 import type { Server } from "../server/server";
+
+/** Kind of the action that makes every safe repair. */
+const FIX_ALL = "source.fixAll.wedm";
 
 export async function fixAll(server: Server, front: Front): Promise<void> {
   const document = front.document;
@@ -30,7 +32,7 @@ async function repairs(server: Server, document: vscode.TextDocument): Promise<T
   try {
     actions = await server.request("textDocument/codeAction", { textDocument: { uri: document.uri.toString() }, range, context });
   } catch (error) {
-    if (error instanceof ResponseError && error.code === CONTENT_MODIFIED) {
+    if (error instanceof ResponseError && error.code === LSPErrorCodes.ContentModified) {
       return "outdated";
     }
     throw error;

@@ -1,10 +1,10 @@
 // Writes the program of a drawing to a file of the user's choice.
 
 import * as vscode from "vscode";
-import { ResponseError } from "vscode-languageclient/node";
+import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
 import type { Front } from "../front";
 import { isDrawing } from "../languages";
-import { CONTENT_MODIFIED, type Format, type Generated, REFUSED } from "../protocol";
+import type { Program } from "../protocol";
 import type { Server } from "../server/server";
 import { write } from "./output";
 import type { Pictures } from "../picture/pictures";
@@ -12,6 +12,8 @@ import type { Sides } from "./keep";
 import { choices } from "./profiles";
 import { askSides, offerToKeep } from "./sides";
 import { subject } from "./subject";
+
+type Format = "3b" | "4b" | "iso";
 
 const TITLES: Record<Format, string> = { "3b": "3B", "4b": "4B", iso: "ISO" };
 const PROBLEMS = "Show Problems";
@@ -70,7 +72,7 @@ async function chooseProfile(document: vscode.TextDocument): Promise<How | undef
 }
 
 interface Made {
-  generated: Generated;
+  generated: Program;
   how: How;
 }
 
@@ -101,11 +103,11 @@ async function answer(error: unknown, how: How, ask: () => Promise<Sides | undef
     void vscode.window.showErrorMessage(`Wire EDM: ${error instanceof Error ? error.message : String(error)}`);
     return undefined;
   }
-  if (error.code === CONTENT_MODIFIED) {
+  if (error.code === LSPErrorCodes.ContentModified) {
     return how;
   }
   const sentence = `No program: ${error.message}.`;
-  if (error.code !== REFUSED) {
+  if (error.code !== LSPErrorCodes.RequestFailed) {
     void vscode.window.showErrorMessage(sentence);
     return undefined;
   }
@@ -127,7 +129,7 @@ async function answer(error: unknown, how: How, ask: () => Promise<Sides | undef
   }
 }
 
-function told(generated: Generated, format: Format): string {
+function told(generated: Program, format: Format): string {
   const blocks = counted(generated.blocks, "block");
   const path = `wire path ${generated.length.toFixed(3)} mm, decoded again at most ${generated.deviation.toFixed(2)} µm beside it`;
   // A drift that rounds to zero has no sign.

@@ -2,7 +2,7 @@
 
 import * as vscode from "vscode";
 import type { Pictures } from "../picture/pictures";
-import type { Contour, Role } from "../protocol";
+import type { ContoursContour, Role } from "../protocol";
 import type { Server } from "../server/server";
 import { keep, type Sides } from "./keep";
 
@@ -50,7 +50,7 @@ export async function askSides(server: Server, pictures: Pictures, uri: vscode.U
   }
 }
 
-async function askEach(pictures: Pictures, unknown: readonly Contour[], unitsToMm: number): Promise<Sides | undefined> {
+async function askEach(pictures: Pictures, unknown: readonly ContoursContour[], unitsToMm: number): Promise<Sides | undefined> {
   const roles: Role[] = [];
   for (const [index, contour] of unknown.entries()) {
     pictures.mark(handlesOf([contour]));
@@ -66,7 +66,7 @@ async function askEach(pictures: Pictures, unknown: readonly Contour[], unitsToM
 }
 
 /** A contour takes the role of its first entity that has one. */
-function rolesOf(contours: readonly Contour[], roles: readonly Role[]): Record<string, Role> {
+function rolesOf(contours: readonly ContoursContour[], roles: readonly Role[]): Record<string, Role> {
   return Object.fromEntries(
     contours.flatMap((contour, index) => {
       const role = roles[index];
@@ -77,7 +77,7 @@ function rolesOf(contours: readonly Contour[], roles: readonly Role[]): Record<s
   );
 }
 
-function handlesOf(contours: readonly Contour[]): string[] {
+function handlesOf(contours: readonly ContoursContour[]): string[] {
   return [...new Set(contours.flatMap(({ segments }) => segments.map(({ handle }) => handle)))];
 }
 

@@ -1,6 +1,6 @@
 // What the picture's page and the extension say to each other.
 
-import type { Block } from "../protocol";
+import type { SimulatedBlock } from "../protocol";
 
 /** A finding as the strip below the picture shows it. */
 export interface Fault {
@@ -15,7 +15,7 @@ export interface Fault {
 }
 
 export type ToPage =
-  | { type: "picture"; uri: string; name: string; kind: "drawing" | "program"; svg: string; faults: Fault[]; blocks: Block[] }
+  | { type: "picture"; uri: string; name: string; kind: "drawing" | "program"; svg: string; faults: Fault[]; blocks: SimulatedBlock[] }
   /** What the cursor stands on in a drawing, or null. */
   | { type: "segment"; handle: string | null; segment: number | null }
   /** Entities that are asked about: marked together until the cursor moves. */

@@ -1,10 +1,10 @@
 // The live picture: made anew after each edit, and at one with the cursor in both directions.
 
 import * as vscode from "vscode";
-import { ResponseError } from "vscode-languageclient/node";
+import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
 import { isDrawing, isOurs } from "../languages";
 import { reveal, revealLine, segmentAt } from "../place";
-import { type Block, CONTENT_MODIFIED } from "../protocol";
+import type { SimulatedBlock } from "../protocol";
 import type { Server } from "../server/server";
 import { type Fault, fromPage, type FromPage, type ToPage } from "./messages";
 import { page } from "./page";
@@ -126,7 +126,7 @@ export class Picture implements vscode.Disposable {
     try {
       await this.#draw(uri);
     } catch (error) {
-      const movedOn = error instanceof ResponseError && error.code === CONTENT_MODIFIED;
+      const movedOn = error instanceof ResponseError && error.code === LSPErrorCodes.ContentModified;
       this.#stale ||= movedOn;
       if (!movedOn) {
         await this.#tell({ type: "trouble", message: error instanceof Error ? error.message : String(error) });
@@ -161,7 +161,7 @@ export class Picture implements vscode.Disposable {
   }
 
   /** Without them the wire can be played all the same; its figures are missing then. */
-  async #blocks(uri: vscode.Uri): Promise<Block[]> {
+  async #blocks(uri: vscode.Uri): Promise<SimulatedBlock[]> {
     try {
       return (await this.server.request("wedm/simulate", { uri: uri.toString() })).blocks;
     } catch {

@@ -1,11 +1,11 @@
 // The radius list as rows: an entity and the segments in it. Knows nothing of VS Code.
 
-import type { InspectedEntity, Inspection, Segment } from "../protocol";
+import type { InspectedEntity, InspectedSegment, Inspection } from "../protocol";
 
 export interface SegmentRow {
   kind: "segment";
   handle: string;
-  segment: Segment;
+  segment: InspectedSegment;
   label: string;
   description: string;
   faulty: boolean;
@@ -42,7 +42,7 @@ function entityRow(entity: InspectedEntity, toMm: number, onlyFaults: boolean): 
   };
 }
 
-function segmentRow(handle: string, segment: Segment, toMm: number): SegmentRow {
+function segmentRow(handle: string, segment: InspectedSegment, toMm: number): SegmentRow {
   const mm = (length: number): string => (length * toMm).toFixed(3);
   const what = segment.radius === undefined ? `line ${mm(segment.length)}` : `R ${mm(segment.radius)}`;
   const [x, y] = segment.start;

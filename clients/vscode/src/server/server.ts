@@ -3,7 +3,8 @@
 import type { ChildProcessWithoutNullStreams } from "node:child_process";
 import { homedir } from "node:os";
 import * as vscode from "vscode";
-import { CloseAction, ErrorAction, type LanguageClient, type LanguageClientOptions, State as ClientState } from "vscode-languageclient/node";
+import type { CodeAction, CodeActionParams, LanguageClient, LanguageClientOptions } from "vscode-languageclient/node";
+import { CloseAction, ErrorAction, State as ClientState } from "vscode-languageclient/node";
 import { selector } from "../languages";
 import type { Methods } from "../protocol";
 import { abilities } from "./abilities";
@@ -13,6 +14,11 @@ import { findServer } from "./find";
 import { misfit } from "./handshake";
 import { isProgram, launch } from "./process";
 import { forServer } from "./settings";
+
+/** What may be asked: the requests of wedm's own name space, and the one of LSP that VS Code would answer otherwise. */
+interface Requests extends Methods {
+  "textDocument/codeAction": { params: CodeActionParams; result: CodeAction[] | null };
+}
 
 /** A program that has not answered by then is no server. */
 const PATIENCE = 20_000;
@@ -182,15 +188,19 @@ export class Server implements vscode.Disposable {
   }
 
   /** Asks the server. Rejects with its error, or when it does not run. */
-  async request<M extends keyof Methods>(method: M, params: Methods[M][0], token?: vscode.CancellationToken): Promise<Methods[M][1]> {
+  async request<M extends keyof Requests>(
+    method: M,
+    params: Requests[M]["params"],
+    token?: vscode.CancellationToken,
+  ): Promise<Requests[M]["result"]> {
     const client = this.#client;
     if (client === undefined || this.#state.kind !== "running") {
       throw new Error("the wedm server is not running");
     }
     // A token that is undefined would be sent as a second param.
     return token === undefined
-      ? client.sendRequest<Methods[M][1]>(method, params)
-      : client.sendRequest<Methods[M][1]>(method, params, token);
+      ? client.sendRequest<Requests[M]["result"]>(method, params)
+      : client.sendRequest<Requests[M]["result"]>(method, params, token);
   }
 
   #options(): LanguageClientOptions {

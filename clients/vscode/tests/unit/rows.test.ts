@@ -6,12 +6,13 @@ import { rows, summary } from "../../src/radii/rows";
 const inspection: Inspection = {
   unitsToMm: 25.4,
   entities: [
-    { handle: "1", type: "LINE", layer: "0", closed: false, segments: [{ index: 0, kind: "line", start: [0, 0], end: [1, 0], length: 1, verdict: "ok" }] },
+    { handle: "1", type: "LINE", layer: "0", closed: false, cut: true, segments: [{ index: 0, kind: "line", start: [0, 0], end: [1, 0], length: 1, verdict: "ok" }] },
     {
       handle: "2A",
       type: "LWPOLYLINE",
       layer: "DIE",
       closed: true,
+      cut: true,
       segments: [
         { index: 0, kind: "line", start: [0, 0], end: [1, 0], length: 1, verdict: "ok" },
         { index: 2, kind: "arc", start: [1, 0.5], end: [0, 0], length: 0.1, radius: 0.003, sweep: 90, verdict: "small-radius,gap" },
