@@ -1,12 +1,14 @@
 //! What a rule or a reader has found, as data: the rule, the place, the numbers.
 //!
-//! The sentence that a person reads is made from it in [`crate::message`]; the protocol's form in `server`.
+//! [`sentence`] makes of it what a person reads, the server its form in the protocol.
 
 mod not_judged;
 mod program_fault;
+mod sentence;
 
 pub use not_judged::NotJudged;
 pub use program_fault::{Axis, ProgramFault};
+pub use sentence::{related, sentence, title};
 
 use crate::drawing::{DrawingEdit, EntityId, Visibility};
 use crate::geometry::Point;

@@ -4,6 +4,9 @@
 //! [`analysis`], [`rules`], [`toolpath`], [`program`], [`dxf`], [`drawing`], [`geometry`].
 //! `docs/architecture.md` is the map.
 
+#[macro_use]
+pub mod message;
+
 pub mod analysis;
 pub mod cli;
 mod disk;
@@ -12,7 +15,6 @@ pub mod drawing;
 pub mod dxf;
 pub mod finding;
 pub mod geometry;
-pub mod message;
 pub mod picture;
 pub mod program;
 pub mod protocol;

@@ -147,12 +147,7 @@ fn said(document: &mut Document) -> Vec<(&'static str, String)> {
     let (findings, _) = document.findings(usize::MAX);
     let mut said: Vec<(&str, String)> = findings
         .iter()
-        .map(|finding| {
-            (
-                finding.rule.name(),
-                wedm::message::en::sentence(finding, 1.0),
-            )
-        })
+        .map(|finding| (finding.rule.name(), wedm::finding::sentence(finding, 1.0)))
         .collect();
     said.sort();
     said.dedup();

@@ -115,7 +115,7 @@ fn every_fault_of_wrong_programs_is_found_at_its_place() {
             .findings(usize::MAX)
             .0
             .iter()
-            .map(|finding| wedm::message::en::sentence(finding, 1.0))
+            .map(|finding| wedm::finding::sentence(finding, 1.0))
             .collect();
         let found = said(&mut document);
         if found != rows {

@@ -9,7 +9,7 @@ use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, DrawingEdit, Geometry, Kind};
 use wedm::dxf;
 use wedm::finding::Edit;
-use wedm::message::en;
+use wedm::finding;
 use wedm::protocol::{Contours, Inspection};
 use wedm::settings::{Effective, Settings, SideSetting};
 use wedm_fuzz::segment_count;
@@ -40,7 +40,7 @@ fuzz_target!(|data: &[u8]| {
     let unit = document.settings().unit_of(&drawing);
     let findings = document.all_findings();
     for finding in findings.iter() {
-        assert!(!en::sentence(finding, unit.mm).is_empty());
+        assert!(!finding::sentence(finding, unit.mm).is_empty());
         let range = document.range_of(&finding.place).expect("a text");
         assert!(range.end <= length, "{finding:?}");
     }

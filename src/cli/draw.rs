@@ -5,9 +5,10 @@ use super::output::{self, styled};
 use super::{Failure, Verdict, files};
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
+use crate::finding;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Segment;
-use crate::message::{en, readable};
+use crate::message::readable;
 use crate::settings::Settings;
 use crate::toolpath::{self, Refusal, WirePath};
 use crate::{dxf, picture};
@@ -70,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             Refusal::Cancelled => "the path was given up".into(),
             Refusal::Findings(findings) => findings
                 .first()
-                .map_or_else(String::new, |finding| en::sentence(finding, unit_mm)),
+                .map_or_else(String::new, |finding| finding::sentence(finding, unit_mm)),
         };
         let reason = readable(&reason);
         output::say(&format!(
@@ -114,8 +115,13 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
         )
     };
     let findings = document.all_findings();
-    let fault =
-        |finding: &Finding| Some((line(finding)?, finding.severity, en::sentence(finding, 1.0)));
+    let fault = |finding: &Finding| {
+        Some((
+            line(finding)?,
+            finding.severity,
+            finding::sentence(finding, 1.0),
+        ))
+    };
     let faults: Vec<(usize, Severity, String)> = findings.iter().filter_map(fault).collect();
     let svg = picture::program_svg(&trace, &faults);
     output::write(arguments.output.as_deref(), svg.as_bytes())?;

@@ -6,8 +6,8 @@ use super::{Failure, output};
 use crate::disk::{self, Seen, plain};
 use crate::document::{Document, Source};
 use crate::drawing::Unit;
+use crate::finding;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::message::en;
 use crate::program::{self, Language};
 use crate::protocol::FindingData;
 use crate::settings::{Effective, Settings, SettingsError};
@@ -181,7 +181,7 @@ fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
         detail: Detail::Settings(error.message),
         related: Vec::new(),
     };
-    let message = en::sentence(&finding, Unit::MILLIMETRE.mm);
+    let message = finding::sentence(&finding, Unit::MILLIMETRE.mm);
     Row::new(
         file,
         Some(source),

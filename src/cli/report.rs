@@ -2,8 +2,9 @@
 
 use crate::document::Document;
 use crate::drawing::Unit;
+use crate::finding;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::message::{en, is_hidden, readable};
+use crate::message::{is_hidden, readable};
 use crate::protocol::FindingData;
 use crate::text::SourceText;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
@@ -100,7 +101,7 @@ pub fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     });
     let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
     let range = document.range_of(&finding.place).unwrap_or(0..0);
-    let message = en::sentence(finding, unit.mm);
+    let message = finding::sentence(finding, unit.mm);
     let mut row = Row::new(
         path,
         document.text(),
@@ -124,7 +125,7 @@ fn related(document: &Document, finding: &Finding, other: &Place) -> Option<Rela
         Place::Entity { entity } => (entity, None),
         Place::Text { .. } | Place::Document => return None,
     };
-    let message = en::related(finding, &document.drawing()?.get(entity)?.handle, segment);
+    let message = finding::related(finding, &document.drawing()?.get(entity)?.handle, segment);
     let ((line, column), (end_line, end_column)) =
         (place(text, range.start), place(text, range.end));
     Some(RelatedRow {

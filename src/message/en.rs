@@ -1,605 +1,188 @@
-//! English.
+//! English. Longer than a file should be: a language is one file.
 
-use super::readable;
-use crate::drawing::Visibility;
-use crate::finding::{
-    CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, NotJudged, ProgramFault, Side,
-    SmallRadius,
-};
-
-/// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
-///
-/// Names out of the drawing that stand in it are [`readable`].
-pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
-    readable(&said(finding, unit_mm)).into_owned()
-}
-
-fn said(finding: &Finding, unit_mm: f64) -> String {
-    match &finding.detail {
-        Detail::SmallRadius(numbers) => small_radius(numbers, unit_mm),
-        Detail::UnsupportedEntity { kind, count: 1, why } => format!("{kind} is not cut: {why}"),
-        Detail::UnsupportedEntity { kind, count, why } => format!("{kind} ({count} of them) is not cut: {why}"),
-        Detail::Unseen { layer, visibility, count } => unseen(layer, *visibility, *count),
-        Detail::SharpCorner { turn, radius, uncut, count: None } => format!(
-            "corner of {:.1}° is left with R {} mm: {} mm of it stay uncut",
-            turn.abs().to_degrees(),
-            mm(radius * unit_mm),
-            mm(uncut * unit_mm)
-        ),
-        Detail::SharpCorner { turn, radius, count: Some(1), .. } => format!(
-            "sharp corner of {:.1}°: where the wire runs inside of it, it is left with R {} mm",
-            turn.abs().to_degrees(),
-            mm(radius * unit_mm)
-        ),
-        Detail::SharpCorner { radius, count: Some(count), .. } => {
-            format!("{count} sharp corners: those that the wire runs inside of are left with R {} mm", mm(radius * unit_mm))
-        }
-        Detail::NarrowSlot { width, required } => {
-            let (width, required) = told_apart(width * unit_mm, required * unit_mm);
-            format!("slot is {width} mm wide, the wire needs {required} mm: it cannot pass without cutting the walls")
-        }
-        Detail::LostPocket { .. } => "the offset loses this part of the outline: the wire does not reach it".into(),
-        Detail::DeadEnd { uncut, .. } => {
-            format!("the wire does not reach this part of the outline: {} mm stay uncut", mm(uncut * unit_mm))
-        }
-        Detail::OffsetCollapse { required, point: true } => format!(
-            "at a correction of {} mm a point is left of the outline: the wire is threaded there and cuts nothing more",
-            mm(required * unit_mm)
-        ),
-        Detail::UnprovedPath { .. } => {
-            "no path of the wire along this contour holds its proof here: the contour is drawn finer than the path can be told".into()
-        }
-        Detail::OffsetCollapse { required, point: false } => {
-            format!("nothing is left of the outline at a correction of {} mm: the wire does not fit in", mm(required * unit_mm))
-        }
-        Detail::OpenContour { distance } => format!("contour is open: its ends are {} mm apart", mm(distance * unit_mm)),
-        Detail::Gap { distance } => format!("ends do not meet: they are {} mm apart, within the join tolerance", mm(distance * unit_mm)),
-        Detail::DuplicateEntity => "entity lies in the same place as another: the wire would cut it twice".into(),
-        Detail::Overlap { length } => format!("segment runs on another one over {} mm", mm(length * unit_mm)),
-        Detail::NotJudged(what) => not_judged(what),
-        Detail::ShortSegment { length: 0.0 } => "segment has no length: it is a point, and is not cut".into(),
-        Detail::ShortSegment { length } => format!("segment is only {} mm long: controllers stumble over it", mm(length * unit_mm)),
-        Detail::NearTangent { turn } => {
-            format!("contour kinks by {:.2}° where it looks tangent: the wire leaves a mark", turn.abs().to_degrees())
-        }
-        Detail::SelfIntersection { touches, .. } => {
-            format!(
-                "contour {} here: the wire would cut into the part",
-                if *touches { "touches itself or another" } else { "crosses itself or another" }
-            )
-        }
-        Detail::ArcAsChords { chords, radius, deviation, .. } => {
-            // Less than a nanometre is rounding.
-            let within = if deviation * unit_mm < 1e-6 { String::new() } else { format!(", within {} mm", mm(deviation * unit_mm)) };
-            format!("{chords} chords lie on one arc of R {} mm{within}: the wire leaves facets", mm(radius * unit_mm))
-        }
-        Detail::Size { size } => {
-            let what = if size * unit_mm > 1.0 { "more than any machine travels" } else { "less than a wire is thick" };
-            format!(
-                "the largest contour is {} mm long or wide, {what}: the unit is another one, or the drawing is no part",
-                mm(size * unit_mm)
-            )
-        }
-        Detail::Iso(fault) => iso(fault),
-        Detail::Program(fault) => program(fault),
-        Detail::More { count } => format!("{count} more findings are not shown"),
-        Detail::OnePass { passes, correction } => {
-            format!("the program holds one of {passes} passes, that of correction {} mm: the others are not written", mm(*correction))
-        }
-        Detail::LeadIn(sentence) | Detail::Units(sentence) | Detail::Syntax(sentence) | Detail::Settings(sentence) => sentence.clone(),
-    }
-}
-
-fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
-    let (entities, are) = if count == 1 {
-        ("1 entity".to_string(), "is")
-    } else {
-        (format!("{count} entities"), "are")
-    };
-    let of_layer = |what: &str| {
-        format!(
-            "layer {layer} is {what}: {entities} on it {are} not cut, unless the layer has a role ([layers])"
-        )
-    };
-    match visibility {
-        Visibility::Frozen => of_layer("frozen"),
-        Visibility::Off => of_layer("switched off"),
-        Visibility::Invisible => format!("{entities} {are} invisible (group code 60): not cut"),
-        Visibility::Unplotted | Visibility::Shown => {
-            format!(
-                "layer {layer} is not plotted: {entities} on it {are} cut all the same, unless its role is ignore ([layers])"
-            )
-        }
-    }
-}
-
-/// What the other place of a finding is, for a person.
-pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> String {
-    let handle = readable(handle);
-    let place = segment.map_or_else(
-        || handle.to_string(),
-        |segment| format!("{handle}, segment {segment}"),
-    );
-    match finding.detail {
-        Detail::NarrowSlot { .. } => format!("the facing wall: {place}"),
-        Detail::DeadEnd { .. } => format!("the wire comes no further than here: {place}"),
-        Detail::DuplicateEntity => format!("the same place: {place}"),
-        Detail::Overlap { .. } => format!("runs on this one: {place}"),
-        Detail::LeadIn(_) => format!("what is in the way: {place}"),
-        Detail::SelfIntersection { touches: true, .. } => format!("touches this one: {place}"),
-        Detail::SelfIntersection { .. } => format!("crosses this one: {place}"),
-        Detail::SharpCorner { .. } | Detail::NearTangent { .. } => {
-            format!("meets this one: {place}")
-        }
-        _ => format!("the other one: {place}"),
-    }
-}
-
-/// What a fix does, as the title of its code action.
-pub fn title(kind: &FixKind, unit_mm: f64) -> String {
-    match kind {
-        FixKind::Refillet {
-            radius,
-            arcs,
-            moved,
-        } => {
-            let what = if *arcs == 1 {
-                "arc".to_string()
-            } else {
-                format!("{arcs} arcs")
-            };
-            format!(
-                "Replace the {what} by one of R {} mm (moves the contour by {} mm)",
-                mm(radius * unit_mm),
-                mm(moved * unit_mm)
-            )
-        }
-        FixKind::KeepEndPoints { radius, kink } => format!(
-            "Keep the end points, change only the bulge to R {} mm (kinks the contour by {:.1}° at each end, does not reduce the overcut)",
-            mm(radius * unit_mm),
-            kink.to_degrees()
-        ),
-        FixKind::Fillet { radius } => {
-            format!("Round the corner with R {} mm", mm(radius * unit_mm))
-        }
-        FixKind::Close { length: 0.0 } => "Close the contour".into(),
-        FixKind::Close { length } => format!(
-            "Close the contour with a line of {} mm",
-            mm(length * unit_mm)
-        ),
-        FixKind::Snap { distance } => format!(
-            "Snap the ends together (moves them by {} mm)",
-            mm(distance * unit_mm)
-        ),
-        FixKind::DeleteDouble => "Delete the double".into(),
-        FixKind::DeletePoint => "Delete what has no length".into(),
-        FixKind::Merge => "Remove the short segment, its neighbours meet".into(),
-        FixKind::MakeTangent { moved } => format!(
-            "Make the segments tangent (moves the contour by {} mm)",
-            mm(moved * unit_mm)
-        ),
-        FixKind::SetJ { j } => format!("Set J to {j}"),
-        FixKind::SetEnd { axis, value } => format!("Set {} to {value}", axis.letter()),
-        FixKind::SetAxis { axis, j: None } => format!("Count G{}", axis.letter()),
-        FixKind::SetAxis { axis, j: Some(j) } => format!("Count G{}, J {j}", axis.letter()),
-        FixKind::SetMotion { name } => format!("Set Z to {name}"),
-        FixKind::SetCoordinates { at: [x, y] } => {
-            format!("Set the coordinates to where the block ends ({x:.3}, {y:.3})")
-        }
-        FixKind::FollowCoordinates => "Change the block to end at its coordinates".into(),
-        FixKind::ExchangeXAndY => "Exchange X and Y".into(),
-        FixKind::RestoreBlock { block } => {
-            format!(
-                "Write the block as {}",
-                block.split_whitespace().collect::<String>()
-            )
-        }
-        FixKind::DeleteTwin => "Delete the block, which stands twice".into(),
-        FixKind::ExchangeBlocks => "Exchange the two blocks".into(),
-        FixKind::InsertBlock { length, is_arc } => {
-            format!(
-                "Put the lost {} of {} mm in",
-                if *is_arc { "arc" } else { "line" },
-                mm(*length)
-            )
-        }
-        FixKind::InsertB => "Put the lost B back".into(),
-        FixKind::NumberWithN => "Write the block number with N".into(),
-        FixKind::PlainLetters => "Write plain letters and digits".into(),
-        FixKind::DecimalPoints => "Write decimal points".into(),
-        FixKind::ZeroForO => "Write a zero for the letter O".into(),
-        FixKind::DeleteBlock => "Delete the block".into(),
-        FixKind::SplitBlock { pieces } => format!("Split the block into {pieces} that fit"),
-        FixKind::SetNumber { number } => format!("Number the block N{number}"),
-        FixKind::Renumber { first, step: 1 } => format!("Number all blocks from N{first} on"),
-        FixKind::Renumber { first, step } => {
-            format!("Number all blocks from N{first} on, in steps of {step}")
-        }
-        FixKind::AddEnd { word } => format!("End the program with {word}"),
-        FixKind::DeleteBehindEnd => "Delete what stands behind the end".into(),
-        FixKind::CutRapid => "Cut there (G01) instead of the rapid".into(),
-        FixKind::SetCenter { radius, how } => match how {
-            CenterFix::OtherConvention => {
-                format!(
-                    "Take I and J as other controls do, and write them as this program does (R {} mm)",
-                    mm(*radius)
-                )
-            }
-            CenterFix::Sign => format!("Put the sign of I and J right (R {} mm)", mm(*radius)),
-            CenterFix::Swap => format!("Swap I and J (R {} mm)", mm(*radius)),
-            CenterFix::Nearest { moved } => format!(
-                "Move the centre by {} mm to where both ends fit (R {} mm)",
-                mm(*moved),
-                mm(*radius)
-            ),
-        },
-        FixKind::Rewrite { found, meant } if meant.is_empty() => format!("Delete {found}"),
-        FixKind::Rewrite { found, meant } if found.is_empty() => format!("Write {meant}"),
-        FixKind::Rewrite { found, meant } => format!("Write {meant} for {found}"),
-        FixKind::InsertLine { block } => format!("Insert the block {block}"),
-        FixKind::SwapSide => "Let the wire run on the other side (swap G41 and G42)".into(),
-        FixKind::OneArc { chords, radius } => format!(
-            "Replace the {chords} chords by one arc of R {} mm",
-            mm(radius * unit_mm)
-        ),
-    }
-}
-
-/// Title of the action that makes every safe fix.
-pub fn fix_all_title() -> &'static str {
-    "Fix all that can be fixed safely"
-}
-
-/// A field that keeps a contour open, as far as can be known from the contour alone.
-fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
-    if is_sure {
-        return format!("{found} keeps the contour open: with {meant} it closes");
-    }
-    format!(
-        "{found} may be wrong: the contour does not close, and with {meant} here, and nothing else changed, it would"
-    )
-}
-
-/// What is wrong in a 3B program, in µm as its blocks count, and what comes of it at the machine.
-fn program(fault: &ProgramFault) -> String {
-    match fault {
-        ProgramFault::MissingB => {
-            "a B of the block is missing: the controller takes its numbers for others, or stops"
-                .into()
-        }
-        ProgramFault::BlockNumberAsB { number } => {
-            format!(
-                "B{number} stands where the block number N{number} was meant: the controller takes {number} for X"
-            )
-        }
-        ProgramFault::LengthInJ {
-            j,
-            projection,
-            axis,
-        } => format!(
-            "J {j} is the length of the line, the controller counts its projection on {}, {projection} µm: the wire runs too far",
-            axis.letter()
-        ),
-        ProgramFault::WrongJ {
-            j: 0,
-            projection,
-            axis,
-        } => {
-            format!(
-                "J is 0, the line's projection on {} is {projection} µm: the wire does not move",
-                axis.letter()
-            )
-        }
-        ProgramFault::WrongJ {
-            j,
-            projection,
-            axis,
-        } => format!(
-            "J {j} is not the line's projection on {}, {projection} µm: the wire ends {} µm {}",
-            axis.letter(),
-            (j - projection).abs(),
-            if j > projection {
-                "too far"
-            } else {
-                "too early"
-            }
-        ),
-        ProgramFault::JKeepsOpen { j, meant, is_sure } => {
-            keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure)
-        }
-        ProgramFault::JOverTurn { j, turn } => {
-            format!(
-                "J {j} is more than one turn counts, {turn} µm: the wire goes on past its start"
-            )
-        }
-        ProgramFault::SmallerProjection {
-            axis,
-            counted,
-            larger,
-        } => {
-            format!(
-                "G{} counts the smaller projection, {counted} of {larger} units: expected G{}",
-                axis.letter(),
-                axis.other().letter()
-            )
-        }
-        ProgramFault::ArcEndAxis { axis, x, y } => format!(
-            "G{} does not fit the arc's end at ({:.0}, {:.0}) µm from its centre, where it hardly moves on {}: expected G{}",
-            axis.letter(),
-            x,
-            y,
-            axis.letter(),
-            axis.other().letter()
-        ),
-        ProgramFault::AxisKeepsOpen { axis, is_sure } => keeps_open(
-            &format!("G{}", axis.letter()),
-            &format!("G{}", axis.other().letter()),
-            *is_sure,
-        ),
-        ProgramFault::UnusualQuadrant {
-            found,
-            expected: [one, other],
-            axis,
-        } => format!(
-            "{found} is unusual for a line along {}, where {one} or {other} is written: a controller takes it as it closes the contour, \
-             or is 1 µm beside",
-            axis.letter()
-        ),
-        ProgramFault::AxisQuadrant {
-            found,
-            expected: [one, other],
-            axis,
-        } => {
-            format!(
-                "{found} contradicts a line along {}: expected {one} or {other}",
-                axis.letter()
-            )
-        }
-        ProgramFault::QuadrantKeepsOpen {
-            found,
-            meant,
-            is_sure,
-        } => keeps_open(found, meant, *is_sure),
-        ProgramFault::NumberKeepsOpen { axis, value, meant } => {
-            let letter = axis.letter();
-            keeps_open(
-                &format!("{letter} {value}"),
-                &format!("{letter} {meant}"),
-                true,
-            )
-        }
-        ProgramFault::ExchangedKeepsOpen => {
-            "X and Y stand for each other: exchanged, the contour closes".into()
-        }
-        ProgramFault::TwinKeepsOpen => {
-            "the block stands twice: without it the contour closes".into()
-        }
-        ProgramFault::ZeroBlock => "the block moves nothing: its J is 0".into(),
-        ProgramFault::ArcWithoutRadius => {
-            "the arc has no radius: X and Y are 0, its start is its centre".into()
-        }
-        ProgramFault::TooManyDigits {
-            field,
-            value,
-            digits,
-        } => {
-            format!(
-                "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops"
-            )
-        }
-        ProgramFault::NotClosed { x, y, .. } => format!(
-            "the contour does not close: it ends {} mm beside its beginning (X {:+.3}, Y {:+.3})",
-            mm(x.hypot(*y) / 1000.0),
-            x / 1000.0,
-            y / 1000.0
-        ),
-        ProgramFault::MissingEnd { word } => {
-            format!(
-                "the program has no end, expected {word}: the machine waits, or runs what it held before"
-            )
-        }
-        ProgramFault::TextAfterEnd { word } => {
-            format!("text behind {word}, which ends the program: the machine does not run it")
-        }
-        ProgramFault::DoubledNumber { number } => format!("block number N{number} stands twice"),
-        ProgramFault::NumberOutOfOrder { expected, number } => {
-            format!("block number N{number} is out of turn, expected N{expected}")
-        }
-        ProgramFault::Unnumbered { expected } => {
-            format!("the block has no number, expected N{expected}")
-        }
-        ProgramFault::PositionMismatch { x, y } => format!(
-            "the coordinates behind the block are {} mm from where it ends (X {:+.3}, Y {:+.3})",
-            mm(x.hypot(*y) / 1000.0),
-            x / 1000.0,
-            y / 1000.0
-        ),
-        ProgramFault::PathCrossesItself { at: [x, y], other } => format!(
-            "the wire crosses its own path of line {} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two",
-            other + 1
-        ),
-    }
-}
-
-/// What was left out, and why.
-fn not_judged(what: &NotJudged) -> String {
-    match what {
-        NotJudged::Pairs { count } => format!(
-            "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them"
-        ),
-        NotJudged::Crossings { blocks } => {
-            format!(
-                "so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it"
-            )
-        }
-        NotJudged::Reference {
-            copies,
-            segments,
-            most,
-        } => format!(
-            "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it"
-        ),
-        NotJudged::Calls { lines, calls } => {
-            format!(
-                "the calls of subprograms come to more than {lines} lines or {calls} calls: what would run from here on is not judged"
-            )
-        }
-    }
-}
-
-/// What is wrong in an ISO program. Its lengths are µm.
-fn iso(fault: &IsoFault) -> String {
-    let side_word = |side: &Side| match side {
-        Side::Left => "G41 lets the wire run on the left",
-        Side::Right => "G42 lets the wire run on the right",
-    };
-    match fault {
-        IsoFault::OffRadius { start, end } => {
-            let (near, far) = told_apart(start / 1e3, end / 1e3);
-            format!(
-                "the ends of the arc are not on one circle: the start is {near} mm from the centre, the end {far} mm; the control stops here, or cuts another arc"
-            )
-        }
-        IsoFault::NoRadius => "arc without a radius: I, J or R are missing, or the centre is one of its ends".into(),
-        IsoFault::Switch { on: true, arc: true } => {
-            "the correction is switched on by an arc: controls refuse that, expected a straight cut (G01) to the contour".into()
-        }
-        IsoFault::Switch { on: false, arc: true } => {
-            "the correction is switched off by an arc: controls refuse that, expected a straight cut (G01) off the contour".into()
-        }
-        IsoFault::Switch { .. } => "the correction is switched on by a rapid: expected a straight cut (G01) to the contour".into(),
-        IsoFault::RoleSide { side, punch } => {
-            let (is, wanted) = if *punch { ("outside", "opening") } else { ("inside", "punch") };
-            format!("{}, which is {is} this contour: the settings say {wanted}, the wire cuts into the part", side_word(side))
-        }
-        IsoFault::EntrySide { side } => {
-            format!("{} of this contour, but it comes to it from the other side: it crosses the part's edge", side_word(side))
-        }
-        IsoFault::NotClosed { distance } => {
-            format!("the cut does not close: it ends {} mm from where it began", mm(distance / 1e3))
-        }
-        IsoFault::NoEnd { word } => format!("the program has no end, expected {word}: the machine waits for more"),
-        IsoFault::BehindEnd => "text behind the end of the program: the machine does not run it".into(),
-        IsoFault::NumberTwice { number } => format!("block number N{number} stands twice"),
-        IsoFault::Unnumbered { expected } => format!("the block has no number, expected N{expected}"),
-        IsoFault::Foreign { word, count: 1 } => format!("{word} is a matter of the machine: it is kept, not followed"),
-        IsoFault::Foreign { word, count } => format!("{word} ({count} times) is a matter of the machine: it is kept, not followed"),
-        IsoFault::NoSubprogram { number } => format!("subprogram {number} does not stand in this text: it is not followed"),
-        IsoFault::EndlessCalls => "the subprograms call each other without end, or too deep: they are not followed further".into(),
-        IsoFault::CenterOnLine => "I and J stand beside a straight cut: the control leaves them out, or stops; an arc (G02, G03) may be meant".into(),
-        IsoFault::WordTwice { letter } => format!("{letter} stands twice in this line: the control takes the last one, or stops"),
-        IsoFault::ReversedArc { is_sure: true } => {
-            "the arc runs the wrong way round: the wire turns back on itself here, and with G02 and G03 exchanged it runs on without a corner".into()
-        }
-        IsoFault::ReversedArc { is_sure: false } => {
-            "the arc may run the wrong way round: with G02 and G03 exchanged it goes on without a corner at both ends".into()
-        }
-        IsoFault::Spur { length } => format!("the wire goes out {} mm and back on the same way", mm(length / 1e3)),
-        IsoFault::DoubledBlock { arc: true } => "the block stands twice: the wire goes round a whole circle".into(),
-        IsoFault::DoubledBlock { arc: false } => "the block stands twice: the wire is there already".into(),
-        IsoFault::NoOffset { side } => {
-            format!("{}, and nothing says by how much: expected the place of the correction, such as D1", side_word(side))
-        }
-        IsoFault::SideChange { side } => {
-            format!("{} from here on, in the middle of the cut: it crosses the contour", side_word(side))
-        }
-        IsoFault::StillOn => "the program ends with the correction on: expected G40 before the way out".into(),
-        IsoFault::NoReturn { number } => {
-            format!("subprogram {number} has no M99: the control runs on into what stands behind it, or stops")
-        }
-        IsoFault::NoCorner => "the word for a corner finds none here, or no room for it: the corner stays sharp, or the control stops".into(),
-        IsoFault::Bare { word, count: 1 } => {
-            format!("{word} has no decimal point, the other numbers have: it is read in whole units, a control may read it in its finest steps")
-        }
-        IsoFault::Bare { word, count } => format!(
-            "{word} and others ({count} in all) have no decimal point, the rest have: they are read in whole units, a control may read them in its finest steps"
-        ),
-        IsoFault::Pointed { word } => {
-            format!("{word} has a decimal point, the other numbers have none: it is read in whole units, they in the finest steps")
-        }
-        IsoFault::Places { word, usual } => {
-            format!("{word} has not {usual} decimals as all other numbers have: a digit may be lost, or one too many")
-        }
-        IsoFault::LooksLikeInches { size } => format!(
-            "the program does not say its unit (G20, G21) and is read in mm: then the part is {} mm long or wide, which speaks for inches (program.units)",
-            mm(*size)
-        ),
-        IsoFault::UnknownValue { word } => {
-            format!("{word} hangs on a place of the control's table that the program does not fill: it is not followed")
-        }
-        IsoFault::Suspect { found, meant, closes } => {
-            let comes_of_it = if *closes { "the cut does not close, and it would" } else { "the cut would be sound" };
-            match (found.is_empty(), meant.is_empty()) {
-                (true, _) => format!("{meant} may be missing here: {comes_of_it} with it, and nothing else changed"),
-                (_, true) => format!("{found} may be one too many: {comes_of_it} without it, and nothing else changed"),
-                _ => format!("{found} may be wrong: {comes_of_it} with {meant} here, and nothing else changed"),
-            }
-        }
-        IsoFault::OpenCenters => {
-            "full circles alone do not tell how I and J are meant: they are taken as leading from the start to the centre".into()
-        }
-    }
-}
-
-fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
-    let (radius, required) = told_apart(numbers.radius * unit_mm, numbers.required * unit_mm);
-    let pass = numbers
-        .pass
-        .map_or(String::new(), |pass| format!(" of pass {pass}"));
-    let mut text = format!("arc R {radius} mm is below the correction {required} mm{pass}");
-    if numbers.overcut * unit_mm >= 0.5e-6 {
-        text += &format!(
-            ": the wire overcuts the contour by {} mm",
-            mm(numbers.overcut * unit_mm)
-        );
-        if numbers.stock_left.is_finite() {
-            text += &format!(
-                ", or leaves {} mm where the control trims",
-                mm(numbers.stock_left * unit_mm)
-            );
-        }
-    } else {
-        text += ": the control loses the arc";
-    }
-    match numbers.no_fix {
-        None => {}
-        Some(NoFix::NarrowSlot) => {
-            text += &format!(
-                "; no arc of the required radius fits here (narrow-slot: the wire needs {} mm)",
-                mm(2.0 * numbers.required * unit_mm)
-            );
-        }
-        Some(NoFix::SealsContour) => {
-            text += "; the arc that fits would seal the slot (narrow-slot)"
-        }
-        Some(NoFix::ShortSegment) => {
-            text += "; the arc that fits would leave a segment too short to cut (short-segment)"
-        }
-        Some(NoFix::Spoils) => text += "; the arc that fits here would bring another fault",
-        Some(NoFix::NoNeighbour) => {
-            text += "; there is no neighbour on both sides that a larger arc could be tangent to"
-        }
-        Some(NoFix::Program) => text += "; repair it in the drawing, and make the program again",
-        Some(NoFix::NotEditable) => text += "; it is part of an entity that cannot be edited here",
-    }
-    text
-}
-
-/// A length in mm with three decimals, or with as many as its first digit needs.
-fn mm(length: f64) -> String {
-    let places = if length != 0.0 && length.abs() < 0.0005 {
-        6
-    } else {
-        3
-    };
-    format!("{length:.places$}")
-}
-
-/// Two lengths in mm with as many decimals as it takes to tell them apart, at least three.
-fn told_apart(one: f64, other: f64) -> (String, String) {
-    let digits = |places: usize| (format!("{one:.places$}"), format!("{other:.places$}"));
-    (3..=9)
-        .map(digits)
-        .find(|(a, b)| a != b)
-        .unwrap_or_else(|| digits(3))
+declare! {
+    // what is found, and how it is repaired
+    is_not_cut(kind, why) => "{kind} is not cut: {why}";
+    of_them_is_not_cut(kind, count, why) => "{kind} ({count} of them) is not cut: {why}";
+    corner_of_degrees_is_left_with_r_mm(turn, radius, uncut) => "corner of {turn:.1}° is left with R {radius} mm: {uncut} mm of it stay uncut";
+    sharp_corner_of_degrees_where(turn, radius) => "sharp corner of {turn:.1}°: where the wire runs inside of it, it is left with R {radius} mm";
+    sharp_corners_those_that_the_wire_runs(count, radius) => "{count} sharp corners: those that the wire runs inside of are left with R {radius} mm";
+    slot_is_mm_wide_the_wire_needs_mm(width, required) => "slot is {width} mm wide, the wire needs {required} mm: it cannot pass without cutting the walls";
+    the_offset_loses_this_part_of_the_outline => "the offset loses this part of the outline: the wire does not reach it";
+    the_wire_does_not_reach_this_part_of_the_outline(uncut) => "the wire does not reach this part of the outline: {uncut} mm stay uncut";
+    at_a_correction_of_mm_a_point_is_left_of_the_outline(required) => "at a correction of {required} mm a point is left of the outline: the wire is threaded there and cuts nothing more";
+    no_path_of_the_wire_along_this_contour_holds => "no path of the wire along this contour holds its proof here: the contour is drawn finer than the path can be told";
+    nothing_is_left_of_the_outline_at_a_correction_of_mm(required) => "nothing is left of the outline at a correction of {required} mm: the wire does not fit in";
+    contour_is_open_its_ends_are_mm(distance) => "contour is open: its ends are {distance} mm apart";
+    ends_do_not_meet(distance) => "ends do not meet: they are {distance} mm apart, within the join tolerance";
+    entity_lies_in_the_same_place_as_another => "entity lies in the same place as another: the wire would cut it twice";
+    segment_runs_on_another_one_over_mm(length) => "segment runs on another one over {length} mm";
+    segment_has_no_length => "segment has no length: it is a point, and is not cut";
+    segment_is_only_mm_long(length) => "segment is only {length} mm long: controllers stumble over it";
+    contour_kinks_by_degrees(turn) => "contour kinks by {turn:.2}° where it looks tangent: the wire leaves a mark";
+    contour_here_the_wire_would_cut(touches) => "contour {touches} here: the wire would cut into the part";
+    within_mm(deviation) => ", within {deviation} mm";
+    chords_lie_on_one_arc_of_r_mm(chords, radius, within) => "{chords} chords lie on one arc of R {radius} mm{within}: the wire leaves facets";
+    more_than_any_machine_travels => "more than any machine travels";
+    less_than_a_wire_is_thick => "less than a wire is thick";
+    the_largest_contour_is_mm_long_or_wide(size, what) => "the largest contour is {size} mm long or wide, {what}: the unit is another one, or the drawing is no part";
+    more_findings_are_not_shown(count) => "{count} more findings are not shown";
+    the_program_holds_one_of_passes_that_of_correction_mm(passes, correction) => "the program holds one of {passes} passes, that of correction {correction} mm: the others are not written";
+    n1_entity => "1 entity";
+    is => "is";
+    entities(count) => "{count} entities";
+    are => "are";
+    layer_is_on_it_not_cut_unless(layer, what, entities, are) => "layer {layer} is {what}: {entities} on it {are} not cut, unless the layer has a role ([layers])";
+    frozen => "frozen";
+    switched_off => "switched off";
+    invisible_group_code_60_not(entities, are) => "{entities} {are} invisible (group code 60): not cut";
+    layer_is_not_plotted_on(layer, entities, are) => "layer {layer} is not plotted: {entities} on it {are} cut all the same, unless its role is ignore ([layers])";
+    segment(handle, segment) => "{handle}, segment {segment}";
+    the_facing_wall(place) => "the facing wall: {place}";
+    the_wire_comes_no_further_than_here(place) => "the wire comes no further than here: {place}";
+    the_same_place(place) => "the same place: {place}";
+    runs_on_this_one(place) => "runs on this one: {place}";
+    what_is_in_the_way(place) => "what is in the way: {place}";
+    touches_this_one(place) => "touches this one: {place}";
+    crosses_this_one(place) => "crosses this one: {place}";
+    meets_this_one(place) => "meets this one: {place}";
+    the_other_one(place) => "the other one: {place}";
+    arc => "arc";
+    arcs(arcs) => "{arcs} arcs";
+    replace_the_by_one_of_r_mm(what, radius, moved) => "Replace the {what} by one of R {radius} mm (moves the contour by {moved} mm)";
+    keep_the_end_points_change_only_the_bulge_to_r(radius, kink) => "Keep the end points, change only the bulge to R {radius} mm (kinks the contour by {kink:.1}° at each end, does not reduce the overcut)";
+    round_the_corner_with_r_mm(radius) => "Round the corner with R {radius} mm";
+    close_the_contour => "Close the contour";
+    close_the_contour_with_a_line_of_mm(length) => "Close the contour with a line of {length} mm";
+    snap_the_ends_together_moves(distance) => "Snap the ends together (moves them by {distance} mm)";
+    delete_the_double => "Delete the double";
+    delete_what_has_no_length => "Delete what has no length";
+    remove_the_short_segment_its_neighbours_meet => "Remove the short segment, its neighbours meet";
+    make_the_segments_tangent_moves(moved) => "Make the segments tangent (moves the contour by {moved} mm)";
+    set_j_to(j) => "Set J to {j}";
+    set_to(letter, value) => "Set {letter} to {value}";
+    count_g(letter) => "Count G{letter}";
+    count_g_j(letter, j) => "Count G{letter}, J {j}";
+    set_z_to(name) => "Set Z to {name}";
+    set_the_coordinates_to_where_the_block(x, y) => "Set the coordinates to where the block ends ({x:.3}, {y:.3})";
+    change_the_block_to_end_at_its_coordinates => "Change the block to end at its coordinates";
+    exchange_x_and_y => "Exchange X and Y";
+    write_the_block_as(split_whitespace) => "Write the block as {split_whitespace}";
+    delete_the_block_which_stands_twice => "Delete the block, which stands twice";
+    exchange_the_two_blocks => "Exchange the two blocks";
+    put_the_lost_of_mm_in(is_arc, length) => "Put the lost {is_arc} of {length} mm in";
+    put_the_lost_b_back => "Put the lost B back";
+    write_the_block_number_with_n => "Write the block number with N";
+    write_plain_letters_and_digits => "Write plain letters and digits";
+    write_decimal_points => "Write decimal points";
+    write_a_zero_for_the_letter_o => "Write a zero for the letter O";
+    delete_the_block => "Delete the block";
+    split_the_block_into_that_fit(pieces) => "Split the block into {pieces} that fit";
+    number_the_block_n(number) => "Number the block N{number}";
+    number_all_blocks_from_n_on(first) => "Number all blocks from N{first} on";
+    number_all_blocks_from_n_on_in_steps(first, step) => "Number all blocks from N{first} on, in steps of {step}";
+    end_the_program_with(word) => "End the program with {word}";
+    delete_what_stands_behind_the_end => "Delete what stands behind the end";
+    cut_there_g01_instead_of_the_rapid => "Cut there (G01) instead of the rapid";
+    take_i_and_j_as_other_controls_do(radius) => "Take I and J as other controls do, and write them as this program does (R {radius} mm)";
+    put_the_sign_of_i_and_j_right(radius) => "Put the sign of I and J right (R {radius} mm)";
+    swap_i_and_j_r(radius) => "Swap I and J (R {radius} mm)";
+    move_the_centre_by_mm(moved, radius) => "Move the centre by {moved} mm to where both ends fit (R {radius} mm)";
+    delete(found) => "Delete {found}";
+    write(meant) => "Write {meant}";
+    write_for(meant, found) => "Write {meant} for {found}";
+    insert_the_block(block) => "Insert the block {block}";
+    let_the_wire_run_on_the_other_side => "Let the wire run on the other side (swap G41 and G42)";
+    replace_the_chords_by_one_arc_of_r_mm(chords, radius) => "Replace the {chords} chords by one arc of R {radius} mm";
+    fix_all_that_can_be_fixed_safely => "Fix all that can be fixed safely";
+    keeps_the_contour_open_with(found, meant) => "{found} keeps the contour open: with {meant} it closes";
+    may_be_wrong_the_contour_does(found, meant) => "{found} may be wrong: the contour does not close, and with {meant} here, and nothing else changed, it would";
+    a_b_of_the_block_is_missing_the_controller => "a B of the block is missing: the controller takes its numbers for others, or stops";
+    b_stands_where_the_block_number(number) => "B{number} stands where the block number N{number} was meant: the controller takes {number} for X";
+    j_is_the_length_of_the_line_the_controller_counts_its_projection_on(j, letter, projection) => "J {j} is the length of the line, the controller counts its projection on {letter}, {projection} µm: the wire runs too far";
+    j_is_0_the_line_projection_on_is_um(letter, projection) => "J is 0, the line's projection on {letter} is {projection} µm: the wire does not move";
+    j_is_not_the_line_projection_on_um(j, letter, projection, projection2, projection3) => "J {j} is not the line's projection on {letter}, {projection} µm: the wire ends {projection2} µm {projection3}";
+    j_is_more_than_one_turn_counts_um(j, turn) => "J {j} is more than one turn counts, {turn} µm: the wire goes on past its start";
+    g_counts_the_smaller_projection_of_units(letter, counted, larger, axis) => "G{letter} counts the smaller projection, {counted} of {larger} units: expected G{axis}";
+    g_does_not_fit_the_arc_end_at(letter, x, y, axis) => "G{letter} does not fit the arc's end at ({x:.0}, {y:.0}) µm from its centre, where it hardly moves on {letter}: expected G{axis}";
+    is_unusual_for_a_line_along(found, letter, one, other) => "{found} is unusual for a line along {letter}, where {one} or {other} is written: a controller takes it as it closes the contour, or is 1 µm beside";
+    contradicts_a_line_along_expected(found, letter, one, other) => "{found} contradicts a line along {letter}: expected {one} or {other}";
+    x_and_y_stand_for_each_other => "X and Y stand for each other: exchanged, the contour closes";
+    the_block_stands_twice_without => "the block stands twice: without it the contour closes";
+    the_block_moves_nothing_its_j => "the block moves nothing: its J is 0";
+    the_arc_has_no_radius => "the arc has no radius: X and Y are 0, its start is its centre";
+    has_more_than_the_digits_that_the_controller_takes(field, value, digits) => "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops";
+    the_contour_does_not_close(hypot, x, y) => "the contour does not close: it ends {hypot} mm beside its beginning (X {x:+.3}, Y {y:+.3})";
+    the_program_has_no_end_expected(word) => "the program has no end, expected {word}: the machine waits, or runs what it held before";
+    text_behind_which_ends_the_program(word) => "text behind {word}, which ends the program: the machine does not run it";
+    block_number_n_stands_twice(number) => "block number N{number} stands twice";
+    block_number_n_is_out_of_turn_expected_n(number, expected) => "block number N{number} is out of turn, expected N{expected}";
+    the_block_has_no_number_expected_n(expected) => "the block has no number, expected N{expected}";
+    the_coordinates_behind_the_block_are_mm_from(hypot, x, y) => "the coordinates behind the block are {hypot} mm from where it ends (X {x:+.3}, Y {y:+.3})";
+    the_wire_crosses_its_own_path_of_line_here_at(other, x, y) => "the wire crosses its own path of line {other} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two";
+    thousands_of_entities_lie_on_or_across_each(count) => "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them";
+    so_much_of_the_way_of_these_blocks_lies_on(blocks) => "so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it";
+    this_insert_draws_copies_segments_in_all_more(copies, segments, most) => "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it";
+    the_calls_of_subprograms_come_to_more_than_lines_or(lines, calls) => "the calls of subprograms come to more than {lines} lines or {calls} calls: what would run from here on is not judged";
+    g41_lets_the_wire_run_on_the_left => "G41 lets the wire run on the left";
+    g42_lets_the_wire_run_on_the_right => "G42 lets the wire run on the right";
+    the_ends_of_the_arc_are_not_on_one_circle(near, far) => "the ends of the arc are not on one circle: the start is {near} mm from the centre, the end {far} mm; the control stops here, or cuts another arc";
+    arc_without_a_radius_i => "arc without a radius: I, J or R are missing, or the centre is one of its ends";
+    the_correction_is_switched_on_by_an_arc => "the correction is switched on by an arc: controls refuse that, expected a straight cut (G01) to the contour";
+    the_correction_is_switched_off_by_an_arc => "the correction is switched off by an arc: controls refuse that, expected a straight cut (G01) off the contour";
+    the_correction_is_switched_on_by_a_rapid => "the correction is switched on by a rapid: expected a straight cut (G01) to the contour";
+    outside => "outside";
+    opening => "opening";
+    inside => "inside";
+    punch => "punch";
+    which_is_this_contour_the_settings(side, is, wanted) => "{side}, which is {is} this contour: the settings say {wanted}, the wire cuts into the part";
+    of_this_contour_but_it_comes_to_it_from_the_other_side(side) => "{side} of this contour, but it comes to it from the other side: it crosses the part's edge";
+    the_cut_does_not_close(distance) => "the cut does not close: it ends {distance} mm from where it began";
+    the_program_has_no_end_expected_the_machine(word) => "the program has no end, expected {word}: the machine waits for more";
+    text_behind_the_end_of_the_program => "text behind the end of the program: the machine does not run it";
+    is_a_matter_of_the_machine_it_is_kept_not(word) => "{word} is a matter of the machine: it is kept, not followed";
+    times_is_a_matter_of_the_machine_it_is_kept(word, count) => "{word} ({count} times) is a matter of the machine: it is kept, not followed";
+    subprogram_does_not_stand_in_this_text(number) => "subprogram {number} does not stand in this text: it is not followed";
+    the_subprograms_call_each_other_without_end_or => "the subprograms call each other without end, or too deep: they are not followed further";
+    i_and_j_stand_beside_a_straight_cut => "I and J stand beside a straight cut: the control leaves them out, or stops; an arc (G02, G03) may be meant";
+    stands_twice_in_this_line(letter) => "{letter} stands twice in this line: the control takes the last one, or stops";
+    the_arc_runs_the_wrong_way_round => "the arc runs the wrong way round: the wire turns back on itself here, and with G02 and G03 exchanged it runs on without a corner";
+    the_arc_may_run_the_wrong_way_round => "the arc may run the wrong way round: with G02 and G03 exchanged it goes on without a corner at both ends";
+    the_wire_goes_out_mm_and_back_on_the_same(length) => "the wire goes out {length} mm and back on the same way";
+    the_block_stands_twice_the_wire => "the block stands twice: the wire goes round a whole circle";
+    the_block_stands_twice_the_wire_is_there => "the block stands twice: the wire is there already";
+    and_nothing_says_by_how_much(side) => "{side}, and nothing says by how much: expected the place of the correction, such as D1";
+    from_here_on_in_the_middle_of_the_cut(side) => "{side} from here on, in the middle of the cut: it crosses the contour";
+    the_program_ends_with_the_correction_on => "the program ends with the correction on: expected G40 before the way out";
+    subprogram_has_no_m99(number) => "subprogram {number} has no M99: the control runs on into what stands behind it, or stops";
+    the_word_for_a_corner_finds_none_here_or => "the word for a corner finds none here, or no room for it: the corner stays sharp, or the control stops";
+    has_no_decimal_point_the_other_numbers_have(word) => "{word} has no decimal point, the other numbers have: it is read in whole units, a control may read it in its finest steps";
+    and_others_in_all_have_no_decimal(word, count) => "{word} and others ({count} in all) have no decimal point, the rest have: they are read in whole units, a control may read them in its finest steps";
+    has_a_decimal_point_the_other_numbers_have_none(word) => "{word} has a decimal point, the other numbers have none: it is read in whole units, they in the finest steps";
+    has_not_decimals_as_all_other_numbers(word, usual) => "{word} has not {usual} decimals as all other numbers have: a digit may be lost, or one too many";
+    the_program_does_not_say_its_unit(size) => "the program does not say its unit (G20, G21) and is read in mm: then the part is {size} mm long or wide, which speaks for inches (program.units)";
+    hangs_on_a_place_of_the_control_table_that_the_program_does(word) => "{word} hangs on a place of the control's table that the program does not fill: it is not followed";
+    the_cut_does_not_close_and_it_would => "the cut does not close, and it would";
+    the_cut_would_be_sound => "the cut would be sound";
+    may_be_missing_here_with(meant, comes_of_it) => "{meant} may be missing here: {comes_of_it} with it, and nothing else changed";
+    may_be_one_too_many(found, comes_of_it) => "{found} may be one too many: {comes_of_it} without it, and nothing else changed";
+    may_be_wrong_with_here(found, comes_of_it, meant) => "{found} may be wrong: {comes_of_it} with {meant} here, and nothing else changed";
+    full_circles_alone_do_not_tell_how => "full circles alone do not tell how I and J are meant: they are taken as leading from the start to the centre";
+    of_pass(pass) => " of pass {pass}";
+    arc_r_mm_is_below_the_correction_mm(radius, required, pass) => "arc R {radius} mm is below the correction {required} mm{pass}";
+    the_wire_overcuts_the_contour_by_mm(overcut) => ": the wire overcuts the contour by {overcut} mm";
+    or_leaves_mm_where(stock_left) => ", or leaves {stock_left} mm where the control trims";
+    the_control_loses_the_arc => ": the control loses the arc";
+    no_arc_of_the_required_radius_fits_here(required) => "; no arc of the required radius fits here (narrow-slot: the wire needs {required} mm)";
+    the_arc_that_fits_would_seal_the_slot => "; the arc that fits would seal the slot (narrow-slot)";
+    the_arc_that_fits_would_leave_a_segment_too_short => "; the arc that fits would leave a segment too short to cut (short-segment)";
+    the_arc_that_fits_here_would_bring_another_fault => "; the arc that fits here would bring another fault";
+    there_is_no_neighbour_on_both_sides_that_a_larger => "; there is no neighbour on both sides that a larger arc could be tangent to";
+    repair_it_in_the_drawing_and_make_the_program_again => "; repair it in the drawing, and make the program again";
+    it_is_part_of_an_entity_that_cannot_be_edited_here => "; it is part of an entity that cannot be edited here";
+    touches_itself_or_another => "touches itself or another";
+    crosses_itself_or_another => "crosses itself or another";
+    line => "line";
+    too_far => "too far";
+    too_early => "too early";
 }

@@ -1,8 +1,8 @@
 //! The one place where the core's findings, places and edits become the protocol's, and back.
 
 use crate::document::Document;
+use crate::finding;
 use crate::finding::{Detail, Finding, Place, Rule};
-use crate::message::en;
 use crate::protocol::{
     CodeDescription, Diagnostic, FindingData, Location, Position, Range, RelatedInformation,
     severity_number,
@@ -99,7 +99,7 @@ fn related_information(
             Place::Entity { entity } => (entity, None),
             Place::Text { .. } | Place::Document => return None,
         };
-        let message = en::related(finding, &drawing?.get(entity)?.handle, segment);
+        let message = finding::related(finding, &drawing?.get(entity)?.handle, segment);
         Some(RelatedInformation {
             location: Location {
                 uri: uri.into(),
@@ -130,7 +130,7 @@ fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> 
         code: finding.rule.name().into(),
         code_description: code_description(finding.rule),
         source: "wedm".into(),
-        message: en::sentence(finding, unit_mm),
+        message: finding::sentence(finding, unit_mm),
         related_information: None,
         data: (!data.is_empty()).then_some(data),
     }

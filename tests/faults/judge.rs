@@ -174,7 +174,7 @@ pub fn judge(group: Group, sound: &str, faulty: &Faulty) -> Option<Verdict> {
             "{}: {}: {}",
             line_of(finding).map_or(0, |line| line + 1),
             finding.rule.name(),
-            wedm::message::en::sentence(finding, 1.0)
+            wedm::finding::sentence(finding, 1.0)
         )
     };
     let left = present.text()?.as_str_lossy().into_owned();

@@ -78,7 +78,7 @@ pub(super) fn findings(document: &Document) -> Vec<String> {
                 Detail::Syntax(sentence) | Detail::Units(sentence) => sentence.clone(),
                 Detail::UnsupportedEntity { kind, count, why } => format!("{count} {kind}: {why}"),
                 Detail::Unseen { .. } | Detail::NotJudged(_) => {
-                    crate::message::en::sentence(finding, 1.0)
+                    crate::finding::sentence(finding, 1.0)
                 }
                 other => format!("{other:?}"),
             };

@@ -5,7 +5,7 @@ mod writing;
 use super::document::Document;
 use super::machine::CenterRule;
 use super::word::{Number, Token, WordFault, words};
-use crate::message::en;
+use crate::finding;
 use crate::program::trace::Kind;
 use crate::settings::{Effective, SideSetting};
 use proptest::prelude::*;
@@ -282,7 +282,10 @@ fn fixed(text: &str, rule: &str, title: &str) -> String {
         .find(|finding| finding.rule.name() == rule)
         .unwrap_or_else(|| panic!("no {rule} in {text}"));
     let fixes = document.fixes(&finding);
-    let titles: Vec<String> = fixes.iter().map(|fix| en::title(&fix.kind, 1.0)).collect();
+    let titles: Vec<String> = fixes
+        .iter()
+        .map(|fix| finding::title(&fix.kind, 1.0))
+        .collect();
     let index = titles
         .iter()
         .position(|its| its.starts_with(title))
@@ -410,7 +413,7 @@ fn a_cut_that_goes_through_itself_is_told_at_both_places() {
     let document = read(&bow("G40"));
     let finding = &document.findings()[0];
     assert_eq!(
-        en::sentence(finding, 1.0),
+        finding::sentence(finding, 1.0),
         "the wire crosses its own path of line 5 here, at (15.000, 5.000) mm from the contour's start: it cuts the part in two"
     );
     // An arc through a line; a line that only touches; the same contour twice, as in a second pass.
@@ -492,7 +495,7 @@ fn the_wire_runs_where_the_role_and_its_way_in_say() {
     let document = Document::read_with(hole("G42").into_bytes(), &opening);
     let finding = &document.findings()[0];
     assert_eq!(
-        en::sentence(finding, 1.0),
+        finding::sentence(finding, 1.0),
         "G42 lets the wire run on the right, which is outside this contour: the settings say opening, the wire cuts into the part"
     );
     let fix = &document.fixes(finding)[0];
@@ -934,7 +937,7 @@ proptest! {
     fn any_bytes_are_read(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let document = Document::read(bytes);
         let trace = document.trace();
-        prop_assert!(document.findings().iter().all(|finding| !en::sentence(finding, 1.0).is_empty()));
+        prop_assert!(document.findings().iter().all(|finding| !finding::sentence(finding, 1.0).is_empty()));
         prop_assert!(trace.steps.iter().all(|step| step.range.end <= document.text().len()));
     }
 }

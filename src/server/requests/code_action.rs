@@ -2,8 +2,8 @@
 
 use super::{Errand, SMALL, Subject, Target, run, subject_of, workspace_edit};
 use crate::document::{Document, Rounds, Source};
+use crate::finding;
 use crate::finding::{Edit, Finding, Fix, Place};
-use crate::message::en;
 use crate::program::language;
 use crate::protocol::{self, Diagnostic, FindingData, method};
 use crate::server::convert;
@@ -104,7 +104,7 @@ fn actions(document: &Document, target: &Target, params: &CodeActionParams) -> C
     }
     if wants(&params.context, FIX_ALL) && is_asked_for(&params.context) {
         let action = CodeAction {
-            title: en::fix_all_title().into(),
+            title: say!(fix_all_that_can_be_fixed_safely).into(),
             kind: Some(CodeActionKind::new(FIX_ALL)),
             ..CodeAction::default()
         };
@@ -305,7 +305,7 @@ fn quick_fix(
     unit_mm: f64,
 ) -> Option<CodeAction> {
     let action = CodeAction {
-        title: en::title(&fix.kind, unit_mm),
+        title: finding::title(&fix.kind, unit_mm),
         kind: Some(CodeActionKind::QUICKFIX),
         diagnostics: convert::lsp_diagnostic(diagnostic).map(|diagnostic| vec![diagnostic]),
         is_preferred: (first && fix.preferred).then_some(true),

@@ -2,8 +2,8 @@
 
 use super::{Errand, Subject, Task, program_of, run, subject_of, with_options, written};
 use crate::document::Document;
+use crate::finding;
 use crate::finding::{Finding, Severity};
-use crate::message::en;
 use crate::picture::{program_svg, svg};
 use crate::protocol::Picture;
 use crate::server::state::State;
@@ -105,6 +105,12 @@ fn faults(document: &Document) -> Vec<(usize, Severity, String)> {
     document
         .all_findings()
         .iter()
-        .filter_map(|finding| Some((line(finding)?, finding.severity, en::sentence(finding, 1.0))))
+        .filter_map(|finding| {
+            Some((
+                line(finding)?,
+                finding.severity,
+                finding::sentence(finding, 1.0),
+            ))
+        })
         .collect()
 }

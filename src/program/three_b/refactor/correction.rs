@@ -94,7 +94,7 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
         Refusal::Cancelled => "the path was given up".into(),
         Refusal::Findings(findings) => findings.first().map_or_else(
             || "no path can be made".into(),
-            |finding| crate::message::en::sentence(finding, 1.0),
+            |finding| crate::finding::sentence(finding, 1.0),
         ),
     })?;
     let program = write(&paths, 1.0, &settings).map_err(|error| error.to_string())?;
