@@ -4,7 +4,7 @@ use std::ops::Range;
 use wedm::document::Document;
 use wedm::drawing::{Drawing, EntityId};
 use wedm::finding::{Finding, Fix, Place};
-use wedm::program::trace::Trace;
+use wedm::program::path::Trace;
 use wedm::text::{SourceText, TextEdit};
 
 /// An input of two parts: a text, and behind the first byte 0 what is done with it. A text without such a byte stands alone, so

@@ -7,7 +7,7 @@ use super::figure::{Frame, escaped, number, path_data};
 use super::{FIGURE_TOP, MARGIN, SHEET_WIDTH, scale_to_fit, style};
 use crate::finding::Severity;
 use crate::geometry::{Arc, Bounds, Point, Segment};
-use crate::program::trace::{Kind, Step, Trace};
+use crate::program::path::{Kind, Step, Trace};
 use rustc_hash::FxHashMap;
 use std::fmt::Write;
 

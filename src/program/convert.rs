@@ -1,12 +1,10 @@
 //! A program as its cuts: what the machine runs from one stop or rapid to the next, joined, to be drawn or written in another language.
 
 use super::Format;
-use super::closing::tolerance;
 use super::document::Document;
 use super::iso;
-use super::language::passages;
+use super::path::{self, Kind, Step, tolerance};
 use super::three_b::{Item, Words, read_line};
-use super::trace::{Kind, Step};
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
@@ -71,7 +69,7 @@ pub struct Cuts {
 /// Where coordinates stand behind the blocks of a 3B program the nodes are those; else they are where the machine stops.
 pub fn cuts(document: &Document) -> Cuts {
     let trace = document.trace();
-    let passages = passages(&trace);
+    let spans = path::cuts(&trace);
     let trace = trace.as_meant();
     let sides = document.sides();
     let stated = stated_ends(document);
@@ -84,20 +82,15 @@ pub fn cuts(document: &Document) -> Cuts {
         }
     }
     let mut open = Cut::default();
-    let mut passages = passages.iter().peekable();
+    let mut spans = spans.iter().peekable();
     let mut node = trace.start;
     let mut arcs = 0_usize;
     for (index, step) in trace.steps.iter().enumerate() {
-        while passages
-            .next_if(|passage| passage.steps.end <= index)
-            .is_some()
-        {
+        while spans.next_if(|span| span.steps.end <= index).is_some() {
             cuts.close(std::mem::take(&mut open));
         }
         if !step.moves() {
-            let is_within = passages
-                .peek()
-                .is_some_and(|passage| passage.steps.contains(&index));
+            let is_within = spans.peek().is_some_and(|span| span.steps.contains(&index));
             cuts.stops.extend(is_within.then_some(step.line));
             continue;
         }
@@ -117,8 +110,8 @@ pub fn cuts(document: &Document) -> Cuts {
             cuts.ways.push([node, end]);
         } else if end != node || is_full(&ideal) {
             let side = sides.get(index).copied().flatten();
-            if let Some(passage) = passages.peek() {
-                let contour = passage.contour_steps();
+            if let Some(span) = spans.peek() {
+                let contour = span.contour_steps();
                 if contour.contains(&index) {
                     let is_first = open.segments.len() == open.lead_in;
                     if !is_first && side != open.side {
@@ -126,9 +119,9 @@ pub fn cuts(document: &Document) -> Cuts {
                     }
                     open.side = if is_first { side } else { open.side.or(side) };
                 }
-                open.closed = passage.closed;
-                open.lead_in += usize::from(index < passage.contour_steps().start);
-                open.lead_out += usize::from(index >= passage.contour_steps().end);
+                open.closed = span.closed;
+                open.lead_in += usize::from(index < span.contour_steps().start);
+                open.lead_out += usize::from(index >= span.contour_steps().end);
             }
             open.segments.push(between(&ideal, step, node, end));
         }

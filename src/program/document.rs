@@ -1,7 +1,7 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
-use super::closing::Writing;
-use super::trace::{Chain, Kind, Step, Trace};
+use super::path::Writing;
+use super::path::{Chain, Kind, Step, Trace};
 use super::{gate, iso, three_b};
 use crate::finding::{Finding, Fix, Severity, Side};
 use crate::geometry::Point;

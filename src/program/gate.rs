@@ -5,7 +5,7 @@
 //! goes, nothing can be spoilt. Where a contour stays open, the fault has to say by itself what was meant, and the gap may not grow.
 
 use super::Document;
-use super::trace::Kind;
+use super::path::Kind;
 use crate::finding::{Detail, Finding, Fix, FixKind, IsoFault, ProgramFault, Rule, Severity};
 use crate::geometry::{Arc, Segment};
 use crate::text::TextEdit;

@@ -3,7 +3,6 @@
 //! [`Document`] is a program as the faces hold it, whatever its language; [`trace`] is what every language comes to: where the
 //! machine goes. What a language alone knows stands in its own folder.
 
-pub mod closing;
 pub mod convert;
 mod document;
 mod edits;
@@ -12,9 +11,9 @@ mod gate;
 pub mod grid;
 pub mod iso;
 pub mod language;
-pub mod passes;
+pub mod path;
 pub mod three_b;
-pub mod trace;
+
 pub mod write;
 
 pub use document::{Document, Language};

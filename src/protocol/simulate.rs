@@ -3,7 +3,7 @@
 use super::drawing::Point;
 use super::generate::Closure;
 use crate::geometry::{Point as CorePoint, Segment};
-use crate::program::trace::{Kind, Step, Trace};
+use crate::program::path::{Kind, Step, Trace};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use wedm::document::{Document, ROUNDS, Source};
 use wedm::finding::{Edit, Finding, Place, Severity, Side};
 use wedm::geometry::{Segment, Vector};
-use wedm::program::{self, trace::Kind};
+use wedm::program::{self, path::Kind};
 use wedm::settings::Effective;
 use wedm::text::{TextEdit, edited};
 
@@ -73,7 +73,7 @@ fn acts(document: &Document) -> Vec<Act> {
     };
     let sides = program.sides();
     let steps = program.trace().steps;
-    let act = |(index, step): (usize, &program::trace::Step)| {
+    let act = |(index, step): (usize, &program::path::Step)| {
         let by = step.meant();
         let bend = match &step.ideal {
             Some(segment @ Segment::Arc(arc)) => {

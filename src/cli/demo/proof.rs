@@ -76,7 +76,7 @@ pub fn of(
         proof.open_um = (motion.segment.end() - Point::from(path.thread_hole)).norm() * 1e3;
     }
     // A controller that counts J may drift on the way round.
-    let allowed_um = crate::program::closing::tolerance(arcs);
+    let allowed_um = crate::program::path::tolerance(arcs);
     let near = proof.from_path_um <= allowed_um && proof.open_um <= allowed_um;
     holds(near, || {
         format!(

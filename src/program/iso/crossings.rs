@@ -6,10 +6,11 @@ use super::machine::Place;
 use super::stretch::Stretch;
 use crate::finding::{Detail, Finding, NotJudged, Place as Where, ProgramFault, Rule, Severity};
 use crate::geometry::Segment;
-use crate::program::passes::{passes, pieces_of};
-use crate::program::three_b::{
-    Displacement, Found, Known, PathStretch, crossings_of_passes, search,
+use crate::program::path::crossings::{
+    Found, Known, Stretch as PathStretch, crossings_of_passes, search,
 };
+use crate::program::path::{passes, pieces_of};
+use crate::program::three_b::Displacement;
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -6,8 +6,7 @@ use super::document::{Document, Placed};
 use super::machine::{Place, micrometres};
 use super::stretch::{Run, SEVERAL, changes_side};
 use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::closing::{self, HeldWay, Node, Way, Writing, closing, is_tab};
-use crate::program::passes::pieces_of;
+use crate::program::path::{self, HeldWay, Node, Way, Writing, closing, is_tab, pieces_of};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -93,7 +92,7 @@ impl Cut {
 
     /// How far it may end beside a place and still end in it, µm.
     pub fn tolerance(&self, document: &Document) -> f64 {
-        closing::tolerance(self.run.arcs as usize).max(document.reading().writing().slack)
+        path::tolerance(self.run.arcs as usize).max(document.reading().writing().slack)
     }
 
     /// Whether it closes; its ends alone tell that for nearly all cuts.

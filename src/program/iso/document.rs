@@ -11,7 +11,7 @@ use super::repair::{Repairs, repairs};
 use super::stretch::{Hears, Pathless, Run, Stretch};
 use crate::finding::{Finding, Fix, Side};
 use crate::geometry::Segment;
-use crate::program::trace::{Kind, Step, Trace};
+use crate::program::path::{Kind, Step, Trace};
 use crate::settings::{Effective, Profile, UnitSetting, shipped_profiles};
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;

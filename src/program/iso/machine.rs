@@ -8,7 +8,7 @@ use super::corner::bend_about;
 use super::word::Number;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
-use crate::program::closing::Writing;
+use crate::program::path::Writing;
 pub use crate::settings::CenterRule;
 
 /// Nanometres in a micrometre.

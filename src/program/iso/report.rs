@@ -13,7 +13,7 @@ use crate::finding::{
     Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
 };
 use crate::geometry::{Arc, cross};
-use crate::program::closing::tolerance;
+use crate::program::path::tolerance;
 use crate::settings::{Compensation, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};

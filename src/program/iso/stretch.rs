@@ -12,8 +12,8 @@ use super::shape;
 use super::word::{Term, WordFault};
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment};
-use crate::program::closing::{HeldWay, Node, closing};
-use crate::program::three_b::near_each_other;
+use crate::program::path::near_each_other;
+use crate::program::path::{HeldWay, Node, closing};
 use std::ops::Range;
 
 /// A fault of one line. Places are bytes from the start of the stretch.

@@ -6,7 +6,7 @@ use super::document::Document;
 use super::machine::CenterRule;
 use super::word::{Number, Token, WordFault, words};
 use crate::finding;
-use crate::program::trace::Kind;
+use crate::program::path::Kind;
 use crate::settings::{Effective, SideSetting};
 use proptest::prelude::*;
 

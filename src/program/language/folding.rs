@@ -1,8 +1,8 @@
 //! What can be folded: contours, and comments of several lines.
 
-use super::passages::passages;
 use super::words::{WordKind, words_of};
 use crate::program::Document;
+use crate::program::path::cuts;
 
 /// Lines that fold behind their first, both ends included.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,8 +16,8 @@ pub struct Fold {
 pub fn folds(document: &Document, limit: usize) -> Vec<Fold> {
     let trace = document.trace();
     let mut found: Vec<Fold> = Vec::new();
-    for passage in passages(&trace) {
-        let steps = trace.steps.get(passage.steps).unwrap_or_default();
+    for cut in cuts(&trace) {
+        let steps = trace.steps.get(cut.steps).unwrap_or_default();
         let lines = || steps.iter().map(|step| step.line);
         if let (Some(first), Some(last)) = (lines().min(), lines().max())
             && last > first

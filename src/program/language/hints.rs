@@ -4,7 +4,7 @@ use super::sentences::{degrees, mm};
 use super::words::{WordKind, words_of};
 use crate::geometry::Segment;
 use crate::program::Document;
-use crate::program::trace::Kind;
+use crate::program::path::Kind;
 use std::ops::Range;
 
 /// Lines of the text that one question looks at; what lies behind them gets no hint.

@@ -3,7 +3,7 @@
 use super::sentences::{degrees, mm, point};
 use super::words::words_of;
 use crate::geometry::Segment;
-use crate::program::trace::{Kind, Step};
+use crate::program::path::{Kind, Step};
 use crate::program::{Document, iso, three_b};
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! From one end of something to the other: pause to pause, way in to way out, first block of a contour to its last.
 
-use super::passages::passage_at;
-use crate::program::trace::Kind;
+use crate::program::path::Kind;
+use crate::program::path::cut_at;
 use crate::program::{Document, iso};
 use std::ops::Range;
 
@@ -50,22 +50,18 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
         Kind::Pause => document.stop_behind(own.range.start)?,
         Kind::End => document.first_move()?,
         Kind::Line | Kind::Arc | Kind::Rapid => {
-            let (chain, passage, index) = passage_at(document, own.range.start)?;
-            let contour = passage.contour_steps();
-            let lead_out = contour.end..passage.steps.end;
+            let (chain, cut, index) = cut_at(document, own.range.start)?;
+            let contour = cut.contour_steps();
+            let lead_out = contour.end..cut.steps.end;
             let target = if index < contour.start {
                 // The n-th block of the way in has the n-th from the end of the way out.
                 if lead_out.is_empty() {
                     contour.start
                 } else {
-                    passage
-                        .steps
-                        .end
-                        .checked_sub(1 + index)?
-                        .max(lead_out.start)
+                    cut.steps.end.checked_sub(1 + index)?.max(lead_out.start)
                 }
             } else if lead_out.contains(&index) {
-                (passage.steps.end - 1 - index).min(contour.start.saturating_sub(1))
+                (cut.steps.end - 1 - index).min(contour.start.saturating_sub(1))
             } else if index + 1 == contour.end {
                 contour.start
             } else {

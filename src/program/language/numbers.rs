@@ -1,7 +1,7 @@
 //! Block numbers: renamed, counted anew, left out.
 
 use super::words::{WordKind, words_of};
-use crate::program::trace::Step;
+use crate::program::path::Step;
 use crate::program::{Document, iso};
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! What an editor selects step by step: the word, the block, its line, the contour, everything between two pauses, everything.
 
-use super::passages::passage_at;
 use super::words::words_of;
 use crate::program::Document;
+use crate::program::path::cut_at;
 use std::ops::Range;
 
 /// Ranges of bytes around a byte, each within the next.
@@ -34,9 +34,9 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     }
     wider(text.line_range(line));
     let step = touching.or_else(|| own.iter().find(|step| step.line == line));
-    if let Some((chain, passage, index)) = step
+    if let Some((chain, cut, index)) = step
         .filter(|step| step.moves())
-        .and_then(|step| passage_at(document, step.range.start))
+        .and_then(|step| cut_at(document, step.range.start))
     {
         let lines = |steps: Range<usize>| {
             let (first, last) = (
@@ -45,12 +45,10 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
             );
             Some(text.line_start(first.line)..text.line_range(last.line).end)
         };
-        if passage.contour_steps().contains(&index) {
-            lines(passage.contour_steps())
-                .into_iter()
-                .for_each(&mut wider);
+        if cut.contour_steps().contains(&index) {
+            lines(cut.contour_steps()).into_iter().for_each(&mut wider);
         }
-        lines(passage.steps).into_iter().for_each(&mut wider);
+        lines(cut.steps).into_iter().for_each(&mut wider);
     }
     wider(0..text.len());
     if found.is_empty() {

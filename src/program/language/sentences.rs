@@ -1,7 +1,7 @@
 //! Points, lengths and steps in the words of the shop.
 
 use crate::geometry::{Point, Segment};
-use crate::program::trace::{Kind, Step};
+use crate::program::path::{Kind, Step};
 
 /// µm as mm with three decimals: what a machine on a µm grid can stand on.
 pub(super) fn mm(micrometres: f64) -> String {

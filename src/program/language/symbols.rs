@@ -1,10 +1,10 @@
 //! The program as a tree: contours between pauses, each with its way in, its blocks and its way out.
 
-use super::passages::{Passage, passages};
 use super::sentences::{mm, point, step as step_in_words};
 use crate::geometry::Segment;
 use crate::program::Document;
-use crate::program::trace::{Kind, Step, Trace};
+use crate::program::path::{Cut, cuts};
+use crate::program::path::{Kind, Step, Trace};
 use std::ops::Range;
 
 /// With more blocks than this in one contour, runs of them are listed and not each by itself.
@@ -12,7 +12,7 @@ const LISTED: usize = 2_000;
 /// Runs that stand for many.
 const RUNS: usize = 500;
 /// Contours, pauses and ways that are listed each by itself.
-const LISTED_PASSAGES: usize = 5_000;
+const LISTED_CUTS: usize = 5_000;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SymbolKind {
@@ -54,18 +54,15 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
         first..last.max(first)
     };
     let mut found = Vec::new();
-    let passages = passages(&trace);
+    let cuts = cuts(&trace);
     let mut ordinal = 0;
     let (mut next, mut index) = (0, 0);
-    while index < trace.steps.len() && found.len() < LISTED_PASSAGES {
-        match passages
-            .get(next)
-            .filter(|passage| passage.steps.start == index)
-        {
-            Some(passage) => {
-                ordinal += usize::from(!passage.is_way);
-                found.push(of_passage(&trace, passage, ordinal, &whole_lines));
-                index = passage.steps.end;
+    while index < trace.steps.len() && found.len() < LISTED_CUTS {
+        match cuts.get(next).filter(|cut| cut.steps.start == index) {
+            Some(cut) => {
+                ordinal += usize::from(!cut.is_way);
+                found.push(of_cut(&trace, cut, ordinal, &whole_lines));
+                index = cut.steps.end;
                 next += 1;
             }
             None => {
@@ -84,27 +81,27 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
     found
 }
 
-fn of_passage(
+fn of_cut(
     trace: &Trace,
-    passage: &Passage,
+    cut: &Cut,
     ordinal: usize,
     whole_lines: &dyn Fn(&[Step]) -> Range<usize>,
 ) -> Symbol {
-    let steps = trace.steps.get(passage.steps.clone()).unwrap_or_default();
-    let contour = trace.steps.get(passage.contour_steps()).unwrap_or_default();
+    let steps = trace.steps.get(cut.steps.clone()).unwrap_or_default();
+    let contour = trace.steps.get(cut.contour_steps()).unwrap_or_default();
     let length: f64 = contour
         .iter()
         .filter_map(|step| step.ideal.as_ref())
         .map(Segment::length)
         .sum();
-    let (kind, name, mut detail) = if passage.is_way {
+    let (kind, name, mut detail) = if cut.is_way {
         let name = format!(
             "way to {}",
             point(steps.last().map_or(trace.start, |step| step.end))
         );
         (SymbolKind::Way, name, String::new())
     } else {
-        let state = if passage.closed { "closed" } else { "open" };
+        let state = if cut.closed { "closed" } else { "open" };
         let blocks = if contour.len() == 1 {
             "1 block".into()
         } else {
@@ -116,13 +113,13 @@ fn of_passage(
             format!("{state}, {blocks}, {} mm", mm(length)),
         )
     };
-    if let (true, Some(turn)) = (passage.closed, direction(contour)) {
+    if let (true, Some(turn)) = (cut.closed, direction(contour)) {
         detail = format!("{detail}, {turn}");
     }
     let range = whole_lines(steps);
     let (lead_in, lead_out) = (
-        &steps[..passage.lead_in.min(steps.len())],
-        &steps[steps.len() - passage.lead_out.min(steps.len())..],
+        &steps[..cut.lead_in.min(steps.len())],
+        &steps[steps.len() - cut.lead_out.min(steps.len())..],
     );
     let mut children = Vec::new();
     for (name, part) in [("lead-in", lead_in), ("", contour), ("lead-out", lead_out)] {

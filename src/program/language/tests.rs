@@ -76,17 +76,10 @@ fn hover_says_where_a_block_goes_and_what_its_words_mean() {
 fn contours_are_found_with_their_ways_in_and_out() {
     #[track_caller]
     fn check(text: &str, expected: &[(usize, usize, usize, bool)]) {
-        let found = passages(&read(text).trace());
+        let found = crate::program::path::cuts(&read(text).trace());
         let found: Vec<_> = found
             .iter()
-            .map(|passage| {
-                (
-                    passage.steps.len(),
-                    passage.lead_in,
-                    passage.lead_out,
-                    passage.closed,
-                )
-            })
+            .map(|cut| (cut.steps.len(), cut.lead_in, cut.lead_out, cut.closed))
             .collect();
         assert_eq!(found, expected, "{text}");
     }

@@ -13,11 +13,11 @@ mod way;
 
 pub use walk::PlacedBlock;
 
-use super::crossings::Known;
 use super::parse::Words;
 use super::rules::Limits;
 use super::run::{Entry, LINES, Run, Sum};
 use crate::finding::Finding;
+use crate::program::path::crossings::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
 use rayon::prelude::*;
@@ -246,8 +246,8 @@ fn run_of(text: &SourceText, lines: Range<usize>, words: &Words<'_>, limits: &Li
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::program::language::{Passage, passage_at, passages};
-    use crate::program::trace::Step;
+    use crate::program::path::Step;
+    use crate::program::path::{Cut, cut_at, cuts};
     use proptest::prelude::*;
 
     /// Findings in one order, whatever runs the lines lie in.
@@ -342,11 +342,11 @@ mod tests {
             );
             let document = crate::program::Document::ThreeB(Document::read(format!("{text}{long}D\n{text}").into_bytes()));
             let trace = document.trace();
-            let all = passages(&trace);
+            let all = cuts(&trace);
             for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 13 == 0) {
-                let whole = all.iter().find(|passage| passage.steps.contains(&index)).cloned();
-                let Some(whole) = whole else { return Err(TestCaseError::fail("no passage")) };
-                let Some((chain, passage, nth)) = passage_at(&document, step.range.start) else {
+                let whole = all.iter().find(|cut| cut.steps.contains(&index)).cloned();
+                let Some(whole) = whole else { return Err(TestCaseError::fail("no cut")) };
+                let Some((chain, cut, nth)) = cut_at(&document, step.range.start) else {
                     return Err(TestCaseError::fail("no chain"));
                 };
                 // A pause before a tab is a step of the trace and none of the chain.
@@ -355,7 +355,7 @@ mod tests {
                 prop_assert_eq!(chain.step(nth).is_none_or(|held| held == step), true);
                 let (steps, own) = (whole.steps.clone(), whole.contour_steps());
                 let (lead_in, lead_out) = (moves(steps.start..own.start), moves(own.end..steps.end));
-                prop_assert_eq!(passage, Passage { steps: 0..moves(steps), lead_in, lead_out, ..whole });
+                prop_assert_eq!(cut, Cut { steps: 0..moves(steps), lead_in, lead_out, ..whole });
             }
         }
 

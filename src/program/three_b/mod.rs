@@ -3,7 +3,6 @@
 //! Everything in here counts in micrometres on the program's grid; only [`write()`] knows of a drawing's unit.
 
 mod block;
-mod crossings;
 mod decode;
 mod document;
 mod encode;
@@ -24,10 +23,6 @@ mod tests;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
-pub(in crate::program) use crossings::{
-    Found, Known, Stretch as PathStretch, crossings_of_passes, search,
-};
-pub(in crate::program) use rules::path_crosses_itself::near_each_other;
 pub(in crate::program) use run::Move as Displacement;
 
 pub use block::{Block, CountingAxis, Motion, Node, PartArc, Quadrant};

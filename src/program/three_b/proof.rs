@@ -5,8 +5,8 @@ use super::decode::decode;
 use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, alternatives, point_of};
 use super::parse::{Item, Words, read_line};
 use crate::geometry::Vector;
-use crate::program::closing::tolerance;
 use crate::program::grid::largest_distance;
+use crate::program::path::tolerance;
 
 /// What the blocks of one program have shown so far.
 #[derive(Clone, Debug, Default)]

@@ -7,11 +7,11 @@ use super::decode::meant;
 use super::machine::travel;
 use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
 use super::rules::not_closed::is_closed;
-use super::rules::path_crosses_itself::near_each_other;
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
 use crate::finding::{Detail, ProgramFault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
+use crate::program::path::near_each_other;
 use std::ops::Range;
 
 /// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.

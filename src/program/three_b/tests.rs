@@ -753,7 +753,7 @@ fn equal_arcs_in_a_row_do_not_drift() {
         let program = written(path);
         let drift = program.closure[0].hypot(program.closure[1]);
         assert!(
-            drift <= crate::program::closing::tolerance(count),
+            drift <= crate::program::path::tolerance(count),
             "{pitch} {bulge}: {drift}"
         );
         assert!(
@@ -817,7 +817,7 @@ proptest! {
         }
         let drift = at - begin;
         prop_assert!((drift - Vector::from(program.closure)).norm() < 1e-6 * (1.0 + begin.coords.norm() * 1e-6));
-        prop_assert!(drift.norm() <= crate::program::closing::tolerance(arcs));
+        prop_assert!(drift.norm() <= crate::program::path::tolerance(arcs));
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use crate::finding::{Detail, Place as Where, Severity};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::{Course, Move};
-use crate::program::language::{Passage, passages};
-use crate::program::trace::Kind;
+use crate::program::path::Kind;
+use crate::program::path::{Cut, cuts};
 use crate::settings::Effective;
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ pub struct Sheet<'a> {
 pub struct Content {
     pub rows: Vec<Row>,
     /// Their steps are rows.
-    pub contours: Vec<Passage>,
+    pub contours: Vec<Cut>,
     /// The rows before which the program pauses.
     pauses: Vec<usize>,
 }
@@ -62,15 +62,15 @@ impl<'a> Sheet<'a> {
     }
 
     /// The contours that the selection touches; all, where it touches none.
-    pub fn selected_contours<'c>(&self, content: &'c Content) -> Vec<&'c Passage> {
+    pub fn selected_contours<'c>(&self, content: &'c Content) -> Vec<&'c Cut> {
         let lines = self.selected_lines();
         let cut = || content.contours.iter().filter(|contour| !contour.is_way);
-        let touched = |contour: &&Passage| {
+        let touched = |contour: &&Cut| {
             content.rows[contour.steps.clone()]
                 .iter()
                 .any(|row| lines.contains(&row.line))
         };
-        let chosen: Vec<&Passage> = cut().filter(touched).collect();
+        let chosen: Vec<&Cut> = cut().filter(touched).collect();
         if chosen.is_empty() {
             cut().collect()
         } else {
@@ -81,7 +81,7 @@ impl<'a> Sheet<'a> {
 
 impl Content {
     /// The rows of a closed contour whose ends are one place; the error says why there are none.
-    pub fn closed(&self, contour: &Passage) -> Result<Range<usize>, String> {
+    pub fn closed(&self, contour: &Cut) -> Result<Range<usize>, String> {
         let own = contour.contour_steps();
         let Some(first) = self.rows.get(own.start).filter(|_| !own.is_empty()) else {
             return Err("the contour has no block".into());
@@ -162,7 +162,7 @@ fn content(document: &Document) -> Result<Content, String> {
     if rows.is_empty() {
         return Err("the program moves nothing".into());
     }
-    // Passages count all steps, rows only those that move.
+    // Cuts count all steps, rows only those that move.
     let trace = document.trace();
     let mut row_of = Vec::with_capacity(trace.steps.len() + 1);
     let mut row = 0;
@@ -172,17 +172,14 @@ fn content(document: &Document) -> Result<Content, String> {
     }
     row_of.push(row);
     let at = |step: usize| row_of.get(step).copied().unwrap_or(row);
-    let contours = passages(&trace).into_iter().map(|passage| {
-        let (steps, own) = (
-            at(passage.steps.start)..at(passage.steps.end),
-            passage.contour_steps(),
-        );
+    let contours = cuts(&trace).into_iter().map(|cut| {
+        let (steps, own) = (at(cut.steps.start)..at(cut.steps.end), cut.contour_steps());
         let (lead_in, lead_out) = (at(own.start) - steps.start, steps.end - at(own.end));
-        Passage {
+        Cut {
             steps,
             lead_in,
             lead_out,
-            ..passage
+            ..cut
         }
     });
     let contours = contours.collect();

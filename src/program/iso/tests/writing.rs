@@ -4,7 +4,7 @@ use crate::drawing::EntityId;
 use crate::finding::{Severity, Side};
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::iso::{Document, write};
-use crate::program::trace::Kind;
+use crate::program::path::Kind;
 use crate::program::{ProofError, ProvedProgram};
 use crate::settings::{CenterRule, Effective, Jumps, from_toml, shipped_profiles};
 use crate::toolpath::{PathSegment, Source, WirePath};

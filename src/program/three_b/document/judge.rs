@@ -1,17 +1,16 @@
 //! What is wrong with a program as a whole: contours that do not close or cross themselves, its end, texts, numbers, places.
 
-use super::super::crossings::{Found, Known, Stretch, crossings_of_passes, pieces_of, search};
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::rules::block_number::{Numbered, Sequence};
 use super::super::rules::{self, block_number, culprit, not_closed, position_mismatch};
 use super::super::run::{BlockEntry, Entry, Move, Numbering, Part, What, may_cross_itself};
 use super::sections::joined;
-use super::way::SectionWay;
+use super::way::{SectionWay, pieces_of};
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Axis, Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
-use crate::program::closing::{closing, gap, is_tab, tolerance};
-use crate::program::passes::{passes, pieces_of as pieces_of_way};
+use crate::program::path::crossings::{Found, Known, Stretch, crossings_of_passes, search};
+use crate::program::path::{closing, gap, is_tab, passes, pieces_of as pieces_of_way, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
 

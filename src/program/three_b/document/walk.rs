@@ -6,8 +6,8 @@ use super::super::run::{Entry, Move, What};
 use super::way::SectionWay;
 use super::{At, Document, Section};
 use crate::geometry::{Point, Vector};
-use crate::program::closing::Way;
-use crate::program::trace::{Chain, Kind, Step, Trace};
+use crate::program::path::Way;
+use crate::program::path::{Chain, Kind, Step, Trace};
 use std::ops::Range;
 
 /// A block and what stands about it.

@@ -1,10 +1,10 @@
 //! The blocks of a section as a way, for the one answer on where contours close.
 
-use super::super::crossings::pieces_of;
-use super::super::run::{Entry, Move, Part};
+use super::super::decode::meant;
+use super::super::run::{BlockEntry, Entry, Move, Part};
 use super::{Document, Section};
 use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::closing::{Node, Way, Writing};
+use crate::program::path::{Node, Way, Writing};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -90,7 +90,7 @@ impl<'a> SectionWay<'a> {
         self.travel = self.travel.plus(part.sum.travel);
     }
 
-    fn entries(&self, part: &WayPart) -> impl Iterator<Item = &'a super::super::run::BlockEntry> {
+    fn entries(&self, part: &WayPart) -> impl Iterator<Item = &'a BlockEntry> {
         let entries = self
             .document
             .runs
@@ -182,4 +182,17 @@ impl Way for SectionWay<'_> {
         }
         Some(())
     }
+}
+
+/// The pieces of blocks from the origin on; a block that leads nowhere is a piece of no length.
+pub(super) fn pieces_of<'a>(blocks: impl Iterator<Item = &'a BlockEntry>) -> Vec<Segment> {
+    let mut at = Move::default();
+    blocks
+        .map(|entry| {
+            let [x, y] = at.meant_um();
+            at = at.plus(entry.travel);
+            let start = Point::new(x, y);
+            meant(&entry.block, start).unwrap_or(Segment::line(start, start))
+        })
+        .collect()
 }

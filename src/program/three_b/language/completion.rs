@@ -3,7 +3,8 @@
 
 use super::pieces::{Field, pieces};
 use crate::geometry::{Arc, Point, Segment};
-use crate::program::language::{Completion, passage_of};
+use crate::program::language::Completion;
+use crate::program::path::cut_of;
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use crate::program::three_b::decode::decode;
@@ -268,7 +269,7 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
         targets
             .extend(first.map(|first| ("back to the start of the program's contour", first.start)));
         targets.extend(first.map(|first| ("to the end of the lead-in", first.end)));
-        let closed = passage_of(&chain).is_some_and(|passage| passage.closed);
+        let closed = cut_of(&chain).is_some_and(|cut| cut.closed);
         if closed && chain.count() > 1 {
             // The contour is closed: what is left is the way out.
             targets.truncate(1);

@@ -33,7 +33,7 @@ fn unproved(
         super::rewrite::applied(program.text().bytes(), &edits),
         sheet.settings,
     );
-    let ideals = |trace: &crate::program::trace::Trace| {
+    let ideals = |trace: &crate::program::path::Trace| {
         trace
             .steps
             .iter()

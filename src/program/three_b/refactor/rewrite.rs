@@ -314,7 +314,7 @@ fn renumbered(
     after: Document,
     edits: Vec<TextEdit>,
 ) -> Vec<TextEdit> {
-    let counts = |trace: &crate::program::trace::Trace| {
+    let counts = |trace: &crate::program::path::Trace| {
         let mut blocks = trace.steps.iter().filter(|step| step.moves()).zip(1_u32..);
         blocks.all(|(step, ordinal)| step.number == Some(ordinal))
     };

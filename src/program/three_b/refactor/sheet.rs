@@ -1,13 +1,13 @@
 //! What a refactoring sees of a program: its blocks with their places, the path, the contours, the selection.
 
 use crate::geometry::{Arc, Line, Point, Segment, Vector};
-use crate::program::language::{Passage, passages};
+use crate::program::path::{Cut, cuts};
+use crate::program::path::{Kind, Trace};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::encode::snap;
 use crate::program::three_b::language::{Field, pieces};
 use crate::program::three_b::parse::{Item, read_line};
-use crate::program::trace::{Kind, Trace};
 use crate::settings::{Effective, Layout};
 use std::ops::Range;
 
@@ -335,28 +335,28 @@ fn contours(trace: &Trace) -> Vec<Contour> {
             .filter(|step| step.moves())
             .count()
     };
-    let contour = |passage: Passage| {
-        let rows = row..row + moves(passage.steps.clone());
+    let contour = |cut: Cut| {
+        let rows = row..row + moves(cut.steps.clone());
         row = rows.end;
-        let is_way = passage.is_way
+        let is_way = cut.is_way
             || trace
                 .steps
-                .get(passage.steps.start)
+                .get(cut.steps.start)
                 .is_some_and(|step| step.kind == Kind::Rapid);
         ordinal += usize::from(!is_way);
-        let own = passage.contour_steps();
+        let own = cut.contour_steps();
         let (lead_in, lead_out) = (
-            moves(passage.steps.start..own.start),
-            moves(own.end..passage.steps.end),
+            moves(cut.steps.start..own.start),
+            moves(own.end..cut.steps.end),
         );
         Contour {
             ordinal,
             rows,
             lead_in,
             lead_out,
-            closed: passage.closed,
+            closed: cut.closed,
             is_way,
         }
     };
-    passages(trace).into_iter().map(contour).collect()
+    cuts(trace).into_iter().map(contour).collect()
 }

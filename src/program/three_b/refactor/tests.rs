@@ -1,7 +1,7 @@
 use super::rewrite::applied;
 use super::*;
 use crate::geometry::{Point, Segment};
-use crate::program::language::passages;
+use crate::program::path::cuts;
 use crate::program::three_b::{Node, encode};
 use proptest::prelude::*;
 
@@ -278,7 +278,7 @@ fn program_of(contour: &[(i64, i64, f64)]) -> Option<String> {
 /// Twice the area of the contour, and its length, µm.
 fn measure(text: &str) -> (f64, f64) {
     let trace = read(text).trace();
-    let found = passages(&trace);
+    let found = cuts(&trace);
     assert_eq!(
         (
             found.len(),

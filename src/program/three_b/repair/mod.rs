@@ -17,12 +17,12 @@ use super::decode::meant;
 use super::encode::encode;
 use super::parse::StatedPoint;
 use super::rules::Limits;
-use super::rules::path_crosses_itself::crossings;
 use super::rules::position_mismatch::mismatch;
 use super::run::{Move, travel_of};
 use crate::geometry::{Point, Segment, Vector, turn};
-use crate::program::closing::{HeldWay, Node as WayNode, Writing, closing, tolerance};
 use crate::program::grid::Node;
+use crate::program::path::crossings_of;
+use crate::program::path::{HeldWay, Node as WayNode, Writing, closing, tolerance};
 use slips::{Wanted, blocks_to, is_usual, solved, straight, with};
 
 /// Contours of more blocks cost too long to try.
@@ -787,7 +787,7 @@ impl<'a> Search<'a> {
     fn crosses(&self, change: Option<&Change>) -> bool {
         let items = change.map_or_else(|| self.items.clone(), |change| self.with(change));
         let pieces: Vec<Segment> = ways(&items).into_iter().map(|(way, _)| way).collect();
-        !crossings(&pieces, self.arcs).is_empty()
+        !crossings_of(&pieces, self.arcs).is_empty()
     }
 }
 

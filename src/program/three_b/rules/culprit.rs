@@ -10,12 +10,12 @@ use super::super::block::{Block, CountingAxis, Motion, Quadrant};
 use super::super::decode::meant;
 use super::super::encode::counted;
 use super::super::run::{BlockEntry, Move, Sum, travel_of};
-use super::path_crosses_itself::crossings;
 use super::position_mismatch::mismatch;
 use super::{axis_of, motion_name};
 use crate::finding::ProgramFault;
 use crate::geometry::{Arc, Point, Segment, Vector, turn};
-use crate::program::closing::tolerance;
+use crate::program::path::crossings_of;
+use crate::program::path::tolerance;
 
 /// Contours of fewer blocks close by too many changes, contours of more cost too long to try.
 pub(in super::super) const BLOCKS: std::ops::RangeInclusive<usize> = 4..=1000;
@@ -168,7 +168,7 @@ fn crosses(blocks: &[&BlockEntry], index: usize, changed: Option<Block>, arcs: u
             entry.travel
         });
     }
-    !crossings(&pieces, arcs).is_empty()
+    !crossings_of(&pieces, arcs).is_empty()
 }
 
 /// Every change of one field that closes the way, the plainest first.

@@ -20,7 +20,6 @@ pub(super) mod block_number;
 pub(super) mod culprit;
 pub(super) mod missing_end;
 pub(super) mod not_closed;
-pub(super) mod path_crosses_itself;
 pub(super) mod position_mismatch;
 pub(super) mod text_after_end;
 

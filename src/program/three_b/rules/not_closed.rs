@@ -4,7 +4,7 @@
 
 use super::super::run::{Move, Sum};
 use crate::finding::ProgramFault;
-use crate::program::closing::tolerance;
+use crate::program::path::tolerance;
 
 /// Up to this many blocks are a fragment: they may well be all that was meant.
 pub(in super::super) const FRAGMENT: usize = 2;

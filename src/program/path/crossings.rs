@@ -5,9 +5,9 @@
 //! and of what it moved away from the rest. Which pieces cross is then decided from the whole way, so that it does not hang on where
 //! runs begin.
 
-use super::rules::path_crosses_itself::{Crossing, MOST_PAIRS, Way, come_near, crossings, margin};
-use super::run::Move;
-use crate::geometry::{Bounds, Point, Segment, Vector};
+use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings, margin};
+use crate::geometry::{Bounds, Segment, Vector};
+use crate::program::three_b::Displacement as Move;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
@@ -185,7 +185,7 @@ pub(in crate::program) fn search(
         let own = prepared(stretch).pieces.get(index - firsts[stretch])?;
         Some(own.moved(Vector::new(x, y)))
     };
-    let (found, is_all) = Way {
+    let (found, is_all) = Tangle {
         piece: &piece,
         count,
         margin: margin(arcs),
@@ -332,19 +332,4 @@ fn touching(stretches: &[Stretch<'_>], most: usize) -> (Vec<(usize, usize)>, boo
         }
     }
     (found, true)
-}
-
-/// The pieces of blocks from the origin on; a block that leads nowhere is a piece of no length.
-pub(super) fn pieces_of<'a>(
-    blocks: impl Iterator<Item = &'a super::run::BlockEntry>,
-) -> Vec<Segment> {
-    let mut at = Move::default();
-    blocks
-        .map(|entry| {
-            let [x, y] = at.meant_um();
-            at = at.plus(entry.travel);
-            let start = Point::new(x, y);
-            super::decode::meant(&entry.block, start).unwrap_or(Segment::line(start, start))
-        })
-        .collect()
 }

@@ -339,7 +339,8 @@ impl Way for HeldWay {
 mod tests {
     use super::*;
     use crate::finding::Rule;
-    use crate::program::language::{SymbolKind, passages, symbols};
+    use crate::program::language::{SymbolKind, symbols};
+    use crate::program::path::cuts;
     use crate::program::{Document, Language, convert};
     use crate::settings::Effective;
     use proptest::prelude::*;
@@ -352,28 +353,28 @@ mod tests {
         let by_rule = !findings
             .iter()
             .any(|finding| finding.rule == Rule::NotClosed);
-        let contours: Vec<_> = passages(&document.trace())
+        let contours: Vec<_> = cuts(&document.trace())
             .into_iter()
-            .filter(|passage| !passage.is_way)
+            .filter(|cut| !cut.is_way)
             .collect();
-        let by_passages = contours.iter().all(|passage| passage.closed);
+        let by_cuts = contours.iter().all(|cut| cut.closed);
         let outline = symbols(&document);
         let mut contours_of_outline = outline
             .iter()
             .filter(|symbol| symbol.kind == SymbolKind::Contour);
         let by_outline = contours_of_outline.all(|symbol| symbol.detail.starts_with("closed"));
-        let cuts = convert::cuts(&document);
-        let by_conversion = cuts.cuts.iter().all(|cut| cut.closed);
-        let all = [by_rule, by_passages, by_outline, by_conversion];
+        let converted = convert::cuts(&document);
+        let by_conversion = converted.cuts.iter().all(|cut| cut.closed);
+        let all = [by_rule, by_cuts, by_outline, by_conversion];
         assert!(
             all.iter().all(|one| *one == by_rule),
-            "rule, passages, outline, conversion: {all:?}\n{text}"
+            "rule, cuts, outline, conversion: {all:?}\n{text}"
         );
-        assert_eq!(cuts.cuts.len(), contours.len(), "{text}");
-        for (cut, passage) in cuts.cuts.iter().zip(&contours) {
+        assert_eq!(converted.cuts.len(), contours.len(), "{text}");
+        for (own, cut) in converted.cuts.iter().zip(&contours) {
             // Where a cut meets itself within a segment, that is parted.
             assert!(
-                cut.lead_in - passage.lead_in <= 1 && cut.lead_out - passage.lead_out <= 1,
+                own.lead_in - cut.lead_in <= 1 && own.lead_out - cut.lead_out <= 1,
                 "{text}"
             );
         }
@@ -498,7 +499,7 @@ mod tests {
         ] {
             let document = Document::read(language, text.clone().into(), &Effective::default());
             let trace = document.trace();
-            let contours = passages(&trace);
+            let contours = cuts(&trace);
             assert_eq!(contours.len(), 1, "{text}");
             assert_eq!(
                 (
@@ -517,9 +518,13 @@ mod tests {
                     .all(|step| step.contour == 0),
                 "{text}"
             );
-            let cuts = convert::cuts(&document);
-            assert_eq!((cuts.cuts.len(), cuts.stops.len()), (1, 1), "{text}");
-            assert_eq!(cuts.cuts[0].contour().len(), 6, "{text}");
+            let converted = convert::cuts(&document);
+            assert_eq!(
+                (converted.cuts.len(), converted.stops.len()),
+                (1, 1),
+                "{text}"
+            );
+            assert_eq!(converted.cuts[0].contour().len(), 6, "{text}");
         }
     }
 
@@ -529,9 +534,9 @@ mod tests {
                     B4000B0B16000GYNR1\nB4000B0B4000GXL3\nDD\n";
         assert!(answers(Language::ThreeB, text));
         let document = Document::read(Language::ThreeB, text.into(), &Effective::default());
-        let contours: Vec<_> = passages(&document.trace())
+        let contours: Vec<_> = cuts(&document.trace())
             .iter()
-            .map(|passage| (passage.contour, passage.is_way))
+            .map(|cut| (cut.contour, cut.is_way))
             .collect();
         assert_eq!(contours, [(0, false), (1, true), (2, false)]);
     }

@@ -1,13 +1,13 @@
 //! The contours of a program: what is cut between two pauses, with its way in and its way out; a pause before a tab is part of it.
 
+use super::closing;
+use super::{Chain, Kind, Step, Trace};
 use crate::program::Document;
-use crate::program::closing::closing;
-use crate::program::trace::{Chain, Kind, Step, Trace};
 use std::ops::Range;
 
 /// A contour with its ways in and out, or the way between two contours.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Passage {
+pub struct Cut {
     /// As the trace counts them.
     pub contour: usize,
     /// Indices of the trace's steps; all of them move but the pauses before tabs.
@@ -22,7 +22,7 @@ pub struct Passage {
     pub is_way: bool,
 }
 
-impl Passage {
+impl Cut {
     /// Indices of the steps of the contour itself.
     pub fn contour_steps(&self) -> Range<usize> {
         self.steps.start + self.lead_in
@@ -34,8 +34,8 @@ impl Passage {
     }
 }
 
-/// The passages of a trace, in its order.
-pub fn passages(trace: &Trace) -> Vec<Passage> {
+/// The cuts of a trace, in its order.
+pub fn cuts(trace: &Trace) -> Vec<Cut> {
     let mut found = Vec::new();
     let mut index = 0;
     while let Some(first) = trace.steps.get(index) {
@@ -53,13 +53,13 @@ pub fn passages(trace: &Trace) -> Vec<Passage> {
             .iter()
             .rposition(is_same)
             .map_or(1, |last| last + 1);
-        found.push(passage_in(trace, index..index + count));
+        found.push(cut_in(trace, index..index + count));
         index += count;
     }
     found
 }
 
-fn passage_in(trace: &Trace, steps: Range<usize>) -> Passage {
+fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
     let own = trace.steps.get(steps.clone()).unwrap_or_default();
     let places: Vec<usize> = own
         .iter()
@@ -81,35 +81,35 @@ fn passage_in(trace: &Trace, steps: Range<usize>) -> Passage {
         .stopping(stop)
     };
     // A chain of all its steps lacks none.
-    let passage = passage_of(&chain).unwrap_or_default();
+    let cut = cut_of(&chain).unwrap_or_default();
     // Pauses count as steps here.
     let place = |nth: usize| places.get(nth).copied().unwrap_or(own.len());
-    let contour = passage.contour_steps();
+    let contour = cut.contour_steps();
     let end = contour.end.checked_sub(1).map_or(0, |last| place(last) + 1);
-    Passage {
+    Cut {
         steps,
         lead_in: place(contour.start),
         lead_out: own.len() - end.max(place(contour.start)),
-        ..passage
+        ..cut
     }
 }
 
 /// The chain of moves that touches a byte, what it comes to, and the number of the touching one.
-pub fn passage_at(document: &Document, offset: usize) -> Option<(Chain<'static>, Passage, usize)> {
+pub fn cut_at(document: &Document, offset: usize) -> Option<(Chain<'static>, Cut, usize)> {
     let (chain, nth) = document.chain_at(offset)?;
-    if let Some(passage) = passage_of(&chain) {
-        return Some((chain, passage, nth));
+    if let Some(cut) = cut_of(&chain) {
+        return Some((chain, cut, nth));
     }
     let (chain, nth) = document.whole_chain_at(offset)?;
-    let passage = passage_of(&chain)?;
-    Some((chain, passage, nth))
+    let cut = cut_of(&chain)?;
+    Some((chain, cut, nth))
 }
 
 /// What a chain of steps comes to, its steps counted from 0; `None` where it hangs on steps that the chain does not hold.
-pub fn passage_of(chain: &Chain<'_>) -> Option<Passage> {
+pub fn cut_of(chain: &Chain<'_>) -> Option<Cut> {
     let first = chain.step(0);
     let contour = first.map_or(0, |step| step.contour);
-    let all = Passage {
+    let all = Cut {
         contour,
         steps: 0..chain.count(),
         lead_in: 0,
@@ -118,13 +118,13 @@ pub fn passage_of(chain: &Chain<'_>) -> Option<Passage> {
         is_way: false,
     };
     if first.is_some_and(|step| step.kind == Kind::Rapid) {
-        return Some(Passage {
+        return Some(Cut {
             is_way: true,
             ..all
         });
     }
     let closing = closing(chain)?;
-    Some(Passage {
+    Some(Cut {
         lead_in: closing.lead_in,
         lead_out: closing.lead_out,
         closed: closing.closed,

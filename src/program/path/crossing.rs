@@ -20,7 +20,7 @@ pub(in crate::program) struct Crossing {
 const MOST: usize = 50;
 
 /// Pairs of pieces of one contour that are looked at: where much lies on one place all of them are near each other.
-pub(in super::super) const MOST_PAIRS: usize = 1_000;
+pub(in crate::program) const MOST_PAIRS: usize = 1_000;
 
 /// Pieces of one contour that are gone through to follow the way off places where it comes together with itself: where it lies on itself
 /// for long, its branches never part.
@@ -40,12 +40,12 @@ const DOUBLINGS: usize = 10;
 
 /// How far a way of so many arcs may lie beside where it is meant, µm: each arc adds up to 1 µm to either side, by chance. The same for
 /// nearly as many, so that a block more or less leaves it as it is.
-pub(in super::super) fn margin(arcs: usize) -> f64 {
+pub(in crate::program) fn margin(arcs: usize) -> f64 {
     2.0 + (arcs.next_power_of_two() as f64).sqrt()
 }
 
 /// A way by its pieces, each of which begins where the one before ends.
-pub(in super::super) struct Way<'a> {
+pub(in crate::program) struct Tangle<'a> {
     pub piece: &'a dyn Fn(usize) -> Option<Segment>,
     pub count: usize,
     pub margin: f64,
@@ -54,8 +54,8 @@ pub(in super::super) struct Way<'a> {
 }
 
 /// Where a way that is held as a whole crosses itself.
-pub(in super::super) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
-    let way = Way {
+pub(in crate::program) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
+    let way = Tangle {
         piece: &|index| pieces.get(index).copied(),
         count: pieces.len(),
         margin: margin(arcs),
@@ -111,7 +111,7 @@ pub(in crate::program) fn near_each_other(
 }
 
 /// True where two pieces have a place in common, or nearly.
-pub(in super::super) fn come_near(
+pub(in crate::program) fn come_near(
     a: &Segment,
     box_of_a: &Bounds,
     b: &Segment,
@@ -126,7 +126,7 @@ pub(in super::super) fn come_near(
         && (!meetings(a, b).is_empty() || on(a, b) || on(b, a))
 }
 
-impl Way<'_> {
+impl Tangle<'_> {
     fn at(&self, index: usize) -> Option<Segment> {
         self.steps.set(self.steps.get() + 1);
         (self.piece)(index)

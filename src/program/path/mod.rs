@@ -1,0 +1,19 @@
+//! What the path of a program is, whatever its language: its steps, its cuts and contours, passes, crossings and arcs too tight to cut.
+//!
+//! Lengths are µm. Nothing here knows how a language is written.
+
+mod contour;
+mod crossing;
+pub(in crate::program) mod crossings;
+mod cut;
+mod passes;
+mod trace;
+
+pub use contour::Writing;
+pub(crate) use contour::tolerance;
+pub(in crate::program) use contour::{HeldWay, Node, Way, closing, gap, is_tab};
+pub(in crate::program) use crossing::{crossings as crossings_of, near_each_other};
+pub use cut::Cut;
+pub(in crate::program) use cut::{cut_at, cut_of, cuts};
+pub(in crate::program) use passes::{passes, pieces_of};
+pub use trace::{Chain, Kind, Step, Trace};
