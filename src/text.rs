@@ -10,6 +10,7 @@ pub use patch::Patch;
 
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// How a client counts characters within a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,11 +46,11 @@ pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
 /// The bytes of a document and the starts of its lines, which end with LF, CR LF or CR.
 ///
 /// A text has at least one line; a text that ends with a line end has an empty last line. Texts of 4 GiB and more
-/// cannot be held: what lies beyond is cut off.
+/// cannot be held: what lies beyond is cut off. A clone shares the text until one of the two is edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
-    bytes: Vec<u8>,
-    line_starts: LineStarts,
+    bytes: Arc<Vec<u8>>,
+    line_starts: Arc<LineStarts>,
 }
 
 impl Default for SourceText {
@@ -61,8 +62,11 @@ impl Default for SourceText {
 impl SourceText {
     pub fn new(mut bytes: Vec<u8>) -> SourceText {
         bytes.truncate(u32::MAX as usize);
-        let line_starts = LineStarts::new(&bytes);
-        SourceText { bytes, line_starts }
+        let line_starts = Arc::new(LineStarts::new(&bytes));
+        SourceText {
+            bytes: Arc::new(bytes),
+            line_starts,
+        }
     }
 
     pub fn bytes(&self) -> &[u8] {
@@ -70,7 +74,7 @@ impl SourceText {
     }
 
     pub fn into_bytes(self) -> Vec<u8> {
-        self.bytes
+        Arc::unwrap_or_clone(self.bytes)
     }
 
     /// The text with `U+FFFD` in the place of what is not UTF-8.
@@ -128,10 +132,11 @@ impl SourceText {
         // a CR and a LF that meet there are one line end.
         let first = self.line_starts.begun_by(start.saturating_sub(1));
         let last = self.line_starts.begun_by(end).max(first);
+        let bytes = Arc::make_mut(&mut self.bytes);
         if end - start == replacement.len() {
-            self.bytes[start..end].copy_from_slice(replacement.as_bytes());
+            bytes[start..end].copy_from_slice(replacement.as_bytes());
         } else {
-            self.bytes.splice(start..end, replacement.bytes());
+            bytes.splice(start..end, replacement.bytes());
         }
         let new_end = start + replacement.len();
         let fresh: Vec<u32> = (start.max(1)..=new_end)
@@ -139,7 +144,7 @@ impl SourceText {
             .map(|at| at as u32)
             .collect();
         let shift = (new_end as u32).wrapping_sub(end as u32);
-        self.line_starts.replace(first..last, &fresh, shift);
+        Arc::make_mut(&mut self.line_starts).replace(first..last, &fresh, shift);
     }
 
     fn begins_line(&self, at: usize) -> bool {

@@ -6,6 +6,7 @@ use crate::message::readable;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 use serde_json::Value;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const TIME_OUT: Duration = Duration::from_secs(10);
@@ -46,7 +47,7 @@ pub(super) struct Abilities {
 
 /// The other end of the wire, as the state thread sees it.
 pub(super) struct Client {
-    pub abilities: Abilities,
+    pub abilities: Arc<Abilities>,
     writer: Writer,
     next_id: u64,
     asked: FxHashMap<String, Asked>,
@@ -70,7 +71,7 @@ pub(super) enum Weight {
 impl Client {
     pub fn new(writer: Writer) -> Client {
         Client {
-            abilities: Abilities::default(),
+            abilities: Arc::default(),
             writer,
             next_id: 0,
             asked: FxHashMap::default(),

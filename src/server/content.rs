@@ -7,10 +7,11 @@ use crate::document::{Document, Source};
 use crate::drawing::Drawing;
 use crate::dxf;
 use crate::finding::Rule;
-use crate::program;
+use crate::program::{self, Language};
 use crate::protocol::{self, Diagnostic, DrawingChange, Range};
 use crate::settings::{Effective, from_toml};
 use crate::text::{Encoding, SourceText};
+use memchr::memmem;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -31,7 +32,37 @@ pub(super) enum Remains {
     Drawing(Arc<Drawing>),
 }
 
+/// Bytes of a text, or segments of a drawing, that are looked at on the state thread: handing them over costs as much.
+const SMALL_TEXT: usize = 16 * 1024;
+const SMALL_DRAWING: usize = 500;
+
+/// What a drawing or program may grow by beyond its own length.
+const MULTIPLIERS_IN_DXF: [&[u8]; 4] = [b"INSERT", b"SPLINE", b"ELLIPSE", b"HATCH"];
+const MULTIPLIERS_IN_ISO: [&[u8]; 2] = [b"98", b"L"];
+
 impl Content {
+    /// True where it is little, whatever it says: it may be looked at without holding anybody up.
+    pub fn is_small(&self) -> bool {
+        match self {
+            Content::Read(document) => match document.source() {
+                Source::Cad(drawing) => is_small_drawing(drawing),
+                Source::Dxf(dxf) => is_small_text(Kind::Dxf, dxf.text().bytes()),
+                Source::Program(program) => is_small_text(self.kind(), program.text().bytes()),
+            },
+            Content::Unread(Remains::Text { kind, text }) => is_small_text(*kind, text.bytes()),
+            Content::Unread(Remains::Drawing(drawing)) => is_small_drawing(drawing),
+            Content::Settings(_) | Content::Foreign | Content::Away => true,
+        }
+    }
+
+    pub fn kind(&self) -> Kind {
+        match self {
+            Content::Read(document) => kind_of(document),
+            Content::Unread(Remains::Text { kind, .. }) => *kind,
+            _ => Kind::Foreign,
+        }
+    }
+
     pub fn source_text(&self) -> Option<&SourceText> {
         match self {
             Content::Read(document) => document.text(),
@@ -176,11 +207,39 @@ fn no_drawing() -> String {
     "there is no such drawing open".into()
 }
 
-fn text_of(document: &Document) -> (Kind, SourceText) {
-    let kind = document
+fn kind_of(document: &Document) -> Kind {
+    document
         .program()
-        .map_or(Kind::Dxf, |program| Kind::Program(program.language()));
-    (kind, document.text().cloned().unwrap_or_default())
+        .map_or(Kind::Dxf, |program| Kind::Program(program.language()))
+}
+
+fn text_of(document: &Document) -> (Kind, SourceText) {
+    (
+        kind_of(document),
+        document.text().cloned().unwrap_or_default(),
+    )
+}
+
+pub(super) fn is_small_text(kind: Kind, text: &[u8]) -> bool {
+    let multipliers: &[&[u8]] = match kind {
+        Kind::Dxf => &MULTIPLIERS_IN_DXF,
+        Kind::Program(Language::Iso) => &MULTIPLIERS_IN_ISO,
+        _ => &[],
+    };
+    text.len() <= SMALL_TEXT
+        && !multipliers
+            .iter()
+            .any(|word| memmem::find(text, word).is_some())
+}
+
+pub(super) fn is_small_drawing(drawing: &Drawing) -> bool {
+    let mut left = SMALL_DRAWING;
+    drawing.entities().all(|(_, entity)| {
+        let count = entity.geometry.segment_count().max(1);
+        let fits = count <= left;
+        left = left.saturating_sub(count);
+        fits
+    })
 }
 
 fn report(panic: &(dyn Any + Send)) {

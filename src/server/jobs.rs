@@ -2,36 +2,12 @@
 
 use super::judge::{Job as JudgeJob, Judged};
 use super::state::{Mailbox, State};
-use super::transport::{Writer, panic_text};
+use super::transport::Writer;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
-
-/// Set when nobody wants the result any more.
-#[derive(Clone, Default)]
-pub(super) struct Cancel(Arc<AtomicBool>);
-
-impl Cancel {
-    pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-
-    /// Cancels when it is dropped: with the handler's future, when the client cancels its request.
-    pub fn on_drop(&self) -> CancelOnDrop {
-        CancelOnDrop(self.clone())
-    }
-}
-
-pub(super) struct CancelOnDrop(Cancel);
-
-impl Drop for CancelOnDrop {
-    fn drop(&mut self) {
-        self.0.0.store(true, Ordering::Relaxed);
-    }
-}
 
 /// Reports on one request, where the client gave a token for it. Ends when it is dropped.
 pub(super) struct Progress {
@@ -129,10 +105,12 @@ impl Pool {
     }
 }
 
-/// The worker threads: those that answer requests, and those that judge documents, which wait for no request.
+/// The worker threads: those that answer requests, short ones apart from long ones, and those that judge documents.
 #[derive(Clone)]
 pub(super) struct Workers {
     requests: Pool,
+    /// What is asked about one place waits for nothing that takes long.
+    places: Pool,
     judges: Pool,
     mailbox: Mailbox,
     writer: Writer,
@@ -145,8 +123,10 @@ impl Workers {
     pub fn new(mailbox: Mailbox, writer: Writer) -> Workers {
         let count = std::thread::available_parallelism().map_or(2, usize::from);
         // Two at least, so that one long job does not hold up a short one.
+        let count = count.clamp(2, 4);
         Workers {
-            requests: Pool::new("wedm-worker", count.clamp(2, 4)),
+            requests: Pool::new("wedm-worker", count),
+            places: Pool::new("wedm-place", count),
             judges: Pool::new("wedm-judge", MOST_JUDGED),
             mailbox,
             writer,
@@ -162,41 +142,34 @@ impl Workers {
         }));
     }
 
-    /// Runs `job` on a worker, unless it is cancelled before its turn, and hands what came of it, or the text of its panic,
-    /// to `then` on the state thread.
-    pub fn run<T: Send + 'static>(
+    /// Runs a request's job on a worker, unless its answer is not wanted any more when its turn comes.
+    pub fn run(
         &self,
-        name: &'static str,
-        cancel: Cancel,
-        job: impl FnOnce(&Cancel) -> T + Send + 'static,
-        then: impl FnOnce(&mut State, Result<T, String>) + Send + 'static,
+        is_about_a_place: bool,
+        is_wanted: impl Fn() -> bool + Send + 'static,
+        job: impl FnOnce() + Send + 'static,
     ) {
-        let (mailbox, writer) = (self.mailbox.clone(), self.writer.clone());
-        let job: Job = Box::new(move || {
-            if cancel.is_cancelled() {
-                return;
-            }
+        let writer = self.writer.clone();
+        let pool = if is_about_a_place {
+            &self.places
+        } else {
+            &self.requests
+        };
+        pool.push(Box::new(move || {
             // Results wait here and not in memory while the client does not read.
-            while writer.is_congested() && !cancel.is_cancelled() {
+            while writer.is_congested() && is_wanted() {
                 writer.wait_for_room(Duration::from_millis(200));
             }
-            let result = catch_unwind(AssertUnwindSafe(|| job(&cancel)))
-                .map_err(|panic| panic_text(&*panic).to_owned());
-            if let Err(text) = &result {
-                tracing::error!("{name} panicked: {text}");
+            if is_wanted() {
+                job();
             }
-            if !cancel.is_cancelled() {
-                mailbox.tell(name, None, move |state| then(state, result));
-            }
-        });
-        self.requests.push(job);
+        }));
     }
-}
 
-impl Workers {
     /// Ends each thread behind the job that it is at.
     pub fn end(&self) {
         self.requests.end();
+        self.places.end();
         self.judges.end();
     }
 }

@@ -1,17 +1,14 @@
 //! A document taken through what has come for it, and judged: at once where that is little, else on a worker, so that no document
 //! waits for another.
 
-use super::content::{Content, Remains};
+use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::convert;
 use super::open::Kind;
-use crate::document::Source;
 use crate::drawing::Drawing;
-use crate::program::Language;
 use crate::protocol::{Diagnostic, DrawingChange};
 use crate::settings::Effective;
 use crate::text::{Encoding, SourceText};
 use ls_types::TextDocumentContentChangeEvent;
-use memchr::memmem;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -66,34 +63,17 @@ pub(super) struct Judged {
     pub refused: Vec<String>,
 }
 
-/// Bytes of a text, or segments of a drawing, that are judged at once: handing them over costs as much.
-const SMALL_TEXT: usize = 16 * 1024;
-const SMALL_DRAWING: usize = 500;
 /// Changes, of one message and in all, that are made at once.
 const FEW: usize = 16;
 
 /// A look that takes longer than this is long: several changes that wait are made in one then.
 const LONG: Duration = Duration::from_millis(100);
 
-/// What a drawing or program may grow by beyond its own length.
-const MULTIPLIERS_IN_DXF: [&[u8]; 4] = [b"INSERT", b"SPLINE", b"ELLIPSE", b"HATCH"];
-const MULTIPLIERS_IN_ISO: [&[u8]; 2] = [b"98", b"L"];
-
 impl Job {
     /// True where little is to be done, whatever the document says.
     pub fn is_small(&self) -> bool {
         let kind = self.kind();
         let is_small_text = |text: &[u8]| is_small_text(kind, text);
-        let own = match &self.content {
-            Content::Read(document) => match document.source() {
-                Source::Cad(drawing) => is_small_drawing(drawing),
-                Source::Dxf(text) => is_small_text(text.text().bytes()),
-                Source::Program(program) => is_small_text(program.text().bytes()),
-            },
-            Content::Unread(Remains::Text { text, .. }) => is_small_text(text.bytes()),
-            Content::Unread(Remains::Drawing(drawing)) => is_small_drawing(drawing),
-            Content::Settings(_) | Content::Foreign | Content::Away => true,
-        };
         let is_small_task = |task: &Task| match task {
             Task::Text { text, .. } => is_small_text(text.as_bytes()),
             Task::Drawing(drawing) => is_small_drawing(drawing),
@@ -106,26 +86,16 @@ impl Job {
             Task::ChangeDrawing { changes, .. } => changes.len() <= FEW,
             Task::Settings | Task::Rebuild => true,
         };
-        own && self.tasks.len() <= FEW && self.tasks.iter().all(is_small_task)
+        self.content.is_small() && self.tasks.len() <= FEW && self.tasks.iter().all(is_small_task)
     }
 
     fn kind(&self) -> Kind {
-        let of_content = match &self.content {
-            Content::Read(document) => document
-                .program()
-                .map_or(Kind::Dxf, |program| Kind::Program(program.language())),
-            Content::Unread(Remains::Text { kind, .. }) => *kind,
-            _ => Kind::Foreign,
-        };
         let of_task = |task: &Task| match task {
             Task::Text { kind, .. } => Some(*kind),
             _ => None,
         };
-        self.tasks
-            .iter()
-            .rev()
-            .find_map(of_task)
-            .unwrap_or(of_content)
+        let newest = self.tasks.iter().rev().find_map(of_task);
+        newest.unwrap_or_else(|| self.content.kind())
     }
 
     pub fn run(self) -> Judged {
@@ -219,26 +189,4 @@ pub(super) fn change(
         };
         content.edit_text(range, &change.text);
     }
-}
-
-fn is_small_text(kind: Kind, text: &[u8]) -> bool {
-    let multipliers: &[&[u8]] = match kind {
-        Kind::Dxf => &MULTIPLIERS_IN_DXF,
-        Kind::Program(Language::Iso) => &MULTIPLIERS_IN_ISO,
-        _ => &[],
-    };
-    text.len() <= SMALL_TEXT
-        && !multipliers
-            .iter()
-            .any(|word| memmem::find(text, word).is_some())
-}
-
-fn is_small_drawing(drawing: &Drawing) -> bool {
-    let mut left = SMALL_DRAWING;
-    drawing.entities().all(|(_, entity)| {
-        let count = entity.geometry.segment_count().max(1);
-        let fits = count <= left;
-        left = left.saturating_sub(count);
-        fits
-    })
 }

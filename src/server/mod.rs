@@ -3,21 +3,24 @@
 //! The transport reads and writes, the state thread owns every document, workers do what takes long. Nothing is decided
 //! here that the core could decide.
 
-mod backend;
 mod client;
 mod config;
 mod content;
+mod context;
 mod convert;
 mod drawings;
+mod errors;
+mod handlers;
 mod jobs;
 mod judge;
+mod methods;
 mod open;
 mod parent;
-mod requests;
 mod state;
 #[cfg(feature = "testing")]
 pub mod testing;
 mod texts;
+mod token_memory;
 mod transport;
 
 use serde_json::Value;
@@ -27,7 +30,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
-use transport::{Inbox, Prepared, Transport, Writer};
+use transport::{Inbox, Transport, Writer};
 
 /// How the server is run.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +68,7 @@ pub fn run_stdio(options: Options) -> ExitCode {
 fn serve(options: Options) -> std::io::Result<u8> {
     let (input, output) = transport::pipes()?;
     let writer = Writer::start(output, || end_of_process(BAD_END))?;
-    let flags = Arc::new(backend::Flags::default());
+    let flags = Arc::new(methods::Flags::default());
     let orphaned: Option<fn()> = options.watch_parent.then_some(|| end_of_process(BAD_END));
     // Held to the end: threads that still work are not waited for.
     let _transport = serve_between(
@@ -86,18 +89,17 @@ fn serve(options: Options) -> std::io::Result<u8> {
 fn serve_between(
     input: impl Read,
     writer: &Writer,
-    flags: &Arc<backend::Flags>,
+    flags: &Arc<methods::Flags>,
     orphaned: Option<fn()>,
     [last_answers, last_writes]: [Duration; 2],
-) -> std::io::Result<Transport<backend::Backend, ToState>> {
+) -> std::io::Result<Transport<methods::Backend, ToState>> {
     let mailbox = state::start(writer.clone())?;
-    let prepared = Prepared::default();
-    let service = backend::service(mailbox.clone(), prepared.clone(), flags.clone(), orphaned);
+    let service = methods::service(mailbox.clone(), flags.clone(), orphaned);
     let inbox = ToState {
         mailbox: mailbox.clone(),
         flags: flags.clone(),
     };
-    let mut transport = Transport::new(service, inbox, writer.clone(), prepared)?;
+    let mut transport = Transport::new(service, inbox, writer.clone())?;
     transport.serve(input);
     transport.drain(last_answers);
     let (done, all_told) = std::sync::mpsc::channel();
@@ -115,7 +117,7 @@ fn end_of_process(code: u8) -> ! {
 /// The transport's way to the state thread.
 struct ToState {
     mailbox: Mailbox,
-    flags: Arc<backend::Flags>,
+    flags: Arc<methods::Flags>,
 }
 
 impl Inbox for ToState {

@@ -2,12 +2,11 @@
 
 use super::content::Content;
 use super::judge::Task;
-use super::requests::language::token_memory::TokenMemory;
+use super::token_memory::TokenMemory;
 use crate::document::Document;
 use crate::program::Language;
 use crate::settings::{Effective, FILE_NAME};
 use crate::text::SourceText;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Weak};
 
 /// What a text is.
@@ -67,23 +66,10 @@ pub(super) struct Open {
     pub published: bool,
     /// The last look at it took long.
     pub is_slow: bool,
-    /// The copy of the text that requests look at, while any of them does.
-    shot: Weak<Shot>,
+    /// Gone with the next change: requests that look at what was there before see that it is.
+    revision: Arc<()>,
     /// The semantic tokens that the client holds.
     pub tokens: Arc<TokenMemory>,
-}
-
-/// A text as it was at one stamp. Requests that come between two edits share one.
-pub(super) struct Shot {
-    pub text: SourceText,
-    outdated: AtomicBool,
-}
-
-impl Shot {
-    /// The document has changed since: nobody wants an answer about this text.
-    pub fn is_outdated(&self) -> bool {
-        self.outdated.load(Ordering::Relaxed)
-    }
 }
 
 impl Open {
@@ -122,32 +108,19 @@ impl Open {
             findings: 0,
             published: false,
             is_slow: false,
-            shot: Weak::new(),
+            revision: Arc::default(),
             tokens: Arc::default(),
         }
-    }
-
-    /// The text for work beside the state thread; the first to ask between two edits has it copied (1 ms for 5 MB).
-    pub fn shot(&mut self) -> Option<Arc<Shot>> {
-        if let Some(shot) = self.shot.upgrade().filter(|shot| !shot.is_outdated()) {
-            return Some(shot);
-        }
-        let text = self.content.source_text()?.clone();
-        let shot = Arc::new(Shot {
-            text,
-            outdated: AtomicBool::new(false),
-        });
-        self.shot = Arc::downgrade(&shot);
-        Some(shot)
     }
 
     /// Gives the document its next stamp: what was made for the one before is out of date.
     pub fn set_stamp(&mut self, stamp: u64) {
         self.stamp = stamp;
-        if let Some(shot) = self.shot.upgrade() {
-            shot.outdated.store(true, Ordering::Relaxed);
-        }
-        self.shot = Weak::new();
+        self.revision = Arc::default();
+    }
+
+    pub fn revision(&self) -> Weak<()> {
+        Arc::downgrade(&self.revision)
     }
 
     pub fn document(&self) -> Option<&Arc<Document>> {

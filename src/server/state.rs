@@ -3,7 +3,7 @@
 //! Handlers and workers hand it closures, in the order in which they came; it drains them before it looks at what has
 //! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
 
-use super::client::{self, Abilities, Client, Weight};
+use super::client::{self, Client, Weight};
 use super::config::{self, Config, ProjectFile, Search};
 use super::content::Content;
 use super::jobs::Workers;
@@ -524,9 +524,5 @@ impl State {
         self.documents
             .get_mut(uri)
             .ok_or_else(|| jsonrpc::Error::invalid_params(format!("{uri} is not open")))
-    }
-
-    pub fn set_abilities(&mut self, abilities: Abilities) {
-        self.client.abilities = abilities;
     }
 }

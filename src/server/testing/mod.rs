@@ -5,7 +5,7 @@ mod sequence;
 pub use sequence::{Sequence, check_answers, sequence};
 
 use super::transport::{Frame, Frames, Writer};
-use super::{backend, serve_between};
+use super::{methods, serve_between};
 use std::io::{Read, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -67,7 +67,7 @@ pub fn bodies(bytes: &[u8], at_once: usize, is_broken: impl Fn(&[u8]) -> bool) -
 pub fn served(input: &[u8]) -> Vec<Vec<u8>> {
     let output = Output::default();
     let writer = Writer::start(output.clone(), || {}).expect("a thread can be started");
-    let flags = Arc::new(backend::Flags::default());
+    let flags = Arc::new(methods::Flags::default());
     let transport = serve_between(input, &writer, &flags, None, [PATIENCE; 2])
         .expect("a server can be started");
     drop(transport);

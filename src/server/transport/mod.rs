@@ -7,13 +7,13 @@
 mod frame;
 mod memory;
 mod message;
-mod prepared;
 mod stdio;
 mod weight;
 mod writer;
+mod written;
 
-pub(crate) use prepared::Prepared;
 pub(crate) use writer::{Publish, Writer};
+pub(crate) use written::Written;
 
 pub(super) use frame::{Frame, Frames};
 use memory::Memory;
@@ -31,6 +31,7 @@ use std::time::{Duration, Instant};
 use tower::Service;
 use tower_lsp::jsonrpc::{Error, ErrorCode, Id, Request, Response};
 use tower_lsp::{ExitedError, LanguageServer, LspService};
+use written::{REPLY, Reply};
 
 pub(crate) use stdio::pipes;
 
@@ -50,7 +51,6 @@ pub(crate) struct Transport<S, I> {
     service: LspService<S>,
     inbox: I,
     writer: Writer,
-    prepared: Prepared,
     runtime: tokio::runtime::Runtime,
     memory: Memory,
     /// Handlers that still wait.
@@ -58,12 +58,7 @@ pub(crate) struct Transport<S, I> {
 }
 
 impl<S: LanguageServer, I: Inbox> Transport<S, I> {
-    pub fn new(
-        service: LspService<S>,
-        inbox: I,
-        writer: Writer,
-        prepared: Prepared,
-    ) -> std::io::Result<Self> {
+    pub fn new(service: LspService<S>, inbox: I, writer: Writer) -> std::io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)
             .enable_time()
@@ -73,7 +68,6 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             service,
             inbox,
             writer,
-            prepared,
             runtime,
             memory: Memory::default(),
             waiting: Arc::default(),
@@ -159,18 +153,21 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         let inline = method == "initialize";
         let taken = self.inbox.taken();
         let guard = self.runtime.enter();
+        let reply = Reply::default();
         let answer = match catch_unwind(AssertUnwindSafe(|| self.service.call(request))) {
-            Ok(answer) => Guarded { answer },
+            Ok(answer) => Guarded {
+                answer: Box::pin(REPLY.scope(reply.clone(), answer)),
+            },
             Err(panic) => {
                 drop(guard);
-                return self.finish(id, Err(panic));
+                return self.finish(&reply, id, Err(panic));
             }
         };
         drop(guard);
         // `initialize` ends before the next message: a client that sends `didOpen` right behind it loses nothing.
         if inline {
             let outcome = self.runtime.block_on(answer);
-            return self.finish(id, outcome);
+            return self.finish(&reply, id, outcome);
         }
         let mut answer = answer;
         let first = {
@@ -186,25 +183,21 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                 if unread {
                     self.inbox.note(format!("{method} was ignored: its params are malformed, or it came before initialize"));
                 }
-                self.finish(id, outcome);
+                self.finish(&reply, id, outcome);
             }
             Poll::Pending => {
                 self.waiting.fetch_add(1, Ordering::AcqRel);
-                let (writer, prepared, waiting) = (
-                    self.writer.clone(),
-                    self.prepared.clone(),
-                    self.waiting.clone(),
-                );
+                let (writer, waiting) = (self.writer.clone(), self.waiting.clone());
                 self.runtime.spawn(async move {
                     let outcome = answer.await;
-                    finish(&writer, &prepared, id, outcome);
+                    finish(&writer, &reply, id, outcome);
                     waiting.fetch_sub(1, Ordering::AcqRel);
                 });
             }
         }
     }
 
-    fn finish(&mut self, id: Option<Id>, outcome: Outcome) {
+    fn finish(&mut self, reply: &Reply, id: Option<Id>, outcome: Outcome) {
         if outcome.is_err()
             && let Some(id) = &id
         {
@@ -218,7 +211,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                 .as_mut()
                 .poll(&mut Context::from_waker(Waker::noop()));
         }
-        finish(&self.writer, &self.prepared, id, outcome);
+        finish(&self.writer, reply, id, outcome);
     }
 
     fn answer_broken(&self, error: Error, position: i64) {
@@ -237,7 +230,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
 /// What came of a handler: its answer, or the panic that ended it.
 type Outcome = Result<Result<Option<Response>, ExitedError>, Box<dyn Any + Send>>;
 
-fn finish(writer: &Writer, prepared: &Prepared, id: Option<Id>, outcome: Outcome) {
+fn finish(writer: &Writer, reply: &Reply, id: Option<Id>, outcome: Outcome) {
     let response = match outcome {
         Ok(Ok(response)) => response,
         Ok(Err(_exited)) => None,
@@ -258,7 +251,7 @@ fn finish(writer: &Writer, prepared: &Prepared, id: Option<Id>, outcome: Outcome
         }
     };
     let Some(response) = response else { return };
-    match prepared.body(response) {
+    match reply.body(&response) {
         Ok(body) => writer.send(body),
         Err(error) => tracing::error!("a reply cannot be written: {error}"),
     }

@@ -1,25 +1,27 @@
 //! `wedm/locate`: what is written at a position, and where a segment is written.
 
-use super::refused;
-use crate::document::Source;
+use super::no_entity;
 use crate::drawing::EntityId;
 use crate::dxf;
 use crate::finding::Place;
 use crate::protocol::{Locate, Located, Position};
+use crate::server::context::RequestContext;
 use crate::server::convert::range_of;
-use crate::server::state::State;
+use crate::server::errors::refused;
 use crate::text::Encoding;
 use tower_lsp::jsonrpc::{Error, Result};
 
-pub(in crate::server) fn locate(state: &mut State, params: &Locate) -> Result<Option<Located>> {
-    let encoding = state.encoding;
-    let open = state.document(&params.uri)?;
-    let Some(Source::Dxf(text)) = open.document().map(|document| document.source()) else {
-        return Err(refused(format!(
+pub(in crate::server) fn locate(
+    context: &RequestContext,
+    params: Locate,
+) -> Result<Option<Located>> {
+    let encoding = context.encoding;
+    let text = context.dxf().ok_or_else(|| {
+        refused(format!(
             "{} is no DXF text, expected a document in which segments are written",
-            params.uri
-        )));
-    };
+            context.uri
+        ))
+    })?;
     match (params.position, &params.handle) {
         (Some(position), None) => Ok(at_position(text, position, encoding)),
         (None, Some(handle)) => at_segment(text, handle, params.segment, encoding).map(Some),
@@ -46,9 +48,7 @@ fn at_segment(
     encoding: Encoding,
 ) -> Result<Located> {
     let drawing = text.drawing();
-    let entity = drawing
-        .find(handle)
-        .ok_or_else(|| Error::invalid_params(format!("there is no entity {handle}")))?;
+    let entity = drawing.find(handle).ok_or_else(|| no_entity(handle))?;
     let count = drawing
         .get(entity)
         .map_or(0, |entity| entity.geometry.segment_count());
@@ -58,8 +58,7 @@ fn at_segment(
             count.saturating_sub(1)
         )));
     }
-    located(text, entity, segment, encoding)
-        .ok_or_else(|| Error::invalid_params(format!("there is no entity {handle}")))
+    located(text, entity, segment, encoding).ok_or_else(|| no_entity(handle))
 }
 
 fn located(

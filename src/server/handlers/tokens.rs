@@ -1,20 +1,19 @@
 //! `textDocument/semanticTokens`: of the whole text, of what has changed in it, and of the lines in sight.
 
-use super::token_memory::TokenMemory;
-use super::{dxf_in, program_in, whole, whole_program};
 use crate::dxf::language::{Token, TokenKind, tokens, tokens_in};
 use crate::program;
 use crate::program::language::{WordKind, words_of};
-use crate::server::requests::{Errand, written};
-use crate::server::state::State;
+use crate::server::context::RequestContext;
+use crate::server::errors::moved_on;
 use crate::text::{Encoding, SourceText};
 use ls_types::{
     Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
-    SemanticTokensFullOptions, SemanticTokensLegend, SemanticTokensOptions,
-    SemanticTokensRangeResult, SemanticTokensServerCapabilities, Uri,
+    SemanticTokensDeltaParams, SemanticTokensEdit, SemanticTokensFullDeltaResult,
+    SemanticTokensFullOptions, SemanticTokensLegend, SemanticTokensOptions, SemanticTokensParams,
+    SemanticTokensRangeParams, SemanticTokensRangeResult, SemanticTokensResult,
+    SemanticTokensServerCapabilities,
 };
 use rayon::prelude::*;
-use std::sync::Arc;
 use tower_lsp::jsonrpc::Result;
 
 /// Tokens of one answer about a whole text.
@@ -115,136 +114,96 @@ fn all_tokens_of(program: &program::Document) -> Vec<Token> {
     found
 }
 
-/// Answers with all tokens; with what has changed since the answer `previous`, where that is known.
 pub(in crate::server) fn full(
-    state: &mut State,
-    uri: &Uri,
-    previous: Option<String>,
-    errand: Errand,
-) {
-    let (encoding, deltas) = (state.encoding, state.client.abilities.token_deltas);
-    let memory = match state.document(uri.as_str()) {
-        Ok(open) => Memory {
-            kept: deltas.then(|| open.tokens.clone()),
-            stamp: open.stamp,
-            previous,
-        },
-        Err(error) => {
-            let _ = errand.reply.send(Err(error));
-            return;
-        }
+    context: &RequestContext,
+    _: SemanticTokensParams,
+) -> Result<Option<SemanticTokensResult>> {
+    let Some(data) = all(context)? else {
+        return Ok(None);
     };
-    if let Some(unchanged) = memory.unchanged() {
-        let _ = errand.reply.send(unchanged);
-        return;
-    }
-    if state
-        .documents
-        .get(uri.as_str())
-        .and_then(program_in)
-        .is_some()
-    {
-        whole_program(
-            state,
-            "Colouring",
-            uri.as_str(),
-            errand,
-            move |program, _| {
-                let tokens = all_tokens_of(program);
-                memory.answer(encoded(program.text(), &tokens, encoding))
-            },
-        );
-        return;
-    }
-    whole(
-        state,
-        "Colouring",
-        uri.as_str(),
-        errand,
-        move |text, stop| {
-            let tokens = tokens(text, LIMIT, stop)?;
-            if tokens.len() >= LIMIT {
-                tracing::warn!(
-                    "only the first {LIMIT} tokens of a text of {} lines are coloured",
-                    text.line_count()
-                );
-            }
-            let data = encoded(text, &tokens, encoding);
-            (!stop()).then(|| memory.answer(data))
-        },
-    );
+    let (result_id, _) = kept(context, None, &data);
+    Ok(Some(SemanticTokensResult::Tokens(SemanticTokens {
+        result_id,
+        data,
+    })))
 }
 
-/// What is known of earlier answers when a request comes.
-struct Memory {
-    /// `None` for a client that asks for no differences.
-    kept: Option<Arc<TokenMemory>>,
-    stamp: u64,
-    previous: Option<String>,
-}
-
-impl Memory {
-    /// The answer where nothing has changed since the one that the client names.
-    fn unchanged(&self) -> Option<Result<Vec<u8>>> {
-        let previous = self.previous.as_deref()?;
-        let is_current = self.kept.as_ref()?.is_current(previous, self.stamp);
-        is_current.then(|| {
-            written(&SemanticTokensDelta {
-                result_id: Some(previous.to_owned()),
-                edits: Vec::new(),
-            })
-        })
+/// Answers with what has changed since the answer that the client names, where that is known, else with all tokens.
+pub(in crate::server) fn delta(
+    context: &RequestContext,
+    params: SemanticTokensDeltaParams,
+) -> Result<Option<SemanticTokensFullDeltaResult>> {
+    let previous = params.previous_result_id;
+    let delta = |result_id, edits| {
+        let delta = SemanticTokensDelta { result_id, edits };
+        Ok(Some(SemanticTokensFullDeltaResult::TokensDelta(delta)))
+    };
+    if context.abilities.token_deltas && context.tokens.is_current(&previous, context.stamp) {
+        return delta(Some(previous), Vec::new());
     }
-
-    fn answer(&self, data: Vec<SemanticToken>) -> Result<Vec<u8>> {
-        let kept = self
-            .kept
-            .as_ref()
-            .map(|kept| kept.replace(self.previous.as_deref(), self.stamp, &data));
-        let (result_id, edit) = kept.unwrap_or_default();
-        match edit {
-            Some(edit) => written(&SemanticTokensDelta {
-                result_id,
-                edits: vec![edit],
-            }),
-            None => written(&SemanticTokens { result_id, data }),
+    let Some(data) = all(context)? else {
+        return Ok(None);
+    };
+    match kept(context, Some(&previous), &data) {
+        (result_id, Some(edit)) => delta(result_id, vec![edit]),
+        (result_id, None) => {
+            let tokens = SemanticTokens { result_id, data };
+            Ok(Some(SemanticTokensFullDeltaResult::Tokens(tokens)))
         }
     }
 }
 
-/// A typed result that holds the token of the true one.
-pub(in crate::server) fn standing_for(token: serde_json::Value) -> SemanticTokens {
-    SemanticTokens {
-        result_id: token.as_str().map(str::to_owned),
-        data: Vec::new(),
+/// Takes note of what the client is sent, where it asks for differences: the name of the answer, and the difference to `previous`.
+fn kept(
+    context: &RequestContext,
+    previous: Option<&str>,
+    data: &[SemanticToken],
+) -> (Option<String>, Option<SemanticTokensEdit>) {
+    if context.abilities.token_deltas {
+        context.tokens.replace(previous, context.stamp, data)
+    } else {
+        (None, None)
     }
+}
+
+/// All tokens, up to [`LIMIT`]; `None` where the document has none.
+fn all(context: &RequestContext) -> Result<Option<Vec<SemanticToken>>> {
+    if let Some(program) = context.program() {
+        let tokens = all_tokens_of(program);
+        return Ok(Some(encoded(program.text(), &tokens, context.encoding)));
+    }
+    let Some(text) = context.text() else {
+        return Ok(None);
+    };
+    let tokens = tokens(text, LIMIT, &|| context.is_cancelled()).ok_or_else(moved_on)?;
+    if tokens.len() >= LIMIT {
+        tracing::warn!(
+            "only the first {LIMIT} tokens of a text of {} lines are coloured",
+            text.line_count()
+        );
+    }
+    let data = encoded(text, &tokens, context.encoding);
+    context.check()?;
+    Ok(Some(data))
 }
 
 pub(in crate::server) fn range(
-    state: &mut State,
-    uri: &Uri,
-    range: Range,
+    context: &RequestContext,
+    params: SemanticTokensRangeParams,
 ) -> Result<Option<SemanticTokensRangeResult>> {
-    let encoding = state.encoding;
-    let open = state.document(uri.as_str())?;
-    let first = range.start.line as usize;
+    let Range { start, end } = params.range;
+    let first = start.line as usize;
     // A range that ends at the beginning of a line does not touch it.
-    let end = range.end.line as usize + usize::from(range.end.character > 0);
+    let end = end.line as usize + usize::from(end.character > 0);
     let lines = first..end.min(first.saturating_add(LINES));
-    let data = if let Some(program) = program_in(open).and_then(|document| document.program()) {
-        encoded(
-            program.text(),
-            &tokens_of(program, lines, usize::MAX),
-            encoding,
-        )
-    } else if let Some(dxf) = dxf_in(open) {
-        encoded(dxf.text(), &tokens_in(dxf, lines), encoding)
-    } else {
-        return Ok(None);
+    let (text, tokens) = match (context.program(), context.dxf()) {
+        (Some(program), _) => (program.text(), tokens_of(program, lines, usize::MAX)),
+        (_, Some(dxf)) => (dxf.text(), tokens_in(dxf, lines)),
+        _ => return Ok(None),
     };
     Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
         result_id: None,
-        data,
+        data: encoded(text, &tokens, context.encoding),
     })))
 }
 

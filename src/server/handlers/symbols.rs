@@ -1,74 +1,38 @@
 //! `textDocument/documentSymbol`: sections, tables, layers, blocks, entities, contours; contours and blocks of programs.
 
-use super::{program_in, whole, whole_program};
 use crate::drawing::{Drawing, Outline};
 use crate::dxf::language::{ContourNote, Node, NodeKind, outline, symbols};
 use crate::program;
-use crate::server::convert::{lsp_range, range_of};
-use crate::server::requests::{Errand, written};
-use crate::server::state::State;
-use crate::text::{Encoding, SourceText};
+use crate::server::context::RequestContext;
+use crate::server::errors::moved_on;
+use crate::text::SourceText;
 use ls_types::{
-    DocumentSymbol, DocumentSymbolResponse, Location, Range, SymbolInformation, SymbolKind, Uri,
+    DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, Location, SymbolInformation,
+    SymbolKind, Uri,
 };
 use std::ops::Range as Bytes;
 use tower_lsp::jsonrpc::Result;
 
-pub(in crate::server) fn document_symbol(state: &mut State, uri: Uri, errand: Errand) {
-    let (encoding, hierarchical) = (state.encoding, state.client.abilities.hierarchical_symbols);
-    if state
-        .documents
-        .get(uri.as_str())
-        .and_then(program_in)
-        .is_some()
-    {
-        let name = uri.as_str().to_owned();
-        whole_program(
-            state,
-            "Listing symbols",
-            &name,
-            errand,
-            move |program, _| {
-                let tree = program::language::symbols(program)
-                    .into_iter()
-                    .map(Listed::of_program)
-                    .collect();
-                answer(program.text(), tree, hierarchical, &uri, encoding)
-            },
-        );
-        return;
+pub(in crate::server) fn document_symbol(
+    context: &RequestContext,
+    _: DocumentSymbolParams,
+) -> Result<Option<DocumentSymbolResponse>> {
+    if let Some(program) = context.program() {
+        let tree = program::language::symbols(program).into_iter();
+        let tree = tree.map(Listed::of_program).collect();
+        return answer(context, program.text(), tree).map(Some);
     }
-    let snapshot = state
-        .documents
-        .get(uri.as_str())
-        .and_then(|open| match &open.content {
-            crate::server::content::Content::Read(document) => document.snapshot(),
-            _ => None,
-        });
-    let name = uri.as_str().to_owned();
-    whole(
-        state,
-        "Listing symbols",
-        &name,
-        errand,
-        move |text, stop| {
-            let tree = outline(text, stop)?;
-            let contours = snapshot.map_or_else(Vec::new, |snapshot| {
-                notes(&snapshot.drawing, &snapshot.outlines)
-            });
-            let tree = symbols(tree, &contours);
-            if stop() {
-                return None;
-            }
-            Some(answer(
-                text,
-                tree.into_iter().map(Listed::of_dxf).collect(),
-                hierarchical,
-                &uri,
-                encoding,
-            ))
-        },
-    );
+    let Some(text) = context.text() else {
+        return Ok(None);
+    };
+    let tree = outline(text, &|| context.is_cancelled()).ok_or_else(moved_on)?;
+    let contours = context.snapshot().map_or_else(Vec::new, |snapshot| {
+        notes(&snapshot.drawing, &snapshot.outlines)
+    });
+    let tree = symbols(tree, &contours);
+    context.check()?;
+    let tree = tree.into_iter().map(Listed::of_dxf).collect();
+    answer(context, text, tree).map(Some)
 }
 
 /// A symbol as the protocol names it, with its places still in bytes.
@@ -122,23 +86,17 @@ impl Listed {
 }
 
 fn answer(
+    context: &RequestContext,
     text: &SourceText,
     tree: Vec<Listed>,
-    hierarchical: bool,
-    uri: &Uri,
-    encoding: Encoding,
-) -> Result<Vec<u8>> {
-    if hierarchical {
-        return written(
-            &tree
-                .into_iter()
-                .map(|node| nested(text, node, encoding))
-                .collect::<Vec<_>>(),
-        );
+) -> Result<DocumentSymbolResponse> {
+    if context.abilities.hierarchical_symbols {
+        let nested = tree.into_iter().map(|node| nested(context, text, node));
+        return Ok(DocumentSymbolResponse::Nested(nested.collect()));
     }
     let mut flat = Vec::new();
-    flatten(text, tree, None, uri, encoding, &mut flat);
-    written(&flat)
+    flatten(context, text, tree, None, &context.lsp_uri()?, &mut flat);
+    Ok(DocumentSymbolResponse::Flat(flat))
 }
 
 fn notes(drawing: &Drawing, outlines: &[Outline]) -> Vec<ContourNote> {
@@ -184,11 +142,11 @@ fn kind_of(node: &Node) -> SymbolKind {
 }
 
 #[expect(deprecated, reason = "the type has a field of that kind")]
-fn nested(text: &SourceText, node: Listed, encoding: Encoding) -> DocumentSymbol {
+fn nested(context: &RequestContext, text: &SourceText, node: Listed) -> DocumentSymbol {
     let children: Vec<DocumentSymbol> = node
         .children
         .into_iter()
-        .map(|child| nested(text, child, encoding))
+        .map(|child| nested(context, text, child))
         .collect();
     DocumentSymbol {
         name: node.name,
@@ -196,19 +154,19 @@ fn nested(text: &SourceText, node: Listed, encoding: Encoding) -> DocumentSymbol
         kind: node.kind,
         tags: None,
         deprecated: None,
-        range: lsp_range(range_of(text, node.range, encoding)),
-        selection_range: lsp_range(range_of(text, node.selection, encoding)),
+        range: context.range(text, node.range),
+        selection_range: context.range(text, node.selection),
         children: (!children.is_empty()).then_some(children),
     }
 }
 
 #[expect(deprecated, reason = "the type has a field of that kind")]
 fn flatten(
+    context: &RequestContext,
     text: &SourceText,
     nodes: Vec<Listed>,
     holder: Option<&str>,
     uri: &Uri,
-    encoding: Encoding,
     flat: &mut Vec<SymbolInformation>,
 ) {
     for node in nodes {
@@ -219,25 +177,10 @@ fn flatten(
             deprecated: None,
             location: Location {
                 uri: uri.clone(),
-                range: lsp_range(range_of(text, node.range, encoding)),
+                range: context.range(text, node.range),
             },
             container_name: holder.map(str::to_owned),
         });
-        flatten(text, node.children, Some(&node.name), uri, encoding, flat);
+        flatten(context, text, node.children, Some(&node.name), uri, flat);
     }
-}
-
-/// A typed result that holds the token of the true one.
-#[expect(deprecated, reason = "the type has a field of that kind")]
-pub(in crate::server) fn standing_for(token: serde_json::Value) -> DocumentSymbolResponse {
-    DocumentSymbolResponse::Nested(vec![DocumentSymbol {
-        name: token.as_str().unwrap_or_default().to_owned(),
-        detail: None,
-        kind: SymbolKind::FILE,
-        tags: None,
-        deprecated: None,
-        range: Range::default(),
-        selection_range: Range::default(),
-        children: None,
-    }])
 }

@@ -1,7 +1,7 @@
 //! Hidden methods for the tests of the real process: panics at each place that must survive one, and handlers that wait
 //! for the client.
 
-use super::Errand;
+use crate::server::errors::internal;
 use crate::server::state::{Reply, State};
 use serde::Deserialize;
 use serde_json::Value;
@@ -23,22 +23,15 @@ pub(in crate::server) struct Panic {
     pub uri: String,
 }
 
-pub(in crate::server) fn panic_on_state_thread() -> ! {
-    panic!("asked for by wedm/test/panic")
+pub(in crate::server) fn panic(state: &mut State, site: Site, reply: Reply<Value>) {
+    match site {
+        Site::Worker => state.workers.run(false, || true, || panic_holding(reply)),
+        Site::Handler | Site::State => panic_holding(reply),
+    }
 }
 
-pub(in crate::server) fn panic_on_worker(state: &mut State, errand: Errand) {
-    let Errand { reply, cancel, .. } = errand;
-    let workers = state.workers.clone();
-    workers.run(
-        "wedm/test/panic",
-        cancel,
-        |_| -> Vec<u8> { panic!("asked for by wedm/test/panic") },
-        move |_, result| {
-            let _ = reply
-                .send(result.map_err(|panic| super::internal(format!("internal error: {panic}"))));
-        },
-    );
+fn panic_holding(_held: Reply<Value>) {
+    panic!("asked for by wedm/test/panic")
 }
 
 /// Waits for the client's answer to `wedm/test/question`.
@@ -46,6 +39,6 @@ pub(in crate::server) fn ask(state: &mut State, reply: Reply<Value>) {
     state
         .client
         .ask("wedm/test/question", Value::Null, move |_, answer| {
-            let _ = reply.send(answer.map_err(super::internal));
+            let _ = reply.send(answer.map_err(internal));
         });
 }

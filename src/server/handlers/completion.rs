@@ -1,10 +1,8 @@
 //! `textDocument/completion`: group codes, names of records, layers; the fields of a block.
 
-use super::{dxf_in, offset_of, program_in};
 use crate::dxf::language::{Completion, CompletionKind, completions};
 use crate::program;
-use crate::server::convert::{lsp_range, range_of};
-use crate::server::state::State;
+use crate::server::context::RequestContext;
 use ls_types::{
     CompletionItem, CompletionItemKind, CompletionOptions, CompletionParams, CompletionResponse,
     CompletionTextEdit, InsertTextFormat, TextEdit,
@@ -24,14 +22,12 @@ pub(in crate::server) fn options() -> CompletionOptions {
 }
 
 pub(in crate::server) fn completion(
-    state: &mut State,
-    params: &CompletionParams,
+    context: &RequestContext,
+    params: CompletionParams,
 ) -> Result<Option<CompletionResponse>> {
-    let at = &params.text_document_position;
-    let encoding = state.encoding;
-    let snippets = state.client.abilities.snippets;
-    let open = state.document(at.text_document.uri.as_str())?;
-    if let Some(program) = program_in(open).and_then(|document| document.program()) {
+    let position = params.text_document_position.position;
+    let snippets = context.abilities.snippets;
+    if let Some(program) = context.program() {
         let text = program.text();
         let item = |(index, found): (usize, program::language::Completion)| CompletionItem {
             label: found.label,
@@ -49,12 +45,12 @@ pub(in crate::server) fn completion(
             .filter(|typed| !typed.is_empty()),
             insert_text_format: found.is_snippet.then_some(InsertTextFormat::SNIPPET),
             text_edit: Some(CompletionTextEdit::Edit(TextEdit {
-                range: lsp_range(range_of(text, found.range, encoding)),
+                range: context.range(text, found.range),
                 new_text: found.text,
             })),
             ..CompletionItem::default()
         };
-        let found = program::language::completions(program, offset_of(text, at.position, encoding));
+        let found = program::language::completions(program, context.offset(text, position));
         let found = found
             .into_iter()
             .filter(|found| snippets || !found.is_snippet);
@@ -62,7 +58,7 @@ pub(in crate::server) fn completion(
             found.enumerate().map(item).collect(),
         )));
     }
-    let Some(dxf) = dxf_in(open) else {
+    let Some(dxf) = context.dxf() else {
         return Ok(None);
     };
     let item = |(index, found): (usize, Completion)| CompletionItem {
@@ -76,12 +72,12 @@ pub(in crate::server) fn completion(
         // Codes are not to be sorted as words.
         sort_text: Some(format!("{index:04}")),
         text_edit: Some(CompletionTextEdit::Edit(TextEdit {
-            range: lsp_range(range_of(dxf.text(), found.range, encoding)),
+            range: context.range(dxf.text(), found.range),
             new_text: found.text,
         })),
         ..CompletionItem::default()
     };
-    let found = completions(dxf, offset_of(dxf.text(), at.position, encoding));
+    let found = completions(dxf, context.offset(dxf.text(), position));
     Ok(Some(CompletionResponse::Array(
         found.into_iter().enumerate().map(item).collect(),
     )))

@@ -1,8 +1,7 @@
 //! `textDocument/signatureHelp`: which number of a block the cursor is in.
 
-use super::{offset_of, program_in};
 use crate::program::language::signature;
-use crate::server::state::State;
+use crate::server::context::RequestContext;
 use ls_types::{
     Documentation, MarkupContent, MarkupKind, ParameterInformation, ParameterLabel, SignatureHelp,
     SignatureHelpOptions, SignatureHelpParams, SignatureInformation, WorkDoneProgressOptions,
@@ -26,16 +25,14 @@ pub(in crate::server) fn options() -> SignatureHelpOptions {
 }
 
 pub(in crate::server) fn signature_help(
-    state: &mut State,
-    params: &SignatureHelpParams,
+    context: &RequestContext,
+    params: SignatureHelpParams,
 ) -> Result<Option<SignatureHelp>> {
-    let at = &params.text_document_position_params;
-    let encoding = state.encoding;
-    let open = state.document(at.text_document.uri.as_str())?;
-    let Some(program) = program_in(open).and_then(|document| document.program()) else {
-        return Ok(None);
-    };
-    let Some(found) = signature(program, offset_of(program.text(), at.position, encoding)) else {
+    let position = params.text_document_position_params.position;
+    let found = context
+        .program()
+        .and_then(|program| signature(program, context.offset(program.text(), position)));
+    let Some(found) = found else {
         return Ok(None);
     };
     let markdown = |value: String| {

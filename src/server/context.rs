@@ -1,0 +1,363 @@
+//! A request about an open document: what it looks at, whether its answer is still wanted, and where it is answered.
+
+use super::client::Abilities;
+use super::convert::{lsp_edits, lsp_range, range_of};
+use super::errors::{internal, moved_on, refused};
+use super::jobs::Progress;
+use super::state::{Reply, State};
+use super::token_memory::TokenMemory;
+use super::transport::panic_text;
+use crate::document::{self, Document, Source};
+use crate::dxf;
+use crate::dxf::language::{Name, name_at};
+use crate::finding::{Rule, Severity};
+use crate::program;
+use crate::settings::{Effective, SettingsError, from_json};
+use crate::text::{Encoding, SourceText, TextEdit};
+use ls_types::{
+    DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, Position, Range,
+    TextDocumentEdit, Uri, WorkspaceEdit,
+};
+use serde_json::Value;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Weak};
+use tower_lsp::jsonrpc::{Error, Result};
+
+/// What a request holds of its document while it is answered. An edit meanwhile costs a copy of that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// The document, for a question about one place: it does not wait behind what takes long.
+    Place,
+    /// The document, for what may take long.
+    Document,
+    /// The document, for what takes long however small it is.
+    Long,
+    /// A program, or of DXF the text alone: editors ask about the whole of it after every edit.
+    Text,
+    /// The same, and the contours of the drawing.
+    Outline,
+}
+
+/// What params say about their document.
+pub(super) trait About {
+    fn uri(&self) -> &str;
+
+    fn position(&self) -> Option<Position> {
+        None
+    }
+
+    /// Settings for this request alone.
+    fn options(&self) -> Option<&Value> {
+        None
+    }
+
+    /// Where progress is told.
+    fn token(&self) -> Option<Value> {
+        None
+    }
+}
+
+/// A request on its way: its name for the log, and for the user where progress is told.
+pub(super) struct Asked {
+    pub name: &'static str,
+    pub title: &'static str,
+    pub reach: Reach,
+    pub token: Option<Value>,
+    /// Gone when the client has cancelled the request.
+    pub client: Weak<()>,
+}
+
+/// More findings than this are worth a worker.
+const FEW_FINDINGS: usize = 2_000;
+
+/// What a handler is given: the document as it stood when the request's turn came.
+pub(super) struct RequestContext {
+    pub uri: Arc<str>,
+    pub version: i64,
+    /// Differs after every change.
+    pub stamp: u64,
+    pub encoding: Encoding,
+    pub abilities: Arc<Abilities>,
+    pub progress: Progress,
+    /// The semantic tokens that the client holds.
+    pub tokens: Arc<TokenMemory>,
+    held: Held,
+    options: Result<Option<Arc<Effective>>>,
+    wanted: Wanted,
+}
+
+enum Held {
+    Document(Arc<Document>),
+    Text {
+        text: SourceText,
+        /// What is named at the place that is asked about.
+        name: Option<Name>,
+        snapshot: Option<document::Snapshot>,
+    },
+    /// Neither drawing nor program.
+    Nothing,
+}
+
+/// Whether an answer is still wanted: the client waits for it, and the document is as it was.
+#[derive(Clone)]
+struct Wanted {
+    client: Weak<()>,
+    revision: Weak<()>,
+}
+
+impl Wanted {
+    fn check(&self) -> Result<()> {
+        if self.client.strong_count() == 0 {
+            Err(Error::request_cancelled())
+        } else if self.revision.strong_count() == 0 {
+            Err(moved_on())
+        } else {
+            Ok(())
+        }
+    }
+}
+
+impl State {
+    /// Answers a request by `work`: at once where the document is small, else on a worker. An answer about a document that has
+    /// changed meanwhile is none.
+    pub fn answer<P: About + Send + 'static, T: Send + 'static>(
+        &mut self,
+        asked: Asked,
+        params: P,
+        reply: Reply<T>,
+        work: impl FnOnce(&RequestContext, P) -> Result<T> + Send + 'static,
+    ) {
+        let (name, reach) = (asked.name, asked.reach);
+        let (context, is_small) = match RequestContext::new(self, asked, &params) {
+            Ok(context) => context,
+            Err(error) => {
+                let _ = reply.send(Err(error));
+                return;
+            }
+        };
+        if is_small {
+            let result = work(&context, params);
+            drop(context);
+            let _ = reply.send(result);
+            return;
+        }
+        let wanted = context.wanted.clone();
+        let is_wanted = {
+            let wanted = wanted.clone();
+            move || wanted.client.strong_count() > 0
+        };
+        self.workers.run(reach == Reach::Place, is_wanted, move || {
+            let result = wanted.check().and_then(|()| {
+                catch_unwind(AssertUnwindSafe(|| work(&context, params))).unwrap_or_else(|panic| {
+                    let text = panic_text(&*panic);
+                    tracing::error!("{name} panicked: {text}");
+                    Err(internal(format!("internal error: {text}")))
+                })
+            });
+            // Progress ends before the answer comes.
+            drop(context);
+            let _ = reply.send(wanted.check().and(result));
+        });
+    }
+}
+
+impl RequestContext {
+    /// And whether the document is so small that the request is answered at once.
+    fn new(state: &mut State, asked: Asked, params: &impl About) -> Result<(RequestContext, bool)> {
+        let options = with_options(state, params.uri(), params.options());
+        let (encoding, abilities) = (state.encoding, state.client.abilities.clone());
+        let progress = Progress::begin(state.client.writer(), asked.token, asked.title);
+        let open = state.document(params.uri())?;
+        let is_small =
+            asked.reach != Reach::Long && open.content.is_small() && open.findings <= FEW_FINDINGS;
+        let context = RequestContext {
+            uri: open.uri.clone(),
+            version: open.version,
+            stamp: open.stamp,
+            encoding,
+            abilities,
+            progress,
+            tokens: open.tokens.clone(),
+            held: open.document().map_or(Held::Nothing, |document| {
+                Held::of(document, asked.reach, params.position(), encoding)
+            }),
+            options,
+            wanted: Wanted {
+                client: asked.client,
+                revision: open.revision(),
+            },
+        };
+        Ok((context, is_small))
+    }
+
+    /// True when nobody wants the result any more.
+    pub fn is_cancelled(&self) -> bool {
+        self.check().is_err()
+    }
+
+    /// The error that says so.
+    pub fn check(&self) -> Result<()> {
+        self.wanted.check()
+    }
+
+    /// Drawing or program.
+    pub fn document(&self) -> Option<&Arc<Document>> {
+        match &self.held {
+            Held::Document(document) => Some(document),
+            Held::Text { .. } | Held::Nothing => None,
+        }
+    }
+
+    pub fn program(&self) -> Option<&program::Document> {
+        self.document()?.program()
+    }
+
+    pub fn dxf(&self) -> Option<&dxf::Document> {
+        match self.document()?.source() {
+            Source::Dxf(dxf) => Some(dxf),
+            Source::Cad(_) | Source::Program(_) => None,
+        }
+    }
+
+    /// The text of DXF, where it is all that the request holds.
+    pub fn text(&self) -> Option<&SourceText> {
+        match &self.held {
+            Held::Text { text, .. } => Some(text),
+            Held::Document(_) | Held::Nothing => None,
+        }
+    }
+
+    /// What is named in DXF at the place that is asked about.
+    pub fn name(&self) -> Option<&Name> {
+        match &self.held {
+            Held::Text { name, .. } => name.as_ref(),
+            Held::Document(_) | Held::Nothing => None,
+        }
+    }
+
+    /// Drawing and contours of DXF.
+    pub fn snapshot(&self) -> Option<&document::Snapshot> {
+        match &self.held {
+            Held::Text { snapshot, .. } => snapshot.as_ref(),
+            Held::Document(_) | Held::Nothing => None,
+        }
+    }
+
+    /// A document that holds a drawing.
+    pub fn drawn(&self) -> Result<&Arc<Document>> {
+        let document = self
+            .document()
+            .ok_or_else(|| refused(format!("{} holds no drawing", self.uri)))?;
+        match document.drawing() {
+            Some(_) => Ok(document),
+            None => Err(refused(format!(
+                "{} is a program, expected a drawing",
+                self.uri
+            ))),
+        }
+    }
+
+    /// The settings of the document with the request's own over them, where it brings any.
+    pub fn options(&self) -> Result<Option<Arc<Effective>>> {
+        self.options.clone()
+    }
+
+    pub fn offset(&self, text: &SourceText, position: Position) -> usize {
+        text.offset_of(
+            position.line as usize,
+            position.character as usize,
+            self.encoding,
+        )
+    }
+
+    pub fn range(&self, text: &SourceText, bytes: std::ops::Range<usize>) -> Range {
+        lsp_range(range_of(text, bytes, self.encoding))
+    }
+
+    pub fn lsp_uri(&self) -> Result<Uri> {
+        self.uri
+            .parse()
+            .map_err(|_| Error::invalid_params(format!("{:?} is no URI", self.uri)))
+    }
+
+    /// Edits of the document's text in the form that the client takes.
+    pub fn workspace_edit(&self, text: &SourceText, edits: Vec<TextEdit>) -> Result<WorkspaceEdit> {
+        let edits = lsp_edits(text, edits, self.encoding);
+        let uri = self.lsp_uri()?;
+        if !self.abilities.document_changes {
+            return Ok(WorkspaceEdit {
+                changes: Some([(uri, edits)].into()),
+                ..WorkspaceEdit::default()
+            });
+        }
+        let change = TextDocumentEdit {
+            text_document: OptionalVersionedTextDocumentIdentifier {
+                uri,
+                version: i32::try_from(self.version).ok(),
+            },
+            edits: edits.into_iter().map(OneOf::Left).collect(),
+        };
+        Ok(WorkspaceEdit {
+            document_changes: Some(DocumentChanges::Edits(vec![change])),
+            ..WorkspaceEdit::default()
+        })
+    }
+}
+
+impl Held {
+    fn of(
+        document: &Arc<Document>,
+        reach: Reach,
+        position: Option<Position>,
+        encoding: Encoding,
+    ) -> Held {
+        match (document.source(), reach) {
+            (Source::Dxf(dxf), Reach::Text | Reach::Outline) => {
+                let offset = |at: Position| {
+                    dxf.text()
+                        .offset_of(at.line as usize, at.character as usize, encoding)
+                };
+                Held::Text {
+                    text: dxf.text().clone(),
+                    name: position.and_then(|at| Some(name_at(dxf, offset(at))?.0)),
+                    snapshot: (reach == Reach::Outline)
+                        .then(|| document.snapshot())
+                        .flatten(),
+                }
+            }
+            _ => Held::Document(document.clone()),
+        }
+    }
+}
+
+/// The request's own settings over those of the document, where it brings any.
+fn with_options(
+    state: &mut State,
+    uri: &str,
+    options: Option<&Value>,
+) -> Result<Option<Arc<Effective>>> {
+    let Some(options) = options.filter(|options| !options.is_null()) else {
+        return Ok(None);
+    };
+    let misfit =
+        |error: &SettingsError| Err(Error::invalid_params(format!("options: {}", error.message)));
+    let (settings, errors) = from_json(options);
+    if let Some(error) = errors.iter().find(|error| error.rule == Rule::Settings) {
+        return misfit(error);
+    }
+    let file = state.file_for(uri);
+    let of_document = state.config.settings_for(file.as_deref());
+    let all = of_document.overlaid(&settings);
+    let is_error = |error: &&SettingsError| error.severity == Severity::Error;
+    // What is wrong without the options is said elsewhere.
+    let is_wrong_already = || {
+        of_document
+            .pass_errors(&|_| None)
+            .iter()
+            .any(|error| is_error(&error))
+    };
+    match all.pass_errors(&|_| None).iter().find(is_error) {
+        Some(error) if !is_wrong_already() => misfit(error),
+        _ => Ok(Some(Arc::new(Effective::of(&all)))),
+    }
+}

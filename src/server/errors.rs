@@ -1,0 +1,57 @@
+//! What a request is answered where it is not answered.
+
+use super::convert;
+use crate::document::Document;
+use crate::message::readable;
+use crate::protocol::{Diagnostic, Refused};
+use crate::text::Encoding;
+use crate::toolpath::Refusal;
+use tower_lsp::jsonrpc::{Error, ErrorCode};
+
+/// −32803: refused for what the document is.
+pub(super) fn refused(message: impl Into<String>) -> Error {
+    Error {
+        code: ErrorCode::ServerError(-32803),
+        message: readable(&message.into()).into_owned().into(),
+        data: None,
+    }
+}
+
+pub(super) fn refused_with(message: impl Into<String>, diagnostics: Vec<Diagnostic>) -> Error {
+    Error {
+        data: serde_json::to_value(Refused { diagnostics }).ok(),
+        ..refused(message)
+    }
+}
+
+pub(super) fn internal(message: impl Into<String>) -> Error {
+    Error {
+        code: ErrorCode::InternalError,
+        message: message.into().into(),
+        data: None,
+    }
+}
+
+pub(super) fn moved_on() -> Error {
+    Error {
+        code: ErrorCode::ContentModified,
+        message: "the document has changed meanwhile".into(),
+        data: None,
+    }
+}
+
+/// What `toolpath` refused; `document` is the one in which findings have their places.
+pub(super) fn refusal(document: &Document, refusal: Refusal, encoding: Encoding) -> Error {
+    match refusal {
+        Refusal::Sentence(sentence) => refused(sentence),
+        Refusal::Cancelled => Error::request_cancelled(),
+        Refusal::Findings(findings) => {
+            let diagnostics = convert::diagnostics(document, &findings, encoding);
+            let first = diagnostics.first().map_or_else(
+                || "no path can be made".into(),
+                |first| first.message.clone(),
+            );
+            refused_with(first, diagnostics)
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! `textDocument/codeAction`: the fixes of findings, one action that makes every safe fix, and the refactorings of programs.
+
+use crate::document::{Document, Rounds, Source};
+use crate::finding::{self, Edit, Finding, Place};
+use crate::program::language;
+use crate::protocol::{self, FindingData, method};
+use crate::server::context::RequestContext;
+use crate::server::convert;
+use ls_types::{
+    CodeAction, CodeActionContext, CodeActionDisabled, CodeActionKind, CodeActionOrCommand,
+    CodeActionParams, CodeActionResponse, CodeActionTriggerKind, Command, Range,
+};
+use rustc_hash::FxHashSet;
+use tower_lsp::jsonrpc::Result;
+
+pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
+
+/// More findings than this in one range get their fixes by "fix all" only: nobody picks from a longer list.
+const LISTED: usize = 100;
+
+/// Lines of a text, or entities of a drawing, beyond which it costs too much to try a repair behind each repair for no use.
+const LONG: usize = 50_000;
+
+pub(in crate::server) fn code_action(
+    context: &RequestContext,
+    params: CodeActionParams,
+) -> Result<Option<CodeActionResponse>> {
+    // Nothing can be fixed in a text that is neither drawing nor program.
+    let actions = context
+        .document()
+        .map(|document| actions(context, document, &params));
+    Ok(Some(actions.unwrap_or_default()))
+}
+
+fn actions(
+    context: &RequestContext,
+    document: &Document,
+    params: &CodeActionParams,
+) -> CodeActionResponse {
+    let unit_mm = document
+        .drawing()
+        .map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
+    let asked = &params.context;
+    let mut actions = Vec::new();
+    if wants(asked, CodeActionKind::QUICKFIX.as_str()) {
+        let related_of = context
+            .abilities
+            .related_information
+            .then_some(&*context.uri);
+        for finding in chosen(context, document, params) {
+            let diagnostic = convert::diagnostic(document, &finding, context.encoding, related_of);
+            for (index, fix) in document.fixes(&finding).iter().enumerate() {
+                let action = CodeAction {
+                    title: finding::title(&fix.kind, unit_mm),
+                    kind: Some(CodeActionKind::QUICKFIX),
+                    diagnostics: convert::lsp_diagnostic(&diagnostic)
+                        .map(|diagnostic| vec![diagnostic]),
+                    is_preferred: (index == 0 && fix.preferred).then_some(true),
+                    ..CodeAction::default()
+                };
+                actions.extend(with_edit(context, document, action, &fix.edit));
+            }
+        }
+    }
+    if wants(asked, FIX_ALL) && is_asked_for(asked) {
+        let action = CodeAction {
+            title: say!(fix_all_that_can_be_fixed_safely).into(),
+            kind: Some(CodeActionKind::new(FIX_ALL)),
+            ..CodeAction::default()
+        };
+        actions.extend(fix_all(context, document, action, asked.only.is_some()));
+    }
+    if let Some(program) = document.program()
+        && is_asked_for(asked)
+    {
+        let selection = convert::bytes_of(program.text(), params.range, context.encoding);
+        let proposals = language::refactorings(program, document.settings(), selection, |id| {
+            wants(asked, id)
+        });
+        actions.extend(
+            proposals
+                .into_iter()
+                .filter_map(|proposal| refactoring(context, document, proposal)),
+        );
+    }
+    actions
+        .into_iter()
+        .map(CodeActionOrCommand::CodeAction)
+        .collect()
+}
+
+/// In a long document that is gone through once where the editor asks for whatever there is, at every step of the cursor.
+fn fix_all(
+    context: &RequestContext,
+    document: &Document,
+    action: CodeAction,
+    is_meant: bool,
+) -> Option<CodeAction> {
+    let is_long = document.text().map_or_else(
+        || document.drawing().map_or(0, |drawing| drawing.len()) > LONG,
+        |text| text.line_count() > LONG,
+    );
+    if is_long && !is_meant {
+        return with_edit(context, document, action, &document.fix_all()?);
+    }
+    match document.fix_all_to_the_end()? {
+        Rounds::OfText(edits) => with_edit(context, document, action, &Edit::Text(edits)),
+        Rounds::OfDrawing(rounds) => {
+            let changes = rounds
+                .iter()
+                .flat_map(|(drawing, edit)| protocol::changes_of(drawing, edit))
+                .collect();
+            with_changes(context, action, changes)
+        }
+    }
+}
+
+/// False where an editor only wants to know whether to show a light bulb, at every move of the cursor.
+fn is_asked_for(context: &CodeActionContext) -> bool {
+    context.only.is_some() || context.trigger_kind != Some(CodeActionTriggerKind::AUTOMATIC)
+}
+
+/// A refactoring, or the reason why it cannot be done for clients that show it.
+fn refactoring(
+    context: &RequestContext,
+    document: &Document,
+    proposal: language::Proposal,
+) -> Option<CodeAction> {
+    let action = CodeAction {
+        title: proposal.title,
+        kind: Some(CodeActionKind::new(proposal.id)),
+        ..CodeAction::default()
+    };
+    match proposal.edits {
+        Ok(edits) => with_edit(context, document, action, &Edit::Text(edits)),
+        Err(reason) => context.abilities.disabled_actions.then(|| CodeAction {
+            disabled: Some(CodeActionDisabled { reason }),
+            ..action
+        }),
+    }
+}
+
+/// True when the client asked for this kind, for one above it, or for all.
+fn wants(context: &CodeActionContext, kind: &str) -> bool {
+    let Some(only) = &context.only else {
+        return true;
+    };
+    only.iter().any(|asked| {
+        let asked = asked.as_str();
+        asked.is_empty()
+            || kind == asked
+            || kind
+                .strip_prefix(asked)
+                .is_some_and(|rest| rest.starts_with('.'))
+    })
+}
+
+/// The findings that the client means: those of its diagnostics where they say which, else those in the range.
+fn chosen(
+    context: &RequestContext,
+    document: &Document,
+    params: &CodeActionParams,
+) -> Vec<Finding> {
+    let diagnostics = &params.context.diagnostics;
+    let named: FxHashSet<(String, String, usize)> =
+        diagnostics.iter().filter_map(name_of).collect();
+    // In a program, rule and line say which: its findings have no handle.
+    let said: FxHashSet<(String, u32)> = diagnostics
+        .iter()
+        .filter_map(|diagnostic| Some((rule_of(diagnostic)?, diagnostic.range.start.line)))
+        .collect();
+    let said_of = |finding: &Finding| {
+        let (text, range) = (document.text()?, document.range_of(&finding.place)?);
+        let line = convert::range_of(text, range, context.encoding).start.line;
+        Some((finding.rule.name().to_owned(), line))
+    };
+    let in_range = in_range(context, document, params.range);
+    let is_named = match document.program() {
+        Some(_) => !said.is_empty(),
+        None => !named.is_empty(),
+    };
+    let is_chosen = |finding: &Finding| match (is_named, &finding.place) {
+        (false, _) => in_range(finding),
+        (true, Place::Segment { entity, segment }) => document
+            .drawing()
+            .and_then(|drawing| drawing.get(*entity))
+            .is_some_and(|entity| {
+                let rule = finding.rule.name().to_owned();
+                named.contains(&(rule, entity.handle.to_string(), *segment))
+            }),
+        (true, _) => said_of(finding).is_some_and(|name| said.contains(&name)),
+    };
+    let findings = document.all_findings();
+    let chosen = findings.iter().filter(|finding| is_chosen(finding));
+    chosen.take(LISTED).cloned().collect()
+}
+
+/// Rule, handle and segment that a client's diagnostic names.
+fn name_of(diagnostic: &ls_types::Diagnostic) -> Option<(String, String, usize)> {
+    let data: FindingData = serde_json::from_value(diagnostic.data.clone()?).ok()?;
+    Some((rule_of(diagnostic)?, data.handle?, data.segment?))
+}
+
+fn rule_of(diagnostic: &ls_types::Diagnostic) -> Option<String> {
+    match diagnostic.code.as_ref()? {
+        ls_types::NumberOrString::String(rule) => Some(rule.clone()),
+        ls_types::NumberOrString::Number(_) => None,
+    }
+}
+
+/// Whether a finding lies in the range: by line in a drawing, by the bytes of its number or of its segment in a text.
+fn in_range(
+    context: &RequestContext,
+    document: &Document,
+    range: Range,
+) -> impl Fn(&Finding) -> bool {
+    let bytes = document
+        .text()
+        .map(|text| convert::bytes_of(text, range, context.encoding));
+    let segments: FxHashSet<_> = bytes
+        .clone()
+        .map(|bytes| document.segments_at(bytes))
+        .unwrap_or_default()
+        .into_iter()
+        .collect();
+    move |finding| {
+        let segment = match finding.place {
+            Place::Segment { entity, segment } => Some((entity, segment)),
+            _ => None,
+        };
+        match (&bytes, document.range_of(&finding.place)) {
+            (Some(bytes), Some(own)) => {
+                (own.start <= bytes.end && bytes.start <= own.end)
+                    || segment.is_some_and(|segment| segments.contains(&segment))
+            }
+            _ => {
+                let line = segment.map_or(0, |(_, segment)| segment);
+                (range.start.line as usize..=range.end.line as usize).contains(&line)
+            }
+        }
+    }
+}
+
+/// The action with its edit in the form that the document takes; `None` where the edit cannot be made there.
+fn with_edit(
+    context: &RequestContext,
+    document: &Document,
+    action: CodeAction,
+    edit: &Edit,
+) -> Option<CodeAction> {
+    let edits = match (document.source(), edit) {
+        (Source::Cad(drawing), Edit::Drawing(edit)) => {
+            return with_changes(context, action, protocol::changes_of(drawing, edit));
+        }
+        (Source::Dxf(dxf), Edit::Drawing(edit)) => dxf
+            .text_edits(edit)
+            .inspect_err(|reason| tracing::info!("\"{}\" is not offered: {reason}", action.title))
+            .ok()?,
+        (_, Edit::Text(edits)) => edits.clone(),
+        (Source::Program(_), Edit::Drawing(_)) => return None,
+    };
+    let edit = context.workspace_edit(document.text()?, edits).ok()?;
+    Some(CodeAction {
+        edit: Some(edit),
+        ..action
+    })
+}
+
+fn with_changes(
+    context: &RequestContext,
+    action: CodeAction,
+    changes: Vec<protocol::DrawingChange>,
+) -> Option<CodeAction> {
+    let argument = protocol::DrawingEdit {
+        uri: context.uri.to_string(),
+        version: context.version,
+        changes,
+    };
+    let command = Command {
+        title: action.title.clone(),
+        command: method::APPLY_DRAWING_EDIT_COMMAND.into(),
+        arguments: Some(vec![serde_json::to_value(argument).ok()?]),
+    };
+    Some(CodeAction {
+        command: Some(command),
+        ..action
+    })
+}

@@ -1,0 +1,11 @@
+//! `wedm/contours`: what is chained to what.
+
+use super::Task;
+use crate::protocol::{Contours, DrawingName};
+use crate::server::context::RequestContext;
+use tower_lsp::jsonrpc::Result;
+
+pub(in crate::server) fn contours(context: &RequestContext, _: DrawingName) -> Result<Contours> {
+    let task = Task::of(context)?;
+    Ok(Contours::new(&task.drawing, &task.outlines, &task.settings))
+}

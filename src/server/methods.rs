@@ -1,0 +1,403 @@
+//! The table of methods, and the framework's face: every handler hands its message to the state thread before its first wait, and
+//! does nothing else.
+
+use super::client::Weight;
+use super::context::{About, Asked, Reach, RequestContext};
+use super::drawings::{self, Sent, SentChanges};
+use super::errors::internal;
+use super::handlers::*;
+use super::state::{Mailbox, Reply, State};
+use super::transport::Written;
+use super::{parent, texts};
+use crate::protocol::{self, method};
+use ls_types::request::*;
+use ls_types::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use tower_lsp::jsonrpc::{Error, Result};
+use tower_lsp::{LanguageServer, LspService, LspServiceBuilder};
+
+/// A request about an open document. Its result leaves as text, whatever its size.
+struct Method<P, R> {
+    name: &'static str,
+    /// What the user is told where progress is reported.
+    title: &'static str,
+    reach: Reach,
+    handler: fn(&RequestContext, P) -> Result<R>,
+}
+
+/// Requests of LSP: method of the framework's trait, request, what its handler holds of the document, handler.
+macro_rules! requests {
+    ($($name:ident: $request:ty, $reach:ident $(, $title:literal)? => $handler:path;)*) => {$(
+        async fn $name(
+            &self,
+            params: <$request as Request>::Params,
+        ) -> Result<<$request as Request>::Result> {
+            let method = Method {
+                name: <$request>::METHOD,
+                title: concat!($($title)?),
+                reach: Reach::$reach,
+                handler: $handler,
+            };
+            let token = params.token();
+            self.answer(method, params, token).await
+        }
+    )*};
+}
+
+/// Requests of the name space `wedm/`: name, type of the params, what progress is called, what the handler holds, handler.
+macro_rules! own_requests {
+    ($($name:ident: $method:path, $params:ty, $reach:ident, $title:literal => $handler:path;)*) => {
+        impl Backend {$(
+            async fn $name(&self, params: Value) -> Result<Value> {
+                let (params, token) = read::<$params>(params)?;
+                let method = Method {
+                    name: $method,
+                    title: $title,
+                    reach: Reach::$reach,
+                    handler: $handler,
+                };
+                self.answer(method, params, token).await
+            }
+        )*}
+
+        fn with_own_requests(build: LspServiceBuilder<Backend>) -> LspServiceBuilder<Backend> {
+            build$(.custom_method($method, Backend::$name))*
+        }
+    };
+}
+
+own_requests! {
+    inspect: method::INSPECT, protocol::Inspect, Document, "Listing radii" => inspect::inspect;
+    contours: method::CONTOURS, protocol::DrawingName, Document, "Listing contours" => contours::contours;
+    toolpath: method::TOOLPATH, WithOptions, Document, "Laying the wire's path" => toolpath::toolpath;
+    picture: method::PICTURE, WithOptions, Document, "Drawing the picture" => picture::picture;
+    generate: method::GENERATE, generate::Params, Long, "Generating the program" => generate::generate;
+    simulate: method::SIMULATE, protocol::Simulate, Document, "Following the program" => simulate::simulate;
+    locate: method::LOCATE, protocol::Locate, Place, "Locating" => locate::locate;
+}
+
+impl LanguageServer for Backend {
+    requests! {
+        hover: HoverRequest, Place => hover::hover;
+        completion: Completion, Place => completion::completion;
+        signature_help: SignatureHelpRequest, Place => signature::signature_help;
+        selection_range: SelectionRangeRequest, Place => selection::selection_range;
+        inlay_hint: InlayHintRequest, Place => hints::inlay_hint;
+        prepare_rename: PrepareRenameRequest, Place => rename::prepare;
+        rename: Rename, Document => rename::rename;
+        goto_definition: GotoDefinition, Text => navigation::definition;
+        references: References, Text => navigation::references;
+        document_highlight: DocumentHighlightRequest, Text => navigation::highlight;
+        document_symbol: DocumentSymbolRequest, Outline => symbols::document_symbol;
+        folding_range: FoldingRangeRequest, Text => folding::folding_range;
+        code_lens: CodeLensRequest, Text => lenses::code_lens;
+        semantic_tokens_full: SemanticTokensFullRequest, Text => tokens::full;
+        semantic_tokens_full_delta: SemanticTokensFullDeltaRequest, Text => tokens::delta;
+        semantic_tokens_range: SemanticTokensRangeRequest, Place => tokens::range;
+        formatting: Formatting, Text => formatting::whole;
+        range_formatting: RangeFormatting, Text => formatting::range;
+        on_type_formatting: OnTypeFormatting, Place => formatting::left_line;
+        code_action: CodeActionRequest, Document, "Looking for fixes" => code_action::code_action;
+    }
+
+    async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {
+        if let (Some(orphaned), Some(pid)) = (self.orphaned, params.process_id) {
+            parent::watch(pid, orphaned);
+        }
+        self.ask(Initialize::METHOD, None, move |state, reply| {
+            let _ = reply.send(Ok(lifecycle::initialize(state, params)));
+        })
+        .await
+    }
+
+    async fn initialized(&self, _: InitializedParams) {
+        self.tell("initialized", None, lifecycle::initialized);
+    }
+
+    async fn shutdown(&self) -> Result<()> {
+        self.flags.shut_down.store(true, Ordering::Release);
+        Ok(())
+    }
+
+    async fn did_open(&self, params: DidOpenTextDocumentParams) {
+        let TextDocumentItem {
+            uri,
+            language_id,
+            version,
+            text,
+        } = params.text_document;
+        let uri: Arc<str> = uri.as_str().into();
+        self.tell("textDocument/didOpen", Some(uri.clone()), move |state| {
+            texts::open(state, uri, &language_id, version.into(), text);
+        });
+    }
+
+    async fn did_change(&self, params: DidChangeTextDocumentParams) {
+        let uri: Arc<str> = params.text_document.uri.as_str().into();
+        let version = params.text_document.version.into();
+        self.tell_change("textDocument/didChange", uri.clone(), move |state| {
+            texts::change(state, &uri, version, params.content_changes);
+        });
+    }
+
+    async fn did_save(&self, params: DidSaveTextDocumentParams) {
+        // A project's file may be new on disk, and not every client watches files.
+        let uri = params.text_document.uri;
+        if uri.as_str().ends_with(crate::settings::FILE_NAME) {
+            self.tell("textDocument/didSave", None, State::settings_changed);
+        }
+    }
+
+    async fn did_close(&self, params: DidCloseTextDocumentParams) {
+        let uri: Arc<str> = params.text_document.uri.as_str().into();
+        self.tell("textDocument/didClose", Some(uri.clone()), move |state| {
+            texts::close(state, &uri)
+        });
+    }
+
+    async fn did_change_configuration(&self, params: DidChangeConfigurationParams) {
+        self.tell("workspace/didChangeConfiguration", None, move |state| {
+            lifecycle::configuration_changed(state, &params.settings)
+        });
+    }
+
+    async fn did_change_watched_files(&self, _: DidChangeWatchedFilesParams) {
+        self.tell(
+            "workspace/didChangeWatchedFiles",
+            None,
+            State::settings_changed,
+        );
+    }
+
+    async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
+        self.tell("workspace/didChangeWorkspaceFolders", None, move |state| {
+            lifecycle::folders_changed(state, &params.event)
+        });
+    }
+
+    async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
+        if params.command != method::SCALE_COMMAND {
+            let edit = commands::drawing_edit(&params.command, params.arguments)?;
+            let about = Some(edit.uri.as_str().into());
+            return self
+                .ask(ExecuteCommand::METHOD, about, move |state, reply| {
+                    commands::apply_drawing_edit(state, edit, reply)
+                })
+                .await;
+        }
+        let factor = commands::scale_program(params.arguments)?;
+        let scaling = Method {
+            name: ExecuteCommand::METHOD,
+            title: "",
+            reach: Reach::Document,
+            handler: commands::scaled,
+        };
+        let edit = self.perform(scaling, factor, None, |result| result).await?;
+        self.ask(ExecuteCommand::METHOD, None, move |state, reply| {
+            commands::apply_edit(state, edit, reply)
+        })
+        .await
+    }
+}
+
+/// What the handlers share with the transport.
+#[derive(Default)]
+pub(super) struct Flags {
+    /// `shutdown` was answered: the end is a good one.
+    pub shut_down: AtomicBool,
+    /// Notifications that reached their handler.
+    pub taken: AtomicUsize,
+}
+
+pub(super) struct Backend {
+    mailbox: Mailbox,
+    flags: Arc<Flags>,
+    /// Called when the client's process has died; `None` where it is not watched.
+    orphaned: Option<fn()>,
+}
+
+/// The service with every method of the protocol.
+pub(super) fn service(
+    mailbox: Mailbox,
+    flags: Arc<Flags>,
+    orphaned: Option<fn()>,
+) -> LspService<Backend> {
+    // The framework's own client waits for answers; ours does not.
+    let build = LspService::build(|_client| Backend {
+        mailbox,
+        flags,
+        orphaned,
+    });
+    let build = with_own_requests(build)
+        .custom_method(method::DID_OPEN_DRAWING, Backend::did_open_drawing)
+        .custom_method(method::DID_CHANGE_DRAWING, Backend::did_change_drawing)
+        .custom_method(method::DID_CLOSE_DRAWING, Backend::did_close_drawing)
+        .custom_method(method::SETTINGS, Backend::settings);
+    #[cfg(feature = "testing")]
+    let build = build
+        .custom_method("wedm/test/panic", Backend::test_panic)
+        .custom_method("wedm/test/ask", Backend::test_ask);
+    let (service, _socket) = build.finish();
+    service
+}
+
+impl Backend {
+    fn tell(
+        &self,
+        name: &'static str,
+        about: Option<Arc<str>>,
+        act: impl FnOnce(&mut State) + Send + 'static,
+    ) {
+        self.flags.taken.fetch_add(1, Ordering::Relaxed);
+        self.mailbox.tell(name, about, act);
+    }
+
+    fn tell_change(
+        &self,
+        name: &'static str,
+        about: Arc<str>,
+        act: impl FnOnce(&mut State) + Send + 'static,
+    ) {
+        self.flags.taken.fetch_add(1, Ordering::Relaxed);
+        self.mailbox.tell_change(name, about, act);
+    }
+
+    /// Hands a request over and waits for its answer.
+    async fn ask<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        about: Option<Arc<str>>,
+        act: impl FnOnce(&mut State, Reply<T>) + Send + 'static,
+    ) -> Result<T> {
+        let (reply, answer) = tokio::sync::oneshot::channel();
+        self.tell(name, about, move |state| act(state, reply));
+        answer
+            .await
+            .unwrap_or_else(|_| Err(internal(format!("internal error in {name}"))))
+    }
+
+    /// Has a request about a document answered in its turn, and made into `finish` of it where that was done. It is cancelled with
+    /// this future.
+    async fn perform<P: About + Send + 'static, R: 'static, T: Send + 'static>(
+        &self,
+        method: Method<P, R>,
+        params: P,
+        token: Option<Value>,
+        finish: impl FnOnce(Result<R>) -> Result<T> + Send + 'static,
+    ) -> Result<T> {
+        let alive = Arc::new(());
+        let Method {
+            name,
+            title,
+            reach,
+            handler,
+        } = method;
+        let asked = Asked {
+            name,
+            title,
+            reach,
+            token,
+            client: Arc::downgrade(&alive),
+        };
+        let about = Some(params.uri().into());
+        self.ask(name, about, move |state, reply| {
+            state.answer(asked, params, reply, move |context, params| {
+                finish(handler(context, params))
+            });
+        })
+        .await
+    }
+
+    /// Answers with text, which takes the place of the framework's empty result.
+    async fn answer<P: About + Send + 'static, R: Serialize + 'static, T: Default>(
+        &self,
+        method: Method<P, R>,
+        params: P,
+        token: Option<Value>,
+    ) -> Result<T> {
+        let written =
+            |result: Result<R>| Written::of(&result?).map_err(|error| internal(error.to_string()));
+        self.perform(method, params, token, written).await?.leave();
+        Ok(T::default())
+    }
+
+    fn ignored(&self, method: &str, reason: &str) {
+        let message = format!("{method} was ignored: {reason}");
+        self.tell("log", None, move |state| {
+            state.client.log(Weight::Warning, message)
+        });
+    }
+
+    async fn did_open_drawing(&self, params: Value) {
+        match Sent::read(params) {
+            Ok(sent) => {
+                let about = sent.uri.clone();
+                self.tell(method::DID_OPEN_DRAWING, Some(about), move |state| {
+                    drawings::open(state, sent)
+                });
+            }
+            Err(reason) => self.ignored(method::DID_OPEN_DRAWING, &reason),
+        }
+    }
+
+    async fn did_change_drawing(&self, params: Value) {
+        match SentChanges::read(params) {
+            Ok(sent) => {
+                let about = sent.uri.clone();
+                self.tell_change(method::DID_CHANGE_DRAWING, about, move |state| {
+                    drawings::change(state, sent)
+                });
+            }
+            Err(reason) => self.ignored(method::DID_CHANGE_DRAWING, &reason),
+        }
+    }
+
+    async fn did_close_drawing(&self, params: protocol::CloseDrawing) {
+        let uri: Arc<str> = params.drawing.uri.into();
+        self.tell(method::DID_CLOSE_DRAWING, Some(uri.clone()), move |state| {
+            drawings::close(state, &uri)
+        });
+    }
+
+    /// What holds for a document does not hang on what it holds: nobody waits for its judging.
+    async fn settings(&self, params: Value) -> Result<Value> {
+        let (params, _) = read::<protocol::DrawingName>(params)?;
+        self.ask(method::SETTINGS, None, move |state, reply| {
+            let in_force = serde_json::to_value(settings::settings(state, &params.uri));
+            let _ = reply.send(in_force.map_err(|error| internal(error.to_string())));
+        })
+        .await
+    }
+
+    #[cfg(feature = "testing")]
+    async fn test_panic(&self, params: probe::Panic) -> Result<Value> {
+        if params.site == probe::Site::Handler {
+            panic!("asked for by wedm/test/panic");
+        }
+        let about = Some(params.uri.as_str().into());
+        self.ask("wedm/test/panic", about, move |state, reply| {
+            probe::panic(state, params.site, reply)
+        })
+        .await
+    }
+
+    #[cfg(feature = "testing")]
+    async fn test_ask(&self, _: Value) -> Result<Value> {
+        self.ask("wedm/test/ask", None, probe::ask).await
+    }
+}
+
+/// Params and the token for progress beside them.
+fn read<P: DeserializeOwned>(mut params: Value) -> Result<(P, Option<Value>)> {
+    let token = params
+        .get_mut("workDoneToken")
+        .map(Value::take)
+        .filter(|token| token.is_string() || token.is_number());
+    let params =
+        serde_json::from_value(params).map_err(|error| Error::invalid_params(error.to_string()))?;
+    Ok((params, token))
+}
