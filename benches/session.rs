@@ -2,7 +2,7 @@
 //!
 //! Every figure is printed beside its goal; nothing fails on a slow machine. The clock runs from before the message is
 //! written to after the answer has been read and parsed. `-- --quick` makes fewer rounds; `-- NAME …` runs only the sessions
-//! whose names hold one of these: "start", "5 MB", "50 MB", "program", "3B", "ISO", "drawing", "generate".
+//! whose names hold one of these: "start", "5 MB", "50 MB", "program", "3B", "ISO", "beside", "drawing", "generate".
 
 mod generated;
 #[allow(dead_code)]
@@ -63,6 +63,9 @@ fn main() {
         if is_chosen(program.session) {
             program_session(&program, rounds);
         }
+    }
+    if is_chosen("beside") {
+        beside_session(rounds);
     }
     if is_chosen("drawing") {
         drawing_session(rounds);
@@ -401,6 +404,59 @@ fn program_session(program: &Program, rounds: usize) {
         row(&format!("{name}: refactoring {kind}"), vec![time], "");
     }
     client.shut_down();
+}
+
+/// An edit of a small drawing while everything is asked about one place of another document that takes long.
+fn beside_session(rounds: usize) {
+    let body: String = (0..2_000)
+        .map(|number| format!("G01X{}.Y{}.\n", number * 7 % 13, number * 5 % 11))
+        .collect();
+    let calls = format!("G91\nM98P100L9999\nM02\nO100\n{body}M99\n");
+    for (name, text) in [
+        ("2,000 blocks called 9,999 times", calls),
+        ("5 MB ISO", generated::iso(200_000)),
+    ] {
+        let (uri, edited) = ("file:///beside.iso", "cad:///edited");
+        let mut client = Client::start();
+        let plate = support::tight_plate("2A");
+        client.open_drawing(edited, json!([plate]));
+        client.open_text(uri, "wire-iso", &text);
+        let place = json!({ "line": text.lines().count() / 2, "character": 2 });
+        let at = json!({ "textDocument": { "uri": uri }, "position": place, "positions": [place], "newName": "7" });
+        let methods = [
+            "hover",
+            "completion",
+            "signatureHelp",
+            "selectionRange",
+            "definition",
+            "prepareRename",
+            "rename",
+        ];
+        let edits = (0..rounds / 4).map(|round| {
+            let asked = methods.map(|method| {
+                let method = format!("textDocument/{method}");
+                client.ask(&method, at.clone())
+            });
+            let version = round as i64 + 2;
+            let x = if round % 2 == 0 { 0.0 } else { 0.1 };
+            let splice = json!([{ "handle": "2A", "vertices": { "start": 0, "deleteCount": 1, "insert": [[x, 0, 0]] } }]);
+            let time = timed(|| {
+                client.change_drawing(edited, version, splice);
+                client.diagnostics(edited, version)
+            })
+            .1;
+            for id in asked {
+                let _ = client.answer(id);
+            }
+            time
+        });
+        row(
+            &format!("an edit beside questions about {name}"),
+            edits.collect(),
+            "most 50 ms",
+        );
+        client.shut_down();
+    }
 }
 
 fn drawing_session(rounds: usize) {

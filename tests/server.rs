@@ -15,8 +15,6 @@ mod end;
 mod flood;
 #[path = "server/handshake.rs"]
 mod handshake;
-#[path = "server/iso_text.rs"]
-mod iso_text;
 #[path = "server/language.rs"]
 mod language;
 #[path = "server/locate.rs"]

@@ -27,6 +27,8 @@ use tower_lsp::jsonrpc;
 const QUEUE: usize = 1024;
 /// A flood of messages is interrupted after this long to publish what is known.
 const TURN: Duration = Duration::from_millis(50);
+/// Documents are judged under other settings for as long as this between other messages.
+const SLICE: Duration = Duration::from_millis(10);
 /// A turn longer than this is logged.
 const LONG_TURN: Duration = Duration::from_millis(100);
 
@@ -90,6 +92,8 @@ pub(super) struct State {
     pub resending: FxHashSet<Arc<str>>,
     /// Documents that have to be judged and published, in the order in which they changed.
     dirty: Vec<Arc<str>>,
+    /// Documents for which other settings hold: they are judged when nothing else is to be done, a few at a time.
+    unsettled: VecDeque<Arc<str>>,
     /// Open texts of project files, by their paths.
     settings_texts: FxHashMap<PathBuf, Arc<str>>,
     /// What came about documents that a worker has, in its order.
@@ -115,6 +119,7 @@ pub(super) fn start(writer: Writer) -> std::io::Result<Mailbox> {
         documents: FxHashMap::default(),
         resending: FxHashSet::default(),
         dirty: Vec::new(),
+        unsettled: VecDeque::new(),
         settings_texts: FxHashMap::default(),
         waiting: FxHashMap::default(),
         away: 0,
@@ -132,6 +137,7 @@ impl State {
     fn run(mut self, inbox: &Receiver<Message>) {
         loop {
             let first = match self.client.next_deadline() {
+                _ if !self.unsettled.is_empty() => inbox.recv_timeout(Duration::ZERO),
                 None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some(deadline) => {
                     inbox.recv_timeout(deadline.saturating_duration_since(Instant::now()))
@@ -154,6 +160,7 @@ impl State {
             }
             client::expire(&mut self);
             self.judge_dirty();
+            self.judge_unsettled();
             if began.elapsed() > LONG_TURN {
                 tracing::info!(
                     "a turn that began with {name} took {} ms",
@@ -161,6 +168,7 @@ impl State {
                 );
             }
             if self.away == 0
+                && self.unsettled.is_empty()
                 && let Some(done) = self.stopped.take()
             {
                 self.workers.end();
@@ -317,6 +325,22 @@ impl State {
         }
     }
 
+    /// Judges some of the documents for which other settings hold; an edit or a request meanwhile is not held up by the others.
+    fn judge_unsettled(&mut self) {
+        let began = Instant::now();
+        while began.elapsed() < SLICE
+            && let Some(uri) = self.unsettled.pop_front()
+        {
+            if self
+                .documents
+                .get(&uri)
+                .is_some_and(|open| !open.tasks.is_empty() && !open.is_away())
+            {
+                self.judge(&uri);
+            }
+        }
+    }
+
     /// Takes a document through what has come for it: here where that is little, else on a worker.
     fn judge(&mut self, uri: &Arc<str>) {
         let Some(open) = self.documents.get_mut(uri) else {
@@ -382,7 +406,8 @@ impl State {
             });
         }
         // What came while it was away.
-        if open.is_dirty {
+        if open.is_dirty || !open.tasks.is_empty() {
+            open.is_dirty = true;
             self.dirty.push(uri.clone());
         }
         for remark in remarks {
@@ -489,7 +514,8 @@ impl State {
         }
         let mut search = Search::default();
         let mut effective: FxHashMap<Option<PathBuf>, Arc<Effective>> = FxHashMap::default();
-        let uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
+        let mut uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
+        uris.sort_unstable();
         for uri in uris {
             let file = self
                 .config
@@ -506,6 +532,7 @@ impl State {
                     settings
                 }
             };
+            let stamp = self.next_stamp();
             if let Some(open) = self
                 .documents
                 .get_mut(&uri)
@@ -513,7 +540,9 @@ impl State {
             {
                 open.settings = settings;
                 if !matches!(open.content, Content::Settings(_)) {
-                    self.add_task(&uri, Task::Settings);
+                    open.tasks.push(Task::Settings);
+                    open.set_stamp(stamp);
+                    self.unsettled.push_back(uri);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Settings: their levels, their changes at run time, and their faults.
 
-use crate::support::{Client, capabilities, tight_plate};
+use crate::support::{Client, TIGHT, capabilities, dxf_of, tight_plate};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -223,5 +223,45 @@ fn errors_of_the_file_are_shown_in_it_on_disk_and_open() {
     client.notify("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
     assert_eq!(client.published(&file_uri)["diagnostics"], json!([]));
     assert_eq!(required(&mut client, &uri, 1), 0.4);
+    client.shut_down();
+}
+
+#[test]
+fn an_edit_does_not_wait_until_all_documents_are_judged_under_other_settings() {
+    const COUNT: usize = 1_500;
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("wedm.toml"), "correction = 0.07\n").unwrap();
+    // Its own file says what holds for it: it is not among those that are judged anew.
+    let edited = uri_of(&folder.path().join("edited.dxf"));
+    let mut client = Client::start();
+    client.open_text(&edited, "dxf", &dxf_of(&[("2A", &TIGHT)]));
+    let others: Vec<String> = (0..COUNT)
+        .map(|number| format!("cad:///{number}"))
+        .collect();
+    for uri in &others {
+        open(&mut client, uri);
+    }
+    for uri in &others {
+        assert_eq!(required(&mut client, uri, 1), 0.1);
+    }
+    client.seen.clear();
+    let settings = json!({ "settings": { "correction": 0.06 } });
+    client.notify("workspace/didChangeConfiguration", settings);
+    let at = json!({ "line": 0, "character": 0 });
+    let change = json!({ "range": { "start": at, "end": at }, "text": "999\n\n" });
+    client.notify(
+        "textDocument/didChange",
+        json!({ "textDocument": { "uri": edited, "version": 2 }, "contentChanges": [change] }),
+    );
+    client.diagnostics(&edited, 2);
+    let before = client
+        .seen
+        .iter()
+        .filter(|message| message["method"] == "textDocument/publishDiagnostics")
+        .count();
+    assert!(before < COUNT, "all others were judged before the edit");
+    for uri in &others {
+        assert_eq!(required(&mut client, uri, 1), 0.06, "{uri}");
+    }
     client.shut_down();
 }
