@@ -5,10 +5,12 @@
 mod not_judged;
 mod program_fault;
 mod sentence;
+mod unwritable;
 
 pub use not_judged::NotJudged;
 pub use program_fault::{Axis, ProgramFault};
 pub use sentence::{related, sentence, title};
+pub use unwritable::Unwritable;
 
 use crate::drawing::{DrawingEdit, EntityId, Visibility};
 use crate::geometry::Point;
@@ -451,6 +453,8 @@ pub enum Detail {
     UnprovedPath {
         near: Point,
     },
+    /// There is a path, but not in the language that it is to be written in.
+    Unwritable(Unwritable),
     /// The ends of a contour are `distance` apart.
     OpenContour {
         distance: f64,

@@ -1,4 +1,4 @@
-//! What the wire leaves beyond its dead ends: `lost-pocket`, and how deep the corners in there are.
+//! What the wire leaves beyond its dead ends: `lost-pocket`.
 
 use super::Analysis;
 use super::pairs::FacingWalls;
@@ -7,7 +7,6 @@ use crate::drawing::{ContourKey, Drawing};
 use crate::finding::{Detail, Rule, Severity, Side};
 use crate::rules::dead_end::{DeadEnd, Left};
 use crate::rules::{Outlook, Wall};
-use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
 /// The contour, the two walls that the wire comes to, and what it leaves.
@@ -18,15 +17,6 @@ type Told = (ContourKey, [usize; 2], Left);
 pub struct DeadEnds {
     /// By the rank of the entity and the segment that the wire stays farthest from.
     left: BTreeMap<(u64, usize, bool), Told>,
-    /// By the segment that a corner starts and the side of the wire: how far the corner is from what is cut.
-    depths: FxHashMap<(ContourKey, usize, bool), f64>,
-}
-
-impl DeadEnds {
-    /// How far the corner in which a segment starts lies from what is cut, where it lies beyond a dead end.
-    pub fn depth(&self, key: ContourKey, index: usize, side: Side) -> Option<f64> {
-        self.depths.get(&(key, index, side == Side::Left)).copied()
-    }
 }
 
 impl Analysis {
@@ -111,10 +101,6 @@ impl Analysis {
 impl DeadEnds {
     fn enter(&mut self, outlook: &Outlook, key: ContourKey, end: &DeadEnd) {
         let is_left = end.side() == Side::Left;
-        for (joint, depth) in end.depths(outlook) {
-            let known = self.depths.entry((key, joint, is_left)).or_insert(depth);
-            *known = known.min(depth);
-        }
         let Some(left) = end.left(outlook) else {
             return;
         };

@@ -2,7 +2,7 @@
 
 use super::report::Report;
 use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
-use crate::finding::{Detail, Severity, Side};
+use crate::finding::{Severity, Side};
 use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
@@ -93,15 +93,8 @@ impl Known {
         !self.facts.iter().flatten().all(Vec::is_empty)
     }
 
-    /// Adds the findings of the local rules in this contour, rule by rule, in order of travel. `depth` gives how much of the corner in
-    /// which a segment starts is left, where that is more than the corner itself tells.
-    pub fn report(
-        &self,
-        outlook: &Outlook,
-        wire_side: Option<Side>,
-        depth: &dyn Fn(usize, Side) -> Option<f64>,
-        report: &mut Report,
-    ) {
+    /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
+    pub fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
         for (rule, facts) in LOCAL_RULES.iter().zip(&self.facts) {
             let concerned = |fact: &&Fact| {
                 let of_side = match wire_side {
@@ -132,18 +125,11 @@ impl Known {
             }
             for &fact in facts {
                 if report.counts(rule.rule, None)
-                    && let (Some(place), Some(mut detail)) = (
+                    && let (Some(place), Some(detail)) = (
                         outlook.place(fact.index as usize),
                         (rule.detail)(outlook, fact, None),
                     )
                 {
-                    if let Detail::SharpCorner { radius, uncut, .. } = &mut detail
-                        && *radius == outlook.limits.correction
-                        && let Some(depth) =
-                            fact.side.and_then(|side| depth(fact.index as usize, side))
-                    {
-                        *uncut = depth;
-                    }
                     report.add(
                         rule.rule,
                         None,

@@ -417,8 +417,7 @@ impl Analysis {
                 && let (Some(known), Some(outlook)) =
                     (self.known.get(&key), self.outlook(drawing, key))
             {
-                let depth = |index: usize, side: Side| ends.depth(key, index, side);
-                known.report(&outlook, wire_side, &depth, &mut report);
+                known.report(&outlook, wire_side, &mut report);
             }
         }
         let as_a_whole = |key: &ContourKey| self.loud.get(key).is_some_and(|loud| loud.as_a_whole);

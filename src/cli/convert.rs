@@ -169,8 +169,8 @@ fn converted(
                 counted(cuts.cuts.len(), "contour")
             ),
         ))),
-        Err(ProofError::Refused(sentence)) => {
-            output::complain(&format!("{}: {sentence}", arguments.path.display()));
+        Err(refused @ (ProofError::Refused(_) | ProofError::Unwritable(_))) => {
+            output::complain(&format!("{}: {refused}", arguments.path.display()));
             Ok(None)
         }
         // What comes of errors that were passed over is theirs.

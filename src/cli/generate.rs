@@ -71,6 +71,10 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         .write(&paths, unit_mm, document.settings(), &mut |_, _| true)
     {
         Ok(program) => program,
+        Err(ProofError::Unwritable(finding)) => {
+            list(arguments, &document, &[*finding]);
+            return Ok(Verdict::Errors);
+        }
         Err(ProofError::Refused(sentence)) => {
             output::complain(&format!("{}: {sentence}", path.display()));
             return Ok(Verdict::Errors);

@@ -183,14 +183,15 @@ impl Chains {
         else {
             return;
         };
-        *contour = Contour::new(
-            drawing,
-            contour
-                .pieces
-                .iter()
-                .map(|piece| (piece.entity, piece.reversed)),
-            contour.closed,
-        );
+        let pieces = contour.pieces.iter();
+        *contour = Contour {
+            double_of: contour.double_of,
+            ..Contour::new(
+                drawing,
+                pieces.map(|piece| (piece.entity, piece.reversed)),
+                contour.closed,
+            )
+        };
     }
 
     /// Chains again what the entities of `touched` (new, changed or removed) belonged to or belong to now.
@@ -322,7 +323,8 @@ impl Chains {
             let pieces = linked.pieces[way.range.clone()]
                 .iter()
                 .map(|&(at, reversed)| (entities[at as usize], reversed));
-            let contour = Contour::new(drawing, pieces, way.closed);
+            let mut contour = Contour::new(drawing, pieces, way.closed);
+            contour.double_of = way.double_of.map(|kept| entities[kept as usize]);
             for (place, piece) in (0..).zip(&contour.pieces) {
                 self.contour_of[piece.entity.0 as usize] = key;
                 self.piece_of[piece.entity.0 as usize] = place;
@@ -414,6 +416,8 @@ struct Way {
     /// The first of its entities in machining order, by number.
     first: u32,
     by_ends: bool,
+    /// The entity in the same place that is chained, by number.
+    double_of: Option<u32>,
 }
 
 /// What is joined to what: entities by number, in order of travel, and whether each is travelled against its own direction.
@@ -442,7 +446,7 @@ impl Linked {
             .doubles
             .kept
             .iter()
-            .chain(&joints.doubles.aside)
+            .chain(joints.doubles.aside.keys())
             .for_each(|&double| is_special[double as usize] = true);
         let (mut strands, mut ranges) = (Vec::new(), Vec::new());
         for (first, &id) in (0..).zip(entities) {
@@ -478,6 +482,7 @@ impl Linked {
                     closed,
                     first,
                     by_ends,
+                    double_of: joints.doubles.aside.get(&first).copied(),
                 });
                 continue;
             }
@@ -568,6 +573,7 @@ impl Linked {
             closed,
             first,
             by_ends: false,
+            double_of: None,
         });
     }
 }

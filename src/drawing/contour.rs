@@ -47,6 +47,8 @@ pub struct Contour {
     /// In order of travel.
     pub pieces: Vec<Piece>,
     pub closed: bool,
+    /// Set aside when the ends were joined, since this entity lies in the same place and is cut.
+    pub double_of: Option<EntityId>,
 }
 
 /// A segment of a contour and where it comes from.
@@ -84,7 +86,11 @@ impl Contour {
                 first += count;
             }
         }
-        Contour { pieces, closed }
+        Contour {
+            pieces,
+            closed,
+            double_of: None,
+        }
     }
 
     /// Number of segments.
@@ -178,6 +184,7 @@ impl Contour {
         Contour {
             pieces: pieces.collect(),
             closed: self.closed,
+            double_of: self.double_of,
         }
     }
 }

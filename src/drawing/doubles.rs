@@ -115,8 +115,8 @@ pub(super) fn by_coordinates(a: &Point, b: &Point) -> Ordering {
 /// What became of entities that lie on each other, by number.
 #[derive(Debug, Default)]
 pub(super) struct Doubles {
-    /// Not chained, since another one in the same place is.
-    pub aside: Vec<u32>,
+    /// Not chained, with the one in the same place that is.
+    pub aside: FxHashMap<u32, u32>,
     /// Chained, with a double that is not.
     pub kept: Vec<u32>,
 }
@@ -146,16 +146,14 @@ pub(super) fn set_aside(joints: &Joints, pairs: &[(u32, u32)]) -> Doubles {
     let mut is_kept: FxHashMap<u32, bool> = FxHashMap::default();
     for (_, entity) in ranked {
         let of = partners.get(&entity).into_iter().flatten();
-        let is_double = of
-            .into_iter()
-            .any(|other| is_kept.get(other) == Some(&true));
-        is_kept.insert(entity, !is_double);
-        if is_double {
-            &mut doubles.aside
-        } else {
-            &mut doubles.kept
+        let kept = of
+            .filter(|other| is_kept.get(other) == Some(&true))
+            .min_by(|one, other| joints.by_place(**one, **other));
+        is_kept.insert(entity, kept.is_none());
+        match kept {
+            Some(&kept) => drop(doubles.aside.insert(entity, kept)),
+            None => doubles.kept.push(entity),
         }
-        .push(entity);
     }
     doubles
 }

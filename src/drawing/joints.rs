@@ -78,7 +78,7 @@ impl<'a> Joints<'a> {
         let pairs = joints.meet();
         if !pairs.is_empty() {
             joints.doubles = doubles::set_aside(&joints, &pairs);
-            for &double in &joints.doubles.aside {
+            for &double in joints.doubles.aside.keys() {
                 End::both(double)
                     .into_iter()
                     .for_each(|end| joints.places[end.index()] = NO_ENDS.0);

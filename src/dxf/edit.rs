@@ -11,7 +11,7 @@ use super::lexer::{LOOKAHEAD, Lexer};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
 use super::reader::{ReadItem, Said, range_key, read_item};
-use super::shape::Shape;
+use super::shape::{MOST_CURVE_ARCS, Shape, curve_arcs};
 use super::table::{Became, Context, Item, NO_ITEM, Named};
 use super::{is_fitted, set_look};
 use crate::drawing::{Delta, Drawing, Entity, EntityId, Handle, Touched, Vertex};
@@ -332,6 +332,27 @@ impl Document {
         {
             return None;
         }
+        // Which curves are drawn where all are too many hangs on all of them.
+        let arcs_before: u64 = old
+            .iter()
+            .filter_map(|item| self.drawing.get(item.entity()?))
+            .map(|entity| curve_arcs(entity.kind, &entity.geometry))
+            .sum();
+        let arcs_after: u64 = read
+            .iter()
+            .filter_map(|item| match item.said.entity()? {
+                Read {
+                    kind,
+                    shape: Shape::Plain(geometry),
+                    ..
+                } => Some(curve_arcs(*kind, geometry)),
+                _ => None,
+            })
+            .sum();
+        let all_arcs = self.table.curve_arcs - arcs_before + arcs_after;
+        if arcs_before + arcs_after > 0 && (self.table.lacks_curves || all_arcs > MOST_CURVE_ARCS) {
+            return None;
+        }
         let mut ordinal = match unnamed {
             true => self.table.items[..first]
                 .iter()
@@ -375,6 +396,7 @@ impl Document {
             entities,
             gone: gone > 0,
             come: come > 0,
+            curve_arcs: all_arcs,
         })
     }
 
@@ -421,6 +443,7 @@ impl Document {
         let drawing = Arc::make_mut(&mut self.drawing);
         let table = &mut self.table;
         let mut delta = Delta::default();
+        table.curve_arcs = plan.curve_arcs;
         if plan.gone {
             let kept: FxHashSet<EntityId> =
                 plan.entities.iter().filter_map(|&(_, id)| id).collect();
@@ -550,6 +573,8 @@ struct Plan {
     entities: Vec<(Handle, Option<EntityId>)>,
     gone: bool,
     come: bool,
+    /// Of the whole table.
+    curve_arcs: u64,
 }
 
 /// Puts an entity into the drawing: in the place of what it was before, or at `position` of the machining order.

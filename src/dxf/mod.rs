@@ -41,7 +41,7 @@ mod write;
 pub use write::write;
 
 use crate::drawing::{Drawing, Entity, EntityId, Handle, Kind, Unit, Visibility};
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use crate::text::SourceText;
 use blocks::{Blocks, Drawn, Part, Undrawn};
@@ -359,6 +359,20 @@ impl Document {
                         }
                         Outcome::Entity(read) => {
                             if let Shape::Plain(geometry) = read.shape {
+                                let arcs = shape::curve_arcs(read.kind, &geometry);
+                                if arcs > 0 && table.curve_arcs + arcs > shape::MOST_CURVE_ARCS {
+                                    let what = NotJudged::Curve {
+                                        arcs: geometry.segment_count(),
+                                        most: shape::MOST_CURVE_ARCS,
+                                    };
+                                    fault::left_out(findings, lines.trimmed_range(line + 1), what);
+                                    table.lacks_curves = true;
+                                    item.became = Became::Damaged;
+                                    table.lines.push(line as u32);
+                                    table.items.push(item);
+                                    continue;
+                                }
+                                table.curve_arcs += arcs;
                                 let layer = read.layer.clone();
                                 let entity = Entity {
                                     handle: "".into(),

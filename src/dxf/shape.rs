@@ -49,6 +49,19 @@ impl Affine {
     }
 }
 
+/// Arcs that each curve may take, and what all curves of a drawing may take beyond that: a line of text can ask for hundreds.
+const FREE_ARCS: usize = 50;
+pub(super) const MOST_CURVE_ARCS: u64 = if cfg!(test) { 8_000 } else { 400_000 };
+
+/// What a curve that has become arcs takes beyond what it has free.
+pub(super) fn curve_arcs(kind: Kind, geometry: &Geometry) -> u64 {
+    if matches!(kind, Kind::Ellipse | Kind::Spline) {
+        geometry.segment_count().saturating_sub(FREE_ARCS) as u64
+    } else {
+        0
+    }
+}
+
 /// How much coarser a curve is drawn that takes too many arcs; each step saves half of them.
 const COARSER: [f64; 4] = [1.0, 8.0, 64.0, 512.0];
 

@@ -135,6 +135,9 @@ pub(super) struct Table {
     pub(super) named_anew: usize,
     /// Blocks that are drawn somewhere, in the order of the text.
     pub(super) used: Vec<bool>,
+    /// Arcs that the curves take beyond what each has free, and whether one was left out since all of them would take too many.
+    pub(super) curve_arcs: u64,
+    pub(super) lacks_curves: bool,
     /// How near a fitted arc lies to its curve, in drawing units.
     pub(super) fit_tolerance: f64,
     /// Sections ENTITIES.

@@ -13,6 +13,8 @@ pub enum NotJudged {
         segments: u64,
         most: u64,
     },
+    /// A curve takes so many arcs, and all curves of a drawing together may take so many beyond what each has free.
+    Curve { arcs: usize, most: u64 },
     /// The calls of subprograms come to more than `lines` lines, or more than `calls` calls.
     Calls { lines: usize, calls: usize },
 }

@@ -2,7 +2,7 @@
 
 use super::{
     CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, NotJudged, ProgramFault, Side,
-    SmallRadius,
+    SmallRadius, Unwritable,
 };
 use crate::drawing::Visibility;
 use crate::message::readable;
@@ -90,6 +90,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
                 mm(required * unit_mm)
             )
         }
+        Detail::Unwritable(what) => unwritable(what),
         Detail::OpenContour { distance } => {
             say!(contour_is_open_its_ends_are_mm, mm(distance * unit_mm))
         }
@@ -159,6 +160,30 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         | Detail::Units(sentence)
         | Detail::Syntax(sentence)
         | Detail::Settings(sentence) => sentence.clone(),
+    }
+}
+
+fn unwritable(what: &Unwritable) -> String {
+    match *what {
+        Unwritable::TightArc {
+            at: [x, y],
+            radius,
+            correction,
+        } => say!(n4b_cannot_have_the_arc_r_at, radius, x, y, correction),
+        Unwritable::BeginsInCorner { at: [x, y] } => {
+            say!(n4b_needs_a_transition_arc_where_the_cut_begins, x, y)
+        }
+        Unwritable::NoTransition {
+            at: [x, y],
+            radius,
+            turn,
+        } => say!(
+            n4b_needs_a_transition_arc_of_r_at_the_corner,
+            radius,
+            x,
+            y,
+            turn.to_degrees().abs()
+        ),
     }
 }
 
@@ -488,6 +513,7 @@ fn not_judged(what: &NotJudged) -> String {
             segments,
             most
         ),
+        NotJudged::Curve { arcs, most } => say!(this_curve_would_take_arcs_more_than, arcs, most),
         NotJudged::Calls { lines, calls } => {
             say!(
                 the_calls_of_subprograms_come_to_more_than_lines_or,

@@ -12,6 +12,9 @@ declare! {
     the_wire_does_not_reach_this_part_of_the_outline(uncut) => "the wire does not reach this part of the outline: {uncut} mm stay uncut";
     at_a_correction_of_mm_a_point_is_left_of_the_outline(required) => "at a correction of {required} mm a point is left of the outline: the wire is threaded there and cuts nothing more";
     no_path_of_the_wire_along_this_contour_holds => "no path of the wire along this contour holds its proof here: the contour is drawn finer than the path can be told";
+    n4b_cannot_have_the_arc_r_at(radius, x, y, correction) => "4B cannot have the arc R {radius:.3} mm at ({x:.3}, {y:.3}): the wire runs inside of it, expected more than the correction {correction:.3} mm";
+    n4b_needs_a_transition_arc_where_the_cut_begins(x, y) => "4B needs a transition arc at the corner ({x:.3}, {y:.3}), where the cut begins: give an entry on a line or an arc";
+    n4b_needs_a_transition_arc_of_r_at_the_corner(radius, x, y, turn) => "4B needs a transition arc of R {radius:.3} mm at the corner ({x:.3}, {y:.3}) of {turn:.1}°: none that is tangent to both sides fits in there";
     nothing_is_left_of_the_outline_at_a_correction_of_mm(required) => "nothing is left of the outline at a correction of {required} mm: the wire does not fit in";
     contour_is_open_its_ends_are_mm(distance) => "contour is open: its ends are {distance} mm apart";
     ends_do_not_meet(distance) => "ends do not meet: they are {distance} mm apart, within the join tolerance";
@@ -123,6 +126,7 @@ declare! {
     thousands_of_entities_lie_on_or_across_each(count) => "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them";
     so_much_of_the_way_of_these_blocks_lies_on(blocks) => "so much of the way of these {blocks} blocks lies on one place that crossings were not looked for in all of it";
     this_insert_draws_copies_segments_in_all_more(copies, segments, most) => "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it";
+    this_curve_would_take_arcs_more_than(arcs, most) => "this curve would take {arcs} arcs, more than is left of the {most} that all curves of a drawing may take: it is not drawn";
     the_calls_of_subprograms_come_to_more_than_lines_or(lines, calls) => "the calls of subprograms come to more than {lines} lines or {calls} calls: what would run from here on is not judged";
     g41_lets_the_wire_run_on_the_left => "G41 lets the wire run on the left";
     g42_lets_the_wire_run_on_the_right => "G42 lets the wire run on the right";

@@ -4,7 +4,7 @@
 //! language's grid, so that what a writer gets always joins, and comes back to where it began.
 
 use super::grid::{Node, point_of, snap};
-use crate::finding::Side;
+use crate::finding::{Finding, Side, sentence};
 use crate::geometry::{Arc, Point, Segment};
 use crate::toolpath::{Source, WirePath};
 use std::fmt;
@@ -24,12 +24,14 @@ pub struct ProvedProgram {
 }
 
 /// Why no program came out.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ProofError {
     /// The program would not have been the path: an internal error, never the drawing's fault.
     Mismatch(String),
     /// The path, or what the settings say, cannot be written in this language: a plain sentence.
     Refused(String),
+    /// The same of one place of the drawing.
+    Unwritable(Box<Finding>),
     /// The program was not wanted any more.
     Cancelled,
 }
@@ -38,6 +40,7 @@ impl fmt::Display for ProofError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ProofError::Mismatch(sentence) | ProofError::Refused(sentence) => f.write_str(sentence),
+            ProofError::Unwritable(finding) => f.write_str(&sentence(finding, 1.0)),
             ProofError::Cancelled => f.write_str("cancelled"),
         }
     }

@@ -150,6 +150,7 @@ impl FindingData {
             Detail::OpenContour { distance } | Detail::Gap { distance } => {
                 data.distance = Some(*distance)
             }
+            Detail::Unwritable(_) => {}
             Detail::NotJudged(what) => data.count = left_out(what),
             Detail::DuplicateEntity => {}
             Detail::Overlap { length } | Detail::ShortSegment { length } => {
@@ -257,6 +258,7 @@ fn left_out(what: &NotJudged) -> Option<usize> {
     match *what {
         NotJudged::Pairs { count } | NotJudged::Crossings { blocks: count } => Some(count),
         NotJudged::Reference { copies, .. } => usize::try_from(copies).ok(),
+        NotJudged::Curve { arcs, .. } => Some(arcs),
         NotJudged::Calls { .. } => None,
     }
 }

@@ -318,17 +318,6 @@ impl DeadEnd {
         (point - self.center).norm() - self.radius
     }
 
-    /// The depth of the joint where a segment starts, where that lies beyond the disc.
-    pub fn depths<'a>(&'a self, outlook: &'a Outlook) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let count = outlook.contour.len().max(1);
-        self.joints().filter_map(move |joint| {
-            Some((
-                joint as usize % count,
-                self.depth(outlook.segment(joint)?.geometry.start()),
-            ))
-        })
-    }
-
     pub fn side(&self) -> Side {
         self.side
     }
@@ -426,15 +415,12 @@ impl DeadEnd {
             };
             return is_deeper(told) && !self.segments().all(is_of_run);
         }
-        let corners: Vec<(isize, f64)> = self
-            .joints()
-            .filter_map(|joint| self.corner_at(outlook, joint, spares_chords))
-            .collect();
-        let faces = |&(_, turn): &(isize, f64)| turn > FACING;
+        let corners = self.corners(outlook, spares_chords);
+        let faces = |corner: &TurnedIn| corner.turn > FACING;
         if self.is_between_tips() && corners.iter().any(faces) && is_deeper(0.0) {
             return true;
         }
-        let (Some(&(first, _)), Some(&(last, _))) = (corners.first(), corners.last()) else {
+        let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
             return false;
         };
         let is_missed = |index: isize| {
@@ -443,48 +429,75 @@ impl DeadEnd {
                 .map_or(0.0, |segment| segment.geometry.distance_to(self.center));
             distance - self.radius > least
         };
-        let is_beyond = |&(joint, turn): &(isize, f64)| {
-            let share = self.radius * (1.0 / (turn / 2.0).cos() - 1.0);
+        let is_beyond = |corner: &TurnedIn| {
+            let share = self.radius * (1.0 / (corner.turn / 2.0).cos() - 1.0);
             outlook
-                .segment(joint)
+                .segment(corner.last)
                 .is_some_and(|segment| self.depth(segment.geometry.start()) > share + least)
         };
-        (first..last).any(is_missed)
+        (first.last..last.first).any(is_missed)
             && corners
                 .iter()
                 .any(|corner| faces(corner) || is_beyond(corner))
     }
 
-    /// The joint where a segment starts with its turn, if it is a corner that turns towards the wire.
+    /// The corners that turn towards the wire, in order. Joints with nothing but crumbs between them are one.
+    fn corners(&self, outlook: &Outlook, spares_chords: bool) -> Vec<TurnedIn> {
+        let least = LEAST_MM / outlook.limits.unit_mm;
+        let mut corners = Vec::new();
+        let mut joints = self.joints().peekable();
+        while let Some(first) = joints.next() {
+            let mut last = first;
+            let is_crumb = |index: isize| {
+                let segment = outlook.segment(index);
+                segment.is_some_and(|segment| segment.geometry.length() <= least)
+            };
+            while let Some(next) = joints.next_if(|_| is_crumb(last)) {
+                last = next;
+            }
+            corners.extend(self.corner_at(outlook, [first, last], spares_chords));
+        }
+        corners
+    }
+
+    /// The corner between the segment before the first of some joints and that behind the last, if it turns towards the wire.
     fn corner_at(
         &self,
         outlook: &Outlook,
-        joint: isize,
+        [first, last]: [isize; 2],
         spares_chords: bool,
-    ) -> Option<(isize, f64)> {
-        let turn = self.turn_at(outlook, joint);
-        inner_side(turn).filter(|&side| side == Side::Left)?;
+    ) -> Option<TurnedIn> {
         let (before, behind) = (
-            outlook.segment(joint - 1)?.geometry,
-            outlook.segment(joint)?.geometry,
+            outlook.segment(first - 1)?.geometry,
+            outlook.segment(last)?.geometry,
         );
+        let turn = turn(before.end_tangent(), behind.start_tangent()) * self.side.sign();
+        inner_side(turn).filter(|&side| side == Side::Left)?;
         if spares_chords
             && before.length().max(behind.length()) >= 2.0 * self.radius * (turn / 2.0).tan()
         {
-            let index = joint as usize % outlook.contour.len().max(1);
+            let index = first as usize % outlook.contour.len().max(1);
             if are_between_chords(outlook, index..index + 1).contains(&true) {
                 return None;
             }
         }
-        Some((joint, turn))
+        Some(TurnedIn { first, last, turn })
     }
+}
+
+/// A corner that turns towards the wire, by `turn` radians, between the joints where two segments start.
+struct TurnedIn {
+    first: isize,
+    last: isize,
+    turn: f64,
 }
 
 /// How many segments on either side of a corner may hold the disc that stands in it.
 const HOLDING: isize = 8;
 
-/// What stays of the corner where the segment at `index` begins beside a disc of `radius`, on the side that the contour turns to: less
-/// than of an endless corner where the walls are short or fall back. `None` where what is near does not tell.
+/// What stays of the corner where the segment at `index` begins beside a disc of `radius`, on the side that the contour turns to: between
+/// long walls what the disc that touches both leaves; where these are short or fall back, no more than `R (1 / cos(θ/2) − 1)`, which is
+/// the corner's own share of what is lost there. `None` at the end of an open contour.
 pub fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     let count = outlook.contour.len();
     let wall = |index: isize| {
@@ -561,5 +574,8 @@ pub fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64>
             .filter_map(|center| depth_of(one, other, center))
             .collect::<Vec<_>>()
     });
-    depths.min_by(f64::total_cmp)
+    let own_share = radius * (1.0 / (turned / 2.0).cos() - 1.0);
+    let shorter = before.geometry().length().min(behind.geometry().length());
+    let least = depths.min_by(f64::total_cmp).unwrap_or(shorter);
+    Some(least.min(own_share))
 }

@@ -58,23 +58,14 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
     }
 }
 
-/// Left with R, the last pass's correction; uncut is what stands between the arc and the corner, `R (1 / cos(θ/2) − 1)` between
-/// long walls, and no more than the shorter of the two segments.
+/// Left with R, the last pass's correction; uncut is what stands between the arc and this one corner: `R (1 / cos(θ/2) − 1)` between
+/// straight walls, less where they are short. What stays beyond that since the wire does not come so far is `lost-pocket`.
 fn detail(outlook: &Outlook, fact: Fact, count: Option<usize>) -> Option<Detail> {
-    let index = fact.index as isize;
-    let turn = outlook.turn_at(fact.index as usize)?;
-    let (before, behind) = (outlook.segment(index - 1)?, outlook.segment(index)?);
+    let index = fact.index as usize;
+    let turn = outlook.turn_at(index)?;
     let radius = outlook.limits.last_correction;
-    let of_long_walls = || {
-        let half = (turn / 2.0).cos();
-        let shorter = before.geometry.length().min(behind.geometry.length());
-        if half * (radius + shorter) > radius {
-            radius * (1.0 / half - 1.0)
-        } else {
-            shorter
-        }
-    };
-    let uncut = corner_depth(outlook, fact.index as usize, radius).unwrap_or_else(of_long_walls);
+    let uncut = corner_depth(outlook, index, radius)?;
+    let behind = outlook.segment(index as isize)?;
     Some(Detail::SharpCorner {
         turn: if behind.reversed { -turn } else { turn },
         radius,

@@ -145,8 +145,9 @@ pub(super) fn marks(drawing: &Drawing, outlines: &[Outline], most: usize) -> Opt
         };
         let nearest = outlines
             .iter()
-            .map(distance)
             .enumerate()
+            .filter(|(_, outline)| outline.contour.double_of.is_none())
+            .map(|(index, outline)| (index, distance(outline)))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         nearest.map(|(outline, distance)| Mark {
             at,
@@ -308,7 +309,8 @@ pub(super) struct Contours {
 impl Contours {
     pub fn new(drawing: &Drawing, outlines: &[Outline]) -> Contours {
         let (mut walls, mut of) = (Vec::new(), Vec::new());
-        for (index, outline) in outlines.iter().enumerate() {
+        let is_cut = |(_, outline): &(usize, &Outline)| outline.contour.double_of.is_none();
+        for (index, outline) in outlines.iter().enumerate().filter(is_cut) {
             for segment in outline.contour.segments(drawing) {
                 walls.push(segment.geometry);
                 of.push((index, segment.entity, segment.segment));
@@ -417,7 +419,7 @@ impl Surroundings<'_> {
         };
         match *obstacle {
             Obstacle::Own(wall) => {
-                let place = walls.get(wall).and_then(|wall| place_of(wall.source));
+                let place = walls.get(wall).and_then(|wall| wall.source.place());
                 (
                     place,
                     format!(
@@ -435,20 +437,11 @@ impl Surroundings<'_> {
             Obstacle::Kerf(piece) => {
                 let (outline, source) = self.kerfs.of[piece];
                 (
-                    place_of(source),
+                    source.place(),
                     format!("runs into the cut along contour {}", named(outline)),
                 )
             }
         }
-    }
-}
-
-pub(super) fn place_of(source: Source) -> Option<Place> {
-    match source {
-        Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
-            Some(Place::Segment { entity, segment })
-        }
-        Source::LeadIn | Source::LeadOut => None,
     }
 }
 
@@ -459,7 +452,7 @@ pub(super) fn fault(
     sentence: String,
     other: Option<Place>,
 ) -> Finding {
-    let place = source.and_then(place_of).unwrap_or(Place::Document);
+    let place = source.and_then(Source::place).unwrap_or(Place::Document);
     let related = other.filter(|other| *other != place).into_iter().collect();
     Finding {
         rule: Rule::LeadIn,

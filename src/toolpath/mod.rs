@@ -25,7 +25,7 @@ use clearance::Walls;
 use corners::{Element, Joining, Raw, with_tips};
 use leads::{
     Contours, Entry, Kerfs, Surroundings, Wanted, circle_center, default_entry, fault, nearest,
-    off_contour, path_point, place_of, thread_hole,
+    off_contour, path_point, thread_hole,
 };
 use loops::Found;
 use offset::{Wall, walls};
@@ -49,6 +49,18 @@ pub enum Source {
     },
     LeadIn,
     LeadOut,
+}
+
+impl Source {
+    /// The segment of the drawing, where it is of one.
+    pub fn place(self) -> Option<Place> {
+        match self {
+            Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
+                Some(Place::Segment { entity, segment })
+            }
+            Source::LeadIn | Source::LeadOut => None,
+        }
+    }
 }
 
 /// One piece of the path of the wire's centre.
@@ -442,7 +454,7 @@ impl Job<'_> {
                 .segments
                 .iter()
                 .map(|piece| piece.source)
-                .find(|source| place_of(*source).is_some());
+                .find(|source| source.place().is_some());
             Some(fault(
                 self.severity(),
                 source,
@@ -796,7 +808,7 @@ impl Job<'_> {
         };
         let place = walls
             .get(wall)
-            .and_then(|wall| place_of(wall.source))
+            .and_then(|wall| wall.source.place())
             .unwrap_or(Place::Document);
         let severity = self.settings.severity(rule).unwrap_or(Severity::Error);
         Finding {

@@ -20,7 +20,7 @@ pub(super) fn name<'a>(drawing: &'a Drawing, outline: &Outline) -> &'a str {
         .map_or("?", |entity| &entity.handle)
 }
 
-/// The outline that holds the entity with `handle`.
+/// The outline that is cut where the entity with `handle` lies: of a double, that of the entity in the same place.
 pub(super) fn outline_of(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -31,14 +31,17 @@ pub(super) fn outline_of(
             "there is no entity with the handle {handle}"
         )));
     };
-    let holds = |outline: &Outline| {
-        outline
-            .contour
-            .pieces
-            .iter()
-            .any(|piece| piece.entity == id)
+    let holds = |outline: &Outline, id: EntityId| {
+        let mut pieces = outline.contour.pieces.iter();
+        pieces.any(|piece| piece.entity == id)
     };
-    let found = outlines.iter().position(holds);
+    let kept = outlines
+        .iter()
+        .find(|outline| holds(outline, id))
+        .map(|outline| outline.contour.double_of.unwrap_or(id));
+    let found = outlines
+        .iter()
+        .position(|outline| kept.is_some_and(|kept| holds(outline, kept)));
     found.ok_or_else(|| {
         Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut"))
     })
@@ -62,7 +65,7 @@ pub(super) struct Chosen {
 
 /// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select
 /// them, brought into the order that is asked for; `nearest` is for [`by_nearest`]. What lies within a contour comes before it, because
-/// the part drops when the contour round it is cut. What is nowhere longer than `zero_length` (drawing units) is left out.
+/// the part drops when the contour round it is cut. Doubles are no contours to cut. What is nowhere longer than `zero_length` (drawing units) is left out.
 pub(super) fn chosen(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -71,7 +74,9 @@ pub(super) fn chosen(
     zero_length: f64,
 ) -> Result<Chosen, Refusal> {
     let mut chosen: Vec<usize> = match handles {
-        None => (0..outlines.len()).collect(),
+        None => (0..outlines.len())
+            .filter(|&index| outlines[index].contour.double_of.is_none())
+            .collect(),
         Some(handles) => handles
             .iter()
             .map(|handle| outline_of(drawing, outlines, handle))

@@ -3,6 +3,8 @@
 use super::blocks::with_blocks;
 use super::reading::{dxf, entities, findings};
 use crate::dxf::Document;
+use crate::dxf::shape::MOST_CURVE_ARCS;
+use crate::finding::Rule;
 use crate::geometry::{Point, Segment};
 
 fn segments(document: &Document) -> Vec<Segment> {
@@ -134,4 +136,50 @@ fn curves_out_of_blocks_are_fitted_where_they_come_to_lie() {
         let (sine, cosine) = (f64::from(step) * std::f64::consts::TAU / 100.0).sin_cos();
         assert!(distance(&drawn, Point::new(20.0 * cosine, 10.0 * sine)) <= 1e-3);
     }
+}
+
+/// A line of text asks for hundreds of arcs: all curves of a drawing have one measure, and what is left out is said. Edits keep to it.
+#[test]
+fn all_curves_of_a_drawing_take_no_more_than_so_many_arcs() {
+    let ellipse = |handle: usize, major: u32| {
+        format!(
+            "0 ELLIPSE 5 {handle:X} 10 0 20 {handle} 11 {major} 21 0 40 0.5 41 0 42 6.283185307179586 "
+        )
+    };
+    let small = dxf(&ellipse(0xA0, 20_000));
+    let arcs = segments(&Document::read(small.into_bytes())).len();
+    let fitting = MOST_CURVE_ARCS as usize / (arcs - 50);
+    let text: String = (0..fitting + 3)
+        .map(|n| ellipse(0x1000 + n, 20_000))
+        .collect();
+    let mut document = Document::read(dxf(&text).into_bytes());
+    let drawn = |document: &Document| document.drawing().entities().count();
+    let left_out = |document: &Document| {
+        let mut findings = document.findings().iter();
+        let places: Vec<_> = findings
+            .by_ref()
+            .filter(|finding| finding.rule == Rule::NotJudged)
+            .map(|finding| finding.place.clone())
+            .collect();
+        places
+    };
+    assert_eq!((drawn(&document), left_out(&document).len()), (fitting, 3));
+    // Where an early one takes fewer, a late one comes, and back.
+    let majors = ["20000", "33", "20000", "200"];
+    for pair in majors.windows(2) {
+        let at = document
+            .text()
+            .as_str_lossy()
+            .find(&format!("\n{}\n", pair[0]))
+            .unwrap()
+            + 1;
+        document.edit(at..at + pair[0].len(), pair[1]);
+        let fresh = Document::read(document.text().bytes().to_vec());
+        assert_eq!(left_out(&document), left_out(&fresh));
+        assert_eq!(drawn(&document), drawn(&fresh));
+    }
+    assert_eq!(
+        (drawn(&document), left_out(&document).len()),
+        (fitting + 1, 2)
+    );
 }

@@ -4,7 +4,7 @@
 //! only joins where the contour turns nowhere but in arcs, each of which is larger than the correction where the wire runs inside of
 //! it. The ways in and out are lines: they lead to where the wire's path begins, beside the contour.
 
-use crate::finding::Side;
+use crate::finding::{Detail, Finding, Place, Rule, Severity, Side, Unwritable};
 use crate::geometry::{
     Arc, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line, turn,
 };
@@ -48,21 +48,19 @@ pub(super) fn rounded(
             && is_concave(&arc, side)
             && arc.radius <= correction
         {
-            return refused(format!(
-                "4B cannot have the arc R {:.3} mm at ({:.3}, {:.3}): the wire runs inside of it, expected more than the correction {:.3} mm",
-                arc.radius / 1e3,
-                arc.start.x / 1e3,
-                arc.start.y / 1e3,
-                correction / 1e3
-            ));
+            let fault = Unwritable::TightArc {
+                at: mm(arc.start),
+                radius: arc.radius / 1e3,
+                correction: correction / 1e3,
+            };
+            return Err(unwritable(piece, fault));
         }
     }
     let entry = first.geometry.start();
     if turn(last.geometry.end_tangent(), first.geometry.start_tangent()).abs() > TANGENT {
-        return refused(format!(
-            "4B needs a transition arc at the corner ({:.3}, {:.3}), where the cut begins: give an entry on a line or an arc",
-            entry.x / 1e3,
-            entry.y / 1e3
+        return Err(unwritable(
+            &first,
+            Unwritable::BeginsInCorner { at: mm(entry) },
         ));
     }
     let contour = with_transitions(&contour, radius, correction)?;
@@ -96,6 +94,22 @@ pub(super) fn rounded(
     })
 }
 
+/// Says of the contour's own piece what 4B cannot hold.
+fn unwritable(piece: &PathSegment, fault: Unwritable) -> ProofError {
+    ProofError::Unwritable(Box::new(Finding {
+        rule: Rule::UnprovedPath,
+        severity: Severity::Error,
+        place: piece.source.place().unwrap_or(Place::Document),
+        detail: Detail::Unwritable(fault),
+        related: Vec::new(),
+    }))
+}
+
+/// A point of the path, µm, in mm.
+fn mm(point: Point) -> [f64; 2] {
+    [point.x / 1e3, point.y / 1e3]
+}
+
 /// The wire runs inside of an arc when the centre lies on its side.
 pub(super) fn is_concave(arc: &Arc, side: Side) -> bool {
     (arc.sweep > 0.0) == (side == Side::Left)
@@ -127,7 +141,6 @@ fn with_transitions(
             rounded.push(*piece);
             continue;
         }
-        let corner = piece.geometry.start();
         let sizes = (0..=LARGER).map(|more| radius + f64::from(more));
         let mut fitting =
             sizes.filter_map(|radius| transition(&before.geometry, &piece.geometry, angle, radius));
@@ -137,13 +150,12 @@ fn with_transitions(
             behind,
         }) = fitting.find(|made| on_grid(&made.arc) > correction)
         else {
-            return Err(ProofError::Refused(format!(
-                "4B needs a transition arc of R {:.3} mm at the corner ({:.3}, {:.3}) of {:.1}°: none that is tangent to both sides fits in there",
-                radius / 1e3,
-                corner.x / 1e3,
-                corner.y / 1e3,
-                angle.to_degrees().abs()
-            )));
+            let fault = Unwritable::NoTransition {
+                at: mm(piece.geometry.start()),
+                radius: radius / 1e3,
+                turn: angle,
+            };
+            return Err(unwritable(piece, fault));
         };
         before.geometry = cut;
         rounded.push(PathSegment {

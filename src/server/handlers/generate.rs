@@ -7,8 +7,8 @@ use crate::program::{Format, ProofError};
 use crate::protocol::{Diagnostic, Program};
 use crate::server::context::RequestContext;
 use crate::server::convert;
-use crate::server::errors::{internal, refused, refused_with};
-use crate::toolpath::entities_of;
+use crate::server::errors::{internal, refusal, refused, refused_with};
+use crate::toolpath::{Refusal, entities_of};
 use serde::Deserialize;
 use serde_json::Value;
 use std::sync::Arc;
@@ -81,6 +81,11 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
         .write(&paths, task.unit_mm(), &task.settings, &mut go_on)
         .map_err(|error| match error {
             ProofError::Refused(sentence) => refused(sentence),
+            ProofError::Unwritable(finding) => refusal(
+                &task.subject,
+                Refusal::Findings(vec![*finding]),
+                context.encoding,
+            ),
             ProofError::Cancelled => Error::request_cancelled(),
             // What comes of errors that were passed over is theirs.
             ProofError::Mismatch(reason) if force => {
