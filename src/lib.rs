@@ -18,6 +18,7 @@ pub mod geometry;
 pub mod picture;
 pub mod program;
 pub mod protocol;
+pub mod rule;
 pub mod rules;
 pub mod server;
 pub mod settings;

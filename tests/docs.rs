@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use wedm::finding::Rule;
+use wedm::rule::{Rule, Subject};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -89,26 +89,105 @@ fn every_rule_has_its_page() {
     }
 }
 
+/// The list of rules: what each says, how bad it is where nothing is set, and in which documents it is found. Update it with
+/// `UPDATE_EXPECT=1 cargo test --test docs`.
+#[test]
+fn the_list_of_rules_is_the_table_of_rules() {
+    let path = root().join("docs/rules/README.md");
+    let committed = read(&path);
+    let (head, _) = committed.split_once("| rule |").expect("a table");
+    let of = |rule: Rule, subject| {
+        if rule.subjects().contains(&subject) {
+            "•"
+        } else {
+            ""
+        }
+    };
+    let row = |rule: Rule| {
+        let name = rule.name();
+        let page = read(&root().join(format!("docs/rules/{name}.md")));
+        let severity = page
+            .split("Default severity: ")
+            .nth(1)
+            .and_then(|rest| rest.split(['.', '\n']).next())
+            .unwrap_or_else(|| panic!("the page of {name} says no severity"));
+        let default = format!("{:?}", rule.default_severity()).to_lowercase();
+        assert!(severity.starts_with(&default), "{name}: {severity}");
+        let [drawing, three_b, four_b, iso] = [
+            Subject::Drawing,
+            Subject::ThreeB,
+            Subject::FourB,
+            Subject::Iso,
+        ]
+        .map(|subject| of(rule, subject));
+        format!(
+            "| [{name}]({name}.md) | {} | {severity} | {drawing} | {three_b} | {four_b} | {iso} |\n",
+            rule.summary()
+        )
+    };
+    let rows: String = Rule::ALL.into_iter().map(row).collect();
+    let list = format!(
+        "{head}| rule | says | severity | drawing | 3B | 4B | ISO |\n|---|---|---|:-:|:-:|:-:|:-:|\n{rows}"
+    );
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        std::fs::write(&path, &list).unwrap();
+    }
+    assert!(
+        read(&path) == list,
+        "docs/rules/README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+    );
+}
+
+/// Whatever is found in the documents of this repository is of a rule that is said to be found in such documents.
+#[test]
+fn rules_are_found_where_the_table_says() {
+    for (ending, subject) in [
+        ("dxf", Subject::Drawing),
+        ("3b", Subject::ThreeB),
+        ("4b", Subject::FourB),
+        ("iso", Subject::Iso),
+    ] {
+        let files = walkdir::WalkDir::new(root().join("tests"))
+            .into_iter()
+            .chain(walkdir::WalkDir::new(root().join("docs")))
+            .map(|entry| entry.unwrap().into_path())
+            .filter(|path| path.extension().is_some_and(|of_file| of_file == ending));
+        for file in files {
+            let output = wedm(
+                &root(),
+                &["check", file.to_str().unwrap(), "--output", "json"],
+            );
+            let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+            for row in found["diagnostics"].as_array().unwrap() {
+                let name = row["rule"].as_str().unwrap();
+                let rule = Rule::ALL
+                    .into_iter()
+                    .find(|rule| rule.name() == name)
+                    .unwrap();
+                assert!(
+                    rule.subjects().contains(&subject),
+                    "{name} is found in {}: {row}",
+                    file.display()
+                );
+            }
+        }
+    }
+}
+
 /// The picture of a rule is drawn from a drawing of its name, in which the rule is found.
 #[test]
 fn every_rule_of_drawings_has_a_picture_that_shows_it() {
-    let of_drawings = [
-        Rule::SmallRadius,
-        Rule::SharpCorner,
-        Rule::NarrowSlot,
-        Rule::LostPocket,
-        Rule::OffsetCollapse,
-        Rule::OpenContour,
-        Rule::Gap,
-        Rule::DuplicateEntity,
-        Rule::Overlap,
-        Rule::ShortSegment,
-        Rule::NearTangent,
-        Rule::SelfIntersection,
-        Rule::ArcAsChords,
-        Rule::UnsupportedEntity,
-        Rule::Units,
+    // These are said of settings, of damage, or when a path is asked for.
+    let elsewhere = [
+        Rule::LeadIn,
+        Rule::UnprovedPath,
+        Rule::Syntax,
+        Rule::NotJudged,
+        Rule::More,
     ];
+    let of_drawings = Rule::ALL
+        .into_iter()
+        .filter(|rule| rule.subjects().contains(&Subject::Drawing) && !elsewhere.contains(rule));
     for name in of_drawings.map(Rule::name) {
         let page = read(&root().join(format!("docs/rules/{name}.md")));
         assert!(

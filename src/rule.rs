@@ -1,0 +1,149 @@
+//! Every rule of every document, once: its name, its severity where nothing is set, the kinds of documents that it speaks of, and what
+//! it says in a few words. The page of a rule is `docs/rules/<name>.md`; its check stands where it can see what it needs.
+
+/// How bad a finding is; the order is from worst to mildest.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    Error,
+    Warning,
+    Information,
+    Hint,
+}
+
+/// A kind of document that findings are said of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    Drawing,
+    ThreeB,
+    FourB,
+    Iso,
+    Settings,
+}
+
+/// Makes the rules of rows: variant, name, severity, what it says (a row of `message/en.rs`), kinds of documents.
+macro_rules! rules {
+    ($($rule:ident $name:literal $severity:ident $summary:ident $($subject:ident)+;)+) => {
+        /// The rules by the names that users see. Order is that of the documentation.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Rule {
+            $(#[doc = $name] $rule,)+
+        }
+
+        const TABLE: &[Row] = &[$(Row {
+            rule: Rule::$rule,
+            name: $name,
+            severity: Severity::$severity,
+            subjects: &[$(Subject::$subject),+],
+        },)+];
+
+        impl Rule {
+            pub const ALL: [Rule; TABLE.len()] = [$(Rule::$rule,)+];
+
+            /// What it says, in a few words, for lists of rules.
+            pub fn summary(self) -> &'static str {
+                match self {
+                    $(Rule::$rule => say!($summary),)+
+                }
+            }
+        }
+    };
+}
+
+struct Row {
+    rule: Rule,
+    name: &'static str,
+    severity: Severity,
+    subjects: &'static [Subject],
+}
+
+rules! {
+    SmallRadius "small-radius" Error an_arc_is_tighter_than_the_correction_the_wire_cannot_follow_it Drawing ThreeB FourB Iso;
+    SharpCorner "sharp-corner" Warning a_corner_that_the_wire_leaves_rounded Drawing;
+    NarrowSlot "narrow-slot" Error a_slot_narrower_than_the_wire_s_way_through_it Drawing;
+    LostPocket "lost-pocket" Error the_offset_loses_a_part_of_the_outline Drawing;
+    OffsetCollapse "offset-collapse" Error nothing_is_left_of_the_outline_at_this_correction Drawing;
+    OpenContour "open-contour" Error a_contour_that_does_not_close Drawing;
+    Gap "gap" Warning two_ends_that_belong_together_do_not_meet Drawing;
+    DuplicateEntity "duplicate-entity" Warning two_entities_lie_in_the_same_place Drawing;
+    Overlap "overlap" Warning two_segments_run_on_one_another Drawing;
+    ShortSegment "short-segment" Warning a_segment_too_short_to_cut Drawing;
+    NearTangent "near-tangent" Hint two_segments_are_nearly_tangent_but_not_quite Drawing;
+    SelfIntersection "self-intersection" Error a_contour_touches_or_crosses_itself_or_another Drawing;
+    ArcAsChords "arc-as-chords" Hint an_arc_drawn_as_short_lines Drawing;
+    UnprovedPath "unproved-path" Error no_path_of_the_wire_holds_its_proof_here Drawing;
+    LeadIn "lead-in" Error the_lead_in_is_too_short_or_crosses_a_contour Drawing;
+    PassOrder "pass-order" Error the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin Settings;
+    UnsupportedEntity "unsupported-entity" Information something_in_the_drawing_is_not_cut Drawing;
+    Units "units" Warning the_drawing_s_unit_is_missing_or_absurd Drawing Iso;
+    ArcOffRadius "arc-off-radius" Error the_ends_of_an_arc_are_not_on_one_circle_about_its_centre Iso;
+    ArcWithoutRadius "arc-without-radius" Error an_arc_whose_centre_is_its_start ThreeB FourB Iso;
+    CompensationSwitch "compensation-switch" Error the_correction_is_switched_by_an_arc_or_a_rapid Iso;
+    WrongSide "wrong-side" Error the_correction_sends_the_wire_to_the_side_of_the_part Iso;
+    CenterOnLine "center-on-line" Error i_or_j_beside_a_straight_cut Iso;
+    WordTwice "word-twice" Error a_word_stands_twice_in_a_line Iso;
+    ReversedArc "reversed-arc" Error g02_where_g03_is_meant_or_the_other_way_round Iso;
+    Spur "spur" Warning a_cut_that_goes_out_and_back_on_the_same_way Iso;
+    DoubledBlock "doubled-block" Warning a_block_that_stands_twice Iso;
+    MissingOffset "missing-offset" Warning g41_or_g42_without_the_place_of_its_correction Iso;
+    SideChange "side-change" Error the_correction_changes_its_side_within_a_cut Iso;
+    MissingCancel "missing-cancel" Warning the_correction_is_still_on_at_the_end Iso;
+    MissingReturn "missing-return" Error a_subprogram_without_its_return Iso;
+    CornerWord "corner-word" Error the_word_for_a_corner_finds_none Iso;
+    MixedNumbers "mixed-numbers" Warning numbers_with_and_without_a_decimal_point Iso;
+    SuspectBlock "suspect-block" Warning a_block_that_may_be_wrong Iso;
+    AmbiguousCenter "ambiguous-center" Information the_arcs_do_not_tell_how_their_centres_are_meant Iso;
+    MachineDependent "machine-dependent" Information a_word_that_machines_take_in_different_ways Iso;
+    MissingB "missing-b" Error a_block_that_has_lost_a_b ThreeB FourB;
+    BlockNumberAsB "block-number-as-b" Error a_block_number_that_is_written_with_b ThreeB FourB;
+    LengthInJ "length-in-j" Error j_holds_the_length_of_a_line_not_its_projection ThreeB FourB;
+    WrongJ "wrong-j" Error j_is_not_what_the_block_counts ThreeB FourB;
+    JOverTurn "j-over-turn" Error j_of_an_arc_counts_more_than_one_turn ThreeB FourB;
+    WrongCountingAxis "wrong-counting-axis" Error g_counts_the_wrong_axis ThreeB FourB;
+    WrongQuadrant "wrong-quadrant" Error z_names_the_wrong_quadrant ThreeB FourB;
+    ZeroBlock "zero-block" Error a_block_that_moves_nothing ThreeB FourB;
+    TooManyDigits "too-many-digits" Error a_number_with_more_digits_than_the_controller_has ThreeB FourB;
+    PositionMismatch "position-mismatch" Warning coordinates_that_are_not_where_the_block_ends ThreeB FourB;
+    PathCrossesItself "path-crosses-itself" Warning a_path_that_goes_through_itself ThreeB FourB Iso;
+    NotClosed "not-closed" Warning a_cut_that_does_not_close ThreeB FourB Iso;
+    MissingEnd "missing-end" Warning a_program_without_its_end ThreeB FourB Iso;
+    TextAfterEnd "text-after-end" Warning text_behind_the_end_of_a_program ThreeB FourB Iso;
+    BlockNumber "block-number" Warning a_block_number_that_stands_twice ThreeB FourB Iso;
+    Syntax "syntax" Error the_file_is_damaged Drawing ThreeB FourB Iso;
+    Settings "settings" Error a_setting_does_not_fit Settings;
+    NotJudged "not-judged" Warning a_part_that_was_left_out_since_it_would_have_taken_too_much Drawing ThreeB FourB Iso;
+    More "more" Information stands_for_further_findings Drawing ThreeB FourB Iso;
+}
+
+impl Rule {
+    fn row(self) -> &'static Row {
+        let row = &TABLE[self as usize];
+        debug_assert_eq!(row.rule, self);
+        row
+    }
+
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    pub fn default_severity(self) -> Severity {
+        self.row().severity
+    }
+
+    /// The kinds of documents that it speaks of.
+    pub fn subjects(self) -> &'static [Subject] {
+        self.row().subjects
+    }
+}
