@@ -1,7 +1,7 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
-use super::path::Writing;
-use super::path::{Chain, Kind, Step, Trace};
+use super::path::{Chain, Step, Trace};
+use super::steps::{self, Program};
 use super::{gate, iso, three_b};
 use crate::finding::{Finding, Fix, Severity, Side};
 use crate::geometry::Point;
@@ -150,19 +150,16 @@ impl Document {
         (!edits.is_empty()).then_some(edits)
     }
 
-    /// Where the machine goes, block by block.
-    pub fn trace(&self) -> Trace {
+    fn program(&self) -> &dyn Program {
         match self {
-            Document::ThreeB(document) => document.trace(),
-            Document::Iso(document) => document.trace(),
+            Document::ThreeB(document) => document,
+            Document::Iso(document) => &**document,
         }
     }
 
-    fn writing(&self) -> Writing {
-        match self {
-            Document::ThreeB(_) => Writing::default(),
-            Document::Iso(document) => document.reading().writing(),
-        }
+    /// Where the machine goes, block by block.
+    pub fn trace(&self) -> Trace {
+        steps::trace(self.program())
     }
 
     /// The side of travel on which the control lets the wire run, for each step of the trace; empty where no program can say.
@@ -176,109 +173,36 @@ impl Document {
     /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them. Of two that
     /// touch it, the one that begins there.
     pub fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
-        match self {
-            Document::ThreeB(document) => document.chain_at(offset),
-            Document::Iso(_) => self.whole_chain_at(offset),
-        }
+        steps::chain_at(self.program(), offset, Chain::ENDS)
     }
 
     /// The same with every step of the chain.
     pub fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
-        let Trace {
-            mut steps, writing, ..
-        } = self.trace();
-        let touches =
-            |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
-        let touched = steps.iter().rposition(touches)?;
-        let own = steps
-            .get(touched)
-            .map(|step| (step.contour, step.kind == Kind::Rapid))?;
-        let is_same = |step: &Step| step.moves() && (step.contour, step.kind == Kind::Rapid) == own;
-        // A pause of the contour's own stands before its tab.
-        let pauses = |until: usize| {
-            steps[..until]
-                .iter()
-                .filter(|step| step.kind == Kind::Pause)
-                .count()
-        };
-        let stop = steps.iter().position(|step| {
-            step.kind == Kind::Pause && step.contour == own.0 && own.1 == (step.kind == Kind::Rapid)
-        });
-        let stop = stop.map(|stop| stop - pauses(stop));
-        let index = touched - pauses(touched);
-        steps.retain(|step| step.kind != Kind::Pause);
-        let first = steps[..index]
-            .iter()
-            .rposition(|step| !is_same(step))
-            .map_or(0, |before| before + 1);
-        let end = steps[index..]
-            .iter()
-            .position(|step| !is_same(step))
-            .map_or(steps.len(), |behind| index + behind);
-        steps.truncate(end);
-        steps.drain(..first);
-        let stop = stop
-            .and_then(|stop| stop.checked_sub(first))
-            .filter(|stop| (1..end - first).contains(stop));
-        Some((Chain::of(steps, writing).stopping(stop), index - first))
+        steps::chain_at(self.program(), offset, usize::MAX)
     }
 
     /// The moves from the last stop on that stand before a byte, by their ends.
     pub fn chain_before(&self, offset: usize) -> Option<Chain<'static>> {
-        match self {
-            Document::ThreeB(document) => document.chain_before(offset),
-            Document::Iso(_) => {
-                let last = self
-                    .trace()
-                    .steps
-                    .into_iter()
-                    .rfind(|step| step.range.end <= offset)
-                    .filter(Step::moves)?;
-                let (chain, nth) = self.whole_chain_at(last.range.start)?;
-                Some(Chain::of(chain.steps_to(nth + 1), self.writing()))
-            }
-        }
+        steps::chain_before(self.program(), offset)
     }
 
     /// The first stop behind a byte.
     pub fn stop_behind(&self, offset: usize) -> Option<Range<usize>> {
-        match self {
-            Document::ThreeB(document) => document.word_behind(offset),
-            Document::Iso(_) => self
-                .trace()
-                .steps
-                .into_iter()
-                .find(|step| !step.moves() && step.range.start > offset)
-                .map(|step| step.range),
-        }
+        steps::stop_behind(self.program(), offset)
     }
 
     /// The first block that moves.
     pub fn first_move(&self) -> Option<Range<usize>> {
-        match self {
-            Document::ThreeB(document) => document.first_block(),
-            Document::Iso(_) => self
-                .trace()
-                .steps
-                .into_iter()
-                .find(Step::moves)
-                .map(|step| step.range),
-        }
+        steps::first_move(self.program())
     }
 
     /// Where the program begins, µm: the origin where it does not say.
     pub fn start(&self) -> Point {
-        match self {
-            Document::ThreeB(document) => document.start(),
-            Document::Iso(_) => self.trace().start,
-        }
+        self.program().begin().0
     }
 
     /// The steps whose text overlaps or touches a range of bytes. Costs the range, not the program.
     pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
-        match self {
-            Document::ThreeB(document) => document.steps_in(range),
-            Document::Iso(document) => document.steps_in(range),
-        }
+        steps::steps_in(self.program(), range)
     }
 }

@@ -3,6 +3,7 @@
 //! [`Document`] is a program as the faces hold it, whatever its language; [`trace`] is what every language comes to: where the
 //! machine goes. What a language alone knows stands in its own folder.
 
+mod chunks;
 pub mod convert;
 mod document;
 mod edits;
@@ -12,8 +13,8 @@ pub mod grid;
 pub mod iso;
 pub mod language;
 pub mod path;
+mod steps;
 pub mod three_b;
-
 pub mod write;
 
 pub use document::{Document, Language};

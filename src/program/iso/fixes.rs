@@ -624,7 +624,7 @@ fn number_fixes(
                 });
             }
         }
-        IsoFault::NumberTwice { number } if !document.called().contains(&number) => {
+        IsoFault::NumberTwice { number } if !document.calls(number) => {
             let turn = document
                 .numbers_before(line)
                 .map(|(last, step)| last.saturating_add(step));

@@ -1,7 +1,8 @@
 //! The order in which the lines of a program run: from the first to the last, or through the subprograms that `M98 P…` calls.
 
 use super::block::{Stop, read_line};
-use super::document::STRETCH;
+use super::document::Control;
+use crate::program::chunks::Language;
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -19,6 +20,10 @@ pub(super) const MOST_CALLS: usize = 20_000;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Order {
     pub lines: Vec<Range<usize>>,
+    /// The line of each N and O number.
+    pub labels: FxHashMap<u32, usize>,
+    /// The numbers that are called.
+    pub called: FxHashSet<u32>,
     /// Lines that call a subprogram which is not in the text, with its number.
     pub missing: Vec<(usize, u32)>,
     /// Subprograms that go on into what stands behind them: the line behind which M99 is missing, with the number.
@@ -36,15 +41,15 @@ pub fn order(text: &SourceText) -> Order {
     let most_lines = MOST_LINES + 2 * text.line_count();
     let order = Order {
         most_lines,
+        labels: labels(text),
+        called: called(text),
         ..Order::default()
     };
     let mut walk = Walk {
         text,
-        labels: labels(text),
         order,
         left: most_lines,
         calls: MOST_CALLS,
-        called: called(text),
     };
     walk.run(0, 0, None);
     walk.order
@@ -71,13 +76,11 @@ fn called(text: &SourceText) -> FxHashSet<u32> {
 
 struct Walk<'a> {
     text: &'a SourceText,
-    labels: FxHashMap<u32, usize>,
     order: Order,
     /// How many lines may still run.
     left: usize,
     /// How many calls may still be followed.
     calls: usize,
-    called: FxHashSet<u32>,
 }
 
 impl Walk<'_> {
@@ -99,7 +102,9 @@ impl Walk<'_> {
             if let Some(own) = number.filter(|_| line > first)
                 && [
                     block.program,
-                    block.number.filter(|number| self.called.contains(number)),
+                    block
+                        .number
+                        .filter(|number| self.order.called.contains(number)),
                 ]
                 .into_iter()
                 .flatten()
@@ -118,7 +123,7 @@ impl Walk<'_> {
             if let Some(number) = block.call {
                 self.push(begun..line);
                 begun = line;
-                let times = if self.labels.contains_key(&number) {
+                let times = if self.order.labels.contains_key(&number) {
                     block.repeat.unwrap_or(1)
                 } else {
                     1
@@ -151,13 +156,13 @@ impl Walk<'_> {
     fn push(&mut self, lines: Range<usize>) {
         let stretches = lines
             .clone()
-            .step_by(STRETCH)
-            .map(|first| first..(first + STRETCH).min(lines.end));
+            .step_by(Control::LINES)
+            .map(|first| first..(first + Control::LINES).min(lines.end));
         self.order.lines.extend(stretches);
     }
 
     fn call(&mut self, number: u32, from: usize, depth: usize) -> bool {
-        match self.labels.get(&number) {
+        match self.order.labels.get(&number) {
             Some(&line) if depth < DEEPEST && self.calls > 0 => {
                 self.calls -= 1;
                 self.run(line, depth + 1, Some(number))

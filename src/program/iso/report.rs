@@ -2,12 +2,14 @@
 
 use super::block::{Code, Motion, Offset, read_line, word_range};
 use super::cuts::{Cut, cuts};
-use super::document::{Document, Limits, Placed, Table};
+use super::document::{Document, Placed};
 use super::evidence::FEW_BARE;
+use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
 use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
 use super::stretch::{Definition, Fault, Run, RunSide, Stretch, Tight};
+use super::table::Table;
 use super::word::{Token, Value, WordFault, words};
 use crate::finding::{
     Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
@@ -828,7 +830,7 @@ impl<'a> Report<'a> {
             if own.iter().sum::<u32>() == own[usize::from(usual)] {
                 continue;
             }
-            for line in placed.first_line..placed.first_line + placed.stretch.lines as usize {
+            for line in placed.lines {
                 let range = self.text.line_range(line);
                 words(
                     &self.text.bytes()[range.clone()],
@@ -910,14 +912,7 @@ impl<'a> Report<'a> {
         for placed in self.document.placed() {
             let has_arcs =
                 placed.stretch.evidence.absolute.all + placed.stretch.evidence.incremental.all > 0;
-            for line in placed.first_line
-                ..placed.first_line
-                    + if has_arcs {
-                        placed.stretch.lines as usize
-                    } else {
-                        0
-                    }
-            {
+            for line in placed.lines.filter(|_| has_arcs) {
                 let range = self.text.line_range(line);
                 let bytes = &self.text.bytes()[range.clone()];
                 let block = read_line(bytes, range.start, |_| {});

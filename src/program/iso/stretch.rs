@@ -14,6 +14,7 @@ use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::path::near_each_other;
 use crate::program::path::{HeldWay, Node, closing};
+use crate::program::steps::Sum;
 use std::ops::Range;
 
 /// A fault of one line. Places are bytes from the start of the stretch.
@@ -387,7 +388,6 @@ const MOST_LENGTHS: usize = 4;
 /// Lines that have been run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
-    pub lines: u32,
     pub before: Machine,
     pub after: Machine,
     /// How the numbers were read.
@@ -436,6 +436,8 @@ pub struct Stretch {
     /// Blocks that move the wire, and stops on the way.
     pub moves: u32,
     pub pauses: u32,
+    /// What the steps of its lines come to, wherever the stops of contours are.
+    pub sum: Sum,
     /// It holds coordinates under G90, or an absolute centre, or G92: what it does hangs on where the wire stands before.
     fixed: bool,
 }
@@ -471,7 +473,6 @@ impl Stretch {
         each: &mut Hears<'_>,
     ) -> Stretch {
         let mut stretch = Stretch {
-            lines: 0,
             before,
             after: before,
             reading,
@@ -501,6 +502,7 @@ impl Stretch {
             calls: false,
             moves: 0,
             pauses: 0,
+            sum: Sum::default(),
             fixed: false,
         };
         for left in (0..count).rev() {
@@ -531,7 +533,6 @@ impl Stretch {
         ahead: &Ahead<'_, impl Lines<'a>>,
         each: &mut Hears<'_>,
     ) {
-        self.lines += 1;
         let Stretch {
             faults,
             foreign,
@@ -641,6 +642,7 @@ impl Stretch {
             None => {}
         }
         if let Some(stop) = block.stop {
+            self.sum.stops += 1;
             self.interrupt(true);
             if stop == Stop::Pause {
                 self.pauses += 1;
@@ -740,6 +742,12 @@ impl Stretch {
         each: &mut Hears<'_>,
     ) {
         self.fixed |= !made.incremental;
+        self.sum.moves += 1;
+        self.sum.arcs += usize::from(made.is_arc());
+        self.sum.rapids += usize::from(!made.is_cut());
+        for (axis, along) in self.sum.travel.iter_mut().enumerate() {
+            *along = along.wrapping_add(made.to[axis].wrapping_sub(made.from[axis]));
+        }
         if made.switches == Some(true) && made.offset.is_none() {
             self.fault(Fault::NoOffset, range);
         }
@@ -833,6 +841,11 @@ impl Stretch {
         self.before.at = added(self.before.at, by);
         self.after.at = added(self.after.at, by);
         self.moved = added(self.moved, by);
+    }
+
+    /// A cut begins or ends in here: what comes behind does not hang on those before.
+    pub fn parts_cuts(&self) -> bool {
+        self.ends_run_before.is_some() || self.runs.iter().any(|run| !run.continues)
     }
 
     pub fn run_count(&self) -> usize {

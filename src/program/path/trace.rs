@@ -177,6 +177,7 @@ impl<'a> Chain<'a> {
         tail: Vec<Step>,
         (count, arcs): (usize, usize),
         meant: Vector,
+        writing: Writing,
     ) -> Chain<'static> {
         let of_tail: Vector = tail.iter().map(Step::meant).sum();
         let (to_head, to_tail) = (sums(Vector::zeros(), &head), sums(meant - of_tail, &tail));
@@ -185,7 +186,7 @@ impl<'a> Chain<'a> {
             tail,
             count,
             arcs,
-            writing: Writing::default(),
+            writing,
             stop: None,
             to_head,
             to_tail,
@@ -199,14 +200,6 @@ impl<'a> Chain<'a> {
 
     pub fn count(&self) -> usize {
         self.count
-    }
-
-    /// The first steps, as far as they are held.
-    pub fn steps_to(&self, count: usize) -> Vec<Step> {
-        self.head
-            .get(..count.min(self.head.len()))
-            .unwrap_or_default()
-            .to_vec()
     }
 
     /// A step by its index, where it is held.

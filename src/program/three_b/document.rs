@@ -15,12 +15,13 @@ pub use walk::PlacedBlock;
 
 use super::parse::Words;
 use super::rules::Limits;
-use super::run::{Entry, LINES, Run, Sum};
+use super::run::{Entry, Run, Sum};
 use crate::finding::Finding;
+use crate::geometry::Point;
+use crate::program::chunks::{Chunks, Language};
 use crate::program::path::crossings::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// A 3B or 4B program as text, and what was read from it.
@@ -29,7 +30,7 @@ pub struct Document {
     text: SourceText,
     words: OwnWords,
     limits: Limits,
-    runs: Vec<Run>,
+    runs: Chunks<Run>,
     view: Box<View>,
     /// What the search for crossings has seen.
     known: Box<Known>,
@@ -80,8 +81,8 @@ struct Section {
 /// What hangs on the program as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct View {
-    /// Bytes and lines before each run.
-    starts: Vec<(usize, usize)>,
+    /// Where the machine stands before each run, µm.
+    begins: Vec<Point>,
     /// The sections that reach over the end of a run, or begin or end the text, in their order. The others are parts of one run.
     outer: Vec<Section>,
     /// Where the contours begin that do not close.
@@ -105,21 +106,11 @@ impl Document {
     pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let text = SourceText::new(bytes);
         let (words, limits) = (OwnWords::of(settings), Limits::of(settings));
-        let count = text.line_count();
-        let read = |first: usize| {
-            run_of(
-                &text,
-                first..(first + LINES).min(count),
-                &words.words(),
-                &limits,
-            )
+        let reader = Reader {
+            words: words.words(),
+            limits: &limits,
         };
-        let firsts: Vec<usize> = (0..count).step_by(LINES).collect();
-        let runs = if count > 20 * LINES {
-            firsts.into_par_iter().map(read).collect()
-        } else {
-            firsts.into_iter().map(read).collect()
-        };
+        let runs = Chunks::read(&reader, &text, 0..text.line_count());
         let mut document = Document {
             text,
             words,
@@ -155,53 +146,12 @@ impl Document {
 
     /// Replaces a range of bytes and reads again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        let end = range.end.min(self.text.len());
-        let start = range.start.min(end);
-        // The byte before belongs to it: a CR there may become one line end with an inserted LF.
-        let first = self.run_at(start.saturating_sub(1));
-        let last = self.run_at(end).max(first);
-        let starts = &self.view.starts;
-        let first_byte = starts.get(first).map_or(0, |start| start.0);
-        let first_line = starts.get(first).map_or(0, |start| start.1);
-        let behind = starts
-            .get(last + 1)
-            .map_or(self.text.len(), |start| start.0);
-        let tail = self.text.len() - behind;
-        self.text.replace(start..end, replacement);
-        let new_behind = self.text.len() - tail;
-        debug_assert_eq!(self.text.line_start(first_line), first_byte);
-        let last_line = if tail == 0 {
-            self.text.line_count()
-        } else {
-            self.text.line_of(new_behind)
+        let reader = Reader {
+            words: self.words.words(),
+            limits: &self.limits,
         };
-        let words = self.words.words();
-        let fresh: Vec<Run> = (first_line..last_line)
-            .step_by(LINES)
-            .map(|line| {
-                run_of(
-                    &self.text,
-                    line..(line + LINES).min(last_line),
-                    &words,
-                    &self.limits,
-                )
-            })
-            .collect();
-        self.runs
-            .splice(first..(last + 1).min(self.runs.len()), fresh);
+        self.runs.edit(&reader, &mut self.text, range, replacement);
         self.look_again();
-    }
-
-    /// The run that holds a byte; the last one for bytes past the end.
-    fn run_at(&self, byte: usize) -> usize {
-        self.view
-            .starts
-            .partition_point(|start| start.0 <= byte)
-            .saturating_sub(1)
-    }
-
-    fn base(&self, run: usize) -> usize {
-        self.view.starts.get(run).map_or(0, |start| start.0)
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {
@@ -209,10 +159,10 @@ impl Document {
     }
 
     /// Bytes of an entry in the text.
-    fn range_of(&self, at: At, starts: &[(usize, usize)]) -> Range<usize> {
-        let base = starts.get(at.run).map_or(0, |start| start.0);
+    fn range_of(&self, at: At) -> Range<usize> {
+        let byte = self.runs.byte(at.run);
         self.entry(at).map_or(0..0, |entry| {
-            entry.range().start + base..entry.range().end + base
+            byte + entry.range().start..byte + entry.range().end
         })
     }
 
@@ -232,15 +182,38 @@ impl Document {
     }
 }
 
-fn run_of(text: &SourceText, lines: Range<usize>, words: &Words<'_>, limits: &Limits) -> Run {
-    let whole = text.line_start(lines.start)..text.line_start(lines.end);
-    Run::read(
-        text.bytes(),
-        whole,
-        lines.map(|line| text.line_range(line)),
-        words,
-        limits,
-    )
+/// How 3B text is read: no line hangs on another.
+struct Reader<'a> {
+    words: Words<'a>,
+    limits: &'a Limits,
+}
+
+impl Language for Reader<'_> {
+    type State = ();
+    type Begun = Range<usize>;
+    type Chunk = Run;
+
+    const LINES: usize = 96;
+
+    fn begin(&self) {}
+
+    fn run(&self, _: &SourceText, lines: Range<usize>, (): ()) -> (Range<usize>, ()) {
+        (lines, ())
+    }
+
+    fn finish(&self, text: &SourceText, lines: Range<usize>) -> Run {
+        Run::read(
+            text.bytes(),
+            text.line_start(lines.start),
+            lines.map(|line| text.line_range(line)),
+            &self.words,
+            self.limits,
+        )
+    }
+
+    fn before(_: &Run) {}
+
+    fn after(_: &Run) {}
 }
 
 #[cfg(test)]

@@ -344,12 +344,11 @@ impl Open {
 /// Consecutive lines of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Run {
-    pub bytes: usize,
-    pub lines: usize,
     pub entries: Vec<Entry>,
     pub faults: Vec<Local>,
     pub parts: Vec<Part>,
     pub blocks: usize,
+    pub arcs: usize,
     pub texts: usize,
     /// Entries with a number, and blocks with an end point behind them.
     pub numbered: usize,
@@ -483,25 +482,21 @@ pub(super) fn may_cross_itself(sum: &Sum) -> bool {
     sum.blocks >= 4 && sum.errors == 0
 }
 
-/// Lines that one run holds at most.
-pub(super) const LINES: usize = 96;
-
 impl Run {
     /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it.
     pub fn read(
         text: &[u8],
-        whole: Range<usize>,
+        offset: usize,
         lines: impl Iterator<Item = Range<usize>>,
         words: &Words<'_>,
         limits: &Limits,
     ) -> Run {
         let mut run = Run {
-            bytes: whole.len(),
-            lines: 0,
             entries: Vec::new(),
             faults: Vec::new(),
             parts: Vec::new(),
             blocks: 0,
+            arcs: 0,
             texts: 0,
             numbered: 0,
             stated: 0,
@@ -516,12 +511,10 @@ impl Run {
             tangled: Vec::new(),
         };
         let mut open = Open::at(0);
-        for range in lines {
-            let line = run.lines as u32;
-            run.lines += 1;
+        for (line, range) in lines.enumerate() {
             let start = range.start;
             read_line(&text[range], start, words, |item| {
-                run.take(item, line, whole.start, &mut open, limits)
+                run.take(item, line as u32, offset, &mut open, limits)
             });
         }
         open.part.entries.end = run.entries.len();
@@ -534,6 +527,7 @@ impl Run {
         let last = self.parts.len().saturating_sub(1);
         for (index, part) in self.parts.iter().enumerate() {
             self.travel = self.travel.plus(part.sum.travel);
+            self.arcs += part.sum.arcs;
             if let Some((word, is_own)) = part.word {
                 self.words += 1;
                 self.last_word = Some(part.entries.end);

@@ -5,9 +5,9 @@ use super::meaning::{known_g, known_m};
 use crate::geometry::{Arc, Point, left_normal};
 use crate::program::grid::{best_center, snap};
 use crate::program::iso::block::{Block, Motion, read_line};
-use crate::program::iso::document::{Begun, Document};
+use crate::program::iso::document::Document;
 use crate::program::iso::machine::{CenterRule, Course, Machine, Move, Place, added, micrometres};
-use crate::program::iso::order::labels;
+use crate::program::iso::steps::Begun;
 use crate::program::iso::style::Style;
 use crate::program::iso::word::{Number, Token, WordFault, words};
 use crate::program::language::Completion;
@@ -213,21 +213,9 @@ impl Offer<'_> {
     }
 
     fn subprograms(&mut self, before: &str) {
-        let mut numbers: Vec<(u32, usize)> = labels(self.document.text())
-            .into_iter()
-            .filter(|(number, _)| *number < u32::MAX)
-            .collect();
-        numbers.sort_unstable();
         let text = self.document.text();
-        let (called, last) = (self.document.called(), self.document.last_line());
-        let is_subprogram = |(number, line): &(u32, usize)| {
-            called.contains(number) || last.is_some_and(|last| *line > last)
-        };
-        for (number, line) in numbers
-            .into_iter()
-            .filter(is_subprogram)
-            .take(MOST_SUBPROGRAMS)
-        {
+        let subprograms = self.document.subprograms();
+        for (number, line) in subprograms.into_iter().take(MOST_SUBPROGRAMS) {
             let shown: String = String::from_utf8_lossy(
                 text.bytes().get(text.line_range(line)).unwrap_or_default(),
             )

@@ -2,7 +2,6 @@
 
 use crate::program::iso::block::{Compensation, read_line, word_range};
 use crate::program::iso::document::Document;
-use crate::program::iso::order::labels;
 use crate::program::iso::word::{Token, words};
 use std::ops::Range;
 
@@ -50,20 +49,19 @@ pub fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Rang
         } => {
             let block = read_line(bytes, range.start, |_| {});
             if let Some(number) = block.call {
-                let &line = labels(text).get(&number)?;
+                let line = document.called_line(number)?;
                 return Some((range, label_in(document, line, number)?));
             }
             if !block.returns {
                 return None;
             }
-            let calls = document.called();
             (0..=line).rev().find_map(|line| {
                 let bytes = text.bytes().get(text.line_range(line))?;
                 let block = read_line(bytes, 1, |_| {});
                 let called = [block.number, block.program]
                     .into_iter()
                     .flatten()
-                    .find(|number| calls.contains(number))?;
+                    .find(|number| document.calls(*number))?;
                 Some((range.clone(), label_in(document, line, called)?))
             })
         }

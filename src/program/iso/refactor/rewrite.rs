@@ -86,7 +86,7 @@ impl Rewrite {
             })
             .collect();
         let styles = [false, true].map(|inch| Style::of(document, inch));
-        let mut machine = document.begin();
+        let mut machine = document.first_machine();
         let mut edits = Vec::new();
         let (mut row, mut word) = (0, 0);
         for line in 0..text.line_count() {

@@ -48,9 +48,7 @@ impl Document {
         match &**fault {
             ProgramFault::MissingEnd { word } => missing_end::fixes(&self.text, range.end, word),
             ProgramFault::TextAfterEnd { .. } => match self.view.end {
-                Some(end) => {
-                    text_after_end::fixes(&self.text, self.range_of(end, &self.view.starts).start)
-                }
+                Some(end) => text_after_end::fixes(&self.text, self.range_of(end).start),
                 None => Vec::new(),
             },
             ProgramFault::NotClosed { .. } => self.closing_fixes(range),
@@ -64,7 +62,7 @@ impl Document {
 
     fn position_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
         let (at, entry) = self.block_at(range)?;
-        let own = self.range_of(at, &self.view.starts);
+        let own = self.range_of(at);
         let stated = entry.stated_end()?;
         let before = self.stated_before(at)?;
         let next = self
@@ -133,9 +131,9 @@ impl Document {
 
     /// The block that a range lies in or before.
     fn block_at(&self, range: &Range<usize>) -> Option<(At, &BlockEntry)> {
-        let run = self.run_at(range.start);
+        let run = self.runs.at(range.start);
         let of = self.runs.get(run)?;
-        let local = range.start.checked_sub(self.base(run))?;
+        let local = range.start.checked_sub(self.runs.byte(run))?;
         let entry = of
             .entries
             .partition_point(|entry| entry.range().end <= local);
@@ -146,7 +144,7 @@ impl Document {
         let Some((at, entry)) = self.block_at(range) else {
             return Vec::new();
         };
-        let own = self.range_of(at, &self.view.starts);
+        let own = self.range_of(at);
         // A number that stands before the block belongs to it.
         let block = if matches!(fault, ProgramFault::BlockNumberAsB { .. }) {
             range.clone()
@@ -265,7 +263,7 @@ impl Document {
         let Some((index, _, meant)) = found.into_iter().find(|(index, ..)| {
             places
                 .get(*index)
-                .is_some_and(|at| self.range_of(*at, &self.view.starts) == *range)
+                .is_some_and(|at| self.range_of(*at) == *range)
         }) else {
             return Vec::new();
         };
@@ -300,7 +298,7 @@ impl Document {
 
     /// Writes the number of a block or word, in the place of the one that it has.
     fn number_edit(&self, at: At, number: u32) -> TextEdit {
-        let range = self.range_of(at, &self.view.starts);
+        let range = self.range_of(at);
         let has_number = self.entry(at).is_some_and(|entry| entry.number().is_some());
         let line = self.text.line_range(self.text.line_of(range.start));
         let before = self

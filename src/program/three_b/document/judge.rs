@@ -24,15 +24,9 @@ impl Document {
     /// `calm` takes the contours within one run of which is known now that they do not cross themselves, in their order.
     pub(super) fn look(&self, known: &mut Known, calm: &mut Vec<PartAt>) -> View {
         let mut view = View {
-            starts: Vec::with_capacity(self.runs.len()),
+            begins: self.begins(),
             ..View::default()
         };
-        let (mut bytes, mut lines) = (0, 0);
-        for run in &self.runs {
-            view.starts.push((bytes, lines));
-            bytes += run.bytes;
-            lines += run.lines;
-        }
         view.end = self.end_word();
         view.outer = self.outer_sections(view.end);
         view.last_block = self.last_block(view.end);
@@ -160,7 +154,7 @@ impl Document {
         };
         let mut findings = vec![Finding {
             severity,
-            ..finding(self.range_of(last, &view.starts), fault)
+            ..finding(self.range_of(last), fault)
         }];
         let may_be_one_field = section.sum.errors == 0
             && culprit::BLOCKS.contains(&section.sum.blocks)
@@ -171,7 +165,7 @@ impl Document {
                 .filter_map(|at| self.entry(at)?.block())
                 .collect();
             let named = self
-                .blamed(section, &view.starts)
+                .blamed(section)
                 .or_else(|| culprit::culprit(&section.sum, &blocks));
             if let Some((nth, fault)) = named
                 && let Some(at) = self.blocks_of(section).nth(nth)
@@ -184,7 +178,7 @@ impl Document {
                     ProgramFault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
                     _ => rules::Spot::Block,
                 };
-                let block = self.range_of(at, &view.starts);
+                let block = self.range_of(at);
                 let range = fields_of(self.text.bytes(), block.clone())
                     .map_or(block.clone(), |fields| spot.range(&fields, block));
                 findings.push(finding(range, fault));
@@ -237,7 +231,7 @@ impl Document {
                 let first = blocks.nth(crossing.first);
                 let second = blocks.nth(crossing.second - crossing.first - 1);
                 if let (Some(first), Some(second)) = (first, second) {
-                    let from = self.range_of(first, &view.starts);
+                    let from = self.range_of(first);
                     let fault = ProgramFault::PathCrossesItself {
                         at: [crossing.at.x / 1000.0, crossing.at.y / 1000.0],
                         other: self.text.line_of(from.start),
@@ -245,7 +239,7 @@ impl Document {
                     let related = vec![Place::Text { range: from }];
                     findings.push(Finding {
                         related,
-                        ..finding(self.range_of(second, &view.starts), fault)
+                        ..finding(self.range_of(second), fault)
                     });
                 }
             }
@@ -254,7 +248,7 @@ impl Document {
                     rule: Rule::NotJudged,
                     severity: Severity::Information,
                     place: Place::Text {
-                        range: self.range_of(last, &view.starts),
+                        range: self.range_of(last),
                     },
                     detail: Detail::NotJudged(NotJudged::Crossings {
                         blocks: section.sum.blocks,
@@ -351,7 +345,7 @@ impl Document {
             };
             view.findings.push(Finding {
                 severity,
-                ..finding(self.range_of(last_block, &view.starts), fault)
+                ..finding(self.range_of(last_block), fault)
             });
             return;
         };
@@ -368,12 +362,11 @@ impl Document {
             )
         };
         if let Some(first) = behind.into_iter().find(|at| *at > end && is_text(at)) {
-            let word = self.range_of(end, &view.starts);
+            let word = self.range_of(end);
             let word = String::from_utf8_lossy(self.text.bytes().get(word).unwrap_or_default())
                 .into_owned();
             let fault = ProgramFault::TextAfterEnd { word };
-            view.findings
-                .push(finding(self.range_of(first, &view.starts), fault));
+            view.findings.push(finding(self.range_of(first), fault));
         }
     }
 
@@ -410,7 +403,7 @@ impl Document {
         let has_fault = self.runs.iter().any(|run| !run.faults.is_empty());
         let mut is_said = false;
         for (at, column, is_comment) in texts {
-            let range = self.range_of(at, &view.starts);
+            let range = self.range_of(at);
             if is_comment {
                 let sentence =
                     format!("column {column}: this comment holds a block, which is not cut");
@@ -501,8 +494,7 @@ impl Document {
             }
         }
         for (at, fault, _) in sequence.found() {
-            view.findings
-                .push(finding(self.range_of(at, &view.starts), fault));
+            view.findings.push(finding(self.range_of(at), fault));
         }
     }
 
@@ -581,7 +573,7 @@ impl Document {
             before = (!goes_back).then_some((ordinal, [x, y]));
             if !goes_back {
                 view.findings.push(finding(
-                    self.range_of(at, &view.starts),
+                    self.range_of(at),
                     ProgramFault::PositionMismatch { x, y },
                 ));
             }

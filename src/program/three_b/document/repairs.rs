@@ -46,7 +46,7 @@ impl Document {
         let Some(section) = self.section_of(at) else {
             return Vec::new();
         };
-        let Some((places, pieces)) = self.pieces_of(&section, &self.view.starts) else {
+        let Some((places, pieces)) = self.pieces_of(&section) else {
             return Vec::new();
         };
         let start = places.first().and_then(|first| self.stated_before(*first));
@@ -75,12 +75,8 @@ impl Document {
     }
 
     /// The block that keeps a contour open, by its number in the section, where no other repair is as likely.
-    pub(super) fn blamed(
-        &self,
-        section: &Section,
-        starts: &[(usize, usize)],
-    ) -> Option<(usize, ProgramFault)> {
-        let (places, pieces) = self.pieces_of(section, starts)?;
+    pub(super) fn blamed(&self, section: &Section) -> Option<(usize, ProgramFault)> {
+        let (places, pieces) = self.pieces_of(section)?;
         let start = places.first().and_then(|first| self.stated_before(*first));
         let number = places.first().and_then(|first| self.number_before(*first));
         let path = Path {
@@ -151,9 +147,9 @@ impl Document {
 
     /// The entry that a range lies in or before.
     fn entry_at(&self, range: &Range<usize>) -> Option<At> {
-        let run = self.run_at(range.start);
+        let run = self.runs.at(range.start);
         let of = self.runs.get(run)?;
-        let local = range.start.checked_sub(self.base(run))?;
+        let local = range.start.checked_sub(self.runs.byte(run))?;
         let entry = of
             .entries
             .partition_point(|entry| entry.range().end <= local);
@@ -161,18 +157,14 @@ impl Document {
     }
 
     /// The blocks of a contour, those that cannot be read among them; `None` where there are too few or too many, or they are 4B.
-    fn pieces_of(
-        &self,
-        section: &Section,
-        starts: &[(usize, usize)],
-    ) -> Option<(Vec<At>, Vec<Piece>)> {
+    fn pieces_of(&self, section: &Section) -> Option<(Vec<At>, Vec<Piece>)> {
         if !BLOCKS.contains(&(section.sum.blocks + section.sum.unread)) {
             return None;
         }
         let (mut places, mut pieces) = (Vec::new(), Vec::new());
         for at in self.entries_of(section) {
             let entry = self.entry(at)?;
-            let own = self.range_of(at, starts);
+            let own = self.range_of(at);
             let piece = match &entry.what {
                 What::Block(block) => {
                     if block.part().is_some() {
@@ -254,7 +246,7 @@ impl Document {
         pieces: &[Piece],
     ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
-        let own = |index: usize| Some(self.range_of(*places.get(index)?, &self.view.starts));
+        let own = |index: usize| Some(self.range_of(*places.get(index)?));
         let line = |index: usize| Some(self.text.line_of(own(index)?.start));
         let whole = |line: usize| self.text.line_start(line)..self.text.line_start(line + 1);
         let is_alone = |index: usize| {
@@ -353,7 +345,7 @@ impl Document {
     ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
         let model = index.saturating_sub(1);
-        let own = self.range_of(*places.get(model)?, &self.view.starts);
+        let own = self.range_of(*places.get(model)?);
         let line = self.text.line_range(self.text.line_of(own.start));
         let found = text.get(own.clone())?;
         let is_spaced = found.contains(&b' ');

@@ -44,7 +44,7 @@ impl Document {
                 if let Some(severity) = severity(local.rule, self.own_severity(run, local)) {
                     order.push((
                         severity,
-                        local.range.start + self.base(run),
+                        local.range.start + self.runs.byte(run),
                         Kept::InBlock { run, index },
                     ));
                 }
@@ -117,7 +117,7 @@ impl Document {
     }
 
     fn materialized(&self, run: usize, local: &Local) -> Finding {
-        let base = self.base(run);
+        let base = self.runs.byte(run);
         let block = local.range.start + base..local.range.end + base;
         let range = match local.spot {
             rules::Spot::Block => block,

@@ -5,6 +5,7 @@ use super::pieces::{Field, pieces};
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::language::Completion;
 use crate::program::path::cut_of;
+use crate::program::steps::{self, Program};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use crate::program::three_b::decode::decode;
@@ -248,7 +249,7 @@ fn stand(document: &Document, offset: usize) -> Point {
     steps
         .iter()
         .rfind(|step| step.range.end <= offset)
-        .map_or_else(|| document.start(), |step| step.end)
+        .map_or_else(|| document.begin().0, |step| step.end)
 }
 
 /// What can begin a line.
@@ -264,7 +265,7 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
     };
     let at = stand(document, start);
     let mut targets: Vec<(&str, Point)> = Vec::new();
-    if let Some(chain) = document.chain_before(start) {
+    if let Some(chain) = steps::chain_before(document, start) {
         let first = chain.step(0);
         targets
             .extend(first.map(|first| ("back to the start of the program's contour", first.start)));

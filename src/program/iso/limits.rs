@@ -1,0 +1,104 @@
+//! What of the settings decides what is a fault of an ISO program.
+
+use super::block::{Code, Note, Stop, read_line};
+use super::machine::CenterRule;
+use crate::settings::{Effective, Profile, UnitSetting, shipped_profiles};
+use std::collections::BTreeSet;
+use std::sync::{Arc, LazyLock};
+
+/// The settings that decide what is a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Limits {
+    /// mm, where the program's own table does not say.
+    pub correction: f64,
+    pub side: crate::settings::SideSetting,
+    pub compensation: crate::settings::Compensation,
+    /// The word that ends a program of the settings' profile.
+    pub end: String,
+    /// Words that profiles write: whoever has a profile for a machine knows what they mean there.
+    pub known: BTreeSet<Code>,
+    /// A program that does not say otherwise is in inches.
+    pub inch: bool,
+    /// Somebody has said in what the numbers of programs are.
+    pub has_unit: bool,
+    /// Where full circles alone leave open how I and J are meant.
+    pub center: CenterRule,
+    pub profile: Option<Arc<Profile>>,
+}
+
+impl Limits {
+    pub fn of(settings: &Effective) -> Limits {
+        Limits {
+            correction: settings.correction,
+            side: settings.side,
+            compensation: settings.compensation,
+            end: end_word(settings),
+            known: known_words(settings),
+            inch: settings.program_units == Some(UnitSetting::Inch),
+            has_unit: settings.program_units.is_some(),
+            center: settings
+                .profile
+                .as_ref()
+                .map_or(CenterRule::StartToCenter, |profile| profile.center),
+            profile: settings
+                .profile
+                .as_ref()
+                .ok()
+                .map(|profile| Arc::new(profile.clone())),
+        }
+    }
+
+    /// The lines that the settings' profile writes besides those that move the wire.
+    pub fn lines(&self) -> impl Iterator<Item = &str> {
+        self.profile
+            .iter()
+            .flat_map(|profile| lines_of(profile))
+            .map(String::as_str)
+    }
+}
+
+fn lines_of(profile: &Profile) -> impl Iterator<Item = &String> {
+    [
+        &profile.begin,
+        &profile.contour_begin,
+        &profile.contour_end,
+        &profile.pause,
+        &profile.end,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+static SHIPPED_WORDS: LazyLock<BTreeSet<Code>> = LazyLock::new(|| {
+    shipped_profiles()
+        .filter_map(|name| Profile::of(name, None).ok())
+        .flat_map(|profile| words_of_profile(&profile))
+        .collect()
+});
+
+fn known_words(settings: &Effective) -> BTreeSet<Code> {
+    let own = settings.profile.iter().flat_map(words_of_profile);
+    SHIPPED_WORDS.iter().copied().chain(own).collect()
+}
+
+/// The words of a profile's lines that are a matter of the machine.
+fn words_of_profile(profile: &Profile) -> Vec<Code> {
+    let mut codes = Vec::new();
+    for line in lines_of(profile) {
+        read_line(line.replace(['{', '}'], " ").as_bytes(), 1, |note| {
+            if let Note::Foreign { code, .. } = note {
+                codes.push(code);
+            }
+        });
+    }
+    codes
+}
+
+/// M02 or M30, as the settings' profile has it.
+fn end_word(settings: &Effective) -> String {
+    let lines = settings.profile.iter().flat_map(|profile| &profile.end);
+    let mut ends =
+        lines.filter(|line| read_line(line.as_bytes(), 1, |_| {}).stop == Some(Stop::End));
+    ends.next_back()
+        .map_or_else(|| "M02".into(), |line| line.trim().into())
+}

@@ -1,0 +1,303 @@
+//! An ISO program run: the moves of its lines, what is in force at one of them, and the cut that is under way there.
+
+use super::block::{Block, Motion, Stop, read_line};
+use super::corner::turned;
+use super::document::{Document, lines_from};
+use super::machine::{Course, Machine, Move, Place, micrometres};
+use super::stretch::{Run, Stretch, words_of};
+use crate::finding::Side;
+use crate::geometry::{Point, Segment};
+use crate::program::chunks::Language;
+use crate::program::path::{Kind, Step, Trace, Writing};
+use crate::program::steps::{self, Program, Sum};
+use crate::text::SourceText;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// A cut that has begun before some line and may go on in it, nm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Begun {
+    /// Its first move, which is the way in where it has one.
+    pub from: Place,
+    pub to: Place,
+    pub last: Move,
+    pub moves: u32,
+}
+
+/// A line that runs, and what it does.
+struct Ran<'a> {
+    line: usize,
+    /// Its words, bytes of the text.
+    words: Range<usize>,
+    block: &'a Block,
+    /// Its move, and the corner that the control makes at its end.
+    made: [Option<Move>; 2],
+    /// Behind it.
+    machine: &'a Machine,
+}
+
+impl Ran<'_> {
+    fn moves(&self) -> impl Iterator<Item = Move> {
+        self.made.into_iter().flatten()
+    }
+
+    /// A step for each move, and one for a stop.
+    fn step_count(&self) -> usize {
+        self.moves().count() + usize::from(self.block.stop.is_some())
+    }
+}
+
+impl Document {
+    /// Where the machine goes, move by move.
+    pub fn trace(&self) -> Trace {
+        steps::trace(self)
+    }
+
+    /// Hands out the lines of a stretch that run.
+    fn run_lines(&self, stretch: usize, each: &mut dyn FnMut(&Ran<'_>)) {
+        let Some(placed) = self.placed_at(stretch) else {
+            return;
+        };
+        let mut machine = placed.stretch.before;
+        for line in placed.lines {
+            if machine.ended {
+                return;
+            }
+            let range = self.text().line_range(line);
+            let bytes = &self.text().bytes()[range.clone()];
+            let block = read_line(bytes, range.start, |_| {});
+            if block.empty {
+                continue;
+            }
+            let (made, corner) = match machine.run(&block, self.reading()) {
+                Some(made) => {
+                    let (made, corner) = self.turned(line, made, &mut machine);
+                    (Some(made), corner)
+                }
+                None => (None, None),
+            };
+            let words = words_of(bytes, range.start);
+            each(&Ran {
+                line,
+                words: words.0 as usize..words.1 as usize,
+                block: &block,
+                made: [made, corner],
+                machine: &machine,
+            });
+        }
+    }
+
+    /// Hands out the moves in the order in which they run, each with its line and what is in force behind it.
+    pub(super) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
+        for stretch in 0..self.stretches().len() {
+            self.run_lines(stretch, &mut |ran| {
+                for made in ran.moves() {
+                    each(ran.line, made, ran.machine);
+                }
+            });
+        }
+    }
+
+    /// The side on which the wire runs beside each step of the trace.
+    pub fn sides(&self) -> Vec<Option<Side>> {
+        let mut sides = Vec::new();
+        for stretch in 0..self.stretches().len() {
+            self.run_lines(stretch, &mut |ran| {
+                sides.extend(ran.moves().map(|made| made.side));
+                sides.extend(ran.block.stop.map(|_| None));
+            });
+        }
+        sides
+    }
+
+    /// Lines of a range whose coordinates count from where the wire stood: they do not say where it ends.
+    pub fn lines_without_ends(&self, range: Range<usize>) -> BTreeSet<usize> {
+        let wanted = self.text().line_of(range.start)..self.text().line_of(range.end) + 1;
+        let mut found = BTreeSet::new();
+        for stretch in 0..self.stretches().len() {
+            let lines = self.lines_of(stretch);
+            if lines.start < wanted.end && wanted.start < lines.end {
+                self.run_lines(stretch, &mut |ran| {
+                    if ran.machine.incremental && ran.step_count() > 0 {
+                        found.insert(ran.line);
+                    }
+                });
+            }
+        }
+        found
+    }
+
+    /// A move up to where the corner at its end begins, and that corner.
+    pub(super) fn turned(
+        &self,
+        line: usize,
+        made: Move,
+        machine: &mut Machine,
+    ) -> (Move, Option<Move>) {
+        if made.corner.is_none() {
+            return (made, None);
+        }
+        let turned = turned(
+            made,
+            machine,
+            lines_from(self.text(), line + 1).map(|(_, line)| line),
+            self.reading(),
+        );
+        (turned.made, turned.corner)
+    }
+
+    /// True where the control makes corners of its own.
+    pub(super) fn has_corners(&self) -> bool {
+        self.stretches().iter().any(|stretch| stretch.has_corners)
+    }
+
+    // What is in force at a line.
+
+    /// The lines before `line`, and itself where `behind` says so, in the stretch in which it first runs, run; `None` for a line that
+    /// does not run.
+    fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Stretch)> {
+        let (index, placed) = self
+            .placed()
+            .enumerate()
+            .find(|(_, placed)| placed.lines.contains(&line))?;
+        let lines = placed.lines.start..line + usize::from(behind);
+        let (begun, _) = self
+            .control()
+            .run(self.text(), lines, placed.stretch.before);
+        Some((index, self.control().finish(self.text(), begun)))
+    }
+
+    /// What is in force, and where the wire stands, before a line; `None` for a line that does not run.
+    pub(super) fn machine_before(&self, line: usize) -> Option<Machine> {
+        self.run_up_to(line, false)
+            .map(|(_, stretch)| stretch.after)
+    }
+
+    /// What is in force behind a line.
+    pub(super) fn machine_behind(&self, line: usize) -> Option<Machine> {
+        self.run_up_to(line, true).map(|(_, stretch)| stretch.after)
+    }
+
+    /// The cut that is under way before a line.
+    pub(super) fn begun_cut(&self, line: usize) -> Option<Begun> {
+        self.begun(self.run_up_to(line, false)?)
+    }
+
+    /// The cut that is under way behind a line.
+    pub(super) fn begun_cut_with(&self, line: usize) -> Option<Begun> {
+        self.begun(self.run_up_to(line, true)?)
+    }
+
+    fn begun(&self, (index, own): (usize, Stretch)) -> Option<Begun> {
+        // What stands before the last stretch in which a cut begins does not matter.
+        let before = &self.stretches()[..index];
+        let from = before.iter().rposition(Stretch::parts_cuts).unwrap_or(0);
+        let mut begun: Option<Begun> = None;
+        for stretch in before[from..].iter().chain([&own]) {
+            if stretch.ends_run_before.is_some() {
+                begun = None;
+            }
+            for run in stretch.runs() {
+                begun = begun_by(begun.filter(|_| run.continues), &run);
+            }
+        }
+        begun
+    }
+}
+
+/// The cut that is under way behind a run, which goes on with what was under way before.
+fn begun_by(before: Option<Begun>, run: &Run) -> Option<Begun> {
+    let last = run.last[1];
+    let first = before.unwrap_or(Begun {
+        from: run.first[0].from,
+        to: run.first[0].to,
+        last,
+        moves: 0,
+    });
+    run.open.then_some(Begun {
+        last,
+        moves: first.moves + run.moves,
+        ..first
+    })
+}
+
+impl Program for Document {
+    fn text(&self) -> &SourceText {
+        Document::text(self)
+    }
+
+    fn writing(&self) -> Writing {
+        self.reading().writing()
+    }
+
+    fn begin(&self) -> (Point, bool) {
+        let mut begin = None;
+        let has_steps = |stretch: &Stretch| stretch.sum.moves + stretch.sum.stops > 0;
+        if let Some(first) = self.stretches().iter().position(has_steps) {
+            self.run_lines(first, &mut |ran| {
+                if ran.step_count() > 0 && begin.is_none() {
+                    let from = ran.moves().next().map_or(ran.machine.at, |made| made.from);
+                    begin = Some((micrometres(from), ran.machine.stated));
+                }
+            });
+        }
+        begin.unwrap_or((Point::origin(), false))
+    }
+
+    fn chunk_count(&self) -> usize {
+        self.stretches().len()
+    }
+
+    fn lines_of(&self, stretch: usize) -> Range<usize> {
+        self.placed_at(stretch).map_or(0..0, |placed| placed.lines)
+    }
+
+    fn sum_of(&self, stretch: usize) -> Sum {
+        self.stretches()
+            .get(stretch)
+            .map_or_else(Sum::default, |own| Sum {
+                contours: own.pauses as usize - self.tabs_in(stretch),
+                ..own.sum
+            })
+    }
+
+    fn walk(&self, stretch: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
+        let offset = self.placed_at(stretch).map_or(0, |placed| placed.offset);
+        self.run_lines(stretch, &mut |ran| {
+            let mut step = |kind, [start, end]: [Point; 2], ideal| {
+                each(Step {
+                    range: ran.words.clone(),
+                    line: ran.line,
+                    number: ran.block.number,
+                    kind,
+                    start,
+                    end,
+                    ideal,
+                    contour: *contour,
+                });
+            };
+            for made in ran.moves() {
+                let kind = match made.motion {
+                    Motion::Rapid => Kind::Rapid,
+                    Motion::Line => Kind::Line,
+                    Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
+                };
+                let ends = [micrometres(made.from), micrometres(made.to)];
+                let ideal = match made.course(self.reading()) {
+                    Course::Line => Some(Segment::line(ends[0], ends[1])),
+                    Course::Arc(arc) => Some(Segment::Arc(arc)),
+                    Course::OffRadius { .. } | Course::NoRadius => None,
+                };
+                step(kind, ends, ideal);
+            }
+            let Some(stop) = ran.block.stop else { return };
+            let kind = match stop {
+                Stop::End => Kind::End,
+                Stop::Pause => Kind::Pause,
+            };
+            step(kind, [micrometres(ran.machine.at); 2], None);
+            let is_tab = self.is_tab((stretch, ran.words.start.saturating_sub(offset) as u32));
+            *contour += usize::from(stop == Stop::Pause && !is_tab);
+        });
+    }
+}

@@ -1,0 +1,84 @@
+//! The control's table of corrections, as far as a program says something of it.
+
+use super::block::Offset;
+use super::document::Document;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
+
+/// Lines that are looked through for the places of the table that a program uses.
+const LOOKED_AT: usize = 2_000;
+
+/// The last value of each place of the control's table, nm.
+pub(super) type Table = FxHashMap<Offset, i64>;
+
+impl Document {
+    /// The correction in nm that the program itself puts into a place of the control's table.
+    pub(super) fn table_value(&self, offset: Offset) -> Option<i64> {
+        self.table.get(&offset).copied()
+    }
+
+    /// The places of the control's table that the program fills, with their values in nm, and those that its first lines use.
+    pub(super) fn table_places(&self, letter: u8) -> Vec<(u32, Option<i64>)> {
+        let mut places: BTreeMap<u32, Option<i64>> = self
+            .used_places()
+            .filter(|its| its.letter == letter)
+            .map(|its| (its.index, None))
+            .collect();
+        for (offset, &value) in self
+            .table
+            .iter()
+            .filter(|(offset, _)| offset.letter == letter)
+        {
+            places.insert(offset.index, Some(value));
+        }
+        places.into_iter().collect()
+    }
+
+    /// The corrections that the program itself puts into the control's table: their names, and mm.
+    pub(in crate::program) fn stated_corrections(&self) -> Vec<(String, f64)> {
+        let mut places: Vec<_> = self
+            .table
+            .iter()
+            .map(|(offset, &value)| (*offset, value))
+            .collect();
+        places.sort_by_key(|(offset, _)| (offset.letter, offset.index));
+        places
+            .into_iter()
+            .map(|(offset, nm)| {
+                (
+                    format!("{}{}", offset.letter as char, offset.index),
+                    nm as f64 / 1e6,
+                )
+            })
+            .collect()
+    }
+
+    /// `D` or `H`, as the program names places of the control's table.
+    pub(super) fn table_letter(&self) -> u8 {
+        let defined = self
+            .stretches()
+            .iter()
+            .flat_map(|stretch| &stretch.definitions)
+            .map(|definition| definition.offset)
+            .next();
+        defined
+            .or_else(|| self.used_places().next())
+            .map_or(b'D', |offset| offset.letter)
+    }
+
+    /// The place of the table that a program names, where it names but one.
+    pub(super) fn only_offset(&self) -> Option<Offset> {
+        let mut all = self
+            .table
+            .keys()
+            .copied()
+            .chain(self.used_places().filter(|offset| offset.index > 0));
+        let first = all.next()?;
+        all.all(|offset| offset == first).then_some(first)
+    }
+
+    fn used_places(&self) -> impl Iterator<Item = Offset> + '_ {
+        let lines = 0..self.text().line_count().min(LOOKED_AT);
+        lines.filter_map(|line| self.block(line).offset)
+    }
+}

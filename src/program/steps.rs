@@ -1,0 +1,367 @@
+//! Where the machine goes, asked of a part of a program: what an answer costs is the part, and a glance at each chunk.
+
+use super::path::{Chain, Kind, Step, Trace, Writing};
+use crate::geometry::{Point, Vector};
+use crate::text::SourceText;
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+
+/// A program of any language, chunk by chunk in the order in which the machine runs them.
+pub(in crate::program) trait Program {
+    fn text(&self) -> &SourceText;
+
+    /// How it says where its blocks lead.
+    fn writing(&self) -> Writing;
+
+    /// Where the machine begins, µm: the origin where the program does not say; and whether it says.
+    fn begin(&self) -> (Point, bool);
+
+    fn chunk_count(&self) -> usize;
+
+    /// The lines of the text that a chunk holds.
+    fn lines_of(&self, chunk: usize) -> Range<usize>;
+
+    fn sum_of(&self, chunk: usize) -> Sum;
+
+    /// Hands out the steps of a chunk; `contour` is that of the first, and behind it that of the next chunk's first.
+    fn walk(&self, chunk: usize, contour: &mut usize, each: &mut dyn FnMut(Step));
+}
+
+/// What the steps of a chunk come to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::program) struct Sum {
+    pub moves: usize,
+    pub arcs: usize,
+    /// Moves without the wire; told only where there are no stops.
+    pub rapids: usize,
+    /// Pauses and ends.
+    pub stops: usize,
+    /// Pauses but for those before a tab.
+    pub contours: usize,
+    /// From the beginning of its way to the end as its blocks mean it, nm.
+    pub travel: [i64; 2],
+}
+
+impl Sum {
+    fn is_empty(&self) -> bool {
+        self.moves + self.stops == 0
+    }
+
+    /// Nothing but moves, all with the wire or all without.
+    fn is_all(&self, rapid: bool) -> bool {
+        self.stops == 0 && self.moves > 0 && self.rapids == if rapid { self.moves } else { 0 }
+    }
+}
+
+/// Every step of a program.
+pub(in crate::program) fn trace(program: &dyn Program) -> Trace {
+    let (start, start_is_known) = program.begin();
+    let mut trace = Trace {
+        steps: Vec::new(),
+        start,
+        start_is_known,
+        writing: program.writing(),
+    };
+    let mut contour = 0;
+    for chunk in 0..program.chunk_count() {
+        program.walk(chunk, &mut contour, &mut |step| trace.steps.push(step));
+    }
+    trace
+}
+
+/// The steps whose text overlaps or touches a range of bytes.
+pub(in crate::program) fn steps_in(program: &dyn Program, range: Range<usize>) -> Vec<Step> {
+    let text = program.text();
+    let wanted = text.line_of(range.start)..text.line_of(range.end) + 1;
+    let mut steps = Vec::new();
+    let mut contour = 0;
+    for chunk in 0..program.chunk_count() {
+        let lines = program.lines_of(chunk);
+        if lines.start < wanted.end && wanted.start < lines.end {
+            program.walk(chunk, &mut contour, &mut |step| {
+                if step.range.start <= range.end && range.start <= step.range.end {
+                    steps.push(step);
+                }
+            });
+        } else {
+            contour += program.sum_of(chunk).contours;
+        }
+    }
+    steps
+}
+
+/// The moves between two stops of which one touches a byte, and the number of that one among them: of two that touch it, the one that
+/// begins there. At least `ends` of either end are held, where there are as many.
+pub(in crate::program) fn chain_at(
+    program: &dyn Program,
+    offset: usize,
+    ends: usize,
+) -> Option<(Chain<'static>, usize)> {
+    let line = program.text().line_of(offset);
+    let mut walk = Walk::through(program);
+    let touches =
+        |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
+    let at = (0..program.chunk_count())
+        .rev()
+        .filter(|chunk| program.lines_of(*chunk).contains(&line))
+        .find_map(|chunk| {
+            let step = walk.steps(chunk).iter().rposition(touches)?;
+            Some(At { chunk, step })
+        })?;
+    walk.chain(at, None, ends)
+}
+
+/// The moves from the last stop on that stand before a byte, by their ends.
+pub(in crate::program) fn chain_before(
+    program: &dyn Program,
+    offset: usize,
+) -> Option<Chain<'static>> {
+    let line = program.text().line_of(offset);
+    let mut walk = Walk::through(program);
+    let at = (0..program.chunk_count())
+        .rev()
+        .filter(|chunk| {
+            program.lines_of(*chunk).start <= line && !program.sum_of(*chunk).is_empty()
+        })
+        .find_map(|chunk| {
+            let step = walk
+                .steps(chunk)
+                .iter()
+                .rposition(|step| step.range.end <= offset)?;
+            Some(At { chunk, step })
+        })?;
+    let (chain, _) = walk.chain(at, Some(at), Chain::ENDS)?;
+    Some(chain)
+}
+
+/// The first stop behind a byte.
+pub(in crate::program) fn stop_behind(
+    program: &dyn Program,
+    offset: usize,
+) -> Option<Range<usize>> {
+    let line = program.text().line_of(offset);
+    let mut walk = Walk::through(program);
+    (0..program.chunk_count())
+        .filter(|chunk| program.lines_of(*chunk).end > line && program.sum_of(*chunk).stops > 0)
+        .find_map(|chunk| {
+            let mut steps = walk.steps(chunk).iter();
+            steps
+                .find(|step| !step.moves() && step.range.start > offset)
+                .map(|step| step.range.clone())
+        })
+}
+
+/// The first block that moves.
+pub(in crate::program) fn first_move(program: &dyn Program) -> Option<Range<usize>> {
+    let mut walk = Walk::through(program);
+    (0..program.chunk_count())
+        .filter(|chunk| program.sum_of(*chunk).moves > 0)
+        .find_map(|chunk| {
+            let mut steps = walk.steps(chunk).iter();
+            steps
+                .find(|step| step.moves())
+                .map(|step| step.range.clone())
+        })
+}
+
+/// A step by its chunk and its number in there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct At {
+    chunk: usize,
+    step: usize,
+}
+
+/// Chunks that are walked through, each at most once.
+struct Walk<'a> {
+    program: &'a dyn Program,
+    /// Contours that end before each chunk.
+    contours: Vec<usize>,
+    known: FxHashMap<usize, Vec<Step>>,
+}
+
+impl<'a> Walk<'a> {
+    fn through(program: &'a dyn Program) -> Walk<'a> {
+        let contours = (0..program.chunk_count()).scan(0, |contour, chunk| {
+            let before = *contour;
+            *contour += program.sum_of(chunk).contours;
+            Some(before)
+        });
+        Walk {
+            program,
+            contours: contours.collect(),
+            known: FxHashMap::default(),
+        }
+    }
+
+    fn steps(&mut self, chunk: usize) -> &[Step] {
+        let Walk {
+            program,
+            contours,
+            known,
+        } = self;
+        known.entry(chunk).or_insert_with(|| {
+            let mut contour = contours.get(chunk).copied().unwrap_or(0);
+            let mut steps = Vec::new();
+            program.walk(chunk, &mut contour, &mut |step| steps.push(step));
+            steps
+        })
+    }
+
+    /// The chain of a step that moves, up to `until`, and the number of the step in it.
+    fn chain(&mut self, at: At, until: Option<At>, ends: usize) -> Option<(Chain<'static>, usize)> {
+        let step = self
+            .steps(at.chunk)
+            .get(at.step)
+            .filter(|step| step.moves())?;
+        let own = Own {
+            contour: step.contour,
+            rapid: step.kind == Kind::Rapid,
+        };
+        let first = self.first_of(&own, at);
+        let last = until.unwrap_or_else(|| self.last_of(&own, at));
+        let (mut count, mut arcs, mut meant) = (0, 0, Vector::zeros());
+        let (mut nth, mut stop) = (0, None);
+        for chunk in first.chunk..=last.chunk {
+            let sum = self.program.sum_of(chunk);
+            let is_inside = chunk > first.chunk && chunk < last.chunk && chunk != at.chunk;
+            if is_inside && sum.is_all(own.rapid) {
+                count += sum.moves;
+                arcs += sum.arcs;
+                meant += Vector::new(sum.travel[0] as f64, sum.travel[1] as f64) / 1e3;
+                continue;
+            }
+            let (from, to) = bounds(chunk, first, last);
+            let steps = self.steps(chunk);
+            for (index, step) in steps.iter().enumerate().take(to).skip(from) {
+                if index == at.step && chunk == at.chunk {
+                    nth = count;
+                }
+                if step.moves() {
+                    count += 1;
+                    arcs += usize::from(step.kind == Kind::Arc);
+                    meant += step.meant();
+                } else {
+                    stop = stop.or(Some(count));
+                }
+            }
+        }
+        let mut head: Vec<Step> = Vec::new();
+        for chunk in first.chunk..=last.chunk {
+            if head.len() >= ends {
+                break;
+            }
+            let (from, to) = bounds(chunk, first, last);
+            let own = self.steps(chunk).iter().take(to).skip(from);
+            head.extend(own.filter(|step| step.moves()).cloned());
+        }
+        let writing = self.program.writing();
+        let chain = |chain: Chain<'static>| chain.stopping(stop.filter(|stop| *stop < count));
+        let left = count - head.len();
+        if left == 0 {
+            return Some((chain(Chain::of(head, writing)), nth));
+        }
+        let mut tail: Vec<Step> = Vec::new();
+        for chunk in (first.chunk..=last.chunk).rev() {
+            if tail.len() >= ends.min(left) {
+                break;
+            }
+            let (from, to) = bounds(chunk, first, last);
+            let steps = self.steps(chunk);
+            let own = steps[from..to.min(steps.len())].iter().rev();
+            tail.extend(own.filter(|step| step.moves()).cloned());
+        }
+        tail.truncate(left);
+        tail.reverse();
+        let by_ends = Chain::by_ends(head, tail, (count, arcs), meant, writing);
+        Some((chain(by_ends), nth))
+    }
+
+    fn first_of(&mut self, own: &Own, at: At) -> At {
+        let mut first = at;
+        for chunk in (0..=at.chunk).rev() {
+            let mut end = at.step;
+            if chunk < at.chunk {
+                let sum = self.program.sum_of(chunk);
+                if sum.is_empty() {
+                    continue;
+                }
+                if sum.is_all(own.rapid) {
+                    if self.contours[chunk] != own.contour {
+                        break;
+                    }
+                    first = At { chunk, step: 0 };
+                    continue;
+                }
+                end = usize::MAX;
+            }
+            let steps = self.steps(chunk);
+            let end = end.min(steps.len());
+            for (step, before) in steps[..end].iter().enumerate().rev() {
+                if own.holds(before) {
+                    first = At { chunk, step };
+                } else if before.kind != Kind::Pause {
+                    return first;
+                }
+            }
+        }
+        first
+    }
+
+    fn last_of(&mut self, own: &Own, at: At) -> At {
+        let mut last = at;
+        for chunk in at.chunk..self.program.chunk_count() {
+            let mut begin = at.step;
+            if chunk > at.chunk {
+                let sum = self.program.sum_of(chunk);
+                if sum.is_empty() {
+                    continue;
+                }
+                if sum.is_all(own.rapid) {
+                    if self.contours[chunk] != own.contour {
+                        break;
+                    }
+                    last = At {
+                        chunk,
+                        step: sum.moves - 1,
+                    };
+                    continue;
+                }
+                begin = 0;
+            }
+            for (step, behind) in self.steps(chunk).iter().enumerate().skip(begin) {
+                if own.holds(behind) {
+                    last = At { chunk, step };
+                } else if behind.kind != Kind::Pause {
+                    return last;
+                }
+            }
+        }
+        last
+    }
+}
+
+/// What the moves of a chain have in common.
+struct Own {
+    contour: usize,
+    rapid: bool,
+}
+
+impl Own {
+    fn holds(&self, step: &Step) -> bool {
+        step.moves() && step.contour == self.contour && (step.kind == Kind::Rapid) == self.rapid
+    }
+}
+
+/// The steps of a chunk that lie between two, both included.
+fn bounds(chunk: usize, first: At, last: At) -> (usize, usize) {
+    let from = if chunk == first.chunk { first.step } else { 0 };
+    let to = if chunk == last.chunk {
+        last.step + 1
+    } else {
+        usize::MAX
+    };
+    (from, to)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,190 @@
+//! What is asked of a part of a program is held against the whole trace, for programs of both languages under edits.
+
+use crate::program::path::{Chain, Cut, Kind, Step, Trace, cut_at, cuts};
+use crate::program::{Document, Language};
+use crate::settings::Effective;
+use proptest::prelude::*;
+use std::ops::Range;
+
+/// The chain about a byte out of the whole trace: its steps without those of stops, the number of the touched one, and the stop within.
+fn chain_by_trace(trace: &Trace, offset: usize) -> Option<(Vec<Step>, usize, Option<usize>)> {
+    let touches =
+        |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
+    let touched = trace.steps.iter().rposition(touches)?;
+    let own = &trace.steps[touched];
+    let is_same = |step: &Step| {
+        step.moves()
+            && step.contour == own.contour
+            && (step.kind == Kind::Rapid) == (own.kind == Kind::Rapid)
+    };
+    let is_over = |step: &&Step| !is_same(step) && step.kind != Kind::Pause;
+    let before = trace.steps[..touched]
+        .iter()
+        .rposition(|step| is_over(&step));
+    let behind = trace.steps[touched..]
+        .iter()
+        .position(|step| is_over(&step));
+    let all = before.map_or(0, |before| before + 1)
+        ..behind.map_or(trace.steps.len(), |behind| touched + behind);
+    let first = all.clone().find(|index| is_same(&trace.steps[*index]))?;
+    let last = all.rev().find(|index| is_same(&trace.steps[*index]))?;
+    let moves = |steps: Range<usize>| {
+        let own = trace.steps[steps].iter();
+        own.filter(|step| step.moves()).cloned().collect::<Vec<_>>()
+    };
+    let stop = (first..=last).find(|index| !trace.steps[*index].moves());
+    Some((
+        moves(first..last + 1),
+        moves(first..touched).len(),
+        stop.map(|stop| moves(first..stop).len()),
+    ))
+}
+
+/// Everything that is asked of parts of a program, at some of its bytes.
+fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseError> {
+    let trace = document.trace();
+    let (text, writing) = (document.text(), trace.writing);
+    let all = cuts(&trace);
+    prop_assert_eq!(document.start(), trace.start);
+    let first = trace.steps.iter().find(|step| step.moves());
+    prop_assert_eq!(document.first_move(), first.map(|step| step.range.clone()));
+    for offset in (0..=text.len()).step_by(1 + text.len() / 29) {
+        let range = offset..(offset + 200).min(text.len());
+        let touches = |step: &&Step| step.range.start <= range.end && range.start <= step.range.end;
+        let within: Vec<Step> = trace.steps.iter().filter(touches).cloned().collect();
+        prop_assert_eq!(document.steps_in(range.clone()), within);
+        let stop = trace
+            .steps
+            .iter()
+            .find(|step| !step.moves() && step.range.start > offset);
+        prop_assert_eq!(
+            document.stop_behind(offset),
+            stop.map(|step| step.range.clone())
+        );
+        let whole = chain_by_trace(&trace, offset);
+        let found = document.whole_chain_at(offset);
+        prop_assert_eq!(
+            &found,
+            &whole
+                .clone()
+                .map(|(steps, nth, stop)| { (Chain::of(steps, writing).stopping(stop), nth) })
+        );
+        let by_ends = document.chain_at(offset);
+        prop_assert_eq!(by_ends.is_some(), whole.is_some());
+        if let (Some((chain, nth)), Some((steps, index, _))) = (by_ends, whole) {
+            prop_assert_eq!((chain.count(), nth), (steps.len(), index));
+            for (index, step) in steps.iter().enumerate() {
+                prop_assert!(chain.step(index).is_none_or(|held| held == step));
+            }
+            for index in (0..steps.len())
+                .filter(|index| index.min(&(steps.len() - 1 - index)) < &Chain::ENDS)
+            {
+                prop_assert!(chain.step(index).is_some());
+            }
+            let cut = cut_at(document, offset).map(|(_, cut, _)| cut);
+            let touched = trace
+                .steps
+                .iter()
+                .rposition(|step| Some(step) == steps.get(index));
+            let whole = all
+                .iter()
+                .find(|cut| touched.is_some_and(|at| cut.steps.contains(&at)));
+            let moves = |steps: Range<usize>| {
+                trace.steps[steps]
+                    .iter()
+                    .filter(|step| step.moves())
+                    .count()
+            };
+            let whole = whole.map(|whole| {
+                let (steps, own) = (whole.steps.clone(), whole.contour_steps());
+                Cut {
+                    steps: 0..moves(steps.clone()),
+                    lead_in: moves(steps.start..own.start),
+                    lead_out: moves(own.end..steps.end),
+                    ..whole.clone()
+                }
+            });
+            prop_assert_eq!(cut, whole);
+        }
+        let last = trace.steps.iter().rfind(|step| step.range.end <= offset);
+        let before = last
+            .filter(|step| step.moves())
+            .and_then(|step| chain_by_trace(&trace, step.range.start));
+        let chain = document.chain_before(offset);
+        prop_assert_eq!(
+            chain.map(|chain| chain.count()),
+            before.map(|(_, nth, _)| nth + 1)
+        );
+    }
+    Ok(())
+}
+
+/// A contour with ways in and out; `{n}` is how often its sides go to and fro.
+const THREE_B: [&str; 7] = [
+    "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\n",
+    "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\n",
+    "B900B0B900GXL1\nB900B900B900GYL1\nB900B0B900GXL3\n",
+    "B500B0B500GXL1\n",
+    "D\n",
+    "BxB\n",
+    "DD\n",
+];
+
+const ISO: [&str; 10] = [
+    "G01 X5\nG01 Y5\nG01 X-5\nG01 Y-5\n",
+    "G01 X1\nG02 X2 Y2 I2\nG01 X-3 Y-2\n",
+    "G01 X2\nG01 X1 Y1\n",
+    "G01 X0\n",
+    "G03 X1 Y1 R0.1\n",
+    "G00 X3 Y1\n",
+    "M00\n",
+    "G01 Xx\n",
+    "G01 X3 R1\nG01 Y3\n",
+    "M02\n",
+];
+
+fn text(pieces: &[&'static str]) -> impl Strategy<Value = String> + use<> {
+    let usual = pieces[..4].to_vec();
+    let all = pieces.to_vec();
+    let piece = prop_oneof![
+        4 => (prop::sample::select(usual), 1_usize..60).prop_map(|(piece, times)| piece.repeat(times)),
+        3 => prop::sample::select(all).prop_map(str::to_owned),
+    ];
+    prop::collection::vec(piece, 1..12).prop_map(|pieces| pieces.concat())
+}
+
+type Edits = Vec<(usize, usize, &'static str)>;
+
+fn check(language: Language, text: String, edits: Edits) -> Result<(), TestCaseError> {
+    let mut document = Document::read(language, text.into_bytes(), &Effective::default());
+    assert_parts_are_of_the_whole(&document)?;
+    for (start, length, replacement) in edits {
+        let start = start % (document.text().len() + 1);
+        document.edit(start..start + length, replacement);
+    }
+    assert_parts_are_of_the_whole(&document)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn parts_of_a_3b_program_are_those_of_the_whole(
+        text in text(&THREE_B),
+        edits in prop::collection::vec((any::<usize>(), 0_usize..80, prop::sample::select(vec!["", "7", "\n", "D\n", "B1B1B1GXL1\n"])), 0..4),
+    ) {
+        check(Language::ThreeB, text, edits)?;
+    }
+
+    #[test]
+    fn parts_of_an_iso_program_are_those_of_the_whole(
+        text in text(&ISO),
+        is_incremental in prop::bool::weighted(0.8),
+        with_calls in prop::bool::weighted(0.1),
+        edits in prop::collection::vec((any::<usize>(), 0_usize..80, prop::sample::select(vec!["", "7", "\n", "M00\n", "G00 X1\n", "G01 X1\n", "G90\n"])), 0..4),
+    ) {
+        let begin = if is_incremental { "G91\n" } else { "" };
+        let end = if with_calls { "M98 P5 L3\nM02\nN5 G01 X1\nG01 Y1\nM00\nM99\n" } else { "M02\n" };
+        check(Language::Iso, format!("{begin}{text}{end}"), edits)?;
+    }
+}
