@@ -11,6 +11,8 @@ HEADERS += \
     $$PWD/src/core/frame.h \
     $$PWD/src/core/messages.h \
     $$PWD/src/core/program_search.h \
+    $$PWD/src/core/restarts.h \
+    $$PWD/src/core/server.h \
     $$PWD/src/core/session.h
 SOURCES += \
     $$PWD/src/core/connection.cpp \
@@ -19,4 +21,5 @@ SOURCES += \
     $$PWD/src/core/frame.cpp \
     $$PWD/src/core/messages.cpp \
     $$PWD/src/core/program_search.cpp \
+    $$PWD/src/core/server.cpp \
     $$PWD/src/core/session.cpp

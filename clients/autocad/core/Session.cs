@@ -16,7 +16,9 @@ namespace Wedm.Core
         /// <summary>The server has died; it is started again after a while.</summary>
         WaitingToRestart,
 
-        /// <summary>It is not tried again before <see cref="Session.Start"/>: the server is missing, or of another protocol.</summary>
+        /// <summary>
+        /// It is not tried again before <see cref="Session.Start"/>: the server is missing, of another protocol, or has ended too often.
+        /// </summary>
         Failed,
     }
 
@@ -30,14 +32,15 @@ namespace Wedm.Core
         /// <summary>The version of the name space wedm/ that this client speaks.</summary>
         public const int ProtocolVersion = 1;
 
-        private static readonly TimeSpan HandshakeLimit = TimeSpan.FromSeconds(15);
+        private static readonly TimeSpan HandshakeLimit = TimeSpan.FromSeconds(20);
         private readonly Func<string> _locate;
         private readonly Dictionary<string, LiveDrawing> _drawings = new Dictionary<string, LiveDrawing>();
         private readonly List<Deferred> _deferred = new List<Deferred>();
-        private readonly RestartPause _pause = new RestartPause();
+        private readonly Restarts _restarts = new Restarts();
         private readonly Stopwatch _clock = Stopwatch.StartNew();
         private ServerProcess _server;
         private TimeSpan _startedAt;
+        private TimeSpan? _readyAt;
         private TimeSpan _restartAt;
 
         /// <summary>A question that was asked before the greeting was over: it is put when it is, behind the drawings that it is about.</summary>
@@ -74,6 +77,12 @@ namespace Wedm.Core
             {
                 return;
             }
+            _restarts.Reset();
+            Launch();
+        }
+
+        private void Launch()
+        {
             string path;
             try
             {
@@ -86,6 +95,7 @@ namespace Wedm.Core
                 return;
             }
             _startedAt = _clock.Elapsed;
+            _readyAt = null;
             Become(SessionState.Starting);
             _server.Connection.OnNotification = Notified;
             _server.Connection.OnRequest = Asked;
@@ -118,11 +128,11 @@ namespace Wedm.Core
             }
             else if (State == SessionState.Starting && _clock.Elapsed - _startedAt > HandshakeLimit)
             {
-                Died("the server did not answer within " + HandshakeLimit.TotalSeconds + " s");
+                Fail("the server does not answer: there was nothing within " + HandshakeLimit.TotalSeconds + " s");
             }
             else if (State == SessionState.WaitingToRestart && _clock.Elapsed >= _restartAt)
             {
-                Start();
+                Launch();
             }
         }
 
@@ -234,6 +244,7 @@ namespace Wedm.Core
                     + ProtocolVersion + ": install plugin and server of the same release");
                 return;
             }
+            _readyAt = _clock.Elapsed;
             Become(SessionState.Running);
             Notify("initialized", new JObject());
             foreach (var drawing in _drawings.Values.ToArray())
@@ -266,15 +277,22 @@ namespace Wedm.Core
         private void Died(string reason)
         {
             var server = _server;
+            var log = server.LastLogLine == null ? "" : ": " + server.LastLogLine;
+            var how = " (" + reason + log + ")";
+            var pause = _restarts.AfterLifeOf(_readyAt == null ? TimeSpan.Zero : _clock.Elapsed - _readyAt.Value);
+            if (pause == null)
+            {
+                Fail("the server has ended " + Restarts.MostEnds + " times in a row" + how + " and is not started again before the next command");
+                return;
+            }
             _server = null;
-            var pause = _pause.AfterLifeOf(_clock.Elapsed - _startedAt);
-            _restartAt = _clock.Elapsed + pause;
-            var log = server.LastLogLine == null ? "" : " (" + server.LastLogLine + ")";
+            _restartAt = _clock.Elapsed + pause.Value;
             server.Kill();
             Become(SessionState.WaitingToRestart);
             Abandon(server, reason);
             server.Dispose();
-            Message?.Invoke(reason + log + "; it is started again in " + pause.TotalSeconds + " s");
+            var when = pause.Value == TimeSpan.Zero ? "" : " in " + pause.Value.TotalSeconds + " s";
+            Message?.Invoke("the server has ended" + how + "; it is started again" + when);
         }
 
         private void Fail(string reason)

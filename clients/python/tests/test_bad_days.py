@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import sys
@@ -26,6 +27,7 @@ from wedm_client import (
     WrongSettings,
     find,
 )
+from wedm_client.restarts import Restarts
 
 from .plates import QUARTER, ROUND, TIGHT
 
@@ -101,7 +103,7 @@ def test_another_server_is_said(command: list[str], said: str) -> None:
 
 
 def test_no_server_at_all_is_given_up() -> None:
-    with pytest.raises(ServerDied, match=r"true has ended 6 times within 120 s, the last time with code 0"), Server("true"):
+    with pytest.raises(ServerDied, match=r"true has ended 6 times in a row, the last time with code 0"), Server("true"):
         pass
 
 
@@ -192,6 +194,16 @@ def test_a_server_that_dies_of_a_question_is_given_up_with_its_last_words() -> N
         assert rules(server, drawing) == ["2A small-radius"]
         with pytest.raises(ServerDied, match="(?s)has ended 6 times.*code 3.*the roof fell in"):
             server.contours(drawing)
+        # Another call tries anew, and what is open is known again.
+        assert rules(server, drawing) == ["2A small-radius"]
+
+
+def test_pauses_are_those_of_every_client() -> None:
+    cases = json.loads((Path(__file__).parents[2] / "restarts.json").read_text("utf-8"))["cases"]
+    for case in cases:
+        restarts = Restarts()
+        assert [restarts.after_life_of(life) for life in case["lives"]] == case["pauses"]
+    assert cases
 
 
 def test_no_answer_in_time() -> None:

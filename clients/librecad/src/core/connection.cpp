@@ -30,7 +30,7 @@ Connection::Connection(QObject *parent)
     });
     connect(&m_process, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
         if (error == QProcess::FailedToStart)
-            end(tr("it could not be started: %1").arg(m_process.errorString()));
+            end(tr("it could not be started: %1").arg(m_process.errorString()), false);
     });
     connect(&m_process, QOverload<int, QProcess::ExitStatus>::of(&QProcess::finished), this, [this](int code, QProcess::ExitStatus status) {
         read();
@@ -102,11 +102,6 @@ void Connection::stop(int patience)
     }
 }
 
-void Connection::kill()
-{
-    m_process.kill();
-}
-
 void Connection::send(const QByteArray &body)
 {
     if (!m_over)
@@ -155,7 +150,7 @@ void Connection::take(const QByteArray &body)
     handler(answer);
 }
 
-void Connection::end(const QString &reason)
+void Connection::end(const QString &reason, bool hasRun)
 {
     if (m_over)
         return;
@@ -168,7 +163,7 @@ void Connection::end(const QString &reason)
     answer.message = reason;
     for (const Handler &handler : waiting)
         handler(answer);
-    emit ended(reason);
+    emit ended(reason, hasRun);
 }
 
 } // namespace wedm

@@ -41,22 +41,20 @@ public:
     void replyUnknown(const QJsonValue &id, const QString &method);
     /// Ends the process the way LSP wants it, and by force when it is not gone after `patience` ms. No `ended` follows.
     void stop(int patience);
-    /// Ends the process at once; `ended` follows.
-    void kill();
     qint64 processId() const { return m_process.processId(); }
 
 signals:
     void started();
     void notified(const QString &method, const QJsonObject &params);
     void requested(const QJsonValue &id, const QString &method, const QJsonObject &params);
-    /// The process could not be started, has ended, or has sent what is no message.
-    void ended(const QString &reason);
+    /// The process could not be started, has ended, or has sent what is no message. `hasRun` is false for the first of these.
+    void ended(const QString &reason, bool hasRun);
 
 private:
     void send(const QByteArray &body);
     void read();
     void take(const QByteArray &body);
-    void end(const QString &reason);
+    void end(const QString &reason, bool hasRun = true);
 
     QProcess m_process;
     FrameReader m_reader;

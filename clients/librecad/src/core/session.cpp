@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "session.h"
 
-#include <QCoreApplication>
-#include <QFileInfo>
 #include <QDir>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QSaveFile>
+#include <QTimer>
 
 namespace wedm {
 
@@ -18,8 +17,6 @@ constexpr int MANY_CHANGES = 1000;
 /// keep the server busy.
 constexpr int REST = 3;
 constexpr int SHORTEST_REST = 30;
-/// How long the server may take to end.
-constexpr int PATIENCE_AT_END = 800;
 
 QByteArray compact(const QJsonObject &object)
 {
@@ -40,7 +37,7 @@ void registerSessionTypes()
     qRegisterMetaType<wedm::InForce>("wedm::InForce");
     qRegisterMetaType<wedm::Repair>("wedm::Repair");
     qRegisterMetaType<wedm::Program>("wedm::Program");
-    qRegisterMetaType<wedm::Session::State>("wedm::Session::State");
+    qRegisterMetaType<wedm::Server::State>("wedm::Server::State");
     qRegisterMetaType<QVector<wedm::Entity>>("QVector<wedm::Entity>");
     qRegisterMetaType<QVector<wedm::Finding>>("QVector<wedm::Finding>");
     qRegisterMetaType<QSharedPointer<wedm::Inspection>>("QSharedPointer<wedm::Inspection>");
@@ -48,48 +45,23 @@ void registerSessionTypes()
 
 Session::Session(QObject *parent)
     : QObject(parent)
-    , m_restart(this)
-    , m_handshake(this)
+    , m_server(this)
 {
-    m_restart.setSingleShot(true);
-    connect(&m_restart, &QTimer::timeout, this, &Session::launch);
-    m_handshake.setSingleShot(true);
-    connect(&m_handshake, &QTimer::timeout, this, [this] {
-        emit said(tr("%1 does not answer; it is started again.").arg(m_program));
-        if (m_connection)
-            m_connection->kill();
-    });
-}
-
-Session::~Session()
-{
-    drop();
+    connect(&m_server, &Server::started, this, &Session::serverStarted);
+    connect(&m_server, &Server::stateChanged, this, &Session::serverChanged);
+    connect(&m_server, &Server::notified, this, &Session::take);
+    connect(&m_server, &Server::requested, this, &Session::answer);
 }
 
 void Session::start(const ProgramSearch &search)
 {
-    const bool other = search.setting != m_search.setting;
-    m_search = search;
-    if (m_connection && other) {
-        m_connection->stop(PATIENCE_AT_END);
-        drop();
-        setState(State::Stopped, QString());
-    }
-    if (!m_connection) {
-        m_delay = 0;
-        launch();
-    }
+    m_server.start(search);
 }
 
 void Session::stop()
 {
-    m_restart.stop();
-    m_handshake.stop();
-    if (m_connection)
-        m_connection->stop(PATIENCE_AT_END);
-    drop();
+    m_server.stop();
     m_documents.clear();
-    setState(State::Stopped, QString());
 }
 
 void Session::setSettings(const QJsonObject &settings)
@@ -102,7 +74,7 @@ void Session::setSettings(const QJsonObject &settings)
 
 void Session::reloadSettings()
 {
-    if (m_state != State::Ready)
+    if (!m_server.isReady())
         return;
     sendSettings();
     // New settings change verdicts without a new version.
@@ -128,20 +100,20 @@ void Session::look(const QString &uri, const QVector<Entity> &entities, Units un
     if (changed)
         ++document->drawing.version;
     emit looked(uri, document->drawing.version, changed);
-    if (!changed || m_state != State::Ready)
+    if (!changed || !m_server.isReady())
         return;
     const bool whole = fresh || otherUnits || (difference.changes.size() > MANY_CHANGES && difference.changes.size() > size / 2);
     if (whole)
         open(*document);
     else
-        m_connection->notify("wedm/didChangeDrawing", toJson(uri, document->drawing.version, difference.changes));
+        m_server.connection().notify("wedm/didChangeDrawing", toJson(uri, document->drawing.version, difference.changes));
 }
 
 void Session::close(const QString &uri)
 {
-    if (!m_documents.remove(uri) || m_state != State::Ready)
+    if (!m_documents.remove(uri) || !m_server.isReady())
         return;
-    m_connection->notify("wedm/didCloseDrawing", "{\"drawing\":" + uriOnly(uri) + "}");
+    m_server.connection().notify("wedm/didCloseDrawing", "{\"drawing\":" + uriOnly(uri) + "}");
 }
 
 void Session::watchRadii(const QString &uri, bool on)
@@ -156,12 +128,12 @@ void Session::watchRadii(const QString &uri, bool on)
 
 void Session::requestRepair(const QString &uri, const QString &handle, int segment)
 {
-    if (m_state == State::Starting) {
+    if (m_server.state() == Server::State::Starting) {
         whenSettled([=] { requestRepair(uri, handle, segment); });
         return;
     }
     const QSharedPointer<Document> document = m_documents.value(uri);
-    if (!document || m_state != State::Ready) {
+    if (!document || !m_server.isReady()) {
         emit repairFailed(uri, tr("The server is not there; nothing was changed."));
         return;
     }
@@ -186,7 +158,7 @@ void Session::requestRepair(const QString &uri, const QString &handle, int segme
          QJsonObject{{"start", QJsonObject{{"line", line}, {"character", 0}}}, {"end", QJsonObject{{"line", lastLine}, {"character", 0}}}}},
         {"context", QJsonObject{{"diagnostics", diagnostics}, {"only", only}}},
     };
-    m_connection->request("textDocument/codeAction", compact(params), [this, uri](const Answer &answer) {
+    m_server.connection().request("textDocument/codeAction", compact(params), [this, uri](const Answer &answer) {
         if (answer.code == Connection::ENDED)
             emit repairFailed(uri, tr("The server ended before it answered; nothing was changed."));
         else if (answer.failed)
@@ -198,18 +170,18 @@ void Session::requestRepair(const QString &uri, const QString &handle, int segme
 
 void Session::generate(const QString &uri, const QString &path, bool force)
 {
-    if (m_state == State::Starting) {
+    if (m_server.state() == Server::State::Starting) {
         whenSettled([=] { generate(uri, path, force); });
         return;
     }
     const QSharedPointer<Document> document = m_documents.value(uri);
-    if (!document || m_state != State::Ready) {
+    if (!document || !m_server.isReady()) {
         emit generateFailed(uri, path, tr("The server is not there; nothing was written."), QStringList());
         return;
     }
     QByteArray params = "{\"uri\":" + toJson(uri) + ",\"format\":\"3b\"";
     params += force ? ",\"force\":true}" : "}";
-    m_connection->request("wedm/generate", params, [this, uri, path](const Answer &answer) {
+    m_server.connection().request("wedm/generate", params, [this, uri, path](const Answer &answer) {
         if (!answer.failed) {
             takeProgram(uri, path, answer.result.toObject());
             return;
@@ -223,13 +195,22 @@ void Session::generate(const QString &uri, const QString &path, bool force)
     });
 }
 
-void Session::setState(State state, const QString &text)
+void Session::serverChanged(Server::State state, const QString &text)
 {
-    m_state = state;
     emit stateChanged(state, text);
-    // A server that is ready hears of the drawings first; `initialized` goes on with what has waited.
-    if (state != State::Starting && state != State::Ready)
-        settled();
+    if (state == Server::State::Starting)
+        return;
+    for (auto each = m_documents.begin(); each != m_documents.end(); ++each) {
+        each.value()->inspecting = false;
+        each.value()->inspectedVersion = -1;
+    }
+    // A server that is ready hears of the drawings first, then of what has waited.
+    if (state == Server::State::Ready) {
+        sendSettings();
+        for (auto each = m_documents.begin(); each != m_documents.end(); ++each)
+            open(*each.value());
+    }
+    settled();
 }
 
 void Session::whenSettled(std::function<void()> call)
@@ -243,98 +224,6 @@ void Session::settled()
     m_waitingCalls.clear();
     for (const std::function<void()> &call : calls)
         call();
-}
-
-void Session::launch()
-{
-    m_restart.stop();
-    QString message;
-    m_program = findProgram(m_search, &message);
-    if (m_program.isEmpty()) {
-        setState(State::Missing, message);
-        return;
-    }
-    drop();
-    m_connection = new Connection(this);
-    connect(m_connection, &Connection::started, this, &Session::initialize);
-    connect(m_connection, &Connection::ended, this, &Session::ended);
-    connect(m_connection, &Connection::notified, this, &Session::take);
-    connect(m_connection, &Connection::requested, this, &Session::answer);
-    setState(State::Starting, tr("Starting %1").arg(QDir::toNativeSeparators(m_program)));
-    m_life.start();
-    m_handshake.start(m_patience.answerToInitialize);
-    m_connection->start(m_program);
-}
-
-void Session::initialize()
-{
-    emit serverStarted(m_connection->processId());
-    const QJsonObject params{
-        {"processId", QCoreApplication::applicationPid()},
-        {"clientInfo", QJsonObject{{"name", "wedm for LibreCAD"}, {"version", WEDM_PLUGIN_VERSION}}},
-        {"rootUri", QJsonValue()},
-        {"capabilities", QJsonObject{{"experimental", QJsonObject{{"wedm", QJsonObject{{"resendDrawing", true}}}}}}},
-    };
-    m_connection->request("initialize", compact(params), [this](const Answer &answer) { initialized(answer); });
-}
-
-void Session::initialized(const Answer &answer)
-{
-    if (answer.code == Connection::ENDED)
-        return;
-    m_handshake.stop();
-    if (answer.failed) {
-        refuse(tr("%1 refuses to start: %2").arg(QDir::toNativeSeparators(m_program), answer.message));
-        return;
-    }
-    const QJsonObject result = answer.result.toObject();
-    const QJsonObject info = result.value("serverInfo").toObject();
-    const QString version = info.value("version").toString();
-    const QJsonValue protocol =
-        result.value("capabilities").toObject().value("experimental").toObject().value("wedm").toObject().value("protocol");
-    if (!protocol.isDouble()) {
-        refuse(tr("%1 is no wedm server (it calls itself \"%2\"). Choose the right program with the button \"Server…\".")
-                   .arg(QDir::toNativeSeparators(m_program), info.value("name").toString()));
-        return;
-    }
-    if (protocol.toInt() != PROTOCOL) {
-        refuse(tr("wedm %1 at %2 speaks protocol %3, this plugin speaks protocol %4. Install the server and the plugin of the same "
-                  "release, or choose another server with the button \"Server…\".")
-                   .arg(version, QDir::toNativeSeparators(m_program))
-                   .arg(protocol.toInt())
-                   .arg(PROTOCOL));
-        return;
-    }
-    m_connection->notify("initialized", "{}");
-    setState(State::Ready, tr("wedm %1").arg(version));
-    sendSettings();
-    for (auto each = m_documents.begin(); each != m_documents.end(); ++each) {
-        each.value()->inspecting = false;
-        each.value()->inspectedVersion = -1;
-        open(*each.value());
-    }
-    settled();
-}
-
-void Session::refuse(const QString &text)
-{
-    m_connection->stop(PATIENCE_AT_END);
-    drop();
-    setState(State::Refused, text);
-}
-
-void Session::ended(const QString &reason)
-{
-    m_handshake.stop();
-    if (m_life.elapsed() >= m_patience.soundLife)
-        m_delay = 0;
-    m_delay = m_delay == 0 ? m_patience.firstRestart : qMin(2 * m_delay, m_patience.longestRestart);
-    drop();
-    for (auto each = m_documents.begin(); each != m_documents.end(); ++each)
-        each.value()->inspecting = false;
-    setState(State::Waiting,
-             tr("The wedm server has ended (%1). It is started again in %2 s.").arg(reason).arg(m_delay / 1000.0, 0, 'g', 3));
-    m_restart.start(m_delay);
 }
 
 void Session::take(const QString &method, const QJsonObject &params)
@@ -365,7 +254,7 @@ void Session::take(const QString &method, const QJsonObject &params)
 /// A change of settings, in wedm.toml too, is followed by new findings: so they are asked for with these.
 void Session::askSettings(const QString &uri)
 {
-    m_connection->request("wedm/settings", uriOnly(uri), [this, uri](const Answer &answer) {
+    m_server.connection().request("wedm/settings", uriOnly(uri), [this, uri](const Answer &answer) {
         if (answer.failed)
             return;
         const QJsonObject result = answer.result.toObject();
@@ -383,34 +272,34 @@ void Session::answer(const QJsonValue &id, const QString &method, const QJsonObj
     if (method == "wedm/resendDrawing") {
         const QSharedPointer<Document> document = m_documents.value(params.value("uri").toString());
         if (document) {
-            m_connection->reply(id, "{\"drawing\":" + toJson(document->drawing) + "}");
+            m_server.connection().reply(id, "{\"drawing\":" + toJson(document->drawing) + "}");
             return;
         }
     }
     if (method == "window/workDoneProgress/create" || method == "client/registerCapability") {
-        m_connection->reply(id, "null");
+        m_server.connection().reply(id, "null");
         return;
     }
-    m_connection->replyUnknown(id, method);
+    m_server.connection().replyUnknown(id, method);
 }
 
 void Session::open(Document &document)
 {
     if (document.drawing.version == 0)
         return;
-    m_connection->notify("wedm/didOpenDrawing", "{\"drawing\":" + toJson(document.drawing) + "}");
+    m_server.connection().notify("wedm/didOpenDrawing", "{\"drawing\":" + toJson(document.drawing) + "}");
 }
 
 void Session::sendSettings()
 {
     const QJsonObject params{{"settings", QJsonObject{{"wedm", m_settings}}}};
-    m_connection->notify("workspace/didChangeConfiguration", compact(params));
+    m_server.connection().notify("workspace/didChangeConfiguration", compact(params));
 }
 
 void Session::inspect(const QString &uri)
 {
     const QSharedPointer<Document> document = m_documents.value(uri);
-    if (!document || m_state != State::Ready || !document->watched)
+    if (!document || !m_server.isReady() || !document->watched)
         return;
     if (document->inspecting) {
         document->stale = true;
@@ -421,7 +310,7 @@ void Session::inspect(const QString &uri)
     const int version = document->drawing.version;
     QElapsedTimer clock;
     clock.start();
-    m_connection->request("wedm/inspect", uriOnly(uri), [this, uri, version, clock](const Answer &answer) {
+    m_server.connection().request("wedm/inspect", uriOnly(uri), [this, uri, version, clock](const Answer &answer) {
         const QSharedPointer<Document> document = m_documents.value(uri);
         if (!document || answer.code == Connection::ENDED)
             return;
@@ -502,16 +391,6 @@ void Session::takeProgram(const QString &uri, const QString &path, const QJsonOb
     for (const QJsonValue &each : warnings)
         program.warnings += each.toObject().value("message").toString();
     emit generated(uri, program);
-}
-
-void Session::drop()
-{
-    if (!m_connection)
-        return;
-    // It may be one of its own signals that has led here.
-    disconnect(m_connection, nullptr, this, nullptr);
-    m_connection->deleteLater();
-    m_connection = nullptr;
 }
 
 } // namespace wedm

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The talk with the server: finds and starts it, keeps its picture of every drawing up to date, asks for lists, repairs and
-// programs, and starts it again when it dies. Lives in a thread of its own, so that no list however long holds up the host.
-// Knows nothing of LibreCAD.
+// The talk with the server: keeps its picture of every drawing up to date, and asks for lists, repairs and programs. Lives in a thread
+// of its own, so that no list however long holds up the host. Knows nothing of LibreCAD.
 #pragma once
 
-#include "connection.h"
 #include "difference.h"
 #include "messages.h"
-#include "program_search.h"
+#include "server.h"
 
-#include <QElapsedTimer>
 #include <QSharedPointer>
-#include <QTimer>
 
 namespace wedm {
 
@@ -48,28 +44,13 @@ struct InForce {
 class Session : public QObject {
     Q_OBJECT
 public:
-    /// The version of the name space `wedm/` that this client speaks.
-    static constexpr int PROTOCOL = 1;
-
-    enum class State { Stopped, Missing, Starting, Ready, Waiting, Refused };
-    Q_ENUM(State)
-
-    /// Times in ms.
-    struct Patience {
-        int answerToInitialize = 10000;
-        int firstRestart = 250;
-        int longestRestart = 30000;
-        /// A server that lived so long begins again with the first delay.
-        int soundLife = 20000;
-    };
-
     explicit Session(QObject *parent = nullptr);
-    ~Session() override;
 
-    void setPatience(const Patience &patience) { m_patience = patience; }
+    /// How long a server may take to answer the greeting, in ms.
+    void setPatience(int milliseconds) { m_server.setPatience(milliseconds); }
 
 public slots:
-    /// Starts the server, unless it runs. Also looks again for one that was missing, or was of another version.
+    /// Starts the server, unless it runs. Also looks again for one that was missing, of another version, or has ended too often.
     void start(const wedm::ProgramSearch &search);
     /// Ends the server and forgets all drawings.
     void stop();
@@ -88,7 +69,7 @@ public slots:
     void generate(const QString &uri, const QString &path, bool force);
 
 signals:
-    void stateChanged(wedm::Session::State state, const QString &text);
+    void stateChanged(wedm::Server::State state, const QString &text);
     void serverStarted(qint64 processId);
     void looked(const QString &uri, int version, bool changed);
     void found(const QString &uri, int version, const QVector<wedm::Finding> &findings);
@@ -112,12 +93,7 @@ private:
         int inspectedVersion = -1;
     };
 
-    void setState(State state, const QString &text);
-    void launch();
-    void initialize();
-    void initialized(const Answer &answer);
-    void ended(const QString &reason);
-    void refuse(const QString &text);
+    void serverChanged(Server::State state, const QString &text);
     void take(const QString &method, const QJsonObject &params);
     void answer(const QJsonValue &id, const QString &method, const QJsonObject &params);
     void open(Document &document);
@@ -126,23 +102,14 @@ private:
     void askSettings(const QString &uri);
     void takeRepair(const QString &uri, const QJsonArray &actions);
     void takeProgram(const QString &uri, const QString &path, const QJsonObject &result);
-    void drop();
     /// Does `call` now, or as soon as a server that is starting is ready or is not going to be.
     void whenSettled(std::function<void()> call);
     void settled();
 
-    Patience m_patience;
-    ProgramSearch m_search;
-    QString m_program;
-    Connection *m_connection = nullptr;
-    State m_state = State::Stopped;
+    Server m_server;
     QHash<QString, QSharedPointer<Document>> m_documents;
     QJsonObject m_settings;
     QVector<std::function<void()>> m_waitingCalls;
-    QTimer m_restart;
-    QTimer m_handshake;
-    QElapsedTimer m_life;
-    int m_delay = 0;
 };
 
 /// Makes the types above known to queued signals. Called once, by whoever makes a session.

@@ -1,49 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "controller.h"
 
+#include "dialogs.h"
 #include "host.h"
+#include "marks.h"
 
 #include <QAction>
 #include <QApplication>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMdiArea>
-#include <QMdiSubWindow>
 #include <QMenu>
 #include <QMessageBox>
-#include <QPushButton>
-#include <QSettings>
-#include <QTextDocument>
-#include <QUrl>
 
 namespace wedm {
 
-namespace command {
-const char CHECK[] = "Check radii";
-const char LIVE[] = "Live check";
-const char FIX[] = "Fix";
-const char GENERATE[] = "Generate 3B…";
-const char MARK[] = "Mark faults";
-const char CLEAR[] = "Clear marks";
-const char LOOK[] = "wedm look";
-const char APPLY[] = "wedm apply";
-} // namespace command
-
 namespace {
-
-const char SETTING_SERVER[] = "server";
-const char SETTING_CORRECTION[] = "correction";
-const char SETTING_SIDE[] = "side";
-const char SETTING_LIVE[] = "live";
 
 /// A repair that keeps LibreCAD busy for longer than this, in ms, is asked about first.
 constexpr qint64 LONG_REBUILD = 1000;
-/// A look of the live check at a large drawing is taken in slices of this, in ms, beside what LibreCAD needs for each to list it.
-constexpr qint64 SLICE = 40;
-/// LibreCAD's time between two of them.
-constexpr int BETWEEN_SLICES = 15;
 /// How soon a repair is tried again that came while the user was in the middle of something.
 constexpr int AGAIN = 100;
 /// How often it is looked whether LibreCAD has started, in ms.
@@ -53,13 +29,8 @@ constexpr int PATIENCE_AT_QUIT = 2000;
 /// What is seen of the neighbourhood, as a multiple of the segment's size, and at least, in drawing units.
 constexpr double NEIGHBOURHOOD = 4;
 constexpr double LEAST_NEIGHBOURHOOD = 0.05;
-/// Marks are as large as that share of the drawing, but never smaller than the fault.
-constexpr double MARK_SHARE = 0.015;
-
-QSettings settings()
-{
-    return QSettings(QSettings::IniFormat, QSettings::UserScope, QStringLiteral("wedm"), QStringLiteral("librecad"));
-}
+/// So many findings are named in one message.
+constexpr int NAMED = 5;
 
 /// The automation's way in: a command that is run once the host has loaded its drawing.
 QString firstCommand()
@@ -73,7 +44,8 @@ Controller::Controller(QObject *actions)
     : QObject(actions)
     , m_actions(actions)
     , m_session(new Session)
-    , m_live(this)
+    , m_looks(this)
+    , m_drawings(this)
 {
     registerSessionTypes();
     m_session->moveToThread(&m_thread);
@@ -81,30 +53,18 @@ Controller::Controller(QObject *actions)
     setObjectName(QStringLiteral("wedm_controller"));
     m_thread.setObjectName(QStringLiteral("wedm"));
     connectSession();
-    connect(&m_live, &LiveCheck::due, this, &Controller::lookInSlices);
-    connect(&m_live, &LiveCheck::held, this, [this](const QString &reason) {
+    connect(&m_looks, &Looks::sliceWanted, this, [this] { trigger(command::LOOK); });
+    connect(&m_looks, &Looks::taken, this, &Controller::looked);
+    connect(&m_looks.live(), &LiveCheck::held, this, [this](const QString &reason) {
         if (m_panel)
             m_panel->setLive(reason.isEmpty() ? tr("live check on") : tr("live check %1").arg(reason));
     });
-    connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, [this] {
-        m_live.setOn(false);
-        // From here on LibreCAD takes its windows apart.
-        m_running = true;
-        const QList<QMdiSubWindow *> windows = m_open.keys();
-        for (QMdiSubWindow *window : windows)
-            disconnect(window, nullptr, this, nullptr);
-        if (const QMainWindow *main = host::mainWindow(); main && main->findChild<QMdiArea *>())
-            disconnect(main->findChild<QMdiArea *>(), nullptr, this, nullptr);
-        disconnect(m_session, nullptr, this, nullptr);
-        if (!m_thread.isRunning())
-            return;
-        post([](Session &session) {
-            session.stop();
-            QThread::currentThread()->quit();
-        });
-        if (!m_thread.wait(PATIENCE_AT_QUIT))
-            m_thread.terminate();
+    connect(&m_drawings, &Drawings::closed, this, [this](const QString &uri) {
+        post([uri](Session &session) { session.close(uri); });
+        if (m_panel)
+            showCurrent();
     });
+    connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, &Controller::quit);
     // LibreCAD makes the actions after it has asked for the menu, and its window after it has loaded the plugins.
     QTimer::singleShot(0, this, &Controller::settle);
 }
@@ -115,6 +75,25 @@ Controller::~Controller()
         m_thread.quit();
         m_thread.wait(PATIENCE_AT_QUIT);
     }
+}
+
+void Controller::quit()
+{
+    m_looks.live().setOn(false);
+    // From here on LibreCAD takes its windows apart.
+    m_running = true;
+    m_drawings.forgetWindows();
+    if (const QMainWindow *main = host::mainWindow(); main && main->findChild<QMdiArea *>())
+        disconnect(main->findChild<QMdiArea *>(), nullptr, this, nullptr);
+    disconnect(m_session, nullptr, this, nullptr);
+    if (!m_thread.isRunning())
+        return;
+    post([](Session &session) {
+        session.stop();
+        QThread::currentThread()->quit();
+    });
+    if (!m_thread.wait(PATIENCE_AT_QUIT))
+        m_thread.terminate();
 }
 
 void Controller::settle()
@@ -132,11 +111,11 @@ void Controller::settle()
         connect(area, &QMdiArea::subWindowActivated, this, [this] {
             if (!m_panel || !host::currentWindow())
                 return;
-            const Open *open = current();
+            const OpenDrawing *open = m_drawings.current();
             m_panel->clear();
             m_panel->setInspection(open ? open->inspection : QSharedPointer<Inspection>());
             showCurrent();
-            m_live.wake();
+            m_looks.live().wake();
         });
     // No plugin is told of an undo, but this action comes to life with it, however it was asked for.
     for (const char *name : {"EditUndo", "EditRedo"}) {
@@ -155,7 +134,7 @@ void Controller::settle()
         menu->removeAction(actionOf(command::APPLY));
     }
     actionOf(command::LIVE)->setCheckable(true);
-    if (settings().value(QString::fromLatin1(SETTING_LIVE)).toBool())
+    if (m_kept.live())
         setLive(true);
     if (!firstCommand().isEmpty())
         trigger(firstCommand().toUtf8().constData());
@@ -174,14 +153,8 @@ void Controller::run(const QString &command, Document_Interface &drawing)
     if (m_running)
         return;
     m_running = true;
-    if (!m_panel) {
-        QMainWindow *main = host::mainWindow();
-        m_panel = new Panel(main);
-        // The right side is full of LibreCAD's own docks.
-        main->addDockWidget(Qt::LeftDockWidgetArea, m_panel);
-        connectPanel();
-        startServer();
-    }
+    if (!m_panel)
+        makePanel();
     if (!own) {
         m_panel->show();
         m_panel->raise();
@@ -194,17 +167,17 @@ void Controller::run(const QString &command, Document_Interface &drawing)
         const int count = clearMarks(drawing);
         m_panel->setMessage(tr("%n mark(s) taken away.", nullptr, count), Panel::Tone::Plain);
     } else if (command == QLatin1String(command::LIVE)) {
-        setLive(!m_live.isOn());
-        settings().setValue(QString::fromLatin1(SETTING_LIVE), m_live.isOn());
+        setLive(!m_looks.live().isOn());
+        m_kept.setLive(m_looks.live().isOn());
     } else if (command == QLatin1String(command::LOOK)) {
-        lookSlice(drawing);
+        m_looks.slice(drawing);
     } else {
         if (!own)
             startServer();
         if (command == QLatin1String(command::CHECK))
             post([](Session &session) { session.reloadSettings(); });
-        look(drawing);
-        const QString uri = openFor(host::currentWindow()).uri;
+        m_looks.whole(drawing);
+        const QString uri = m_drawings.of(host::currentWindow()).uri;
         if (command == QLatin1String(command::FIX))
             post([uri](Session &session) { session.requestRepair(uri, QString(), -1); });
         else if (command == QString::fromUtf8(command::GENERATE))
@@ -234,7 +207,7 @@ void Controller::trigger(const char *command)
 
 void Controller::connectSession()
 {
-    connect(m_session, &Session::stateChanged, this, [this](Session::State state, const QString &text) {
+    connect(m_session, &Session::stateChanged, this, [this](Server::State state, const QString &text) {
         if (m_panel)
             m_panel->setServer(state, text);
     });
@@ -244,23 +217,23 @@ void Controller::connectSession()
             m_panel->setMessage(text, Panel::Tone::Plain);
     });
     connect(m_session, &Session::found, this, [this](const QString &uri, int version, const QVector<Finding> &findings) {
-        if (Open *open = openOf(uri)) {
+        if (OpenDrawing *open = m_drawings.find(uri)) {
             open->version = version;
             open->findings = findings;
             showCurrent();
         }
     });
     connect(m_session, &Session::inspected, this, [this](const QString &uri, int, const QSharedPointer<Inspection> &inspection) {
-        if (Open *open = openOf(uri)) {
+        if (OpenDrawing *open = m_drawings.find(uri)) {
             open->inspection = inspection;
-            if (open == current() && m_panel)
+            if (open == m_drawings.current() && m_panel)
                 m_panel->setInspection(inspection);
         }
     });
     connect(m_session, &Session::settingsInForce, this, [this](const QString &uri, const InForce &settings) {
-        if (Open *open = openOf(uri)) {
+        if (OpenDrawing *open = m_drawings.find(uri)) {
             open->settings = settings;
-            if (open == current() && m_panel)
+            if (open == m_drawings.current() && m_panel)
                 m_panel->setInForce(settings);
         }
     });
@@ -270,27 +243,22 @@ void Controller::connectSession()
             m_panel->setMessage(reason, Panel::Tone::Bad);
     });
     connect(m_session, &Session::generateFailed, this, &Controller::generateFailed);
-    connect(m_session, &Session::generated, this, [this](const QString &, const Program &program) {
-        if (!m_panel)
-            return;
-        QString text = tr("Written: %1, %2 blocks, wire path %3 mm. Every block was decoded again: at most %4 µm from the path; a control "
-                          "that counts J drifts by %5, %6 µm.")
-                           .arg(QDir::toNativeSeparators(program.path))
-                           .arg(program.blocks)
-                           .arg(program.length, 0, 'f', 3)
-                           .arg(program.deviation, 0, 'f', 2)
-                           .arg(program.closureX, 0, 'f', 2)
-                           .arg(program.closureY, 0, 'f', 2);
-        if (!program.warnings.isEmpty())
-            text += QLatin1Char('\n') + tr("Findings that stand in the drawing: %1").arg(program.warnings.mid(0, 5).join(QStringLiteral("; ")));
-        m_panel->setMessage(text, program.warnings.isEmpty() ? Panel::Tone::Good : Panel::Tone::Plain);
-    });
+    connect(m_session, &Session::generated, this, [this](const QString &, const Program &program) { written(program); });
+}
+
+void Controller::makePanel()
+{
+    QMainWindow *main = host::mainWindow();
+    m_panel = new Panel(main);
+    // The right side is full of LibreCAD's own docks.
+    main->addDockWidget(Qt::LeftDockWidgetArea, m_panel);
+    connectPanel();
+    startServer();
 }
 
 void Controller::connectPanel()
 {
-    const QSettings kept = settings();
-    m_panel->setSettings(kept.value(QString::fromLatin1(SETTING_CORRECTION)).toDouble(), kept.value(QString::fromLatin1(SETTING_SIDE)).toString());
+    m_panel->setSettings(m_kept.correction(), m_kept.side());
     connect(m_panel, &Panel::checkWanted, this, [this] { trigger(command::CHECK); });
     connect(m_panel, &Panel::fixWanted, this, [this] { trigger(command::FIX); });
     connect(m_panel, &Panel::generateWanted, this, [this] { trigger(command::GENERATE); });
@@ -299,7 +267,7 @@ void Controller::connectPanel()
     connect(m_panel, &Panel::serverWanted, this, &Controller::chooseServer);
     connect(m_panel, &Panel::placeWanted, this, &Controller::zoom);
     connect(m_panel, &Panel::fixOneWanted, this, [this](const QString &handle, int segment) {
-        const Open *open = current();
+        const OpenDrawing *open = m_drawings.current();
         if (!open)
             return;
         // The drawing is looked at first, so that the repair is made for what stands there now.
@@ -308,57 +276,15 @@ void Controller::connectPanel()
         post([uri, handle, segment](Session &session) { session.requestRepair(uri, handle, segment); });
     });
     connect(m_panel, &Panel::settingsChanged, this, [this] {
-        QSettings kept = settings();
-        kept.setValue(QString::fromLatin1(SETTING_CORRECTION), m_panel->correction());
-        kept.setValue(QString::fromLatin1(SETTING_SIDE), m_panel->side());
+        m_kept.setCorrection(m_panel->correction());
+        m_kept.setSide(m_panel->side());
         sendSettings();
     });
 }
 
-Controller::Open &Controller::openFor(QMdiSubWindow *window)
-{
-    const auto there = m_open.find(window);
-    if (there != m_open.end())
-        return *there;
-    Open open;
-    const QString path = host::filePath(window);
-    if (!path.isEmpty()) {
-        open.uri = QUrl::fromLocalFile(path).toString(QUrl::FullyEncoded);
-        m_lastFolder = QFileInfo(path).absolutePath();
-    }
-    if (open.uri.isEmpty() || openOf(open.uri))
-        open.uri = QStringLiteral("librecad:drawing/%1").arg(++m_names);
-    const QString uri = open.uri;
-    connect(window, &QObject::destroyed, this, [this, window, uri] {
-        m_open.remove(window);
-        post([uri](Session &session) { session.close(uri); });
-        if (m_panel)
-            showCurrent();
-    });
-    return *m_open.insert(window, open);
-}
-
-Controller::Open *Controller::openOf(const QString &uri, QMdiSubWindow **window)
-{
-    for (auto each = m_open.begin(); each != m_open.end(); ++each) {
-        if (each->uri == uri) {
-            if (window)
-                *window = each.key();
-            return &*each;
-        }
-    }
-    return nullptr;
-}
-
-Controller::Open *Controller::current()
-{
-    const auto there = m_open.find(host::currentWindow());
-    return there == m_open.end() ? nullptr : &*there;
-}
-
 void Controller::undone()
 {
-    Open *open = current();
+    OpenDrawing *open = m_drawings.current();
     if (!open || m_running)
         return;
     open->stale = true;
@@ -366,73 +292,10 @@ void Controller::undone()
         m_panel->setStale(true);
 }
 
-void Controller::look(Document_Interface &drawing)
+/// What was seen goes to the session.
+void Controller::looked(const Snapshot &snapshot)
 {
-    QElapsedTimer clock;
-    clock.start();
-    m_slices.drop();
-    const Snapshot snapshot = takeSnapshot(drawing);
-    setProperty("lookMilliseconds", clock.elapsed());
-    deliver(snapshot, clock.elapsed());
-}
-
-/// Each call of the plugin reads a slice of the drawing, and LibreCAD goes on in between.
-void Controller::lookInSlices()
-{
-    if (!m_slices.isBegun()) {
-        m_sliced = host::currentWindow();
-        m_spent = 0;
-        setProperty("slices", 0);
-        setProperty("sliceMilliseconds", 0);
-    }
-    {
-        HeldPainting held(m_sliced);
-        m_held = &held;
-        trigger(command::LOOK);
-        m_held = nullptr;
-    }
-    if (!m_slices.isBegun()) {
-        m_live.broken();
-        return;
-    }
-    QElapsedTimer clock;
-    clock.start();
-    QTimer::singleShot(BETWEEN_SLICES, this, [this, clock] {
-        // A command has looked at all of it meanwhile.
-        if (!m_slices.isBegun())
-            return;
-        if (host::currentWindow() != m_sliced || (!m_slices.isComplete() && !m_live.mayGoOn())) {
-            m_slices.drop();
-            m_live.broken();
-        } else if (m_slices.isComplete()) {
-            // LibreCAD has painted now: comparing the drawing with the last one would have taken a processor from it.
-            deliver(m_slices.take(), m_spent + clock.elapsed());
-        } else {
-            lookInSlices();
-        }
-    });
-}
-
-void Controller::lookSlice(Document_Interface &drawing)
-{
-    QElapsedTimer clock;
-    clock.start();
-    m_slices.read(drawing, SLICE);
-    // The one painting that the look costs.
-    if (m_slices.isComplete() && m_held)
-        m_held->release();
-    m_spent += clock.elapsed();
-    setProperty("lookMilliseconds", m_spent);
-    setProperty("slices", property("slices").toInt() + 1);
-    setProperty("sliceMilliseconds", qMax(property("sliceMilliseconds").toLongLong(), clock.elapsed()));
-}
-
-/// What was seen goes to the session. LibreCAD was busy with it for `spent` ms so far.
-void Controller::deliver(const Snapshot &snapshot, qint64 spent)
-{
-    QElapsedTimer clock;
-    clock.start();
-    Open &open = openFor(host::currentWindow());
+    OpenDrawing &open = m_drawings.of(host::currentWindow());
     QStringList unchecked;
     for (auto each = snapshot.unchecked.constBegin(); each != snapshot.unchecked.constEnd(); ++each)
         unchecked += QStringLiteral("%1 × %2").arg(each.value()).arg(each.key());
@@ -447,9 +310,6 @@ void Controller::deliver(const Snapshot &snapshot, qint64 spent)
         session.watchRadii(uri, true);
     });
     m_panel->setUnchecked(open.unchecked);
-    setProperty("looks", property("looks").toInt() + 1);
-    // LibreCAD paints the drawing again after a call of a plugin; that belongs to the cost of a look.
-    QTimer::singleShot(0, this, [this, clock, spent] { m_live.looked(spent + clock.elapsed()); });
 }
 
 void Controller::startServer()
@@ -459,7 +319,7 @@ void Controller::startServer()
         sendSettings();
     }
     ProgramSearch search;
-    search.setting = settings().value(QString::fromLatin1(SETTING_SERVER)).toString();
+    search.setting = m_kept.server();
     search.pluginFolder = host::pluginFolder();
     post([search](Session &session) { session.start(search); });
 }
@@ -478,7 +338,7 @@ void Controller::showCurrent()
 {
     if (!m_panel)
         return;
-    const Open *open = current();
+    const OpenDrawing *open = m_drawings.current();
     if (!open) {
         m_panel->clear();
         return;
@@ -494,7 +354,7 @@ void Controller::showCurrent()
 
 void Controller::setLive(bool on)
 {
-    m_live.setOn(on);
+    m_looks.live().setOn(on);
     if (QAction *action = actionOf(command::LIVE))
         action->setChecked(on);
     if (m_panel)
@@ -504,82 +364,64 @@ void Controller::setLive(bool on)
 void Controller::askForFile(const QString &uri)
 {
     QMdiSubWindow *window = nullptr;
-    if (!openOf(uri, &window))
+    const OpenDrawing *open = m_drawings.find(uri, &window);
+    if (!open)
         return;
     const QString path = host::filePath(window);
     const QString base = path.isEmpty() ? QStringLiteral("drawing") : QFileInfo(path).completeBaseName();
-    const QString folder = m_lastFolder.isEmpty() ? QDir::currentPath() : m_lastFolder;
-    QFileDialog *dialog = new QFileDialog(host::mainWindow(), tr("Write the 3B program"), QDir(folder).filePath(base + QStringLiteral(".3b")),
-                                          tr("3B programs (*.3b);;All files (*)"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setObjectName(QStringLiteral("wedm_file"));
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setDefaultSuffix(QStringLiteral("3b"));
-    dialog->selectFile(base + QStringLiteral(".3b"));
-    connect(dialog, &QFileDialog::fileSelected, this, [this, uri](const QString &chosen) {
+    const QString folder = open->folder.isEmpty() ? m_lastFolder : open->folder;
+    dialogs::programFile(folder.isEmpty() ? QDir::currentPath() : folder, base, [this, uri](const QString &chosen) {
         m_lastFolder = QFileInfo(chosen).absolutePath();
+        if (OpenDrawing *open = m_drawings.find(uri))
+            open->folder = m_lastFolder;
         m_panel->setMessage(tr("The program is being made…"), Panel::Tone::Plain);
         post([uri, chosen](Session &session) { session.generate(uri, chosen, false); });
     });
-    dialog->open();
+}
+
+void Controller::written(const Program &program)
+{
+    if (!m_panel)
+        return;
+    QString text = tr("Written: %1, %2 blocks, wire path %3 mm. Every block was decoded again: at most %4 µm from the path; a control "
+                      "that counts J drifts by %5, %6 µm.")
+                       .arg(QDir::toNativeSeparators(program.path))
+                       .arg(program.blocks)
+                       .arg(program.length, 0, 'f', 3)
+                       .arg(program.deviation, 0, 'f', 2)
+                       .arg(program.closureX, 0, 'f', 2)
+                       .arg(program.closureY, 0, 'f', 2);
+    if (!program.warnings.isEmpty())
+        text += QLatin1Char('\n') + tr("Findings that stand in the drawing: %1").arg(program.warnings.mid(0, NAMED).join(QStringLiteral("; ")));
+    m_panel->setMessage(text, program.warnings.isEmpty() ? Panel::Tone::Good : Panel::Tone::Plain);
 }
 
 void Controller::generateFailed(const QString &uri, const QString &path, const QString &reason, const QStringList &findings)
 {
     if (!m_panel)
         return;
-    m_panel->setMessage(findings.isEmpty() ? reason : reason + QLatin1Char('\n') + findings.mid(0, 5).join(QLatin1Char('\n')), Panel::Tone::Bad);
+    m_panel->setMessage(findings.isEmpty() ? reason : reason + QLatin1Char('\n') + findings.mid(0, NAMED).join(QLatin1Char('\n')), Panel::Tone::Bad);
     if (findings.isEmpty())
         return;
-    QMessageBox *box = new QMessageBox(QMessageBox::Warning, tr("Wire EDM"), reason, QMessageBox::NoButton, host::mainWindow());
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setObjectName(QStringLiteral("wedm_refused"));
-    box->setTextFormat(Qt::PlainText);
-    // The informative text takes what looks like mark-up for it, whatever the format of the other: names come out of drawings.
-    box->setInformativeText(Qt::convertFromPlainText(findings.mid(0, 8).join(QLatin1Char('\n'))));
-    QPushButton *force = box->addButton(tr("Write it all the same"), QMessageBox::DestructiveRole);
-    QPushButton *close = box->addButton(QMessageBox::Close);
-    box->setDefaultButton(close);
-    connect(box, &QMessageBox::buttonClicked, this, [this, force, uri, path](QAbstractButton *button) {
-        if (button == force)
-            post([uri, path](Session &session) { session.generate(uri, path, true); });
+    dialogs::writeAllTheSame(reason, findings, [this, uri, path] {
+        post([uri, path](Session &session) { session.generate(uri, path, true); });
     });
-    box->open();
 }
 
 void Controller::repairReady(const Repair &repair)
 {
     const qint64 milliseconds = rebuildTime(repair);
-    if (milliseconds > LONG_REBUILD)
-        askBeforeRebuild(repair, milliseconds);
-    else
+    if (milliseconds <= LONG_REBUILD) {
         applyNow(repair);
-}
-
-void Controller::askBeforeRebuild(const Repair &repair, qint64 milliseconds)
-{
-    QMessageBox *box = new QMessageBox(QMessageBox::Question, tr("Wire EDM"), tr("This repair rebuilds a large polyline."), QMessageBox::NoButton,
-                                       host::mainWindow());
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setObjectName(QStringLiteral("wedm_rebuild"));
-    box->setInformativeText(tr("LibreCAD would be busy for about %1 s, because a plugin can only replace a polyline as a whole. "
-                               "Another way: save the drawing and repair the file with \"wedm fix FILE --in-place\", which takes no time.")
-                                .arg(qMax<qint64>(1, milliseconds / 1000)));
-    QPushButton *go = box->addButton(tr("Repair it here"), QMessageBox::AcceptRole);
-    QPushButton *cancel = box->addButton(QMessageBox::Cancel);
-    box->setDefaultButton(cancel);
-    connect(box, &QMessageBox::buttonClicked, this, [this, go, repair](QAbstractButton *button) {
-        if (button == go)
-            QTimer::singleShot(0, this, [this, repair] { applyNow(repair); });
-        else
-            m_panel->setMessage(tr("Nothing was changed."), Panel::Tone::Plain);
-    });
-    box->open();
+        return;
+    }
+    const auto go = [this, repair] { QTimer::singleShot(0, this, [this, repair] { applyNow(repair); }); };
+    dialogs::longRebuild(milliseconds, go, [this] { m_panel->setMessage(tr("Nothing was changed."), Panel::Tone::Plain); });
 }
 
 void Controller::applyNow(const Repair &repair)
 {
-    const Open *open = current();
+    const OpenDrawing *open = m_drawings.current();
     if (!open || open->uri != repair.uri) {
         m_panel->setMessage(tr("Another drawing has come to the front while the repair was on its way; nothing was changed."), Panel::Tone::Bad);
         return;
@@ -602,14 +444,14 @@ void Controller::apply(Document_Interface &drawing)
 {
     const Repair repair = m_repair;
     m_repair = Repair();
-    if (repair.uri.isEmpty() || openFor(host::currentWindow()).uri != repair.uri)
+    if (repair.uri.isEmpty() || m_drawings.of(host::currentWindow()).uri != repair.uri)
         return;
     QString failure;
     QElapsedTimer clock;
     clock.start();
     const bool done = applyRepair(drawing, repair, &failure);
     setProperty("applyMilliseconds", clock.elapsed());
-    look(drawing);
+    m_looks.whole(drawing);
     if (done)
         m_panel->setMessage(tr("Done: %1. One Undo takes it back.").arg(repair.title), Panel::Tone::Good);
     else
@@ -618,52 +460,20 @@ void Controller::apply(Document_Interface &drawing)
 
 void Controller::mark(Document_Interface &drawing)
 {
-    clearMarks(drawing);
-    const Open &open = openFor(host::currentWindow());
-    QVector<QPointF> places;
-    double left = 0, right = 0, low = 0, high = 0;
-    bool any = false;
-    const Snapshot snapshot = takeSnapshot(drawing);
-    const auto reach = [&](double x, double y) {
-        left = any ? qMin(left, x) : x;
-        right = any ? qMax(right, x) : x;
-        low = any ? qMin(low, y) : y;
-        high = any ? qMax(high, y) : y;
-        any = true;
-    };
-    for (const Entity &entity : snapshot.entities) {
-        for (const Vertex &vertex : entity.vertices)
-            reach(vertex.x, vertex.y);
-        if (entity.vertices.isEmpty()) {
-            reach(entity.x - entity.radius, entity.y - entity.radius);
-            reach(entity.x + entity.radius, entity.y + entity.radius);
-        }
-    }
-    for (const Finding &finding : open.findings) {
-        if (finding.placed && finding.severity <= Severity::Warning)
-            places += (finding.start + finding.end) / 2;
-    }
-    drawMarks(drawing, places, qMax(right - left, high - low) * MARK_SHARE);
-    m_panel->setMessage(places.isEmpty() ? tr("There is nothing to mark.")
+    const int count = markFaults(drawing, m_drawings.of(host::currentWindow()).findings);
+    m_panel->setMessage(count == 0 ? tr("There is nothing to mark.")
                                          : tr("%n mark(s) on the layer WEDM_MARKS. They are saved with the drawing until they are cleared.", nullptr,
-                                              places.size()),
+                                              count),
                         Panel::Tone::Plain);
 }
 
 void Controller::chooseServer()
 {
-    QFileDialog *dialog = new QFileDialog(host::mainWindow(), tr("The program of the wedm server"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setFileMode(QFileDialog::ExistingFile);
-    const QString now = settings().value(QString::fromLatin1(SETTING_SERVER)).toString();
-    if (!now.isEmpty())
-        dialog->selectFile(now);
-    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString &path) {
-        settings().setValue(QString::fromLatin1(SETTING_SERVER), path);
+    dialogs::serverProgram(m_kept.server(), [this](const QString &path) {
+        m_kept.setServer(path);
         startServer();
         trigger(command::CHECK);
     });
-    dialog->open();
 }
 
 void Controller::zoom(const QPointF &middle, double size)

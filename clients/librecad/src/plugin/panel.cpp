@@ -227,9 +227,9 @@ Panel::Panel(QWidget *parent)
     });
 }
 
-void Panel::setServer(Session::State state, const QString &text)
+void Panel::setServer(Server::State state, const QString &text)
 {
-    const bool bad = state == Session::State::Missing || state == Session::State::Refused || state == Session::State::Waiting;
+    const bool bad = state != Server::State::Stopped && state != Server::State::Starting && state != Server::State::Ready;
     say(m_server, text, bad ? BAD : PLAIN);
 }
 

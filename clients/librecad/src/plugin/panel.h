@@ -24,7 +24,7 @@ public:
     explicit Panel(QWidget *parent);
 
     /// What the server is doing; shown until the next.
-    void setServer(Session::State state, const QString &text);
+    void setServer(Server::State state, const QString &text);
     /// The correction that radii are held against, and where it comes from.
     void setInForce(const InForce &settings);
     /// What the last command came to.

@@ -304,12 +304,16 @@ void Driver::killed()
     press("DrawLine");
     type("100,100");
     ::kill(pid_t(first), SIGKILL);
-    expectSoon("it is said that the server has ended", [this] { return text("wedm_server").contains("has ended"); }, [this] { return text("wedm_server"); });
     type("110,100");
     press("EditKillAllActions");
     touch();
-    expectSoon("another one runs", [&] { return controller()->property("serverProcessId").toLongLong() != first && text("wedm_server").startsWith("wedm "); },
+    const auto another = [this](qint64 before) { return controller()->property("serverProcessId").toLongLong() != before && text("wedm_server").startsWith("wedm "); };
+    expectSoon("another one runs at once", [&] { return another(first); }, [this] { return text("wedm_server"); });
+    const qint64 second = controller()->property("serverProcessId").toLongLong();
+    ::kill(pid_t(second), SIGKILL);
+    expectSoon("it is said that the server has ended, and when it is started again", [this] { return text("wedm_server").contains("has ended (it was killed or has crashed). It is started again in 0.5 s"); },
                [this] { return text("wedm_server"); });
+    expectSoon("a third one runs", [&] { return another(second); }, [this] { return text("wedm_server"); });
     expectSoon("it knows the drawing with the line that was drawn meanwhile",
                [this] { return findings().join('\n').contains("open") && findings().join('\n').contains("0.080"); },
                [this] { return findings().join('\n'); });

@@ -9,6 +9,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include <algorithm>
 #include <csignal>
 
 using namespace wedm;
@@ -104,10 +105,7 @@ struct Talk {
 
     Talk()
     {
-        Session::Patience patience;
-        patience.answerToInitialize = 3000;
-        patience.firstRestart = 100;
-        session.setPatience(patience);
+        session.setPatience(3000);
     }
     void start(const QString &program = serverProgram())
     {
@@ -115,7 +113,11 @@ struct Talk {
         search.setting = program;
         session.start(search);
     }
-    Session::State state() const { return states.isEmpty() ? Session::State::Stopped : states.last().at(0).value<Session::State>(); }
+    Server::State state() const { return states.isEmpty() ? Server::State::Stopped : states.last().at(0).value<Server::State>(); }
+    bool hasWaited() const
+    {
+        return std::any_of(states.begin(), states.end(), [](const QList<QVariant> &each) { return each.at(0).value<Server::State>() == Server::State::Waiting; });
+    }
     QString text() const { return states.isEmpty() ? QString() : states.last().at(1).toString(); }
     QStringList rules() const
     {
@@ -130,18 +132,24 @@ struct Talk {
     int version() const { return found.isEmpty() ? -1 : found.last().at(1).toInt(); }
 };
 
-/// A program that answers the first message with `answer`, if there is one, and then reads on.
-QString fakeServer(const QTemporaryDir &folder, const QByteArray &answer)
+/// A program of this text.
+QString program(const QTemporaryDir &folder, const QByteArray &script)
 {
-    const QByteArray reply = "printf 'Content-Length: " + QByteArray::number(answer.size()) + "\\r\\n\\r\\n%s' '" + answer + "'\n";
     const QString path = folder.filePath("wedm");
     QFile file(path);
     if (!file.open(QIODevice::WriteOnly))
         return QString();
-    file.write("#!/bin/sh\nread header\n" + (answer.isEmpty() ? QByteArray() : reply) + "exec cat >/dev/null\n");
+    file.write(script);
     file.close();
     file.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
     return path;
+}
+
+/// A program that answers the first message with `answer` and then reads on.
+QString fakeServer(const QTemporaryDir &folder, const QByteArray &answer)
+{
+    const QByteArray reply = "printf 'Content-Length: " + QByteArray::number(answer.size()) + "\\r\\n\\r\\n%s' '" + answer + "'\n";
+    return program(folder, "#!/bin/sh\nread header\n" + reply + "exec cat >/dev/null\n");
 }
 
 } // namespace
@@ -483,7 +491,7 @@ private slots:
         talk.session.requestRepair("librecad:1", QString(), -1);
         ::kill(pid_t(first), SIGKILL);
         talk.session.look("librecad:1", {polyline(2, opening(0.08))}, Units::Millimetre);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.state(), Session::State::Waiting, LONG);
+        QTRY_VERIFY_WITH_TIMEOUT(talk.hasWaited(), LONG);
         QCOMPARE(talk.noRepairs.size() + talk.repairs.size(), 1);
         talk.session.look("librecad:1", {polyline(3, opening(0.07))}, Units::Millimetre);
         QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 3, LONG);
@@ -491,18 +499,41 @@ private slots:
         QVERIFY2(talk.rules().contains("small-radius 1/1"), qPrintable(talk.rules().join(' ')));
     }
 
-    /// A server that dies at once is started again after longer and longer whiles.
-    void backsOff()
+    /// What every client does when its server ends.
+    void restarts()
+    {
+        QFile file(QFINDTESTDATA("../../../restarts.json"));
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        const QJsonArray cases = QJsonDocument::fromJson(file.readAll()).object().value("cases").toArray();
+        QVERIFY(!cases.isEmpty());
+        for (const QJsonValue &each : cases) {
+            const QJsonArray lives = each.toObject().value("lives").toArray();
+            Restarts restarts;
+            QJsonArray pauses;
+            for (const QJsonValue &life : lives) {
+                const std::optional<int> pause = restarts.afterLifeOf(qRound64(life.toDouble() * 1000));
+                pauses += pause ? QJsonValue(*pause / 1000.0) : QJsonValue();
+            }
+            QCOMPARE(pauses, each.toObject().value("pauses").toArray());
+        }
+    }
+
+    /// A server that dies at every start is given up, and tried again when the user wants it.
+    void givenUp()
     {
         Talk talk;
         talk.start("/bin/false");
-        QTRY_VERIFY_WITH_TIMEOUT(talk.text().contains("in 0.8 s"), LONG);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.state(), Server::State::GivenUp, LONG);
         QStringList waits;
         for (const QList<QVariant> &each : talk.states) {
-            if (each.at(0).value<Session::State>() == Session::State::Waiting)
-                waits += each.at(1).toString().section(" in ", -1);
+            if (each.at(0).value<Server::State>() == Server::State::Waiting)
+                waits += each.at(1).toString().section("again", -1);
         }
-        QCOMPARE(waits, (QStringList{"0.1 s.", "0.2 s.", "0.4 s.", "0.8 s."}));
+        QCOMPARE(waits, (QStringList{".", " in 0.5 s.", " in 1 s.", " in 2 s.", " in 4 s."}));
+        QVERIFY2(talk.text().contains("has ended 6 times in a row (it ended with code 1)"), qPrintable(talk.text()));
+        talk.session.look("librecad:1", {polyline(1, opening(0.08))}, Units::Millimetre);
+        talk.start();
+        QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 1, LONG);
     }
 
     void otherServers_data()
@@ -524,40 +555,51 @@ private slots:
         QTemporaryDir folder;
         Talk talk;
         talk.start(fakeServer(folder, answer));
-        QTRY_COMPARE_WITH_TIMEOUT(talk.state(), Session::State::Refused, LONG);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.state(), Server::State::Refused, LONG);
         QVERIFY2(QRegularExpression(message).match(talk.text()).hasMatch(), qPrintable(talk.text()));
         // It is not tried again until somebody asks for it.
         QTest::qWait(300);
-        QCOMPARE(talk.state(), Session::State::Refused);
+        QCOMPARE(talk.state(), Server::State::Refused);
         talk.session.look("librecad:1", {polyline(1, opening(0.08))}, Units::Millimetre);
         talk.start(serverProgram());
         QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 1, LONG);
     }
 
-    /// A program that only talks is ended and tried again, one that says nothing too.
+    /// A program that sends what is no message is ended and tried again.
+    void talks()
+    {
+        Talk talk;
+        talk.start("/usr/bin/yes");
+        // The first pause is none, the second one is seen.
+        QTRY_VERIFY_WITH_TIMEOUT(talk.text().contains("again in 0.5 s"), LONG);
+        QVERIFY2(talk.text().contains("does not speak the language server protocol"), qPrintable(talk.text()));
+    }
+
+    /// One that says nothing, or cannot be started, is not tried again by itself.
     void noServers_data()
     {
-        QTest::addColumn<QString>("program");
+        QTest::addColumn<QByteArray>("script");
         QTest::addColumn<QString>("message");
-        QTest::newRow("talks") << "/usr/bin/yes" << "does not speak the language server protocol";
-        QTest::newRow("says nothing") << "" << "killed";
+        QTest::newRow("says nothing") << QByteArray("#!/bin/sh\nexec cat >/dev/null\n") << "does not answer: there was nothing within 3 s";
+        QTest::newRow("cannot be started") << QByteArray("#!/no/such/interpreter\n") << "could not be started";
     }
     void noServers()
     {
-        QFETCH(QString, program);
+        QFETCH(QByteArray, script);
         QFETCH(QString, message);
         QTemporaryDir folder;
         Talk talk;
-        talk.start(program.isEmpty() ? fakeServer(folder, QByteArray()) : program);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.state(), Session::State::Waiting, LONG);
+        talk.start(program(folder, script));
+        QTRY_COMPARE_WITH_TIMEOUT(talk.state(), Server::State::Refused, LONG);
         QVERIFY2(talk.text().contains(message), qPrintable(talk.text()));
+        QVERIFY(!talk.hasWaited());
     }
 
     void missing()
     {
         Talk talk;
         talk.start("/no/such/wedm");
-        QCOMPARE(talk.state(), Session::State::Missing);
+        QCOMPARE(talk.state(), Server::State::Missing);
         QVERIFY2(talk.text().contains("cargo install"), qPrintable(talk.text()));
         talk.session.look("librecad:1", {polyline(1, opening(0.08))}, Units::Millimetre);
         talk.session.requestRepair("librecad:1", QString(), -1);

@@ -7,6 +7,7 @@ import collections
 import logging
 import os
 import threading
+import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeout
@@ -26,6 +27,9 @@ PROTOCOL = 1
 
 CONTENT_MODIFIED = -32801
 REQUEST_FAILED = -32803
+
+# Seconds; a program that has not answered by then is no server.
+_PATIENCE = 20.0
 
 LOG = logging.getLogger("wedm_client")
 
@@ -154,6 +158,9 @@ class Connection:
         self._loop = loop
         self._command = command
         self.ended = False
+        self._ready_at: float | None = None
+        #: Seconds from the answer to ``initialize`` to the end; 0 where none came.
+        self.life = 0.0
         self.exit_code: int | None = None
         self.server_version = ""
         self._on_end = on_end
@@ -173,6 +180,8 @@ class Connection:
         self._client.said.append(params.message)
 
     def _end(self, exit_code: int) -> None:
+        if self._ready_at is not None:
+            self.life = time.monotonic() - self._ready_at
         self.ended, self.exit_code = True, exit_code
         self._on_end(self)
 
@@ -212,10 +221,11 @@ class Connection:
             root_uri=folder,
         )
         try:
-            answer = self.request(types.INITIALIZE, params, timeout)
+            answer = self.request(types.INITIALIZE, params, min(timeout, _PATIENCE))
         except NoAnswer:
             raise WrongProtocol(f"{self._command[0]} does not answer as a language server") from None
         self._agree(answer)
+        self._ready_at = time.monotonic()
         self.notify(types.INITIALIZED, types.InitializedParams())
         if settings:
             self._check_settings(timeout)

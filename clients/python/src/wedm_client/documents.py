@@ -6,16 +6,13 @@ import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from .cad import write_back_to
 from .entities import Change, Delete, Entity, Polyline, Put, Splice, Vertex
 from .errors import DoesNotApply, WedmError
-from .results import write_beside
+from .results import Picture, write_beside
 from .settings import Units
-
-if TYPE_CHECKING:
-    from .server import Server
 
 #: Kind of text by the end of a file's name.
 LANGUAGES = {".dxf": "dxf", ".3b": "3b", ".4b": "3b", ".iso": "wire-iso", ".nc": "wire-iso"}
@@ -24,10 +21,16 @@ _LINE_END = re.compile(rb"\r\n|\n|\r")
 _CODE_PAGE = re.compile(rb"\$DWGCODEPAGE\s+3\s+(\S+)")
 
 
+class Draws(Protocol):
+    """What draws a document: the server that it is open in."""
+
+    def picture(self, document: Document) -> Picture: ...
+
+
 class Document:
     """Something that is open in a server. In a notebook it shows its picture."""
 
-    def __init__(self, server: Server, uri: str) -> None:
+    def __init__(self, server: Draws, uri: str) -> None:
         self._server = server
         self.uri = uri
         #: Counts the states; a repair that was made for an older one is refused.
@@ -44,7 +47,7 @@ class Document:
 class Drawing(Document):
     """Geometry without text behind it: entities by handle, in machining order."""
 
-    def __init__(self, server: Server, uri: str, entities: Iterable[Entity], units: Units | None) -> None:
+    def __init__(self, server: Draws, uri: str, entities: Iterable[Entity], units: Units | None) -> None:
         super().__init__(server, uri)
         self.units = units
         self._entities = {entity.handle: entity for entity in entities}
@@ -132,7 +135,7 @@ def _splice(entity: Entity, splice: Splice) -> Polyline:
 class TextDocument(Document):
     """A text: DXF, 3B or wire ISO. ``path`` is the file that it came from, if any."""
 
-    def __init__(self, server: Server, uri: str, text: str, language: str, path: Path | None = None, encoding: str = "utf-8") -> None:
+    def __init__(self, server: Draws, uri: str, text: str, language: str, path: Path | None = None, encoding: str = "utf-8") -> None:
         super().__init__(server, uri)
         self.language = language
         self.path = path

@@ -10,7 +10,7 @@ import itertools
 import os
 import threading
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import TimeoutError as FutureTimeout
 from dataclasses import dataclass, replace
 from io import StringIO
@@ -27,6 +27,7 @@ from .documents import LANGUAGES, Document, Drawing, TextDocument, read_text
 from .entities import Change, Delete, Put, Splice, change_from_json
 from .errors import NoAnswer, NotOpen, Outdated, ServerDied, WedmError
 from .find import find
+from .restarts import MOST_ENDS, Restarts
 from .results import (
     Contours,
     Diagnostic,
@@ -47,12 +48,11 @@ from .settings import Settings, Units, to_json
 #: What a drawing can be opened from.
 Source = Union[str, "os.PathLike[str]", Iterable[Any], Any]
 
-# Seconds before the second start after a death, the third and so on; the first is at once.
-_BACK_OFF = (0.0, 0.1, 0.5, 1.0, 2.0)
-# Deaths that are further apart have nothing to do with each other.
-_FORGIVEN_AFTER = 120.0
 # A repair may make room for the next one; no drawing has needed more than a few rounds.
 _MOST_ROUNDS = 50
+# A repair that the document has overtaken is asked for again so often.
+_MOST_TRIES = 5
+
 
 @dataclass(frozen=True)
 class Action:
@@ -107,7 +107,7 @@ class Server:
         self._warned: set[str] = set()
         self._connection: Connection | None = None
         self._loop: Loop | None = None
-        self._deaths: list[float] = []
+        self._restarts = Restarts()
         self._closed = False
 
     def __enter__(self) -> Server:
@@ -425,7 +425,9 @@ class Server:
         :raises Outdated: the program has changed meanwhile; nothing was changed.
         """
         params = types.ExecuteCommandParams("wedm.scale", [{"uri": program.uri, "factor": factor}])
-        answer = self._ask(program, types.WORKSPACE_EXECUTE_COMMAND, params) or {}
+        version = program.version
+        # A server that ends between the edit that it asks for and its answer must not have it made twice.
+        answer = self._ask(program, types.WORKSPACE_EXECUTE_COMMAND, params, lambda: program.version != version) or {"applied": True}
         if not answer.get("applied"):
             raise Outdated(str(answer.get("failureReason")), CONTENT_MODIFIED)
 
@@ -473,7 +475,7 @@ class Server:
 
     def _offered(self, document: Document, range: Mapping[str, Any], meant: list[Mapping[str, Any]], kind: str) -> list[Action]:
         params = {"textDocument": {"uri": document.uri}, "range": range, "context": {"diagnostics": meant, "only": [kind]}}
-        for _ in _BACK_OFF:
+        for _ in itertools.repeat(None, _MOST_TRIES):
             version = document.version
             try:
                 found = self._ask(document, types.TEXT_DOCUMENT_CODE_ACTION, params)
@@ -494,8 +496,8 @@ class Server:
         if self._documents.get(document.uri) is not document:
             raise NotOpen(f"{document.uri} is not open in this server")
 
-    def _ask(self, document: Document, method: str, params: Any) -> Any:
-        """Sends a request until a living server has answered it."""
+    def _ask(self, document: Document, method: str, params: Any, is_done: Callable[[], bool] = lambda: False) -> Any:
+        """Sends a request until a living server has answered it, or it is done without an answer."""
         with self._state:
             self._check_open(document)
         while True:
@@ -503,7 +505,8 @@ class Server:
             try:
                 return connection.request(method, params, self.timeout)
             except Died:
-                continue
+                if is_done():
+                    return None
 
     def _wait_for_publish(self, document: Document) -> _Published:
         deadline = time.monotonic() + self.timeout
@@ -534,14 +537,14 @@ class Server:
                 if self._loop is None:
                     self._loop = Loop()
             if connection is not None:
-                self._count_death(connection)
+                self._pause_after(connection)
             while True:
                 # A timed-out start leaves a process behind; it is ended before the error is passed on.
                 started = Connection(self._loop, self.command, self._publish, self._resend, self._apply_edit, self._ended)
                 try:
                     started.start(self._settings, self._folder, self.timeout)
                 except Died:
-                    self._count_death(started)
+                    self._pause_after(started)
                     continue
                 except (WedmError, FutureTimeout):
                     started.kill()
@@ -553,16 +556,21 @@ class Server:
                         self._send_open(started, document)
                 return started
 
-    def _count_death(self, connection: Connection) -> None:
-        now = time.monotonic()
-        self._deaths = [death for death in self._deaths if now - death < _FORGIVEN_AFTER] + [now]
-        if len(self._deaths) > len(_BACK_OFF):
+    def _pause_after(self, connection: Connection) -> None:
+        """Waits as long as a server that has ended is left alone.
+
+        :raises ServerDied: it is not to be started again.
+        """
+        pause = self._restarts.after_life_of(connection.life)
+        if pause is None:
+            # Another call tries anew.
+            self._restarts.reset()
             said = "".join(f"\n  {line}" for line in connection.said)
             raise ServerDied(
-                f"{self.command[0]} has ended {len(self._deaths)} times within {_FORGIVEN_AFTER:g} s, "
-                f"the last time with code {connection.exit_code}; its last words:{said or ' none'}"
+                f"{self.command[0]} has ended {MOST_ENDS} times in a row, "
+                f"the last time with code {connection.exit_code}, and is not started again; its last words:{said or ' none'}"
             )
-        time.sleep(_BACK_OFF[len(self._deaths) - 1])
+        time.sleep(pause)
 
     def _send_open(self, connection: Connection, document: Document) -> None:
         self._published.pop(document.uri, None)

@@ -8,11 +8,11 @@ import { CloseAction, ErrorAction, State as ClientState } from "vscode-languagec
 import { selector } from "../languages";
 import type { Methods } from "../protocol";
 import { abilities } from "./abilities";
-import { Backoff } from "./backoff";
 import { QuietClient } from "./client";
 import { findServer } from "./find";
 import { misfit } from "./handshake";
 import { isProgram, launch } from "./process";
+import { Restarts } from "./restarts";
 import { forServer } from "./settings";
 
 /** What may be asked: the requests of wedm's own name space, and the one of LSP that VS Code would answer otherwise. */
@@ -42,7 +42,9 @@ export class Server implements vscode.Disposable {
   #timer: NodeJS.Timeout | undefined;
   /** What belongs to an older start is no longer listened to. */
   #start = 0;
-  readonly #backoff = new Backoff();
+  readonly #restarts = new Restarts();
+  /** When the server that runs had answered; 0 before. */
+  #ready = 0;
   readonly #changed = new vscode.EventEmitter<State>();
   readonly #diagnosed = new vscode.EventEmitter<vscode.Uri>();
 
@@ -75,13 +77,14 @@ export class Server implements vscode.Disposable {
 
   /** Starts anew whatever was before; resolves when the server runs or has failed. */
   async restart(): Promise<void> {
-    this.#backoff.reset();
+    this.#restarts.reset();
     await this.#launch();
   }
 
   async #launch(): Promise<void> {
     const start = ++this.#start;
     await this.#end();
+    this.#ready = 0;
     this.#become({ kind: "starting" });
     const found = await this.find();
     if (start !== this.#start) {
@@ -91,40 +94,55 @@ export class Server implements vscode.Disposable {
       this.#fail(found.reason, "program");
       return;
     }
+    let child: ChildProcessWithoutNullStreams;
     try {
-      await this.#begin(start, found.program);
+      child = await launch(found.program, vscode.workspace.getConfiguration("wedm").get("server.log", "warn"));
     } catch (error) {
-      this.#died(start, `${found.program} could not be started: ${error instanceof Error ? error.message : String(error)}`);
+      if (start !== this.#start) {
+        return;
+      }
+      this.#fail(`${found.program} could not be started: ${error instanceof Error ? error.message : String(error)}`, "program");
+      return;
     }
-  }
-
-  async #begin(start: number, program: string): Promise<void> {
-    const child = await launch(program, vscode.workspace.getConfiguration("wedm").get("server.log", "warn"));
     if (start !== this.#start) {
       child.kill();
       return;
     }
     this.#child = child;
+    await this.#begin(start, found.program, child);
+  }
+
+  async #begin(start: number, program: string, child: ChildProcessWithoutNullStreams): Promise<void> {
+    let ended = "it ended";
     const gone = new Promise<never>((_resolve, reject) => {
       child.once("exit", (code, signal) => {
-        const how = `ended with ${signal ?? `code ${code ?? 0}`}`;
-        this.log.info(`${program} (process ${child.pid ?? 0}) ${how}`);
-        reject(new Error(`it ${how}`));
+        ended = `it ended with ${signal ?? `code ${code ?? 0}`}`;
+        this.log.info(`${program} (process ${child.pid ?? 0}): ${ended}`);
+        reject(new Error(ended));
       });
     });
     const client = new QuietClient("wedm", "Wire EDM", () => Promise.resolve(child), this.#options());
     client.registerFeature(abilities);
     this.#client = client;
+    const silence = new AbortController();
     const clock = setTimeout(() => {
-      this.log.error(`${program} has not answered within ${PATIENCE / 1_000} s`);
+      silence.abort();
       child.kill("SIGKILL");
     }, PATIENCE);
     try {
       // The client may wait for ever for a server that has ended before it answered, or take it for one that has started.
       await Promise.race([client.start(), gone]);
       if (client.initializeResult === undefined) {
-        throw new Error("it ended before it answered");
+        throw new Error(ended);
       }
+    } catch (error) {
+      if (silence.signal.aborted && start === this.#start) {
+        await this.#end();
+        this.#fail(`${program} does not answer: there was nothing within ${PATIENCE / 1_000} s`, "program");
+      } else {
+        this.#died(start, error instanceof Error ? error.message : String(error));
+      }
+      return;
     } finally {
       clearTimeout(clock);
     }
@@ -139,10 +157,10 @@ export class Server implements vscode.Disposable {
     }
     client.onDidChangeState(({ newState }) => {
       if (newState === ClientState.Stopped) {
-        this.#died(start, `${program} ended while it was in use`);
+        this.#died(start, ended);
       }
     });
-    this.#backoff.started(Date.now());
+    this.#ready = Date.now();
     this.log.info(`${program} (process ${child.pid ?? 0}) runs: ${client.initializeResult.serverInfo?.version ?? ""}`);
     this.#become({ kind: "running" });
   }
@@ -152,13 +170,14 @@ export class Server implements vscode.Disposable {
       return;
     }
     this.log.error(reason);
-    const wait = this.#backoff.died(Date.now());
-    if (wait === null) {
-      this.#fail(`${reason}; it was started again five times`, "restart");
+    const pause = this.#restarts.afterLifeOf(this.#ready === 0 ? 0 : Date.now() - this.#ready);
+    if (pause === null) {
+      this.#fail(`the server has ended 6 times in a row (${reason}) and is not started again`, "restart");
       return;
     }
-    this.#become({ kind: "waiting", reason: `${reason}; it is started again in ${wait / 1_000} s` });
-    this.#timer = setTimeout(() => void this.#launch(), wait);
+    const when = pause === 0 ? "" : ` in ${pause / 1_000} s`;
+    this.#become({ kind: "waiting", reason: `the server has ended (${reason}); it is started again${when}` });
+    this.#timer = setTimeout(() => void this.#launch(), pause);
   }
 
   #fail(reason: string, cure: Cure): void {
@@ -212,7 +231,7 @@ export class Server implements vscode.Disposable {
       progressOnInitialization: false,
       // What fails at the start is said once for all tries.
       initializationFailedHandler: () => false,
-      // Deaths are dealt with here, with a wait that grows; the client's own way starts again at once, four times.
+      // Deaths are dealt with here, as docs/protocol.md says; the client's own way starts again at once, four times.
       errorHandler: {
         error: () => ({ action: ErrorAction.Continue, handled: true }),
         closed: () => ({ action: CloseAction.DoNotRestart, handled: true }),

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the user is asked, each in a window that holds nothing up. What is to follow is called with the answer.
+#pragma once
+
+#include <QStringList>
+
+#include <functional>
+
+namespace wedm {
+namespace dialogs {
+
+/// Where the 3B program is to be written; `base` is the name that is proposed, without its ending.
+void programFile(const QString &folder, const QString &base, std::function<void(const QString &)> chosen);
+
+/// Which program is the server; `now` is the one that is set.
+void serverProgram(const QString &now, std::function<void(const QString &)> chosen);
+
+/// A program was refused for these findings: whether it is to be written all the same.
+void writeAllTheSame(const QString &reason, const QStringList &findings, std::function<void()> forced);
+
+/// A repair would keep LibreCAD busy for so long.
+void longRebuild(qint64 milliseconds, std::function<void()> go, std::function<void()> cancel);
+
+} // namespace dialogs
+} // namespace wedm

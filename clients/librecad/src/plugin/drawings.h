@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The drawings that have been looked at, by the window that each is in.
+#pragma once
+
+#include "core/session.h"
+
+#include <QMdiSubWindow>
+
+namespace wedm {
+
+/// A drawing that has been looked at, and what is known of it.
+struct OpenDrawing {
+    QString uri;
+    /// Where programs of it are written, as proposed: the folder of its file, then that of its last program.
+    QString folder;
+    /// Changed by Undo or Redo since it was looked at.
+    bool stale = false;
+    int version = -1;
+    QVector<Finding> findings;
+    QSharedPointer<Inspection> inspection;
+    QString unchecked;
+    InForce settings;
+};
+
+class Drawings : public QObject {
+    Q_OBJECT
+public:
+    using QObject::QObject;
+
+    /// That of the window; it begins here when there is none yet.
+    OpenDrawing &of(QMdiSubWindow *window);
+    /// Null when no drawing has that name; else `window`, where given, becomes its window.
+    OpenDrawing *find(const QString &uri, QMdiSubWindow **window = nullptr);
+    /// That of the window in front, if it has been looked at.
+    OpenDrawing *current();
+    /// Hears of no window any more.
+    void forgetWindows();
+
+signals:
+    /// The window of a drawing is gone.
+    void closed(const QString &uri);
+
+private:
+    QHash<QMdiSubWindow *, OpenDrawing> m_open;
+    int m_names = 0;
+};
+
+} // namespace wedm
