@@ -29,7 +29,7 @@ pub struct Arguments {
     #[command(flatten)]
     target: Target,
     /// Form of the blocks [default: `program.layout` where it is set, else the program's own]
-    #[arg(long, value_parser = words::<Layout>(&["compact", "aligned", "checking"]))]
+    #[arg(long, value_parser = words::<Layout>())]
     layout: Option<Layout>,
     /// Word that ends the program [default: DD]
     #[arg(long, value_name = "WORD")]

@@ -2,7 +2,7 @@
 
 use crate::settings::{
     Compensation, Corner, Direction, Layout, Order, PointSetting, ProgramSettings, Settings,
-    SideSetting,
+    SideSetting, words_of,
 };
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -17,7 +17,7 @@ pub struct Common {
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub correction: Option<f64>,
     /// Side on which the wire runs, where neither entity nor layer says
-    #[arg(long, value_parser = words::<SideSetting>(&["both", "auto", "opening", "punch"]))]
+    #[arg(long, value_parser = words::<SideSetting>())]
     pub side: Option<SideSetting>,
     /// Settings file, laid over the `wedm.toml` found upwards from the input
     #[arg(long, value_name = "FILE")]
@@ -29,10 +29,10 @@ pub struct Common {
 #[command(next_help_heading = "Program")]
 pub struct Program {
     /// Direction in which closed contours are cut
-    #[arg(long, value_parser = words::<Direction>(&["ccw", "cw", "as-drawn"]))]
+    #[arg(long, value_parser = words::<Direction>())]
     pub direction: Option<Direction>,
     /// How the wire goes round convex corners
-    #[arg(long, value_parser = words::<Corner>(&["arc", "intersection"]))]
+    #[arg(long, value_parser = words::<Corner>())]
     pub corner: Option<Corner>,
     /// Thread hole, in drawing units [default: the "O" mark, else found from the entry]
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
@@ -44,13 +44,13 @@ pub struct Program {
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub lead_in: Option<f64>,
     /// Order of the contours; what lies within one always comes before it [default: inside-first]
-    #[arg(long, value_parser = words::<Order>(&["as-drawn", "inside-first", "nearest", "as-picked"]))]
+    #[arg(long, value_parser = words::<Order>())]
     pub order: Option<Order>,
     /// Form of the blocks
-    #[arg(long, value_parser = words::<Layout>(&["compact", "aligned", "checking"]))]
+    #[arg(long, value_parser = words::<Layout>())]
     pub layout: Option<Layout>,
     /// Where the correction is applied
-    #[arg(long, value_parser = words::<Compensation>(&["path", "controller", "none"]))]
+    #[arg(long, value_parser = words::<Compensation>())]
     pub compensation: Option<Compensation>,
     /// Digits of the controller's numbers in 3B: longer blocks are split [default: 6]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(4..=9))]
@@ -98,10 +98,12 @@ impl Program {
 }
 
 /// Words that a setting may have, read as the setting's own type reads them.
-pub fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+pub fn words<T>() -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
 {
+    // They are as long-lived as the parser of the command line, which is made once.
+    let words = words_of::<T>().into_iter().map(|word| &*word.leak());
     PossibleValuesParser::new(words).try_map(|word| serde_json::from_value::<T>(word.into()))
 }
 

@@ -13,7 +13,7 @@
 //!   on a choice (a plural, a case), the row is a function: `errors(count: usize) => { … }`. Words that are no text of ours (keys, names
 //!   of rules, file endings, letters of a program) are handed in and never translated.
 //! - `en.rs` says which sentences there are ([`declare!`]). Another language is a file with the same rows under `translate!`, its line
-//!   in [`Language`], and its arm in [`declare!`]; a row that it lacks does not compile.
+//!   in [`Language`], and its arm in [`call!`]; a row that it lacks does not compile.
 //! - A process speaks one language: an editor starts a server of its own, and a command is one person's. [`speak`] chooses it before
 //!   anything is read, since readers put their sentences into what they find.
 //! - Lines of the log, what a bug says before it stops (`expect`), and the help of the command line, which `clap` takes from the comments

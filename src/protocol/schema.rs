@@ -1,9 +1,9 @@
 //! The JSON Schema of every `wedm/` message.
 
 use super::*;
-use crate::settings::Settings;
+use crate::settings::{self, Row, Settings, camel_case};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// One schema for the whole name space: `methods` says what each takes and gives, `$defs` holds the types.
 pub fn schema() -> Value {
@@ -44,6 +44,10 @@ pub fn schema() -> Value {
     });
     let settings = of::<Settings>(&mut types);
     let data = of::<FindingData>(&mut types);
+    let mut definitions = types.take_definitions(true);
+    settings::rows()
+        .iter()
+        .for_each(|row| declare(&mut definitions, row));
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "wedm protocol",
@@ -53,8 +57,44 @@ pub fn schema() -> Value {
         "commands": commands,
         "settings": settings,
         "diagnosticData": data,
-        "$defs": types.take_definitions(true),
+        "$defs": definitions,
     })
+}
+
+/// Puts into the type of a level of settings what the row of a key says beside the type: the range, and the meaning as plain text.
+fn declare(definitions: &mut Map<String, Value>, row: &Row) {
+    let (of, key) = match row.key.rsplit_once('.') {
+        Some(("passes", key)) => ("Passes", key),
+        Some(("program", key)) => ("ProgramSettings", key),
+        Some((_, key)) => ("ProfileSettings", key),
+        None => ("Settings", row.key.as_str()),
+    };
+    let Some(schema) = definitions
+        .get_mut(of)
+        .and_then(|table| table["properties"].get_mut(&camel_case(key)))
+    else {
+        return;
+    };
+    schema["description"] = row.plain_meaning().into();
+    let Some(range) = row.range else { return };
+    let numbers = match schema.get_mut("items") {
+        Some(items) => items,
+        None => schema,
+    };
+    // Whole numbers without a point.
+    let bound = |bound: f64| match bound.fract() == 0.0 {
+        true => json!(bound as i64),
+        false => json!(bound),
+    };
+    let least = if range.is_least {
+        "minimum"
+    } else {
+        "exclusiveMinimum"
+    };
+    numbers[least] = bound(range.least);
+    if range.most.is_finite() {
+        numbers["maximum"] = bound(range.most);
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Settings with every default filled in.
 
-use super::profile::DEFAULT_PROFILE;
 use super::{
     Budget, Compensation, Corner, Direction, Jumps, Layout, Order, PointSetting, Profile,
     RuleSeverity, Settings, SideSetting, UnitSetting,
@@ -59,28 +58,17 @@ pub struct Effective {
     pub pause: String,
     pub tolerances: Tolerances,
     pub budget: Budget,
+    /// What somebody has set: of keys that mean no more than they say.
+    pub set: Settings,
 }
 
 impl Effective {
-    /// Default correction in mm: a 0.18 mm wire with a spark gap of 0.01 mm.
-    pub const CORRECTION: f64 = 0.10;
-    /// Default wire diameter in mm, where only a gap is set.
-    pub const WIRE_DIAMETER: f64 = 0.18;
-    /// Default number of digits of a controller.
-    pub const DIGITS: u32 = 6;
-    /// Default length of a lead-in in mm.
-    pub const LEAD_IN: f64 = 3.0;
-    /// Default spark gap in mm, where only a wire diameter is set.
-    pub const GAP: f64 = 0.01;
-
     /// Fills the defaults in. Values that do not fit have been reported and left out before.
     pub fn of(settings: &Settings) -> Effective {
         let single = match (settings.correction, settings.wire_diameter, settings.gap) {
             (Some(correction), ..) => correction,
-            (None, None, None) => Self::CORRECTION,
-            (None, diameter, gap) => {
-                diameter.unwrap_or(Self::WIRE_DIAMETER) / 2.0 + gap.unwrap_or(Self::GAP)
-            }
+            (None, None, None) => settings.correction(),
+            (None, ..) => settings.wire_diameter() / 2.0 + settings.gap(),
         };
         let passes = settings
             .passes
@@ -94,7 +82,7 @@ impl Effective {
             .enumerate()
             .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
         let (index, correction) = largest.unwrap_or((0, single));
-        let program = settings.program.clone().unwrap_or_default();
+        let program = settings.program();
         let severities = Rule::ALL.map(|rule| {
             let set: Option<&RuleSeverity> = settings
                 .rules
@@ -119,12 +107,12 @@ impl Effective {
             corrections,
             wire_diameter: settings.wire_diameter,
             gap: settings.gap,
-            side: settings.side.unwrap_or_default(),
-            unit: match settings.units.unwrap_or_default() {
+            side: settings.side(),
+            unit: match settings.units() {
                 UnitSetting::Mm => Unit::MILLIMETRE,
                 UnitSetting::Inch => Unit::INCH,
             },
-            margin: settings.margin.unwrap_or(0.001),
+            margin: settings.margin(),
             layers: settings.layers.clone().unwrap_or_default(),
             contours: settings.contours.clone().unwrap_or_default(),
             colors: settings
@@ -135,32 +123,30 @@ impl Effective {
                 .collect(),
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
-            layout: program.layout.unwrap_or_default(),
+            layout: program.layout(),
             stated_layout: program.layout,
-            direction: program.direction.unwrap_or_default(),
+            direction: program.direction(),
             stated_direction: program.direction,
-            corner: program.corner.unwrap_or_default(),
-            thread: program.thread,
-            entry: program.entry,
-            lead_in: program.lead_in.unwrap_or(Self::LEAD_IN),
+            corner: program.corner(),
+            thread: program.thread.clone(),
+            entry: program.entry.clone(),
+            lead_in: program.lead_in(),
             stated_lead_in: program.lead_in,
-            order: program.order.unwrap_or_default(),
-            jumps: program.jumps.unwrap_or_default(),
+            order: program.order(),
+            jumps: program.jumps(),
             stays_threaded: false,
-            compensation: program.compensation.unwrap_or_default(),
-            digits: program.digits.map_or(Self::DIGITS, u32::from),
+            compensation: program.compensation(),
+            digits: program.digits().into(),
             program_units: program.units,
-            profile: Profile::of(
-                program.profile.as_deref().unwrap_or(DEFAULT_PROFILE),
-                settings.profiles.as_ref(),
-            ),
-            end: program.end.unwrap_or_else(|| "DD".into()),
-            pause: program.pause.unwrap_or_else(|| "D".into()),
+            profile: Profile::of(&program.profile(), settings.profiles.as_ref()),
+            end: program.end(),
+            pause: program.pause(),
             tolerances: Tolerances {
-                arc_fit: settings.arc_fit.unwrap_or(Tolerances::default().arc_fit),
+                arc_fit: settings.arc_fit(),
                 ..Tolerances::default()
             },
             budget: Budget::default(),
+            set: settings.clone(),
         }
     }
 

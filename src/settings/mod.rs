@@ -6,6 +6,9 @@ mod budget;
 mod effective;
 mod from_json;
 mod from_toml;
+#[macro_use]
+mod table;
+mod keys;
 mod passes;
 mod profile;
 mod reader;
@@ -15,27 +18,31 @@ pub use budget::Budget;
 pub use effective::Effective;
 pub use from_json::from_json;
 pub use from_toml::{FILE_NAME, from_toml, place_in, read_file};
+pub use keys::{Passes, Profile, ProfileSettings, ProgramSettings, Settings, rows};
 pub use passes::{PassFault, pass_faults};
-pub use profile::{
-    CenterRule, Coordinates, LineEnd, NumberUnit, Profile, ProfileSettings, Zero, shipped_profiles,
-};
+pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero, shipped_profiles};
+pub use reader::words_of;
+pub use table::{Range, Row, camel_case};
 
 use crate::drawing::Role;
 use crate::finding::{Rule, Severity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use table::Overlay;
 
 /// Side of the contour on which the wire runs, where neither the entity nor its layer says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SideSetting {
-    /// Every arc must survive both sides.
+    /// The outline is cut once from inside and once from outside.
     #[default]
     Both,
-    /// Nested contours alternate: outermost punch, holes openings.
+    /// By nesting: the outermost contour is a punch, contours in it are openings, and so on.
     Auto,
+    /// The wire runs inside.
     Opening,
+    /// The wire runs outside.
     Punch,
 }
 
@@ -54,15 +61,17 @@ impl SideSetting {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum UnitSetting {
+    /// Millimetres.
     #[default]
     Mm,
+    /// Inches.
     Inch,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Layout {
-    /// `B9900B0B9900GXL1`
+    /// No spaces: `B9900B0B9900GXL1`.
     #[default]
     Compact,
     /// Fixed columns with spaces.
@@ -75,9 +84,12 @@ pub enum Layout {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
+    /// Counter-clockwise.
     #[default]
     Ccw,
+    /// Clockwise.
     Cw,
+    /// As the contour is drawn.
     AsDrawn,
 }
 
@@ -111,9 +123,10 @@ pub enum Corner {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Jumps {
-    /// The way to the next thread hole is written as line blocks.
+    /// The pause word, the way to the next thread hole as blocks, and the pause word again.
     #[default]
     Blocks,
+    /// The pause word alone.
     None,
 }
 
@@ -124,7 +137,7 @@ pub enum Compensation {
     /// The offset is in the coordinates.
     #[default]
     Path,
-    /// The controller offsets: G41/G42 or 4B.
+    /// The controller offsets: G41 and G42, or 4B; refused for 3B.
     Controller,
     /// The contour is the wire's path.
     None,
@@ -161,146 +174,28 @@ pub enum PointSetting {
     ByHandle(BTreeMap<String, [f64; 2]>),
 }
 
-/// Corrections of a multi-pass cut.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "camelCase", deny_unknown_fields, default)]
-pub struct Passes {
-    /// Correction of each pass in mm, falling.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub corrections: Option<Vec<f64>>,
-}
-
-/// How a program is written.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "camelCase", deny_unknown_fields, default)]
-pub struct ProgramSettings {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layout: Option<Layout>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction: Option<Direction>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub corner: Option<Corner>,
-    /// Thread hole in drawing units; a table by handle for several contours.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub thread: Option<PointSetting>,
-    /// Point on the contour in drawing units where the cut begins; a table by handle for several contours.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub entry: Option<PointSetting>,
-    /// Length of the lead-in in mm when no thread hole is given.
-    #[serde(skip_serializing_if = "Option::is_none", alias = "lead-in")]
-    pub lead_in: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub order: Option<Order>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub jumps: Option<Jumps>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub compensation: Option<Compensation>,
-    /// Digits of the controller's numbers in 3B: a block with a longer one is split. 4 to 9.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub digits: Option<u8>,
-    /// In what the numbers of an ISO program are that does not say so (G20, G21).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub units: Option<UnitSetting>,
-    /// How ISO programs are written: a profile that ships, or one of `profiles`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub profile: Option<String>,
-    /// Word that ends the program.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub end: Option<String>,
-    /// Word that pauses it, to thread the wire.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pause: Option<String>,
-}
-
-/// One level of settings: built-in, `initializationOptions`, `workspace/configuration`, `wedm.toml`, a request's `options`, the command line.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "camelCase", deny_unknown_fields, default)]
-pub struct Settings {
-    /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub correction: Option<f64>,
-    /// mm. With `gap` it says the correction where that is not set; beside it, how thick the wire is.
-    #[serde(skip_serializing_if = "Option::is_none", alias = "wire-diameter")]
-    pub wire_diameter: Option<f64>,
-    /// Spark gap in mm; see `wireDiameter`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gap: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub side: Option<SideSetting>,
-    /// Unit of drawings that do not state one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub units: Option<UnitSetting>,
-    /// mm added to the correction when a fix chooses its radius.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub margin: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub passes: Option<Passes>,
-    /// Role by layer name.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layers: Option<BTreeMap<String, Role>>,
-    /// Role by the handle of an entity: comes before those of layers and colours. Handles are those of one drawing.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contours: Option<BTreeMap<String, Role>>,
-    /// Role by colour, where neither entity nor layer has one: `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255`
-    /// (AutoCAD colour index) or `#rrggbb`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub colors: Option<BTreeMap<String, Role>>,
-    /// How near the arcs lie to the ellipses and splines that they stand for, in mm.
-    #[serde(skip_serializing_if = "Option::is_none", alias = "arc-fit")]
-    pub arc_fit: Option<f64>,
-    /// Severity by rule name.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rules: Option<BTreeMap<String, RuleSeverity>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub program: Option<ProgramSettings>,
-    /// Profiles of ISO programs by name.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub profiles: Option<BTreeMap<String, ProfileSettings>>,
+plain! {
+    bool, f64, u8, u32, String, Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, SideSetting, UnitSetting, Layout, Direction,
+    Corner, Order, Jumps, Compensation, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
 }
 
 impl Settings {
+    /// What is set of `[program]`.
+    pub fn program(&self) -> ProgramSettings {
+        self.program.clone().unwrap_or_default()
+    }
+
     /// Lays `later` over `self`: what `later` sets wins; tables are merged key by key.
     ///
     /// A wire diameter or a gap of a later level says the correction anew, where that level says none itself.
     pub fn overlaid(&self, later: &Settings) -> Settings {
-        let mut earlier = self.clone();
-        if later.correction.is_none() && (later.wire_diameter.is_some() || later.gap.is_some()) {
-            earlier.correction = None;
+        let mut laid = Overlay::overlaid(self, later);
+        if later.wire_diameter.is_some() || later.gap.is_some() {
+            laid.correction = later.correction;
         }
-        Settings {
-            correction: later.correction.or(earlier.correction),
-            wire_diameter: later.wire_diameter.or(earlier.wire_diameter),
-            gap: later.gap.or(earlier.gap),
-            side: later.side.or(earlier.side),
-            units: later.units.or(earlier.units),
-            margin: later.margin.or(earlier.margin),
-            passes: later.passes.clone().or(earlier.passes),
-            layers: merged(earlier.layers, later.layers.clone()),
-            contours: merged(earlier.contours, later.contours.clone()),
-            colors: merged(earlier.colors, later.colors.clone()),
-            arc_fit: later.arc_fit.or(earlier.arc_fit),
-            rules: merged(earlier.rules, later.rules.clone()),
-            program: match (earlier.program, &later.program) {
-                (Some(earlier), Some(later)) => Some(earlier.overlaid(later)),
-                (earlier, later) => later.clone().or(earlier),
-            },
-            profiles: match (earlier.profiles, &later.profiles) {
-                (Some(mut earlier), Some(later)) => {
-                    for (name, profile) in later {
-                        let merged = earlier
-                            .get(name)
-                            .map_or_else(|| profile.clone(), |known| known.overlaid(profile));
-                        earlier.insert(name.clone(), merged);
-                    }
-                    Some(earlier)
-                }
-                (earlier, later) => later.clone().or(earlier),
-            },
-        }
+        laid
     }
-}
 
-impl Settings {
     /// What is wrong with the corrections of the passes once all levels are laid over each other. `place` says where a text speaks of it.
     pub fn pass_errors(
         &self,
@@ -337,40 +232,6 @@ impl Settings {
             severity,
         };
         faults.into_iter().map(error).collect()
-    }
-}
-
-impl ProgramSettings {
-    fn overlaid(&self, later: &ProgramSettings) -> ProgramSettings {
-        ProgramSettings {
-            layout: later.layout.or(self.layout),
-            direction: later.direction.or(self.direction),
-            corner: later.corner.or(self.corner),
-            thread: later.thread.clone().or(self.thread.clone()),
-            entry: later.entry.clone().or(self.entry.clone()),
-            lead_in: later.lead_in.or(self.lead_in),
-            order: later.order.or(self.order),
-            jumps: later.jumps.or(self.jumps),
-            compensation: later.compensation.or(self.compensation),
-            digits: later.digits.or(self.digits),
-            units: later.units.or(self.units),
-            profile: later.profile.clone().or(self.profile.clone()),
-            end: later.end.clone().or(self.end.clone()),
-            pause: later.pause.clone().or(self.pause.clone()),
-        }
-    }
-}
-
-fn merged<V>(
-    earlier: Option<BTreeMap<String, V>>,
-    later: Option<BTreeMap<String, V>>,
-) -> Option<BTreeMap<String, V>> {
-    match (earlier, later) {
-        (Some(mut earlier), Some(later)) => {
-            earlier.extend(later);
-            Some(earlier)
-        }
-        (earlier, later) => later.or(earlier),
     }
 }
 

@@ -33,18 +33,22 @@ pub fn pass_faults(
             .and_then(|before| corrections.get(before))
             && correction > before + ROUNDING
         {
-            let message = format!(
-                "{} is {correction}, expected at most {before}, that of the pass before: corrections fall",
-                name(pass)
+            let message = say!(
+                is_expected_at_most_that_of_the_pass_before,
+                name(pass),
+                correction,
+                before
             );
             faults.push(PassFault { pass, message });
         }
         if let Some(radius) = wire_diameter.map(|diameter| diameter / 2.0)
             && correction < radius - ROUNDING
         {
-            let message = format!(
-                "{} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part",
-                name(pass)
+            let message = say!(
+                is_expected_at_least_the_wire_radius,
+                name(pass),
+                correction,
+                radius
             );
             faults.push(PassFault { pass, message });
         }

@@ -1,11 +1,8 @@
 //! One level of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
 
-use super::profile::DECIMALS;
+use super::table::{Range, Table};
 use super::value::{Entry, Node, Value};
-use super::{
-    PassFault, Passes, PointSetting, ProfileSettings, ProgramSettings, RuleSeverity, Settings,
-    SettingsError, shipped_profiles,
-};
+use super::{PassFault, PointSetting, RuleSeverity, Settings, SettingsError, shipped_profiles};
 use crate::drawing::{Color, Role};
 use crate::finding::Rule;
 use serde::de::value::{Error, StrDeserializer};
@@ -15,239 +12,140 @@ use std::collections::BTreeMap;
 /// Reads the root table. Null is an empty level.
 pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
     let mut reader = Reader { errors: Vec::new() };
-    let settings = reader.settings(root);
+    let mut settings: Settings = reader.table("", root).unwrap_or_default();
+    let errors = settings.pass_errors(&|fault| place_of(root, fault));
+    reader.errors.extend(errors);
+    reader.refuse_unknown_profile(&mut settings, root);
     (settings, reader.errors)
 }
 
-/// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
-const DIGITS: (f64, f64) = (4.0, 9.0);
-
-struct Reader {
+/// What was wrong so far. A method reads one kind of value: its dotted key, the value, and the range where numbers have one.
+pub(super) struct Reader {
     errors: Vec<SettingsError>,
 }
 
 impl Reader {
-    fn settings(&mut self, root: &Node) -> Settings {
-        let mut settings = Settings::default();
-        self.table("", root, |reader, key, entry| {
-            let node = &entry.node;
-            match camel_case(&entry.key).as_str() {
-                "correction" => settings.correction = reader.number_above_zero(key, node),
-                "wireDiameter" => settings.wire_diameter = reader.number_above_zero(key, node),
-                "gap" => settings.gap = reader.number_from_zero(key, node),
-                "side" => settings.side = reader.name(key, node),
-                "units" => settings.units = reader.name(key, node),
-                "margin" => settings.margin = reader.number_from_zero(key, node),
-                "passes" => settings.passes = reader.passes(key, node),
-                "layers" => settings.layers = reader.roles(key, node),
-                "contours" => settings.contours = reader.roles(key, node),
-                "colors" => settings.colors = reader.colors(key, node),
-                "arcFit" => settings.arc_fit = reader.arc_fit(key, node),
-                "rules" => settings.rules = reader.rules(key, node),
-                "program" => settings.program = reader.program(key, node),
-                "profiles" => settings.profiles = reader.profiles(key, node),
-                _ => reader.unknown(
-                    key,
-                    entry,
-                    "correction, wire-diameter, gap, side, units, margin, passes, layers, contours, colors, arc-fit, rules, program or profiles",
-                ),
-            }
-        });
-        self.errors
-            .extend(settings.pass_errors(&|fault| place_of(root, fault)));
-        if let Some(program) = &mut settings.program {
-            let own = settings
-                .profiles
-                .iter()
-                .flat_map(|profiles| profiles.keys().cloned());
-            let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
-            names.sort_unstable();
-            names.dedup();
-            if let Some(entry) =
+    /// A profile that is named ships, or is declared at this level.
+    fn refuse_unknown_profile(&mut self, settings: &mut Settings, root: &Node) {
+        // The profiles that ship name none, and are themselves read here.
+        let Some(profile) = settings
+            .program
+            .as_ref()
+            .and_then(|program| program.profile.as_ref())
+        else {
+            return;
+        };
+        let own = settings.profiles.iter().flat_map(BTreeMap::keys).cloned();
+        let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
+        names.sort_unstable();
+        names.dedup();
+        if !names.contains(profile)
+            && let Some(entry) =
                 entry_of(root, "program").and_then(|entry| entry_of(&entry.node, "profile"))
-                && program
-                    .profile
-                    .as_deref()
-                    .is_some_and(|profile| !names.iter().any(|name| name == profile))
-            {
-                self.misfit::<()>("program.profile", &entry.node, &names.join(", "));
-                program.profile = None;
-            }
+        {
+            self.misfit::<()>("program.profile", &entry.node, &names.join(", "));
+            settings
+                .program
+                .iter_mut()
+                .for_each(|program| program.profile = None);
         }
-        settings
     }
 
-    fn passes(&mut self, key: &str, node: &Node) -> Option<Passes> {
-        let mut passes = Passes::default();
-        self.table(key, node, |reader, key, entry| match entry.key.as_str() {
-            "corrections" => passes.corrections = reader.corrections(key, &entry.node),
-            _ => reader.unknown(key, entry, "corrections"),
+    /// A table with declared keys.
+    pub fn table<T: Table>(&mut self, key: &str, node: &Node) -> Option<T> {
+        let mut table = T::default();
+        self.entries(key, node, |reader, dotted, entry| {
+            if !table.read(reader, &snake_case(&entry.key), dotted, &entry.node) {
+                reader.unknown(dotted, entry, &listed(&T::keys()));
+            }
         })
-        .then_some(passes)
+        .then_some(table)
     }
 
-    fn corrections(&mut self, key: &str, node: &Node) -> Option<Vec<f64>> {
-        let expected = "a list of numbers above 0, one for each pass";
+    /// Tables with declared keys, by names of the user's.
+    pub fn tables<T: Table>(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, T>> {
+        self.by_name(key, node, |_| None, Reader::table)
+    }
+
+    /// Roles by a name that is taken as it stands.
+    pub fn roles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
+        self.by_name(key, node, |_| None, Reader::name)
+    }
+
+    pub fn colors(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
+        let misfit = |name: &str| {
+            let is_color = Color::named(name).is_some();
+            (!is_color).then(|| say!(colors_that_are_known).to_owned())
+        };
+        self.by_name(key, node, misfit, Reader::name)
+    }
+
+    pub fn rules(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, RuleSeverity>> {
+        let names = Rule::ALL.map(Rule::name);
+        let misfit = |name: &str| (!names.contains(&name)).then(|| names.join(", "));
+        self.by_name(key, node, misfit, Reader::name)
+    }
+
+    /// Values by name. `misfit` says which names are expected where one is not known.
+    fn by_name<T>(
+        &mut self,
+        key: &str,
+        node: &Node,
+        misfit: impl Fn(&str) -> Option<String>,
+        read: impl Fn(&mut Reader, &str, &Node) -> Option<T>,
+    ) -> Option<BTreeMap<String, T>> {
+        let mut values = BTreeMap::new();
+        self.entries(key, node, |reader, dotted, entry| {
+            if let Some(expected) = misfit(&entry.key) {
+                reader.unknown(dotted, entry, &expected);
+            } else if let Some(value) = read(reader, dotted, &entry.node) {
+                values.insert(entry.key.clone(), value);
+            }
+        })
+        .then_some(values)
+    }
+
+    pub fn corrections(&mut self, key: &str, node: &Node, range: &Range) -> Option<Vec<f64>> {
+        let expected = say!(a_list_of_numbers_one_for_each_pass);
         match &node.value {
             Value::Null => None,
             Value::List(items) if !items.is_empty() => {
-                let numbers = items
-                    .iter()
-                    .enumerate()
-                    .map(|(index, item)| match item.value {
-                        Value::Null => {
-                            self.misfit(&format!("{key}[{index}]"), item, "a number above 0")
-                        }
-                        _ => self.number_above_zero(&format!("{key}[{index}]"), item),
-                    });
+                let numbers = items.iter().enumerate().map(|(index, item)| {
+                    let key = format!("{key}[{index}]");
+                    match item.value {
+                        Value::Null => self.misfit(&key, item, &range.expected()),
+                        _ => self.number(&key, item, range),
+                    }
+                });
                 // A list of which one pass is wrong says nothing sure about the others.
                 let numbers: Vec<Option<f64>> = numbers.collect();
                 numbers.into_iter().collect()
             }
-            Value::List(_) => {
-                self.complain(key, node, format!("{key} is empty, expected {expected}"))
-            }
+            Value::List(_) => self.complain(key, node, say!(is_empty_expected, key, expected)),
             _ => self.misfit(key, node, expected),
         }
     }
 
-    /// Roles by a name that is taken as it stands.
-    fn roles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
-        let mut roles = BTreeMap::new();
-        self.table(key, node, |reader, key, entry| {
-            if let Some(role) = reader.name(key, &entry.node) {
-                roles.insert(entry.key.clone(), role);
-            }
-        })
-        .then_some(roles)
+    pub fn profile_name(&mut self, key: &str, node: &Node) -> Option<String> {
+        self.text(key, node, say!(the_name_of_a_profile))
     }
 
-    fn colors(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
-        let mut colors = BTreeMap::new();
-        self.table(key, node, |reader, key, entry| {
-            if Color::named(&entry.key).is_none() {
-                let expected = "red, yellow, green, cyan, blue, magenta, white, a number from 1 to 255 or #rrggbb";
-                reader.unknown(key, entry, expected);
-            } else if let Some(role) = reader.name(key, &entry.node) {
-                colors.insert(entry.key.clone(), role);
-            }
-        })
-        .then_some(colors)
-    }
-
-    /// Coarser than a tenth of a millimetre is no arc of the drawing any more, finer than a nanometre is noise.
-    fn arc_fit(&mut self, key: &str, node: &Node) -> Option<f64> {
-        self.number(key, node, "a number from 0.000001 to 0.1", |number| {
-            (1e-6..=0.1).contains(&number)
-        })
-    }
-
-    fn rules(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, RuleSeverity>> {
-        let mut rules = BTreeMap::new();
-        self.table(key, node, |reader, key, entry| {
-            if !Rule::ALL.iter().any(|rule| rule.name() == entry.key) {
-                let names: Vec<&str> = Rule::ALL.iter().map(|rule| rule.name()).collect();
-                reader.unknown(key, entry, &names.join(", "));
-            } else if let Some(severity) = reader.name(key, &entry.node) {
-                rules.insert(entry.key.clone(), severity);
-            }
-        })
-        .then_some(rules)
-    }
-
-    fn program(&mut self, key: &str, node: &Node) -> Option<ProgramSettings> {
-        let mut program = ProgramSettings::default();
-        self.table(key, node, |reader, key, entry| {
-            let node = &entry.node;
-            match camel_case(&entry.key).as_str() {
-                "layout" => program.layout = reader.name(key, node),
-                "direction" => program.direction = reader.name(key, node),
-                "corner" => program.corner = reader.name(key, node),
-                "thread" => program.thread = reader.point_setting(key, node),
-                "entry" => program.entry = reader.point_setting(key, node),
-                "leadIn" => program.lead_in = reader.number_above_zero(key, node),
-                "order" => program.order = reader.name(key, node),
-                "jumps" => program.jumps = reader.name(key, node),
-                "compensation" => program.compensation = reader.name(key, node),
-                "digits" => program.digits = reader.whole(key, node, DIGITS).map(|number| number as u8),
-                "units" => program.units = reader.name(key, node),
-                "profile" => program.profile = reader.text(key, node, "the name of a profile"),
-                "end" => program.end = reader.word(key, node),
-                "pause" => program.pause = reader.word(key, node),
-                _ => {
-                    let expected =
-                        "layout, direction, corner, thread, entry, lead-in, order, jumps, compensation, digits, units, profile, end or pause";
-                    reader.unknown(key, entry, expected);
-                }
-            }
-        })
-        .then_some(program)
-    }
-
-    fn profiles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, ProfileSettings>> {
-        let mut profiles = BTreeMap::new();
-        self.table(key, node, |reader, key, entry| {
-            if let Some(profile) = reader.profile(key, &entry.node) {
-                profiles.insert(entry.key.clone(), profile);
-            }
-        })
-        .then_some(profiles)
-    }
-
-    fn profile(&mut self, key: &str, node: &Node) -> Option<ProfileSettings> {
-        let mut profile = ProfileSettings::default();
-        self.table(key, node, |reader, key, entry| {
-            let node = &entry.node;
-            match camel_case(&entry.key).as_str() {
-                "base" => profile.base = reader.base(key, node),
-                "coordinates" => profile.coordinates = reader.name(key, node),
-                "zero" => profile.zero = reader.name(key, node),
-                "unit" => profile.unit = reader.name(key, node),
-                "decimals" => {
-                    let range = (f64::from(*DECIMALS.start()), f64::from(*DECIMALS.end()));
-                    profile.decimals = reader.whole(key, node, range).map(|number| number as u8);
-                }
-                "center" => profile.center = reader.name(key, node),
-                "fullCircles" => profile.full_circles = reader.truth(key, node),
-                "modal" => profile.modal = reader.truth(key, node),
-                "spaces" => profile.spaces = reader.truth(key, node),
-                "numbers" => profile.numbers = reader.whole(key, node, (0.0, 1000.0)).map(|number| number as u32),
-                "lineEnd" => profile.line_end = reader.name(key, node),
-                "begin" => profile.begin = reader.lines(key, node),
-                "contourBegin" => profile.contour_begin = reader.lines(key, node),
-                "contourEnd" => profile.contour_end = reader.lines(key, node),
-                "pause" => profile.pause = reader.lines(key, node),
-                "end" => profile.end = reader.lines(key, node),
-                _ => {
-                    let expected = "base, coordinates, zero, unit, decimals, center, full-circles, modal, spaces, numbers, line-end, begin, \
-                                    contour-begin, contour-end, pause or end";
-                    reader.unknown(key, entry, expected);
-                }
-            }
-        })
-        .then_some(profile)
-    }
-
-    /// The name of a profile that ships.
-    fn base(&mut self, key: &str, node: &Node) -> Option<String> {
-        let name = self.text(key, node, "the name of a profile")?;
-        // The shipped profiles themselves are read by this reader and have no base.
+    /// The name of a profile that ships. The shipped profiles themselves are read by this reader and have no base.
+    pub fn base(&mut self, key: &str, node: &Node) -> Option<String> {
+        let name = self.profile_name(key, node)?;
         if shipped_profiles().any(|shipped| shipped == name) {
             return Some(name);
         }
-        self.misfit(
-            key,
-            node,
-            &shipped_profiles().collect::<Vec<_>>().join(", "),
-        )
+        let names: Vec<&str> = shipped_profiles().collect();
+        self.misfit(key, node, &names.join(", "))
     }
 
     /// Lines of a program in which `{x}`, `{y}` and `{side}` stand for something.
-    fn lines(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
+    pub fn lines(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
         let items = match &node.value {
             Value::Null => return None,
             Value::List(items) => items,
-            _ => return self.misfit(key, node, "a list of lines such as [\"G90\"]"),
+            _ => return self.misfit(key, node, say!(a_list_of_lines)),
         };
         let lines: Vec<Option<String>> = items
             .iter()
@@ -258,9 +156,9 @@ impl Reader {
     }
 
     fn line(&mut self, key: &str, node: &Node) -> Option<String> {
-        let line = self.text(key, node, "one line of text")?;
+        let line = self.text(key, node, say!(one_line_of_text))?;
         if line.chars().any(char::is_control) {
-            return self.misfit(key, node, "one line without control characters");
+            return self.misfit(key, node, say!(one_line_without_control_characters));
         }
         let mut rest = line.as_str();
         while let Some(open) = rest.find('{') {
@@ -269,11 +167,7 @@ impl Reader {
                 .map_or(rest.len(), |close| open + close + 1);
             let name = &rest[open..end];
             if !["{x}", "{y}", "{side}"].contains(&name) {
-                return self.complain(
-                    key,
-                    node,
-                    format!("{key} holds {name}, expected {{x}}, {{y}} or {{side}}"),
-                );
+                return self.complain(key, node, say!(holds_an_unknown_name, key, name));
             }
             rest = &rest[end..];
         }
@@ -288,25 +182,41 @@ impl Reader {
         }
     }
 
-    fn truth(&mut self, key: &str, node: &Node) -> Option<bool> {
+    pub fn truth(&mut self, key: &str, node: &Node) -> Option<bool> {
         match node.value {
             Value::Null => None,
             Value::Truth(truth) => Some(truth),
-            _ => self.misfit(key, node, "true or false"),
+            _ => self.misfit(key, node, say!(true_or_false)),
         }
     }
 
-    fn whole(&mut self, key: &str, node: &Node, (least, most): (f64, f64)) -> Option<f64> {
-        self.number(
+    pub fn number(&mut self, key: &str, node: &Node, range: &Range) -> Option<f64> {
+        match node.value {
+            Value::Null => None,
+            Value::Number(number) if range.holds(number) => Some(number),
+            _ => self.misfit(key, node, &range.expected()),
+        }
+    }
+
+    pub fn whole<T: TryFrom<u32>>(&mut self, key: &str, node: &Node, range: &Range) -> Option<T> {
+        match node.value {
+            Value::Null => return None,
+            Value::Number(number) if number.fract() == 0.0 && range.holds(number) => {
+                if let Ok(whole) = T::try_from(number as u32) {
+                    return Some(whole);
+                }
+            }
+            _ => {}
+        }
+        self.misfit(
             key,
             node,
-            &format!("a whole number from {least} to {most}"),
-            |number| number.fract() == 0.0 && (least..=most).contains(&number),
+            &say!(a_whole_number_from_to, range.least, range.most),
         )
     }
 
     /// Hands each entry with its dotted key to `each`; false when there is no table.
-    fn table(
+    fn entries(
         &mut self,
         key: &str,
         node: &Node,
@@ -322,63 +232,30 @@ impl Reader {
                     };
                     each(self, &dotted, entry);
                 }
-                true
+                return true;
             }
-            Value::Null => false,
-            _ => self
-                .misfit::<()>(
-                    if key.is_empty() { "settings" } else { key },
-                    node,
-                    "a table",
-                )
-                .is_some(),
+            Value::Null => {}
+            _ => {
+                let key = if key.is_empty() { "settings" } else { key };
+                self.misfit::<()>(key, node, say!(a_table));
+            }
         }
-    }
-
-    fn number(
-        &mut self,
-        key: &str,
-        node: &Node,
-        expected: &str,
-        fits: impl Fn(f64) -> bool,
-    ) -> Option<f64> {
-        match node.value {
-            Value::Null => None,
-            Value::Number(number) if number.is_finite() && fits(number) => Some(number),
-            _ => self.misfit(key, node, expected),
-        }
-    }
-
-    fn number_above_zero(&mut self, key: &str, node: &Node) -> Option<f64> {
-        self.number(key, node, "a number above 0", |number| number > 0.0)
-    }
-
-    fn number_from_zero(&mut self, key: &str, node: &Node) -> Option<f64> {
-        self.number(key, node, "a number of 0 or above", |number| number >= 0.0)
+        false
     }
 
     /// A word out of a closed set, which the type itself knows.
-    fn name<T: DeserializeOwned>(&mut self, key: &str, node: &Node) -> Option<T> {
+    pub fn name<T: DeserializeOwned>(&mut self, key: &str, node: &Node) -> Option<T> {
         let text = match &node.value {
             Value::Null => return None,
             Value::Text(text) => text.as_str(),
             _ => "",
         };
-        let deserializer: StrDeserializer<'_, Error> = text.into_deserializer();
-        match T::deserialize(deserializer) {
+        match named(text) {
             Ok(name) => Some(name),
-            Err(error) => {
-                let error = error.to_string();
-                let expected = error
-                    .split_once("expected ")
-                    .map_or("another word", |(_, names)| names)
-                    .replace('`', "");
-                self.misfit(key, node, &expected)
-            }
+            Err(names) => self.misfit(key, node, &names),
         }
     }
-
-    fn word(&mut self, key: &str, node: &Node) -> Option<String> {
+    pub fn word(&mut self, key: &str, node: &Node) -> Option<String> {
         match &node.value {
             Value::Null => None,
             Value::Text(text)
@@ -386,15 +263,15 @@ impl Reader {
             {
                 Some(text.clone())
             }
-            _ => self.misfit(key, node, "a word of letters and digits such as \"DD\""),
+            _ => self.misfit(key, node, say!(a_word_of_letters_and_digits)),
         }
     }
 
-    fn point_setting(&mut self, key: &str, node: &Node) -> Option<PointSetting> {
+    pub fn point_setting(&mut self, key: &str, node: &Node) -> Option<PointSetting> {
         match &node.value {
             Value::Table(_) => {
                 let mut points = BTreeMap::new();
-                self.table(key, node, |reader, key, entry| {
+                self.entries(key, node, |reader, key, entry| {
                     if let Some(point) = reader.point(key, &entry.node) {
                         points.insert(entry.key.clone(), point);
                     }
@@ -427,14 +304,14 @@ impl Reader {
             }
             _ => {}
         }
-        self.misfit(key, node, "a point [x, y]")
+        self.misfit(key, node, say!(a_point))
     }
 
     fn misfit<T>(&mut self, key: &str, node: &Node, expected: &str) -> Option<T> {
         self.complain(
             key,
             node,
-            format!("{key} is {}, expected {expected}", node.value.shown()),
+            say!(is_expected, key, node.value.shown(), expected),
         )
     }
 
@@ -445,7 +322,7 @@ impl Reader {
     }
 
     fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
-        let message = format!("{key} is not known, expected {expected}");
+        let message = say!(is_not_known_expected, key, expected);
         self.errors
             .push(SettingsError::new(key, message, entry.key_range.clone()));
     }
@@ -462,26 +339,56 @@ pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range
     let of_key = |key: &str| entry_of(root, key).and_then(|entry| entry.node.range.clone());
     of_list
         .or_else(|| of_key("correction"))
-        .or_else(|| of_key("wireDiameter"))
+        .or_else(|| of_key("wire_diameter"))
 }
 
 fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
     match &root.value {
-        Value::Table(entries) => entries.iter().find(|entry| camel_case(&entry.key) == key),
+        Value::Table(entries) => entries.iter().find(|entry| snake_case(&entry.key) == key),
         _ => None,
     }
 }
 
-/// `wire-diameter` as `wireDiameter`; both spellings are taken everywhere.
-fn camel_case(key: &str) -> String {
-    let mut words = key.split('-');
-    let mut camel: String = words.next().unwrap_or_default().into();
-    for word in words {
-        let mut letters = word.chars();
-        camel.extend(letters.next().map(|first| first.to_ascii_uppercase()));
-        camel.push_str(letters.as_str());
+/// The words that a type out of a closed set has.
+pub fn words_of<T: DeserializeOwned>() -> Vec<String> {
+    let names = named::<T>("").err().unwrap_or_default();
+    let names = names.trim_start_matches("one of ");
+    names.split(", ").map(str::to_owned).collect()
+}
+
+/// A word out of a closed set; the error says which words there are.
+fn named<T: DeserializeOwned>(word: &str) -> Result<T, String> {
+    let deserializer: StrDeserializer<'_, Error> = word.into_deserializer();
+    T::deserialize(deserializer).map_err(|error| {
+        let error = error.to_string();
+        let names = error.split_once("expected ").map_or("", |(_, names)| names);
+        names.replace('`', "")
+    })
+}
+
+/// `wireDiameter` and `wire-diameter` as `wire_diameter`; both spellings are taken everywhere.
+fn snake_case(key: &str) -> String {
+    let mut snake = String::with_capacity(key.len() + 2);
+    for letter in key.chars() {
+        match letter {
+            '-' => snake.push('_'),
+            'A'..='Z' => snake.extend(['_', letter.to_ascii_lowercase()]),
+            // The name of a field is no spelling of its key.
+            '_' => snake.push('-'),
+            _ => snake.push(letter),
+        }
     }
-    camel
+    snake
+}
+
+/// `one, two or three`.
+fn listed(keys: &[String]) -> String {
+    match keys {
+        [first @ .., last] if !first.is_empty() => {
+            say!(one_or_other, first.join(", "), last)
+        }
+        keys => keys.concat(),
+    }
 }
 
 #[cfg(test)]

@@ -28,12 +28,12 @@ impl Value {
     /// The value as a message shows it.
     pub fn shown(&self) -> String {
         match self {
-            Value::Null => "not set".into(),
+            Value::Null => say!(not_set).into(),
             Value::Truth(truth) => truth.to_string(),
             Value::Number(number) => number.to_string(),
             Value::Text(text) => format!("\"{}\"", text.escape_debug()),
-            Value::List(_) => "a list".into(),
-            Value::Table(_) => "a table".into(),
+            Value::List(_) => say!(a_list).into(),
+            Value::Table(_) => say!(a_table).into(),
         }
     }
 }

@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let correction = arguments
         .common
         .correction
-        .unwrap_or(crate::settings::Effective::CORRECTION);
+        .unwrap_or(crate::settings::Settings::default().correction());
     if !CORRECTIONS.contains(&correction) {
         let (least, most) = (CORRECTIONS.start(), CORRECTIONS.end());
         return Err(Failure(format!(

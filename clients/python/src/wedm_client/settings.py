@@ -14,10 +14,14 @@ Place = Union[Sequence[float], Mapping[str, Sequence[float]]]
 
 
 class Passes(TypedDict, total=False):
+    """Several passes."""
+
     corrections: Sequence[float]
 
 
 class ProgramSettings(TypedDict, total=False):
+    """How a program is written."""
+
     layout: Literal["compact", "aligned", "checking"]
     direction: Literal["ccw", "cw", "as-drawn"]
     corner: Literal["arc", "intersection"]
@@ -28,10 +32,31 @@ class ProgramSettings(TypedDict, total=False):
     jumps: Literal["blocks", "none"]
     compensation: Literal["path", "controller", "none"]
     digits: int
-    units: Units
+    units: Literal["mm", "inch"]
     profile: str
     end: str
     pause: str
+
+
+class Profile(TypedDict, total=False):
+    """How ISO programs are written for one kind of machine."""
+
+    base: str
+    coordinates: Literal["absolute", "incremental"]
+    zero: Literal["drawing", "start"]
+    unit: Literal["mm", "um"]
+    decimals: int
+    center: Literal["start-to-center", "center-to-start", "absolute"]
+    full_circles: bool
+    modal: bool
+    spaces: bool
+    numbers: int
+    line_end: Literal["lf", "crlf"]
+    begin: Sequence[str]
+    contour_begin: Sequence[str]
+    contour_end: Sequence[str]
+    pause: Sequence[str]
+    end: Sequence[str]
 
 
 class Settings(TypedDict, total=False):
@@ -40,17 +65,17 @@ class Settings(TypedDict, total=False):
     correction: float
     wire_diameter: float
     gap: float
-    side: Side
-    units: Units
+    side: Literal["both", "auto", "opening", "punch"]
+    units: Literal["mm", "inch"]
     margin: float
+    layers: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
+    contours: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
+    colors: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     arc_fit: float
+    rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]
+    profiles: Mapping[str, Profile]
     passes: Passes
-    layers: Mapping[str, Role]
-    contours: Mapping[str, Role]
-    colors: Mapping[str, Role]
-    rules: Mapping[str, RuleSeverity]
     program: ProgramSettings
-    profiles: Mapping[str, Mapping[str, Any]]
 
 
 def to_json(settings: Settings) -> dict[str, Any]:

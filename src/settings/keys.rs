@@ -1,0 +1,164 @@
+//! Every key of the settings, once: name, type, default, range and meaning.
+//!
+//! Any level may set any key. A key that is added here is read, overlaid and documented; what is to be done with it is its user's matter.
+
+use super::reader::Reader;
+use super::table::{Overlay, Range, Row, Table, as_toml, kebab_case};
+use super::value::Node;
+use super::{
+    CenterRule, Compensation, Coordinates, Corner, Direction, Jumps, Layout, LineEnd, NumberUnit,
+    Order, PointSetting, RuleSeverity, SideSetting, UnitSetting, Zero,
+};
+use crate::drawing::Role;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Coarser than a tenth of a millimetre is no arc of the drawing any more, finer than a nanometre is noise.
+const ARC_FIT: Range = Range::of(1e-6, 0.1);
+
+/// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
+const DIGITS: Range = Range::of(4.0, 9.0);
+
+/// Digits behind the point of millimetres: from micrometres to nanometres.
+const DECIMALS: Range = Range::of(3.0, 6.0);
+
+tables! {
+    /// One level of settings: built-in, `initializationOptions`, `workspace/configuration`, `wedm.toml`, a request's `options`, the command line.
+    Settings() {
+        /// Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour.
+        correction: f64 = 0.10 => number in Range::ABOVE_ZERO;
+        /// Diameter of the wire, mm. With `gap` it says the correction where no `correction` is set: half the diameter + gap; when one of the
+        /// two is set the other has its default there. Beside `correction` or `passes.corrections` it says how thick the wire is, see
+        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` says the correction anew.
+        #[serde(alias = "wire-diameter")]
+        wire_diameter: f64 = 0.18 => number in Range::ABOVE_ZERO;
+        /// Spark gap, mm. See `wire-diameter`.
+        gap: f64 = 0.01 => number in Range::FROM_ZERO;
+        /// Where the wire runs, for contours of which neither the entity nor its layer says.
+        side: SideSetting = SideSetting::Both => name;
+        /// Unit of drawings that do not say.
+        units: UnitSetting = UnitSetting::Mm => name;
+        /// mm added to the correction when a fix chooses its radius.
+        margin: f64 = 0.001 => number in Range::FROM_ZERO;
+        /// Several passes.
+        passes: Passes => table;
+        /// Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that
+        /// has one. A role other than `ignore` cuts also what is frozen or switched off.
+        layers: BTreeMap<String, Role> => roles;
+        /// Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing:
+        /// in a `wedm.toml` that holds for several they mean each one's own entity of that name.
+        contours: BTreeMap<String, Role> => roles;
+        /// Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`,
+        /// `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`; in DXF.
+        colors: BTreeMap<String, Role> => colors;
+        /// How near the arcs lie to the ellipses and splines that they stand for, mm.
+        #[serde(alias = "arc-fit")]
+        arc_fit: f64 = 0.001 => number in ARC_FIT;
+        /// Severity of a rule, by its name. What is set here holds also where a case would be milder; the defaults stand on
+        /// [each rule's page](rules/).
+        rules: BTreeMap<String, RuleSeverity> => rules;
+        /// How a program is written.
+        program: ProgramSettings => table;
+        /// [Profiles](programs.md#profiles) of ISO programs of your own, by name.
+        profiles: BTreeMap<String, ProfileSettings> => tables;
+    }
+
+    /// Corrections of a multi-pass cut.
+    Passes() {
+        /// Correction of each pass, mm, in place of `correction`. Radii are held against the largest. They fall:
+        /// [`pass-order`](rules/pass-order.md).
+        corrections: Vec<f64> => corrections in Range::ABOVE_ZERO;
+    }
+
+    /// How a program is written.
+    ProgramSettings() {
+        /// Form of the blocks. Programs that are formatted keep their own where none is set. The last two begin with
+        /// `; Start Point = x , y`.
+        layout: Layout = Layout::Compact => name;
+        /// Direction in which closed contours are cut.
+        direction: Direction = Direction::Ccw => name;
+        /// How the wire goes round a convex corner of the part.
+        corner: Corner = Corner::Arc => name;
+        /// Thread hole `[x, y]` in drawing units, or a table of them by handle. Else the TEXT or MTEXT "O", or the POINT, nearest to the
+        /// contour, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
+        /// part's side, or within the correction of the contour, is not the hole but the entry beside it.
+        thread: PointSetting => point_setting;
+        /// Point `[x, y]` of the contour where the cut begins, in drawing units, or a table of them by handle. Else the point beside an "O"
+        /// that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of
+        /// the longest line, else the point of the longest arc with the largest x.
+        entry: PointSetting => point_setting;
+        /// Length of the lead from thread hole to contour where no thread hole is given, mm. Halved until it fits.
+        #[serde(alias = "lead-in")]
+        lead_in: f64 = 3.0 => number in Range::ABOVE_ZERO;
+        /// Order of the contours; what lies within one always comes before it.
+        order: Order = Order::InsideFirst => name;
+        /// What stands between the contours of one program.
+        jumps: Jumps = Jumps::Blocks => name;
+        /// Where the correction is applied.
+        compensation: Compensation = Compensation::Path => name;
+        /// Digits of the controller's numbers in 3B and 4B. Longer blocks are split when they are written, and a fault
+        /// ([`too-many-digits`](rules/too-many-digits.md)) where they stand.
+        digits: u8 = 6 => whole in DIGITS;
+        /// In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint ([`units`](rules/units.md))
+        /// where its size speaks for inches.
+        units: UnitSetting => name;
+        /// How ISO programs are written: `fast-wire`, `robofil`, `generic`, or one of `profiles`.
+        profile: String = "generic" => profile_name;
+        /// Word of letters and digits that ends the program.
+        end: String = "DD" => word;
+        /// Word of letters and digits that stops the machine so that the wire can be cut or threaded.
+        pause: String = "D" => word;
+    }
+
+    /// What somebody has set of a profile.
+    ProfileSettings(as Profile, name: String) {
+        /// The profile whose values hold where none is set: one that ships, `generic` by default.
+        base: String => base;
+        /// G90 or G91.
+        coordinates: Coordinates = Coordinates::Absolute => name;
+        /// Where absolute coordinates count from.
+        zero: Zero = Zero::Drawing => name;
+        /// Millimetres with a decimal point, or whole micrometres without one.
+        unit: NumberUnit = NumberUnit::Mm => name;
+        /// Digits behind the point of millimetres.
+        decimals: u8 = 3 => whole in DECIMALS;
+        /// How I and J lead to an arc's centre.
+        center: CenterRule = CenterRule::StartToCenter => name;
+        /// False: a full circle is written as two halves, which every control takes.
+        #[serde(alias = "full-circles")]
+        full_circles: bool = false => truth;
+        /// True: G00 to G03 and coordinates that have not changed are left out.
+        modal: bool = false => truth;
+        /// Between the words of a block.
+        spaces: bool = true => truth;
+        /// Step of the N numbers; 0 for none.
+        numbers: u32 = 0_u32 => whole in Range::of(0.0, 1000.0);
+        /// What ends a line.
+        #[serde(alias = "line-end")]
+        line_end: LineEnd = LineEnd::Lf => name;
+        /// Lines before everything. `{x}` and `{y}` are the place where the wire is threaded first.
+        begin: Vec<String> = [] => lines;
+        /// Lines before each contour. `{side}` is G41 or G42; a line with it is left out where the offset is in the coordinates.
+        #[serde(alias = "contour-begin")]
+        contour_begin: Vec<String> = [] => lines;
+        /// Lines before the way out of each contour, where the control offsets it.
+        #[serde(alias = "contour-end")]
+        contour_end: Vec<String> = [] => lines;
+        /// Lines at which the wire is taken out or threaded, between contours.
+        pause: Vec<String> = ["M00".to_owned()] => lines;
+        /// Lines at the end.
+        end: Vec<String> = ["M02".to_owned()] => lines;
+    }
+}
+
+/// Every key, in the order of the documentation.
+pub fn rows() -> Vec<Row> {
+    let tables = ["passes", "program"];
+    let mut rows = Settings::rows("");
+    rows.retain(|row| !tables.contains(&row.key.as_str()));
+    rows.extend(Passes::rows("passes."));
+    rows.extend(ProgramSettings::rows("program."));
+    rows.extend(ProfileSettings::rows("profiles.NAME."));
+    rows
+}

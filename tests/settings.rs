@@ -1,0 +1,424 @@
+//! Wherever the keys of the settings are listed, the list is that of `src/settings/keys.rs`: the tables of the documentation, the file
+//! that the README shows, the settings page of VS Code, the types of the Python client.
+//!
+//! `UPDATE_EXPECT=1 cargo test --test settings` writes them anew.
+
+use serde_json::{Map, Value, json};
+use std::path::Path;
+use wedm::settings::{Row, camel_case, rows};
+
+/// What stands between two lines of a file, the lines left out.
+fn hold(file: &str, from: &str, to: &str, expected: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let begin = text
+        .find(from)
+        .unwrap_or_else(|| panic!("{file}: no {from:?}"));
+    let begin = begin + from.len();
+    let length = text[begin..]
+        .find(to)
+        .unwrap_or_else(|| panic!("{file}: no {to:?}"));
+    if text[begin..begin + length] == *expected {
+        return;
+    }
+    assert!(
+        std::env::var_os("UPDATE_EXPECT").is_some(),
+        "{file} does not list the settings as they are; update it with: UPDATE_EXPECT=1 cargo test --test settings"
+    );
+    let text = [&text[..begin], expected, &text[begin + length..]].concat();
+    std::fs::write(&path, text).unwrap();
+}
+
+/// The schema of a key, without references and without the null that every key may be.
+fn schema_of(row: &Row) -> Value {
+    let protocol = wedm::protocol::schema();
+    let mut schema = protocol["settings"].clone();
+    for part in row.key.split('.') {
+        schema = resolved(&protocol, &schema);
+        schema = match part {
+            "NAME" => schema["additionalProperties"].clone(),
+            part => schema["properties"][camel_case(part)].clone(),
+        };
+    }
+    resolved(&protocol, &schema)
+}
+
+fn resolved(protocol: &Value, schema: &Value) -> Value {
+    if let Some(reference) = schema["$ref"].as_str() {
+        let name = reference.rsplit('/').next().unwrap();
+        return resolved(protocol, &protocol["$defs"][name]);
+    }
+    if let Some(choices) = schema["anyOf"].as_array() {
+        let others: Vec<&Value> = choices.iter().filter(|one| one["type"] != "null").collect();
+        if let [one] = others[..] {
+            return resolved(protocol, one);
+        }
+    }
+    let mut schema = schema.clone();
+    if let Some(types) = schema["type"].as_array() {
+        schema["type"] = types.iter().find(|one| **one != "null").unwrap().clone();
+    }
+    for within in ["additionalProperties", "items"] {
+        if schema[within].is_object() {
+            schema[within] = resolved(protocol, &schema[within]);
+        }
+    }
+    schema
+}
+
+/// The words of a closed set, with what each means.
+fn words(schema: &Value) -> Vec<(&str, &str)> {
+    let documented = schema["oneOf"].as_array().into_iter().flatten();
+    let documented = documented.flat_map(|one| {
+        let meaning = one["description"].as_str().unwrap_or_default();
+        let names = one["enum"].as_array().into_iter().flatten();
+        let names = names.chain(std::iter::once(&one["const"]));
+        names.filter_map(move |name| Some((name.as_str()?, meaning)))
+    });
+    let bare = schema["enum"].as_array().into_iter().flatten();
+    documented
+        .chain(bare.filter_map(|name| Some((name.as_str()?, ""))))
+        .collect()
+}
+
+fn range(row: &Row) -> Option<String> {
+    let range = row.range?;
+    let least = range.least;
+    Some(match (range.most.is_finite(), range.is_least) {
+        (true, _) => format!("from {least} to {}", range.most),
+        (false, true) => format!("from {least} on"),
+        (false, false) => format!("above {least}"),
+    })
+}
+
+fn type_of(row: &Row, schema: &Value) -> String {
+    let listed = |words: Vec<(&str, &str)>| {
+        let names: Vec<String> = words.iter().map(|(name, _)| format!("`{name}`")).collect();
+        names.join(", ")
+    };
+    let range = range(row).map_or_else(String::new, |range| format!(" {range}"));
+    let own = words(schema);
+    if !own.is_empty() {
+        return listed(own);
+    }
+    match schema["type"].as_str() {
+        Some("number") => format!("number{range}"),
+        Some("integer") => format!("whole number{range}"),
+        Some("boolean") => "`true`, `false`".into(),
+        Some("string") => "a word".into(),
+        Some("array") if schema["items"]["type"] == "number" => {
+            format!("list of numbers{range}, at least one")
+        }
+        Some("array") => "list of lines".into(),
+        Some("object") if row.key == "profiles" => "table of tables by name".into(),
+        Some("object") => format!(
+            "table of {} by name",
+            listed(words(&schema["additionalProperties"]))
+        ),
+        _ => "point `[x, y]`, or table of points by handle".into(),
+    }
+}
+
+fn of_documents() -> Vec<Row> {
+    let mut rows = rows();
+    rows.retain(|row| !row.key.contains("NAME"));
+    rows
+}
+
+#[test]
+fn the_protocol_lists_every_key() {
+    let mut table = String::new();
+    for row in of_documents() {
+        let schema = schema_of(&row);
+        let default = row
+            .default
+            .as_deref()
+            .map(|default| default.trim_matches('"'));
+        let default = default.map_or("not set".into(), |default| format!("`{default}`"));
+        let of_words: Vec<String> = words(&schema)
+            .into_iter()
+            .filter(|(_, meaning)| !meaning.is_empty())
+            .map(|(name, meaning)| format!("`{name}`: {meaning}"))
+            .collect();
+        let meaning = [&[row.meaning.clone()], &of_words[..]].concat().join(" ");
+        let kind = type_of(&row, &schema);
+        table += &format!("| `{}` | {kind} | {default} | {meaning} |\n", row.key);
+    }
+    hold(
+        "docs/protocol.md",
+        "| key | type | default | meaning |\n|---|---|---|---|\n",
+        "\nA table `profiles.NAME`",
+        &table,
+    );
+}
+
+/// The first sentence of a meaning, and the words that may stand there.
+fn in_short(row: &Row) -> String {
+    let meaning = row.plain_meaning().replace('`', "");
+    let first = meaning.split_inclusive(". ").next().unwrap_or_default();
+    let first = first.trim_end_matches(['.', ' ']).to_owned();
+    let schema = schema_of(row);
+    let names: Vec<&str> = words(&schema).iter().map(|(name, _)| *name).collect();
+    match names.is_empty() {
+        true => first,
+        false => format!("{first}: {}", names.join(", ")),
+    }
+}
+
+#[test]
+fn the_readme_shows_every_key_with_its_default() {
+    let mut text = String::new();
+    let mut table = "";
+    // What wins over what is not set, and what has no default is an example.
+    let example = |key: &str| match key {
+        "passes.corrections" => "[0.175, 0.146, 0.140]",
+        "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
+        "colors" => "{ red = \"punch\" }",
+        "contours" => "{ 2A = \"punch\" }",
+        "program.thread" => "[115.0, -10.0]",
+        "program.entry" => "[105.0, -10.0]",
+        "program.units" => "\"inch\"",
+        _ => panic!("{key} has no default and no example"),
+    };
+    let all = of_documents();
+    let rows = all
+        .iter()
+        .filter(|row| !["rules", "profiles"].contains(&row.key.as_str()));
+    for row in rows {
+        let (of, key) = row.key.split_once('.').unwrap_or(("", &row.key));
+        if of != table {
+            text += &format!("\n[{of}]\n");
+            table = of;
+        }
+        let line = match &row.default {
+            // Each says the correction where it is set.
+            Some(default) if ["wire-diameter", "gap"].contains(&key) => {
+                format!("# {key} = {default}")
+            }
+            Some(default) => format!("{key} = {default}"),
+            None => format!("# {key} = {}", example(&row.key)),
+        };
+        text += &format!("{line:<26} # {}\n", in_short(row));
+    }
+    hold(
+        "README.md",
+        "commented out:\n\n```toml\n",
+        "\n[rules]",
+        &text,
+    );
+    let (settings, errors) = wedm::settings::from_toml(&text.replace("\n# ", "\n"));
+    assert_eq!(errors, []);
+    let program = settings.program.unwrap();
+    assert!(settings.layers.is_some() && program.thread.is_some() && program.units.is_some());
+}
+
+/// The schema of a key as VS Code's settings page takes it.
+fn editor_schema(row: &Row, schema: &Value, is_root: bool) -> Value {
+    let mut of = Map::new();
+    let null = |name: &str| {
+        if is_root {
+            json!([name, "null"])
+        } else {
+            json!(name)
+        }
+    };
+    let own = words(schema);
+    match schema["type"].as_str() {
+        Some(name) => of.insert("type".into(), null(name)),
+        None if own.is_empty() => of.insert("type".into(), json!(["array", "object", "null"])),
+        None => of.insert("type".into(), null("string")),
+    };
+    if is_root {
+        of.insert("default".into(), Value::Null);
+    }
+    if !own.is_empty() {
+        let default = row
+            .default
+            .as_deref()
+            .map(|default| default.trim_matches('"'));
+        let names = own.iter().map(|(name, _)| json!(name));
+        let meanings = own.iter().map(|(_, meaning)| json!(meaning));
+        let unset = format!("Not set: {}.", default.unwrap_or("as described"));
+        of.insert(
+            "enum".into(),
+            names.chain(is_root.then_some(Value::Null)).collect(),
+        );
+        if own.iter().any(|(_, meaning)| !meaning.is_empty()) {
+            of.insert(
+                "enumDescriptions".into(),
+                meanings.chain(is_root.then(|| json!(unset))).collect(),
+            );
+        }
+    }
+    let whole = |number: f64| match number.fract() == 0.0 {
+        true => json!(number as i64),
+        false => json!(number),
+    };
+    let mut bounds = Map::new();
+    if let Some(range) = row.range {
+        let least = if range.is_least {
+            "minimum"
+        } else {
+            "exclusiveMinimum"
+        };
+        bounds.insert(least.into(), whole(range.least));
+        if range.most.is_finite() {
+            bounds.insert("maximum".into(), whole(range.most));
+        }
+    }
+    match schema["type"].as_str() {
+        Some("array") => {
+            let mut items = json!({ "type": schema["items"]["type"] });
+            items.as_object_mut().unwrap().extend(bounds);
+            of.insert("items".into(), items);
+        }
+        Some("object") => {
+            let names: Vec<&str> = words(&schema["additionalProperties"])
+                .iter()
+                .map(|(name, _)| *name)
+                .collect();
+            of.insert(
+                "additionalProperties".into(),
+                json!({ "type": "string", "enum": names }),
+            );
+        }
+        _ => of.extend(bounds),
+    }
+    Value::Object(of)
+}
+
+/// JSON with lists in one line, as package.json is written.
+fn written(value: &Value, indent: usize) -> String {
+    let Value::Object(entries) = value else {
+        let text = serde_json::to_string(value).unwrap();
+        return match value {
+            Value::Array(items) => {
+                let items: Vec<String> = items.iter().map(|item| item.to_string()).collect();
+                format!("[{}]", items.join(", "))
+            }
+            _ => text,
+        };
+    };
+    let inner = " ".repeat(indent + 2);
+    let entries = entries
+        .iter()
+        .map(|(key, value)| format!("{inner}\"{key}\": {}", written(value, indent + 2)));
+    let entries: Vec<String> = entries.collect();
+    format!("{{\n{}\n{}}}", entries.join(",\n"), " ".repeat(indent))
+}
+
+#[test]
+fn the_settings_page_of_vs_code_has_every_key() {
+    let docs = "https://github.com/wedm/wedm/blob/main/docs/";
+    let mut entries = Vec::new();
+    let of_profiles: Map<String, Value> = rows()
+        .iter()
+        .filter_map(|row| {
+            let key = row.key.strip_prefix("profiles.NAME.")?;
+            let mut schema = editor_schema(row, &schema_of(row), false);
+            schema["description"] = json!(row.plain_meaning());
+            Some((camel_case(key), schema))
+        })
+        .collect();
+    for (index, row) in of_documents().iter().enumerate() {
+        let mut schema = match row.key.as_str() {
+            "profiles" => json!({
+                "type": ["object", "null"],
+                "default": null,
+                "additionalProperties": { "type": "object", "additionalProperties": false, "properties": of_profiles },
+            }),
+            _ => editor_schema(row, &schema_of(row), true),
+        };
+        schema["order"] = json!(10 + index);
+        if row.key == "contours" {
+            schema["scope"] = json!("resource");
+        }
+        let meaning = row.meaning.replace("](", &format!("]({docs}"));
+        let unset = row
+            .default
+            .as_deref()
+            .filter(|_| words(&schema_of(row)).is_empty());
+        let unset = unset.map_or(String::new(), |default| format!(" Not set: {default}."));
+        schema["markdownDescription"] = json!(format!("{meaning}{unset}"));
+        let key: Vec<String> = row.key.split('.').map(camel_case).collect();
+        entries.push(format!(
+            "        \"wedm.{}\": {}",
+            key.join("."),
+            written(&schema, 8)
+        ));
+    }
+    hold(
+        "clients/vscode/package.json",
+        "verbose\"],\n          \"default\": \"off\",\n          \"order\": 2,\n          \"description\": \"Which messages between VS Code and the server are written to the log.\"\n        },\n",
+        "\n      }\n    }",
+        &entries.join(",\n"),
+    );
+}
+
+fn python_type(row: &Row, schema: &Value) -> String {
+    let own = words(schema);
+    let literal = |words: Vec<(&str, &str)>| {
+        let names: Vec<String> = words
+            .iter()
+            .map(|(name, _)| format!("\"{name}\""))
+            .collect();
+        format!("Literal[{}]", names.join(", "))
+    };
+    match schema["type"].as_str() {
+        _ if !own.is_empty() => literal(own),
+        Some("number") => "float".into(),
+        Some("integer") => "int".into(),
+        Some("boolean") => "bool".into(),
+        Some("string") => "str".into(),
+        Some("array") if schema["items"]["type"] == "number" => "Sequence[float]".into(),
+        Some("array") => "Sequence[str]".into(),
+        Some("object") if row.key == "profiles" => "Mapping[str, Profile]".into(),
+        Some("object") => format!(
+            "Mapping[str, {}]",
+            literal(words(&schema["additionalProperties"]))
+        ),
+        _ => "Place".into(),
+    }
+}
+
+#[test]
+fn the_python_client_has_every_key() {
+    let mut text = String::new();
+    let classes = [
+        ("Passes", "passes.", "Several passes."),
+        ("ProgramSettings", "program.", "How a program is written."),
+        (
+            "Profile",
+            "profiles.NAME.",
+            "How ISO programs are written for one kind of machine.",
+        ),
+        (
+            "Settings",
+            "",
+            "Only what is set counts; lengths are mm, thread and entry are drawing units.",
+        ),
+    ];
+    for (name, prefix, about) in classes {
+        text += &format!("\n\nclass {name}(TypedDict, total=False):\n    \"\"\"{about}\"\"\"\n\n");
+        for row in rows() {
+            let Some(key) = row
+                .key
+                .strip_prefix(prefix)
+                .filter(|key| !key.contains('.'))
+            else {
+                continue;
+            };
+            let kind = python_type(&row, &schema_of(&row));
+            text += &format!("    {}: {kind}\n", key.replace('-', "_"));
+        }
+        if prefix.is_empty() {
+            text += "    passes: Passes\n    program: ProgramSettings\n";
+        }
+    }
+    hold(
+        "clients/python/src/wedm_client/settings.py",
+        "by the handle of one of its entities.\"\"\"\n",
+        "\n\ndef to_json",
+        &text,
+    );
+}
