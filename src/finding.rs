@@ -12,6 +12,7 @@ pub use program_fault::{Axis, ProgramFault};
 pub use sentence::{related, sentence, title};
 pub use unwritable::Unwritable;
 
+pub use crate::geometry::Side;
 pub use crate::rule::{Rule, Severity};
 
 use crate::drawing::{DrawingEdit, EntityId, Visibility};
@@ -54,30 +55,6 @@ pub enum Place {
     },
     /// The document as a whole.
     Document,
-}
-
-/// On which side of its contour's direction of travel the wire runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    Left,
-    Right,
-}
-
-impl Side {
-    /// +1 for left, −1 for right.
-    pub fn sign(self) -> f64 {
-        match self {
-            Side::Left => 1.0,
-            Side::Right => -1.0,
-        }
-    }
-
-    pub fn reversed(self) -> Side {
-        match self {
-            Side::Left => Side::Right,
-            Side::Right => Side::Left,
-        }
-    }
 }
 
 /// Why no fix is offered for an arc that is too tight.

@@ -1,10 +1,8 @@
 //! Open entities that lie in one place: which of them is chained, whatever their order in the drawing.
 
-use super::joints::Joints;
 use super::{Drawing, EntityId, Geometry};
 use crate::geometry::{Point, Segment};
-use rustc_hash::FxHashMap;
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Ordering;
 
 /// Two entities within this many join tolerances of each other lie in the same place, see `Tolerances::same_place`.
 pub(super) const SAME_PLACE: f64 = 0.5;
@@ -110,50 +108,4 @@ pub(super) fn by_place(drawing: &Drawing, one: EntityId, other: EntityId) -> Ord
 
 pub(super) fn by_coordinates(a: &Point, b: &Point) -> Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
-}
-
-/// What became of entities that lie on each other, by number.
-#[derive(Debug, Default)]
-pub(super) struct Doubles {
-    /// Not chained, with the one in the same place that is.
-    pub aside: FxHashMap<u32, u32>,
-    /// Chained, with a double that is not.
-    pub kept: Vec<u32>,
-}
-
-/// Of each crowd of doubles one is kept: the one that meets most others in one point, else the first by place.
-pub(super) fn set_aside(joints: &Joints, pairs: &[(u32, u32)]) -> Doubles {
-    let mut partners: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
-    for &(one, other) in pairs {
-        partners.entry(one).or_default().push(other);
-        partners.entry(other).or_default().push(one);
-    }
-    let meets = |entity: u32| {
-        joints.count_met(entity, |other| {
-            partners
-                .get(&entity)
-                .is_some_and(|doubles| doubles.contains(&other))
-        })
-    };
-    let mut ranked: Vec<(Reverse<usize>, u32)> = partners
-        .keys()
-        .map(|&entity| (Reverse(meets(entity)), entity))
-        .collect();
-    ranked.sort_unstable_by(|(a, one), (b, other)| {
-        a.cmp(b).then_with(|| joints.by_place(*one, *other))
-    });
-    let mut doubles = Doubles::default();
-    let mut is_kept: FxHashMap<u32, bool> = FxHashMap::default();
-    for (_, entity) in ranked {
-        let of = partners.get(&entity).into_iter().flatten();
-        let kept = of
-            .filter(|other| is_kept.get(other) == Some(&true))
-            .min_by(|one, other| joints.by_place(**one, **other));
-        is_kept.insert(entity, kept.is_none());
-        match kept {
-            Some(&kept) => drop(doubles.aside.insert(entity, kept)),
-            None => doubles.kept.push(entity),
-        }
-    }
-    doubles
 }

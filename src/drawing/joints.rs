@@ -1,12 +1,12 @@
 //! Which free ends lie within the join tolerance of each other, and which of them nothing else can be joined to.
 
-use super::doubles::{self, Doubles, SAME_PLACE};
+use super::doubles::{self, SAME_PLACE};
 use super::ends::{Cell, Cells, End, Ends, NO_ENDS, Numbered, ONE_POINT, has_ends};
 use super::{Drawing, EntityId};
 use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 
 /// Of cells with more ends than these, the ends are sorted into smaller ones.
 const DENSE: usize = 64;
@@ -34,6 +34,15 @@ pub(super) struct Joints<'a> {
     /// By end: what it can be joined to.
     met: Vec<u32>,
     pub doubles: Doubles,
+}
+
+/// What became of entities that lie on each other, by number.
+#[derive(Debug, Default)]
+pub(super) struct Doubles {
+    /// Not chained, with the one in the same place that is.
+    pub aside: FxHashMap<u32, u32>,
+    /// Chained, with a double that is not.
+    pub kept: Vec<u32>,
 }
 
 struct Dense {
@@ -77,7 +86,7 @@ impl<'a> Joints<'a> {
         joints.sort_dense();
         let pairs = joints.meet();
         if !pairs.is_empty() {
-            joints.doubles = doubles::set_aside(&joints, &pairs);
+            joints.doubles = joints.set_aside(&pairs);
             for &double in joints.doubles.aside.keys() {
                 End::both(double)
                     .into_iter()
@@ -378,6 +387,43 @@ impl<'a> Joints<'a> {
         };
         let [one, other] = [one, other].map(|entity| self.entities[entity as usize]);
         doubles::are_doubles(self.drawing, one, other, tolerance)
+    }
+
+    /// Of each crowd of doubles one is kept: the one that meets most others in one point, else the first by place.
+    fn set_aside(&self, pairs: &[(u32, u32)]) -> Doubles {
+        let mut partners: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for &(one, other) in pairs {
+            partners.entry(one).or_default().push(other);
+            partners.entry(other).or_default().push(one);
+        }
+        let meets = |entity: u32| {
+            self.count_met(entity, |other| {
+                partners
+                    .get(&entity)
+                    .is_some_and(|doubles| doubles.contains(&other))
+            })
+        };
+        let mut ranked: Vec<(Reverse<usize>, u32)> = partners
+            .keys()
+            .map(|&entity| (Reverse(meets(entity)), entity))
+            .collect();
+        ranked.sort_unstable_by(|(a, one), (b, other)| {
+            a.cmp(b).then_with(|| self.by_place(*one, *other))
+        });
+        let mut doubles = Doubles::default();
+        let mut is_kept: FxHashMap<u32, bool> = FxHashMap::default();
+        for (_, entity) in ranked {
+            let of = partners.get(&entity).into_iter().flatten();
+            let kept = of
+                .filter(|other| is_kept.get(other) == Some(&true))
+                .min_by(|one, other| self.by_place(**one, **other));
+            is_kept.insert(entity, kept.is_none());
+            match kept {
+                Some(&kept) => drop(doubles.aside.insert(entity, kept)),
+                None => doubles.kept.push(entity),
+            }
+        }
+        doubles
     }
 
     /// Of a crowd only what comes next to each other by place is held against each other, and is a double where it lies in one place exactly.

@@ -15,6 +15,7 @@ mod index;
 mod joints;
 mod kind;
 mod knots;
+mod linked;
 mod names;
 mod nesting;
 mod orientation;

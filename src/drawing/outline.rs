@@ -1,7 +1,7 @@
 //! A contour with what it is an outline of, and so the side on which the wire runs.
 
 use super::{Contour, Role};
-use crate::finding::Side;
+use crate::geometry::Side;
 
 /// A contour, its role, and what follows from the two.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,6 +11,7 @@ mod ellipse;
 mod grid;
 mod intersection;
 mod segment;
+mod side;
 mod spline;
 mod tolerances;
 
@@ -22,6 +23,7 @@ pub use ellipse::EllipticArc;
 pub use grid::Grid;
 pub use intersection::{circle_circle, line_circle, line_line};
 pub use segment::{Line, Segment};
+pub use side::Side;
 pub use spline::{MAX_DEGREE, Spline, SplineCurve};
 pub use tolerances::Tolerances;
 

@@ -6,12 +6,12 @@
 //! wire does not come into at all. An arc below the correction is `small-radius`, as long as that tells of all that is left.
 
 use super::arc_as_chords::are_between_chords;
-use super::locus::Locus;
+use super::disc::{Touch, loci, slack, touch};
 use super::sharp_corner::inner_side;
-use super::wall::{Corner, Wall};
+use super::wall::Wall;
 use super::{Limits, NEIGHBOURS, Outlook, PairRule, Sight, small_radius};
 use crate::finding::{Rule, Side};
-use crate::geometry::{Point, Segment, Vector, cross, left_normal, turn};
+use crate::geometry::{Point, Segment, cross, turn};
 use std::f64::consts::FRAC_PI_2;
 
 pub const RULE: PairRule = PairRule {
@@ -32,18 +32,6 @@ const LEAST_MM: f64 = 5e-4;
 
 /// A turn (radians) above which the two walls of a corner face each other.
 const FACING: f64 = FRAC_PI_2 + 1e-3;
-
-/// A turn (radians) below which two segments are one wall.
-const SMOOTH: f64 = 1e-6;
-
-/// A wall that a disc touches: at a place of it, or at the vertex that it starts in.
-#[derive(Clone, Copy, Debug)]
-struct Touch {
-    index: usize,
-    at_vertex: bool,
-    /// From the place towards the disc's centre.
-    normal: Vector,
-}
 
 /// A disc of the correction that touches two walls of a contour, with what lies beyond it.
 #[derive(Clone, Copy, Debug)]
@@ -71,11 +59,6 @@ pub struct Left {
 /// The disc that the wire's centre carries: an arc of the correction, and a slot twice as wide, it still follows.
 fn radius(limits: &Limits) -> f64 {
     limits.correction - limits.tolerances.report
-}
-
-/// How far a wall may reach into a disc by rounding.
-fn slack(limits: &Limits, radius: f64) -> f64 {
-    (1e-6 * radius).max(limits.tolerances.clearance)
 }
 
 fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
@@ -149,74 +132,6 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     };
     let rounding = 4.0 * slack(one.outlook.limits, radius);
     turned <= RUNS_ON && 2.0 * turned * radius + rounding < gap
-}
-
-/// Where a disc may lie that touches a wall, or the vertex that it starts in.
-fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
-    let along = Locus::beside(
-        wall.geometry(),
-        side.sign(),
-        radius,
-        wall.outlook.limits.tolerances.zero_length,
-    );
-    [
-        along,
-        start_of(wall)
-            .filter(|corner| is_tip(corner, side))
-            .map(|corner| Locus::about(corner.at, radius)),
-    ]
-}
-
-/// The vertex that a wall starts in.
-fn start_of(wall: &Wall) -> Option<Corner> {
-    wall.corners().next()
-}
-
-/// True for a vertex that the contour turns away from the wire in.
-fn is_tip(corner: &Corner, side: Side) -> bool {
-    let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else {
-        return false;
-    };
-    turn(incoming.end_tangent(), outgoing.start_tangent()) * side.sign() < -SMOOTH
-}
-
-/// How a disc on one side of a wall touches it, if it does.
-fn touch(wall: &Wall, side: Side, center: Point, radius: f64) -> Option<Touch> {
-    let slack = slack(wall.outlook.limits, radius);
-    let geometry = wall.geometry();
-    let share = geometry.share_of(center);
-    let rounding = 1e-9 / geometry.length();
-    let place = foot(geometry, center, share);
-    let away = center - place;
-    let touches = |distance: f64| (distance - radius).abs() <= slack;
-    if (-rounding..=1.0 + rounding).contains(&share)
-        && touches(away.norm())
-        && left_normal(geometry.tangent_at(share)).dot(&away) * side.sign() > 0.0
-    {
-        return Some(Touch {
-            index: wall.index,
-            at_vertex: false,
-            normal: away / away.norm(),
-        });
-    }
-    let corner = start_of(wall).filter(|corner| is_tip(corner, side))?;
-    let away = center - corner.at;
-    let normal = away.try_normalize(0.0)?;
-    (touches(away.norm()) && corner.is_nearest(normal)).then_some(Touch {
-        index: wall.index,
-        at_vertex: true,
-        normal,
-    })
-}
-
-/// The place of a segment's line or circle nearest to `point`, which lies at `share` of it.
-fn foot(segment: &Segment, point: Point, share: f64) -> Point {
-    match segment {
-        Segment::Line(line) => line.start + (line.end - line.start) * share,
-        Segment::Arc(arc) => (point - arc.center)
-            .try_normalize(0.0)
-            .map_or(arc.start, |away| arc.center + away * arc.radius),
-    }
 }
 
 impl DeadEnd {
@@ -490,92 +405,4 @@ struct TurnedIn {
     first: isize,
     last: isize,
     turn: f64,
-}
-
-/// How many segments on either side of a corner may hold the disc that stands in it.
-const HOLDING: isize = 8;
-
-/// What stays of the corner where the segment at `index` begins beside a disc of `radius`, on the side that the contour turns to: between
-/// long walls what the disc that touches both leaves; where these are short or fall back, no more than `R (1 / cos(θ/2) − 1)`, which is
-/// the corner's own share of what is lost there. `None` at the end of an open contour.
-pub fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
-    let count = outlook.contour.len();
-    let wall = |index: isize| {
-        let index = if outlook.contour.closed {
-            index.rem_euclid(count as isize)
-        } else {
-            index
-        };
-        Wall::new(outlook, usize::try_from(index).ok()?)
-    };
-    let index = index as isize;
-    let (before, behind) = (wall(index - 1)?, wall(index)?);
-    let turned = turn(
-        before.geometry().end_tangent(),
-        behind.geometry().start_tangent(),
-    );
-    let (side, at) = (
-        if turned > 0.0 {
-            Side::Left
-        } else {
-            Side::Right
-        },
-        behind.geometry().start(),
-    );
-    let least = radius - slack(outlook.limits, radius);
-    let reach = HOLDING.min(count as isize / 2);
-    let depth_of = |one: &Wall, other: &Wall, center: Point| {
-        let depth = (at - center).norm() - radius;
-        let is_held = depth >= 0.0
-            && touch(one, side, center, radius).is_some()
-            && touch(other, side, center, radius).is_some();
-        let is_clear = || {
-            (-2 * reach..=2 * reach)
-                .filter_map(|steps| behind.beside(steps))
-                .all(|near| near.distance_to(center) >= least)
-        };
-        (is_held && is_clear()).then_some(depth)
-    };
-    // Most corners have walls that are long enough.
-    let along = |wall: &Wall| {
-        Locus::beside(
-            wall.geometry(),
-            side.sign(),
-            radius,
-            outlook.limits.tolerances.zero_length,
-        )
-    };
-    let centers = along(&before)?.meet(&along(&behind)?).into_iter();
-    if let Some(depth) = centers
-        .filter_map(|center| depth_of(&before, &behind, center))
-        .min_by(f64::total_cmp)
-    {
-        return Some(depth);
-    }
-    // A wall holds the disc, or the tip that it starts in does: behind the corner a tip may end the last wall.
-    let early: Vec<Wall> = (1..=reach)
-        .filter_map(|steps| wall(index - steps))
-        .collect();
-    let late: Vec<Wall> = (0..=reach)
-        .filter_map(|steps| wall(index + steps))
-        .collect();
-    let pairs = early
-        .iter()
-        .flat_map(|one| late.iter().map(move |other| (one, other)));
-    let depths = pairs.flat_map(|(one, other)| {
-        let (own, theirs) = (loci(one, side, radius), loci(other, side, radius));
-        let centers = own.into_iter().flatten().flat_map(move |own| {
-            theirs
-                .into_iter()
-                .flatten()
-                .flat_map(move |locus| own.meet(&locus))
-        });
-        centers
-            .filter_map(|center| depth_of(one, other, center))
-            .collect::<Vec<_>>()
-    });
-    let own_share = radius * (1.0 / (turned / 2.0).cos() - 1.0);
-    let shorter = before.geometry().length().min(behind.geometry().length());
-    let least = depths.min_by(f64::total_cmp).unwrap_or(shorter);
-    Some(least.min(own_share))
 }

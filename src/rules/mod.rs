@@ -5,6 +5,7 @@
 
 mod arc_as_chords;
 pub mod dead_end;
+mod disc;
 mod duplicate_entity;
 mod ends;
 mod gap;

@@ -4,10 +4,13 @@
 //! so that the drawing says what comes off the machine. Corners between chords that `arc-as-chords` takes for an arc are none.
 
 use super::arc_as_chords::{self, are_between_chords};
-use super::dead_end::corner_depth;
+use super::disc::{loci, slack, touch};
+use super::locus::Locus;
 use super::small_radius::{Travel, fillet};
+use super::wall::Wall;
 use super::{Fact, LocalRule, Outlook, other_at_joint};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
+use crate::geometry::{Point, turn};
 use std::ops::Range;
 
 pub const RULE: LocalRule = LocalRule {
@@ -72,6 +75,94 @@ fn detail(outlook: &Outlook, fact: Fact, count: Option<usize>) -> Option<Detail>
         uncut,
         count,
     })
+}
+
+/// How many segments on either side of a corner may hold the disc that stands in it.
+const HOLDING: isize = 8;
+
+/// What stays of the corner where the segment at `index` begins beside a disc of `radius`, on the side that the contour turns to: between
+/// long walls what the disc that touches both leaves; where these are short or fall back, no more than `R (1 / cos(θ/2) − 1)`, which is
+/// the corner's own share of what is lost there. `None` at the end of an open contour.
+fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
+    let count = outlook.contour.len();
+    let wall = |index: isize| {
+        let index = if outlook.contour.closed {
+            index.rem_euclid(count as isize)
+        } else {
+            index
+        };
+        Wall::new(outlook, usize::try_from(index).ok()?)
+    };
+    let index = index as isize;
+    let (before, behind) = (wall(index - 1)?, wall(index)?);
+    let turned = turn(
+        before.geometry().end_tangent(),
+        behind.geometry().start_tangent(),
+    );
+    let (side, at) = (
+        if turned > 0.0 {
+            Side::Left
+        } else {
+            Side::Right
+        },
+        behind.geometry().start(),
+    );
+    let least = radius - slack(outlook.limits, radius);
+    let reach = HOLDING.min(count as isize / 2);
+    let depth_of = |one: &Wall, other: &Wall, center: Point| {
+        let depth = (at - center).norm() - radius;
+        let is_held = depth >= 0.0
+            && touch(one, side, center, radius).is_some()
+            && touch(other, side, center, radius).is_some();
+        let is_clear = || {
+            (-2 * reach..=2 * reach)
+                .filter_map(|steps| behind.beside(steps))
+                .all(|near| near.distance_to(center) >= least)
+        };
+        (is_held && is_clear()).then_some(depth)
+    };
+    // Most corners have walls that are long enough.
+    let along = |wall: &Wall| {
+        Locus::beside(
+            wall.geometry(),
+            side.sign(),
+            radius,
+            outlook.limits.tolerances.zero_length,
+        )
+    };
+    let centers = along(&before)?.meet(&along(&behind)?).into_iter();
+    if let Some(depth) = centers
+        .filter_map(|center| depth_of(&before, &behind, center))
+        .min_by(f64::total_cmp)
+    {
+        return Some(depth);
+    }
+    // A wall holds the disc, or the tip that it starts in does: behind the corner a tip may end the last wall.
+    let early: Vec<Wall> = (1..=reach)
+        .filter_map(|steps| wall(index - steps))
+        .collect();
+    let late: Vec<Wall> = (0..=reach)
+        .filter_map(|steps| wall(index + steps))
+        .collect();
+    let pairs = early
+        .iter()
+        .flat_map(|one| late.iter().map(move |other| (one, other)));
+    let depths = pairs.flat_map(|(one, other)| {
+        let (own, theirs) = (loci(one, side, radius), loci(other, side, radius));
+        let centers = own.into_iter().flatten().flat_map(move |own| {
+            theirs
+                .into_iter()
+                .flatten()
+                .flat_map(move |locus| own.meet(&locus))
+        });
+        centers
+            .filter_map(|center| depth_of(one, other, center))
+            .collect::<Vec<_>>()
+    });
+    let own_share = radius * (1.0 / (turned / 2.0).cos() - 1.0);
+    let shorter = before.geometry().length().min(behind.geometry().length());
+    let least = depths.min_by(f64::total_cmp).unwrap_or(shorter);
+    Some(least.min(own_share))
 }
 
 fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {

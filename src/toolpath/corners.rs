@@ -4,9 +4,9 @@
 //! two are cut where they meet. What is used up by that is left out and its neighbours are cut with each other. That is quick, and
 //! right on most contours: `proof` says whether it is, and `loops` finds the path where it is not. Tips in place of rolls come last.
 
-use super::Source;
 use super::clearance::Walls;
 use super::offset::{Offset, Wall, normal, offset};
+use super::path::Source;
 use crate::geometry::{
     Arc, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line, turn,
 };
@@ -19,6 +19,16 @@ pub(super) struct Element {
     pub source: Source,
     /// Index of the wall; of the one before it, for the way round a corner.
     pub wall: usize,
+}
+
+/// The walls themselves as a path.
+pub(super) fn elements(walls: &[Wall]) -> Vec<Element> {
+    let element = |(wall, of): (usize, &Wall)| Element {
+        geometry: of.geometry,
+        source: of.source,
+        wall,
+    };
+    walls.iter().enumerate().map(element).collect()
 }
 
 /// How the corners are made. Lengths in drawing units.

@@ -1,6 +1,6 @@
 //! A drawing that is the wire's own path, leads included: entities that lead one from the end of the other.
 
-use super::{PathSegment, Source, WirePath};
+use super::path::{PathSegment, Source, WirePath};
 use crate::drawing::{Drawing, Geometry, Outline};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Direction, PointSetting};

@@ -4,159 +4,17 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
+use super::job::ROUNDING;
 use super::offset::{Wall, normal};
-use super::order::{name, outline_of};
-use super::{Refusal, Source};
-use crate::drawing::{Drawing, EntityId, Geometry, Outline, Role, winding};
+use super::order::name;
+use super::path::{Refusal, Source};
+use super::wanted::Wanted;
+use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::{Arc, Point, Segment};
-use crate::settings::{Compensation, Effective, PointSetting};
+use crate::settings::Effective;
+
 use std::f64::consts::TAU;
-
-/// What settings and start marks say about one contour, in drawing units.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Wanted {
-    pub thread: Option<Point>,
-    pub entry: Option<Point>,
-    /// A mark that means the point of the contour beside it, where no entry is given.
-    pub beside: Option<Point>,
-}
-
-/// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
-pub(super) fn wanted(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    chosen: &[usize],
-    settings: &Effective,
-) -> Result<Vec<Wanted>, Refusal> {
-    let threads = points(
-        drawing,
-        outlines,
-        chosen,
-        settings.thread.as_ref(),
-        "thread hole",
-    )?;
-    let entries = points(drawing, outlines, chosen, settings.entry.as_ref(), "entry")?;
-    let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
-    let wanted =
-        chosen
-            .iter()
-            .zip(threads.into_iter().zip(entries))
-            .map(|(&index, (thread, entry))| {
-                let mark = own_mark(&marks, index);
-                let is_entry =
-                    |mark: &&Mark| means_entry(drawing, &outlines[index], mark, settings);
-                let beside = mark.filter(is_entry).map(|mark| mark.at);
-                Wanted {
-                    thread: thread.or(if beside.is_some() {
-                        None
-                    } else {
-                        mark.map(|mark| mark.at)
-                    }),
-                    entry,
-                    beside,
-                }
-            });
-    Ok(wanted.collect())
-}
-
-/// A mark within the correction of its contour, or on the part's side of it, means the entry: no wire is threaded there. Where the side
-/// is not known, or the contour is the wire's own path, it is the thread hole.
-fn means_entry(drawing: &Drawing, outline: &Outline, mark: &Mark, settings: &Effective) -> bool {
-    if settings.compensation == Compensation::None
-        || !outline.contour.closed
-        || !matches!(outline.role, Role::Opening | Role::Punch)
-    {
-        return false;
-    }
-    let is_inside = winding(drawing, &outline.contour, mark.at) != 0;
-    mark.distance * settings.unit_of(drawing).mm <= settings.correction
-        || is_inside != (outline.role == Role::Opening)
-}
-
-/// The mark of one outline: of several the nearest.
-pub(super) fn mark_of(marks: &[Mark], outline: usize) -> Option<Point> {
-    own_mark(marks, outline).map(|mark| mark.at)
-}
-
-fn own_mark(marks: &[Mark], outline: usize) -> Option<&Mark> {
-    let own = marks.iter().filter(|mark| mark.outline == outline);
-    own.min_by(|a, b| a.distance.total_cmp(&b.distance))
-}
-
-fn points(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    chosen: &[usize],
-    setting: Option<&PointSetting>,
-    what: &str,
-) -> Result<Vec<Option<Point>>, Refusal> {
-    let mut points = vec![None; chosen.len()];
-    match setting {
-        None => {}
-        Some(PointSetting::One(at)) => match &mut points[..] {
-            [only] => *only = Some(Point::from(*at)),
-            several => {
-                let count = several.len();
-                return Err(Refusal::Sentence(format!(
-                    "one {what} is given for {count} contours: choose one contour by its handle, or give a table by handle"
-                )));
-            }
-        },
-        Some(PointSetting::ByHandle(table)) => {
-            for (handle, at) in table {
-                let outline = outline_of(drawing, outlines, handle)?;
-                if let Some(place) = chosen.iter().position(|&index| index == outline) {
-                    points[place] = Some(Point::from(*at));
-                }
-            }
-        }
-    }
-    Ok(points)
-}
-
-pub(super) struct Mark {
-    at: Point,
-    /// The outline nearest to it.
-    outline: usize,
-    distance: f64,
-}
-
-/// Every text "O", with the contour that it marks; `None` where there are more than `most`.
-pub(super) fn marks(drawing: &Drawing, outlines: &[Outline], most: usize) -> Option<Vec<Mark>> {
-    let seen = drawing
-        .entities()
-        .filter(|(id, _)| drawing.visibility(*id).is_seen());
-    let texts = seen.filter_map(|(_, entity)| match &entity.geometry {
-        Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
-        _ => None,
-    });
-    let texts: Vec<Point> = texts.collect();
-    if texts.len() > most {
-        return None;
-    }
-    let marks = texts.into_iter().filter_map(|at| {
-        let distance = |outline: &Outline| {
-            outline
-                .contour
-                .segments(drawing)
-                .map(|s| s.geometry.distance_to(at))
-                .fold(f64::INFINITY, f64::min)
-        };
-        let nearest = outlines
-            .iter()
-            .enumerate()
-            .filter(|(_, outline)| outline.contour.double_of.is_none())
-            .map(|(index, outline)| (index, distance(outline)))
-            .min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map(|(outline, distance)| Mark {
-            at,
-            outline,
-            distance,
-        })
-    });
-    Some(marks.collect())
-}
 
 /// So often what a lead reaches beyond the path is halved, where the last of the longer ones does not fit.
 const HALVED_BEYOND: u32 = 4;
@@ -394,7 +252,7 @@ impl Surroundings<'_> {
             return Some(Obstacle::Contour(wall));
         }
         // Two cuts are as wide as two corrections each. Where the paths themselves run nearer to each other, the lead may as well.
-        let rounding = super::ROUNDING / self.unit_mm;
+        let rounding = ROUNDING / self.unit_mm;
         let Kerfs { paths, of } = self.kerfs;
         let counts = |piece: usize, distance: f64| {
             of[piece].0 != self.outline

@@ -1,6 +1,6 @@
 //! The offset of one segment, which remembers where it comes from. Corners join them, see `corners`.
 
-use super::Source;
+use super::path::Source;
 use crate::drawing::ContourSegment;
 use crate::geometry::{Arc, Line, Point, Segment, Vector, left_normal};
 

@@ -1,7 +1,7 @@
 //! Which contours are cut, in which direction, and where on them the cut begins.
 
 use super::corners::{Element, between};
-use super::{Refusal, WirePath};
+use super::path::{Refusal, WirePath};
 use crate::drawing::{Contour, Drawing, EntityId, Outline, winding};
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use crate::settings::{Direction, Order};

@@ -1,5 +1,7 @@
 //! Paths of small drawings as data, and the offset held against another library's.
 
+mod families;
+
 use super::{PathSegment, Refusal, Source, WirePath, plan, plan_while};
 use crate::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use crate::finding::{Detail, Place, Rule, Severity};
@@ -11,7 +13,7 @@ use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-pub(super) fn entity(handle: &str, geometry: Geometry) -> Entity {
+fn entity(handle: &str, geometry: Geometry) -> Entity {
     Entity {
         handle: handle.into(),
         layer: "0".into(),
@@ -22,7 +24,7 @@ pub(super) fn entity(handle: &str, geometry: Geometry) -> Entity {
 }
 
 /// A drawing of polylines `[x, y, bulge]`, closed but where the role is none, with handles 2A, 2B, ….
-pub(super) fn drawing(polylines: &[(&[[f64; 3]], Option<Role>)]) -> (Drawing, Vec<Outline>) {
+fn drawing(polylines: &[(&[[f64; 3]], Option<Role>)]) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     let outlines = polylines
         .iter()
@@ -46,7 +48,7 @@ pub(super) fn drawing(polylines: &[(&[[f64; 3]], Option<Role>)]) -> (Drawing, Ve
     (drawing, outlines)
 }
 
-pub(super) fn outline(
+fn outline(
     drawing: &Drawing,
     entities: impl IntoIterator<Item = (crate::drawing::EntityId, bool)>,
     role: Option<Role>,
@@ -71,7 +73,7 @@ const SQUARE: &[[f64; 3]] = &[
     [0.0, 10.0, 0.0],
 ];
 
-pub(super) fn at(x: f64, y: f64) -> Option<PointSetting> {
+fn at(x: f64, y: f64) -> Option<PointSetting> {
     Some(PointSetting::One([x, y]))
 }
 
@@ -115,7 +117,7 @@ fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
 }
 
 /// Each piece as `kind x y` of its end, in mm to the µm.
-pub(super) fn shown(path: &WirePath) -> String {
+fn shown(path: &WirePath) -> String {
     let start = path
         .segments
         .first()
@@ -150,7 +152,7 @@ fn check_refused(polyline: &[[f64; 3]], role: Option<Role>, settings: Effective,
     );
 }
 
-pub(super) fn defaults() -> Effective {
+fn defaults() -> Effective {
     Effective {
         correction: 0.1,
         ..Effective::default()
@@ -686,7 +688,7 @@ fn random_outline() -> impl Strategy<Value = Vec<[f64; 3]>> {
 }
 
 /// Points along segments, at most `step` apart.
-pub(super) fn samples(segments: &[Segment], step: f64) -> Vec<Point> {
+fn samples(segments: &[Segment], step: f64) -> Vec<Point> {
     let each = |segment: &Segment| {
         let count = (segment.length() / step).ceil().max(1.0) as usize;
         let segment = *segment;
@@ -708,7 +710,7 @@ fn furthest(points: &[Point], segments: &[Segment]) -> f64 {
 }
 
 /// What the other library offsets; `None` where the outline crosses itself.
-pub(super) fn judged(outline: &[[f64; 3]], offset: f64) -> Option<Vec<Vec<Segment>>> {
+fn judged(outline: &[[f64; 3]], offset: f64) -> Option<Vec<Vec<Segment>>> {
     let mut polyline = Polyline::new_closed();
     outline
         .iter()

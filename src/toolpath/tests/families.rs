@@ -3,12 +3,12 @@
 //! The judge knows nothing of how a path is made: a point is a place of the path when the nearest point of the contour is just the
 //! correction away, and every such point is reached from some point of the contour along its normal.
 
-use super::tests::{at, defaults, drawing, judged, samples, shown};
-use super::{PathSegment, Refusal, WirePath, plan};
+use super::{at, defaults, drawing, judged, samples, shown};
 use crate::drawing::{Drawing, Outline, Role, Unit, winding};
 use crate::finding::{Detail, Place, Rule, Severity};
 use crate::geometry::{Point, Segment, direction, left_normal, meetings};
 use crate::settings::{Compensation, Corner, Direction, Effective, SideSetting};
+use crate::toolpath::{PathSegment, Refusal, WirePath, plan};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -362,7 +362,7 @@ fn flat_is_told_in_millimetres() {
                 crate::drawing::Vertex::new(0.0, 0.0, 2.0 * rise / length),
                 crate::drawing::Vertex::new(length, 0.0, 0.0),
             ];
-            let polyline = drawing.push(super::tests::entity(
+            let polyline = drawing.push(super::entity(
                 "A",
                 crate::drawing::Geometry::Polyline {
                     closed: false,
@@ -376,7 +376,7 @@ fn flat_is_told_in_millimetres() {
                 start_angle: -PI / 2.0 - half,
                 end_angle: -PI / 2.0 + half,
             };
-            let arc = drawing.push(super::tests::entity("B", geometry));
+            let arc = drawing.push(super::entity("B", geometry));
             for id in [polyline, arc] {
                 let segment = drawing.segment(id, 0).expect("a segment");
                 assert_eq!(segment.as_arc().is_some(), is_arc, "{segment:?}");
@@ -477,7 +477,7 @@ fn a_crumb_in_a_corner_leaves_a_path() {
                     let settings = unled(&outline, Direction::AsDrawn);
                     let (drawing, outlines) = drawing(&[(&outline, Some(role))]);
                     let plain = [outline[0], outline[2], outline[3]];
-                    let judge = super::tests::drawing(&[(&plain, Some(role))]);
+                    let judge = super::drawing(&[(&plain, Some(role))]);
                     let expected = without_leads(
                         &plan(&judge.0, &judge.1, &settings, None).expect("a path")[0],
                     );

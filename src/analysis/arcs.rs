@@ -1,0 +1,240 @@
+//! Arcs below the correction: which they are, and the larger arc in the place of a run of them.
+
+use super::Analysis;
+use super::repair::{self, Can};
+use crate::drawing::{ContourKey, ContourSegment, Drawing, DrawingEdit, EntityId};
+use crate::finding::{Fix, FixKind, NoFix, Rule, Side, SmallRadius};
+use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
+use rustc_hash::FxHashSet;
+
+impl Analysis {
+    /// The repair of an arc below the correction that puts one larger arc in the place of its run, where that leaves the drawing
+    /// better than it is.
+    pub(super) fn larger_arc(
+        &self,
+        drawing: &Drawing,
+        key: ContourKey,
+        index: usize,
+    ) -> Option<Fix> {
+        let (travel, attempt) = self.attempt(drawing, key, index)?;
+        let replacement = attempt.outcome.ok()?;
+        let kind = FixKind::Refillet {
+            radius: replacement.arc.radius,
+            arcs: replacement.arcs,
+            moved: replacement.moved,
+        };
+        let in_fix_all = replacement.moved <= self.limits.correction;
+        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)])
+            .filter(|edit| self.enlarges(drawing, edit, None))?;
+        Some(Fix {
+            kind,
+            preferred: true,
+            in_fix_all,
+            edit,
+        })
+    }
+
+    pub(super) fn fix_all_arcs(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
+        self.settings.severity(Rule::SmallRadius)?;
+        let mut replacements = Vec::new();
+        for (key, wire_side) in self.with_tight_arcs(drawing) {
+            let mut accepted: Vec<(Stretch, Travel, Replacement)> = Vec::new();
+            for index in self.tight_in_entity_order(key) {
+                if self.fault(drawing, key, index, wire_side).is_none() {
+                    continue;
+                }
+                let Some((
+                    travel,
+                    Attempt {
+                        outcome: Ok(replacement),
+                        ..
+                    },
+                )) = self.attempt(drawing, key, index)
+                else {
+                    continue;
+                };
+                let stretch = Stretch::of(&travel, &replacement);
+                let free = accepted
+                    .first()
+                    .is_none_or(|(first, ..)| !first.overlaps(&stretch))
+                    && accepted
+                        .last()
+                        .is_none_or(|(last, ..)| !last.overlaps(&stretch));
+                if !free || replacement.moved > self.limits.correction {
+                    continue;
+                }
+                let alone = [(travel, replacement)];
+                let can_be_made = can.is_none_or(|can| {
+                    small_radius::drawing_edit(drawing, &alone).is_some_and(|edit| can(&edit))
+                });
+                let [(travel, replacement)] = alone;
+                if can_be_made {
+                    accepted.push((stretch, travel, replacement));
+                }
+            }
+            replacements.extend(
+                accepted
+                    .into_iter()
+                    .map(|(_, travel, replacement)| (travel, replacement)),
+            );
+        }
+        repair::most_together(&replacements, self.tries(), |together, _| {
+            small_radius::drawing_edit(drawing, together)
+                .filter(|edit| self.enlarges(drawing, edit, None))
+        })
+    }
+
+    /// Contours that have tight arcs, in machining order, with the wire side of each.
+    pub(super) fn with_tight_arcs(&self, drawing: &Drawing) -> Vec<(ContourKey, Option<Side>)> {
+        let ordered = self.in_machining_order(drawing);
+        let roles = self.roles(drawing, ordered);
+        let tight = ordered.iter().zip(roles).filter(|(key, _)| {
+            self.known
+                .get(key)
+                .is_some_and(|known| known.index.tight().next().is_some())
+        });
+        tight
+            .map(|(&key, role)| (key, self.wire_side(key, role)))
+            .collect()
+    }
+
+    pub(super) fn tight_in_entity_order(&self, key: ContourKey) -> Vec<usize> {
+        self.known
+            .get(&key)
+            .map_or_else(Vec::new, |known| known.index.tight().collect())
+    }
+
+    pub(super) fn fault(
+        &self,
+        drawing: &Drawing,
+        key: ContourKey,
+        index: usize,
+        wire_side: Option<Side>,
+    ) -> Option<(ContourSegment, SmallRadius)> {
+        let segment = self.chains.get(key)?.segment(drawing, index)?;
+        Some((
+            segment,
+            small_radius::check(&segment, wire_side, &self.limits)?,
+        ))
+    }
+
+    /// The replacement of the run that holds a tight arc, looked for on the side of its centre.
+    pub(super) fn attempt<'a>(
+        &'a self,
+        drawing: &'a Drawing,
+        key: ContourKey,
+        index: usize,
+    ) -> Option<(Travel<'a>, Attempt)> {
+        let contour = self.chains.get(key)?;
+        let segment = contour.segment(drawing, index)?;
+        let arc = *segment.geometry.as_arc()?;
+        let travel = Travel {
+            drawing,
+            contour,
+            index: &self.known.get(&key)?.index,
+            side: small_radius::center_side(arc.sweep),
+        };
+        if !drawing.is_editable(segment.entity) {
+            // Whatever a search would find, it could not be made; and a fitted curve may have a million tight arcs.
+            return Some((
+                travel,
+                Attempt {
+                    outcome: Err(NoFix::NotEditable),
+                    region: segment.geometry.bounds(),
+                },
+            ));
+        }
+        let position = travel.position_of(index);
+        let run = small_radius::run_of(&travel, position, &self.limits)?;
+        let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
+        // Where the arc was drawn in two and rounded, the two are one run all the same.
+        if attempt.outcome.is_err()
+            && let Some(longer) = small_radius::rounded_run_of(&travel, position, &self.limits)
+                .filter(|longer| *longer != run)
+        {
+            let again = small_radius::refillet(&travel, &longer, &self.limits);
+            let mut region = attempt.region;
+            region.merge(&again.region);
+            attempt = Attempt {
+                outcome: again.outcome.or(attempt.outcome),
+                region,
+            };
+        }
+        if let Ok(replacement) = &attempt.outcome
+            && !(replacement.before..=replacement.after).all(|position| {
+                travel
+                    .segment(position)
+                    .is_none_or(|segment| drawing.is_editable(segment.entity))
+            })
+        {
+            attempt.outcome = Err(NoFix::NotEditable);
+        }
+        Some((travel, attempt))
+    }
+
+    /// Why a fault has no fix, `None` where it has one; remembered until something near it changes.
+    pub(super) fn answer(
+        &mut self,
+        drawing: &Drawing,
+        key: ContourKey,
+        index: usize,
+    ) -> Option<NoFix> {
+        if let Some((answer, _)) = self.answers.get(&(key, index)) {
+            return *answer;
+        }
+        let (_, attempt) = self.attempt(drawing, key, index)?;
+        let answer = attempt.outcome.err();
+        self.answers.insert((key, index), (answer, attempt.region));
+        answer
+    }
+
+    /// Number of arcs below the correction in some entities.
+    pub(super) fn tight(&self, drawing: &Drawing, entities: &FxHashSet<EntityId>) -> usize {
+        let entities = entities.iter().filter_map(|&id| drawing.get(id));
+        let arcs = entities.flat_map(|entity| entity.geometry.segments_of(drawing.flat()));
+        arcs.filter(|segment| {
+            segment
+                .as_arc()
+                .is_some_and(|arc| small_radius::is_too_small(arc.radius, &self.limits))
+        })
+        .count()
+    }
+}
+
+/// What a replacement takes of a contour, in the contour's own direction: from one place to another, in segments.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    from: f64,
+    length: f64,
+    round: f64,
+}
+
+impl Stretch {
+    fn of(travel: &Travel, replacement: &Replacement) -> Stretch {
+        let place = |position: isize, point| {
+            let share = travel.segment(position).map_or(0.0, |segment| {
+                segment.geometry.share_of(point).clamp(0.0, 1.0)
+            });
+            position as f64 + share
+        };
+        let (start, end) = (
+            place(replacement.before, replacement.arc.start),
+            place(replacement.after, replacement.arc.end),
+        );
+        let round = travel.len() as f64;
+        let from = match travel.side {
+            Side::Left => start,
+            Side::Right => round - end,
+        };
+        Stretch {
+            from: from.rem_euclid(round),
+            length: end - start,
+            round,
+        }
+    }
+
+    fn overlaps(&self, other: &Stretch) -> bool {
+        (other.from - self.from).rem_euclid(self.round) < self.length
+            || (self.from - other.from).rem_euclid(self.round) < other.length
+    }
+}

@@ -1,0 +1,135 @@
+//! The contours of a drawing in machining order, with their roles.
+
+use super::Analysis;
+use crate::drawing::{ContourKey, Drawing, EntityId, Outline, Role, nesting_depths};
+use crate::finding::Side;
+use crate::settings::Effective;
+use rustc_hash::FxHashSet;
+use std::sync::Arc;
+
+impl Analysis {
+    /// Contours with their roles, in machining order. Cheap to keep as a snapshot.
+    pub fn outlines(&self, drawing: &Drawing) -> &Arc<Vec<Outline>> {
+        self.outlines.get_or_init(|| {
+            let ordered = self.in_machining_order(drawing);
+            let roles = self.roles(drawing, ordered);
+            let outline = |(key, role): (ContourKey, Role)| {
+                let contour = self.chains.get(key)?.clone();
+                let twice_area = if contour.closed {
+                    self.known.get(&key)?.index.twice_area()
+                } else {
+                    0.0
+                };
+                Some(Outline {
+                    contour,
+                    role,
+                    twice_area,
+                })
+            };
+            Arc::new(
+                ordered
+                    .iter()
+                    .copied()
+                    .zip(roles)
+                    .filter_map(outline)
+                    .collect(),
+            )
+        })
+    }
+
+    pub(super) fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {
+        if !matches!(role, Role::Opening | Role::Punch) {
+            return None;
+        }
+        let closed = self.chains.get(key)?.closed;
+        crate::drawing::wire_side(role, closed, self.known.get(&key)?.index.twice_area())
+    }
+
+    /// Keys of all contours in machining order: that of the first entity of each.
+    pub(super) fn in_machining_order(&self, drawing: &Drawing) -> &[ContourKey] {
+        self.order.get_or_init(|| {
+            let mut seen = FxHashSet::default();
+            let mut last = None;
+            let mut keys = Vec::new();
+            for &id in drawing.order() {
+                let key = self.chains.contour_of(id);
+                if key != last
+                    && let Some(key) = key
+                    && seen.insert(key)
+                {
+                    keys.push(key);
+                }
+                last = key;
+            }
+            keys
+        })
+    }
+
+    /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting.
+    pub(super) fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
+        let everywhere = self.settings.side.role();
+        let depths = match everywhere {
+            Some(_) => Vec::new(),
+            None => {
+                let contours: Vec<_> = keys
+                    .iter()
+                    .filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index)))
+                    .collect();
+                nesting_depths(drawing, &contours)
+            }
+        };
+        let nested = |position: usize| {
+            if depths.get(position).is_some_and(|depth| depth % 2 == 1) {
+                Role::Opening
+            } else {
+                Role::Punch
+            }
+        };
+        let role = |(position, key): (usize, &ContourKey)| {
+            self.known
+                .get(key)
+                .and_then(|known| known.stated)
+                .or(everywhere)
+                .unwrap_or_else(|| nested(position))
+        };
+        keys.iter().enumerate().map(role).collect()
+    }
+}
+
+/// The role that an entity states, else that of its handle, else that of its layer, else that of its colour.
+pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Role> {
+    let entity = drawing.get(id)?;
+    let by_color = || {
+        if settings.colors.is_empty() {
+            None
+        } else {
+            settings.colors.get(&drawing.color(id)?).copied()
+        }
+    };
+    let by_handle = || {
+        if settings.contours.is_empty() {
+            None
+        } else {
+            settings.contours.get(&*entity.handle).copied()
+        }
+    };
+    entity
+        .role
+        .or_else(by_handle)
+        .or_else(|| settings.layers.get(&*entity.layer).copied())
+        .or_else(by_color)
+}
+
+/// True when an entity is part of a contour: it has segments, its role is not `ignore`, and it is seen, or somebody has given it
+/// or its layer a role. A colour or a handle alone does not bring back what is frozen.
+pub fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
+    let Some(entity) = drawing
+        .get(id)
+        .filter(|entity| entity.geometry.segment_count() > 0)
+    else {
+        return false;
+    };
+    let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);
+    role_of(drawing, settings, id) != Some(Role::Ignore)
+        && (drawing.visibility(id).is_seen() || is_asked_for())
+}

@@ -1,0 +1,124 @@
+//! The fixes of one finding, and of all.
+
+use super::Analysis;
+use super::repair::{self, Can};
+use crate::drawing::{Drawing, DrawingEdit, EntityId};
+use crate::finding::{Detail, Finding, Fix, FixKind, Place, Rule};
+use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, PAIR_RULES, Wall, small_radius};
+
+impl Analysis {
+    /// The fixes of one finding, the preferred one first; empty where none is right.
+    pub fn fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
+        let Place::Segment { entity, segment } = &finding.place else {
+            return Vec::new();
+        };
+        if finding.rule != Rule::SmallRadius {
+            return self.checked(
+                drawing,
+                finding.rule,
+                self.other_fixes(drawing, finding, (*entity, *segment))
+                    .unwrap_or_default(),
+            );
+        }
+        let Some((key, index)) = self.chains.index_of(*entity, *segment) else {
+            return Vec::new();
+        };
+        let mut fixes = Vec::new();
+        let found = self
+            .attempt(drawing, key, index)
+            .and_then(|(_, attempt)| attempt.outcome.ok());
+        let old = self
+            .chains
+            .get(key)
+            .and_then(|contour| contour.segment(drawing, index))
+            .map(|segment| segment.geometry);
+        let is_notch = found.zip(old).is_some_and(|(replacement, old)| {
+            let ends = [old.start(), old.end()];
+            ends.contains(&replacement.arc.start) && ends.contains(&replacement.arc.end)
+        });
+        fixes.extend(self.larger_arc(drawing, key, index));
+        let place = self
+            .chains
+            .get(key)
+            .and_then(|contour| contour.segment(drawing, index));
+        if let Some(place) = place.filter(|_| !is_notch)
+            && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
+            && self.enlarges(drawing, &edit, Some(Rule::LostPocket))
+        {
+            let kind = FixKind::KeepEndPoints {
+                radius: self.limits.fix_radius,
+                kink,
+            };
+            fixes.push(Fix {
+                kind,
+                preferred: false,
+                in_fix_all: false,
+                edit,
+            });
+        }
+        fixes
+    }
+
+    /// The fixes of a finding of any rule but `small-radius`.
+    pub(super) fn other_fixes(
+        &self,
+        drawing: &Drawing,
+        finding: &Finding,
+        at: (EntityId, usize),
+    ) -> Option<Vec<Fix>> {
+        let (key, index) = self.chains.index_of(at.0, at.1)?;
+        let outlook = self.outlook(drawing, key)?;
+        if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
+            // A hint that stands for many corners is no place to mend one of them.
+            if matches!(finding.detail, Detail::SharpCorner { count: Some(count), .. } if count > 1)
+            {
+                return None;
+            }
+            return Some((rule.fixes)(
+                &outlook,
+                Fact {
+                    index: index as u32,
+                    side: None,
+                    needs_side: false,
+                },
+            ));
+        }
+        if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == finding.rule) {
+            return Some((rule.fixes)(&outlook));
+        }
+        let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
+        let Place::Segment { entity, segment } = finding.related.first()? else {
+            return None;
+        };
+        let (other_key, other_index) = self.chains.index_of(*entity, *segment)?;
+        let theirs = self.outlook(drawing, other_key)?;
+        Some((rule.fixes)(
+            &Wall::new(&outlook, index)?,
+            &Wall::new(&theirs, other_index)?,
+        ))
+    }
+
+    /// One edit that makes every safe fix; `None` where there is none.
+    ///
+    /// Doubles first, then arcs; where there are none to be mended, what the other rules can mend safely, one rule at a time: call
+    /// again until nothing is left.
+    pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
+        self.fix_all_of(drawing, None)
+    }
+
+    /// As [`Analysis::fix_all`], of the fixes that `can` says can be made.
+    pub fn fix_all_that(
+        &self,
+        drawing: &Drawing,
+        can: &dyn Fn(&DrawingEdit) -> bool,
+    ) -> Option<DrawingEdit> {
+        self.fix_all_of(drawing, Some(can))
+    }
+
+    pub(super) fn fix_all_of(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
+        let doubles = self.fix_all_else(drawing, &repair::FIRST, can);
+        doubles
+            .or_else(|| self.fix_all_arcs(drawing, can))
+            .or_else(|| self.fix_all_else(drawing, &repair::THEN, can))
+    }
+}

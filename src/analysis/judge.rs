@@ -1,0 +1,255 @@
+//! All that is found in a drawing: what has been seen is put together anew for each report.
+
+use super::Analysis;
+use super::report::{Report, Tally};
+use crate::drawing::{ContourKey, Drawing, EntityId, Role};
+use crate::finding::{Detail, Finding, NoFix, Place, Rule, Side, SmallRadius};
+use crate::rules::{CONTOUR_RULES, Outlook, units};
+use crate::settings::SideSetting;
+use rustc_hash::FxHashMap;
+
+/// Segments that are looked at to say which repairs of arcs below the correction would bring another fault.
+const MOST_TRIED: usize = 40_000;
+
+impl Analysis {
+    /// The contours that have something to tell, in machining order.
+    pub(super) fn loud_in_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
+        // What sleeps is not in the drawing.
+        let awake = self
+            .loud
+            .iter()
+            .filter(|(_, loud)| Some(loud.first) != self.asleep);
+        let mut loud: Vec<(u64, ContourKey)> = awake
+            .map(|(&key, loud)| (drawing.rank(loud.first), key))
+            .collect();
+        loud.sort_unstable();
+        loud.into_iter().map(|(_, key)| key).collect()
+    }
+
+    /// Says of arcs whose repair would bring another fault that there is none. Each takes a look at the drawing: in one where that would be
+    /// more than [`MOST_TRIED`] segments in all, it is found out when the repair is asked for.
+    pub(super) fn give_reasons(&self, drawing: &Drawing, findings: &mut [Finding]) {
+        let mut hopeful: Vec<(&mut SmallRadius, EntityId, usize)> = findings
+            .iter_mut()
+            .filter_map(|finding| match (&mut finding.detail, &finding.place) {
+                (Detail::SmallRadius(numbers), Place::Segment { entity, segment })
+                    if numbers.no_fix.is_none() =>
+                {
+                    Some((&mut **numbers, *entity, *segment))
+                }
+                _ => None,
+            })
+            .collect();
+        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
+        if hopeful.len().saturating_mul(segments) > MOST_TRIED {
+            return;
+        }
+        for (numbers, entity, segment) in &mut hopeful {
+            let at = self.chains.index_of(*entity, *segment);
+            if at.is_some_and(|(key, index)| self.larger_arc(drawing, key, index).is_none()) {
+                numbers.no_fix = Some(NoFix::Spoils);
+            }
+        }
+    }
+
+    /// How many findings of which kind there are.
+    pub(super) fn tally(&mut self, drawing: &Drawing) -> Tally {
+        Tally {
+            unseen: self.pairs.uncompared(),
+            ..self.report(drawing, 0).tally()
+        }
+    }
+
+    pub(super) fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
+        let mut report = Report::new(self.settings.clone(), limit);
+        // By nesting, the role of each depends on all.
+        let nested: Option<FxHashMap<ContourKey, Role>> = (self.settings.side == SideSetting::Auto)
+            .then(|| {
+                let ordered = self.in_machining_order(drawing);
+                ordered
+                    .iter()
+                    .copied()
+                    .zip(self.roles(drawing, ordered))
+                    .collect()
+            });
+        // Where nothing states a role and none depends on nesting.
+        let everywhere = self.settings.side.role().filter(|_| self.stated == 0);
+        let role_of = |analysis: &Analysis, key: ContourKey| match &nested {
+            Some(roles) => roles.get(&key).copied().unwrap_or(Role::Both),
+            None if everywhere.is_some() => everywhere.unwrap_or(Role::Both),
+            None => analysis
+                .roles(drawing, &[key])
+                .first()
+                .copied()
+                .unwrap_or(Role::Both),
+        };
+        let side_of =
+            |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
+        let ends = self.dead_ends(drawing, &|key| side_of(self, key));
+        let loud: Vec<(ContourKey, Option<Side>)> = self
+            .loud_in_order(drawing)
+            .into_iter()
+            .map(|key| (key, side_of(self, key)))
+            .collect();
+        for &(key, wire_side) in &loud {
+            self.report_small_radii(drawing, key, wire_side, &mut report);
+        }
+        for &(key, wire_side) in &loud {
+            if self.loud.get(&key).is_some_and(|loud| loud.has_facts)
+                && let (Some(known), Some(outlook)) =
+                    (self.known.get(&key), self.outlook(drawing, key))
+            {
+                known.report(&outlook, wire_side, &mut report);
+            }
+        }
+        let as_a_whole = |key: &ContourKey| self.loud.get(key).is_some_and(|loud| loud.as_a_whole);
+        self.report_contours(
+            drawing,
+            loud.iter().map(|(key, _)| *key).filter(as_a_whole),
+            &mut report,
+        );
+        self.report_size(drawing, &mut report);
+        self.pairs.report(
+            drawing,
+            &|key| self.outlook(drawing, key),
+            &|key| side_of(self, key),
+            &mut report,
+        );
+        self.report_dead_ends(drawing, &ends, &mut report);
+        if self.settings.side != SideSetting::Both || self.stated > 0 {
+            let ordered = self.in_machining_order(drawing).to_vec();
+            let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();
+            self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
+        }
+        report
+    }
+
+    /// What the rules on whole contours see.
+    pub(super) fn report_contours(
+        &self,
+        drawing: &Drawing,
+        keys: impl Iterator<Item = ContourKey>,
+        report: &mut Report,
+    ) {
+        let outlook = |key| self.outlook(drawing, key);
+        let concerned: Vec<Outlook> = keys
+            .filter_map(outlook)
+            .filter(|outlook| outlook.contour.pieces.len() > 1 || !outlook.contour.closed)
+            .filter(|outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(outlook)))
+            .collect();
+        if concerned.is_empty() {
+            return;
+        }
+        let doubled = self.pairs.doubled(&outlook);
+        for rule in CONTOUR_RULES {
+            let mildest = (rule.mildest)(&self.settings);
+            for outlook in concerned
+                .iter()
+                .copied()
+                .filter(|outlook| (rule.holds)(outlook))
+            {
+                // What lies there twice is reported as that.
+                if !outlook
+                    .contour
+                    .pieces
+                    .iter()
+                    .all(|piece| doubled.contains(&piece.entity))
+                    && report.counts(rule.rule, mildest)
+                    && let (Some((place, related)), Some(detail)) =
+                        ((rule.places)(&outlook), (rule.detail)(&outlook))
+                {
+                    report.add(rule.rule, mildest, place, detail, related);
+                }
+            }
+        }
+    }
+
+    /// Sizes that speak for another unit than the drawing's: of the largest contour.
+    pub(super) fn report_size(&self, drawing: &Drawing, report: &mut Report) {
+        // What sleeps is not in the drawing.
+        let is_there = |key: ContourKey| {
+            self.chains
+                .first_of(key)
+                .is_some_and(|first| drawing.get(first).is_some())
+        };
+        let bounds_of = |key: ContourKey| {
+            self.known
+                .get(&key)
+                .filter(|_| is_there(key))
+                .map(|known| known.index.bounds())
+        };
+        let mut keys = self.known.keys().copied();
+        let is_large = self.vast.iter().any(|&key| is_there(key));
+        let is_absurd = is_large
+            || (self.known.keys().any(|&key| is_there(key))
+                && !keys.any(|key| {
+                    bounds_of(key)
+                        .is_some_and(|bounds| units::is_sizable(&bounds, self.limits.unit_mm))
+                }));
+        if is_absurd && report.counts(Rule::Units, None) {
+            let all: Box<dyn Iterator<Item = &ContourKey>> = if is_large {
+                Box::new(self.vast.iter())
+            } else {
+                Box::new(self.known.keys())
+            };
+            let size = all
+                .filter_map(|&key| bounds_of(key))
+                .map(|bounds| units::size(&bounds))
+                .fold(0.0, f64::max);
+            report.add(
+                Rule::Units,
+                None,
+                Place::Document,
+                Detail::Size { size },
+                Vec::new(),
+            );
+        }
+    }
+
+    /// Arcs below the correction in one contour.
+    pub(super) fn report_small_radii(
+        &mut self,
+        drawing: &Drawing,
+        key: ContourKey,
+        wire_side: Option<Side>,
+        report: &mut Report,
+    ) {
+        let Some(loud) = self.loud.get(&key).filter(|loud| loud.has_tight_arcs) else {
+            return;
+        };
+        if let Some((_, count)) = loud.faults.filter(|(side, _)| *side == wire_side)
+            && report.is_full(Rule::SmallRadius, None)
+        {
+            report.count(Rule::SmallRadius, None, count);
+            return;
+        }
+        let tight: Vec<usize> = self
+            .known
+            .get(&key)
+            .map_or_else(Vec::new, |known| known.index.tight().collect());
+        let mut count = 0;
+        for index in tight {
+            let Some((segment, mut numbers)) = self.fault(drawing, key, index, wire_side) else {
+                continue;
+            };
+            count += 1;
+            if report.counts(Rule::SmallRadius, None) {
+                numbers.no_fix = self.answer(drawing, key, index);
+                let place = Place::Segment {
+                    entity: segment.entity,
+                    segment: segment.segment,
+                };
+                report.add(
+                    Rule::SmallRadius,
+                    None,
+                    place,
+                    Detail::SmallRadius(Box::new(numbers)),
+                    Vec::new(),
+                );
+            }
+        }
+        if let Some(loud) = self.loud.get_mut(&key) {
+            loud.faults = Some((wire_side, count));
+        }
+    }
+}

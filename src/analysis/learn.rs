@@ -1,0 +1,253 @@
+//! What is seen of contours for the first time, and again where an edit has touched them.
+
+use super::contours::role_of;
+use super::known::Known;
+use super::pairs::RunId;
+use super::{Analysis, Loud};
+use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
+use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
+use std::iter::once;
+use std::ops::Range;
+
+impl Analysis {
+    pub(super) fn enter_known(&mut self, key: ContourKey, known: Known) {
+        self.stated += usize::from(known.stated.is_some());
+        self.known.insert(key, known);
+    }
+
+    pub(super) fn take_known(&mut self, key: ContourKey) -> Option<Known> {
+        let known = self.known.remove(&key)?;
+        self.stated -= usize::from(known.stated.is_some());
+        Some(known)
+    }
+
+    /// Takes down whether a contour has something to tell.
+    pub(super) fn listen_to(&mut self, drawing: &Drawing, key: ContourKey) {
+        let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
+        let known = self.known.get(&key);
+        let loud = self.chains.first_of(key).map(|first| Loud {
+            first,
+            has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
+            has_facts: known.is_some_and(Known::has_facts),
+            as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
+            faults: None,
+        });
+        match loud.filter(|loud| loud.has_tight_arcs || loud.has_facts || loud.as_a_whole) {
+            Some(loud) => drop(self.loud.insert(key, loud)),
+            None => drop(self.loud.remove(&key)),
+        }
+        if self
+            .known
+            .get(&key)
+            .is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm))
+        {
+            self.vast.insert(key);
+        } else {
+            self.vast.remove(&key);
+        }
+    }
+
+    /// Looks at whole contours for the first time.
+    pub(super) fn learn(&mut self, drawing: &Drawing, keys: &[ContourKey]) {
+        let mut runs = Vec::new();
+        for &key in keys {
+            let Some(contour) = self.chains.get(key) else {
+                continue;
+            };
+            let index = ContourIndex::new(
+                drawing,
+                contour,
+                self.limits.correction - self.limits.tolerances.report,
+            );
+            let mut known = Known::new(
+                index,
+                stated_role(contour, &|id| role_of(drawing, &self.settings, id)),
+            );
+            known.look(
+                drawing,
+                contour,
+                &self.limits,
+                &self.settings,
+                0..contour.len(),
+            );
+            runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
+            self.enter_known(key, known);
+            self.listen_to(drawing, key);
+        }
+        self.look_at_pairs(drawing, &runs);
+    }
+
+    /// Looks at the pairs of segments that the runs form with each other and with others; the runs are new or have been
+    /// forgotten.
+    pub(super) fn look_at_pairs(&mut self, drawing: &Drawing, runs: &[RunId]) {
+        let mut pairs = std::mem::take(&mut self.pairs);
+        let outlook = |key| self.outlook(drawing, key);
+        pairs.look(&outlook, &self.limits, &self.settings, runs);
+        self.pairs = pairs;
+    }
+
+    /// Looks again at an entity whose contour still runs as it did. False where it is in none.
+    pub(super) fn look_again(
+        &mut self,
+        drawing: &Drawing,
+        entity: EntityId,
+        vertices: Option<(usize, usize, usize)>,
+    ) -> bool {
+        let Some(key) = self.chains.contour_of(entity) else {
+            return drawing
+                .get(entity)
+                .is_none_or(|e| e.geometry.segment_count() == 0);
+        };
+        let Some(geometry) = drawing.get(entity).map(|entity| &entity.geometry) else {
+            return false;
+        };
+        let Some(before) = self.chains.piece_of(entity) else {
+            return false;
+        };
+        let recounted = before.count() != geometry.segment_count();
+        if recounted {
+            self.chains.recount(drawing, entity);
+            self.answers.retain(|(other, _), _| *other != key);
+        }
+        self.lost.remove(&key);
+        let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.take_known(key))
+        else {
+            return false;
+        };
+        let Some(contour) = self.chains.get(key) else {
+            return false;
+        };
+        if vertices.is_none() {
+            known.stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
+        }
+        // What holds of a whole entity is kept with its first and last segment.
+        let mut own = segments_of(vertices, piece.count(), geometry.is_closed());
+        if piece.count() > 0 {
+            own.extend([0..1, piece.count() - 1..piece.count()]);
+        }
+        let ranges = own.into_iter().map(|range| {
+            let (start, end) = match piece.reversed {
+                true => (
+                    piece.range().end - range.end,
+                    piece.range().end - range.start,
+                ),
+                false => (piece.first() + range.start, piece.first() + range.end),
+            };
+            // What lies behind has other indices now; in a piece travelled against its own direction, and in the pieces
+            // behind this one, that reaches past the splice.
+            start..if recounted { contour.len() } else { end }
+        });
+        let ranges: Vec<Range<usize>> = ranges.collect();
+        // What a pair rule sees at a segment depends on its neighbours, too. Runs behind a segment that came or went
+        // have other segments.
+        let mut runs = BTreeSet::new();
+        for range in &ranges {
+            let count = if recounted {
+                known.index.len().max(contour.len())
+            } else {
+                contour.len()
+            };
+            let behind = if recounted {
+                count
+            } else {
+                (range.end + NEIGHBOURS).min(count)
+            };
+            runs.extend(range.start.saturating_sub(NEIGHBOURS) / RUN..behind.div_ceil(RUN));
+            if contour.closed && range.start < NEIGHBOURS {
+                runs.extend(count.saturating_sub(NEIGHBOURS) / RUN..count.div_ceil(RUN));
+            }
+            if contour.closed && (recounted || range.end + NEIGHBOURS > count) {
+                runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
+            }
+        }
+        // Two closed outlines that lie on each other begin where they like: what holds of both is kept where one of them begins.
+        let is_ring = geometry.is_closed() && known.index.run_count() > 1;
+        let beside = if is_ring {
+            self.pairs.beside(key, known.index.run_count())
+        } else {
+            FxHashSet::default()
+        };
+        let beginnings: Vec<RunId> = beside
+            .into_iter()
+            .filter_map(|other| self.beginning_of(drawing, other))
+            .collect();
+        for &(other, run) in &beginnings {
+            if let Some(bounds) = self
+                .known
+                .get(&other)
+                .map(|known| known.index.bounds_of_run(run as usize))
+            {
+                self.pairs.forget_run((other, run), &bounds);
+            }
+        }
+        let mut forgotten = FxHashSet::default();
+        for &run in &runs {
+            if run < known.index.run_count() && forgotten.insert(run) {
+                self.pairs
+                    .forget_run((key, run as u32), &known.index.bounds_of_run(run));
+            }
+        }
+        for range in ranges {
+            let mut changed = known.index.bounds_about(range.clone());
+            known.index.update(drawing, contour, range.clone());
+            changed.merge(&known.index.bounds_about(range.clone()));
+            known.look(
+                drawing,
+                contour,
+                &self.limits,
+                &self.settings,
+                range.clone(),
+            );
+            self.answers
+                .retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
+        }
+        let count = known.index.run_count();
+        let runs = runs
+            .into_iter()
+            .filter(|&run| run < count)
+            .map(|run| (key, run as u32));
+        let runs: BTreeSet<RunId> = runs.collect();
+        self.enter_known(key, known);
+        self.listen_to(drawing, key);
+        let runs: Vec<RunId> = runs.into_iter().chain(beginnings).collect();
+        self.look_at_pairs(drawing, &runs);
+        true
+    }
+
+    /// The run with the first segment of a contour that is one closed entity.
+    pub(super) fn beginning_of(&self, drawing: &Drawing, key: ContourKey) -> Option<RunId> {
+        let first = self.chains.first_of(key).filter(|&first| {
+            drawing
+                .get(first)
+                .is_some_and(|entity| entity.geometry.is_closed())
+        })?;
+        let (_, index) = self.chains.index_of(first, 0)?;
+        Some((key, (index / RUN) as u32))
+    }
+}
+
+/// The segments of an entity that a splice of its vertices changed, in one or two ranges.
+fn segments_of(
+    vertices: Option<(usize, usize, usize)>,
+    count: usize,
+    closed: bool,
+) -> Vec<Range<usize>> {
+    let Some((start, removed, inserted)) = vertices else {
+        return once(0..count).collect();
+    };
+    if removed != inserted {
+        // What lies behind the splice has other indices now; the segment before it has another end.
+        let first = if closed && start == 0 {
+            0
+        } else {
+            start.saturating_sub(1).min(count)
+        };
+        return once(first..count).collect();
+    }
+    let end = (start + inserted).min(count);
+    let own = start.saturating_sub(1).min(end)..end;
+    let closing = (closed && start == 0 && count > 0).then(|| count - 1..count);
+    once(own).chain(closing).collect()
+}

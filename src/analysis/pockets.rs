@@ -1,0 +1,182 @@
+//! What the offsets of contours lose, and where no path of the wire would hold its proof.
+
+use super::Analysis;
+use super::report::Report;
+use crate::drawing::{ContourKey, Drawing, Outline, Role};
+use crate::finding::{Detail, Finding, Place, Rule, Side};
+use crate::geometry::Point;
+use crate::rules::lost_pocket::{self, Lost};
+use crate::settings::Compensation;
+use crate::toolpath;
+
+/// What the offset of a contour loses.
+#[derive(Clone, Debug)]
+pub(super) struct Answer {
+    /// What was asked: the side, and whether there is a neck.
+    asked: (Side, bool),
+    lost: Vec<Lost>,
+    /// What stands against a path, where nothing is lost; `None` while that has not been asked.
+    misfit: Option<Option<Box<Finding>>>,
+}
+
+impl Analysis {
+    /// What the offsets of contours with a known wire side lose.
+    pub(super) fn report_lost_pockets(
+        &mut self,
+        drawing: &Drawing,
+        ordered: &[ContourKey],
+        sides: &[Option<Side>],
+        report: &mut Report,
+    ) {
+        let is_on = |rule| self.settings.severity(rule).is_some();
+        let of_rules = [Rule::LostPocket, Rule::OffsetCollapse, Rule::UnprovedPath]
+            .into_iter()
+            .any(is_on);
+        if !of_rules || sides.iter().all(Option::is_none) {
+            return;
+        }
+        // Without the rules that see them, a neck is taken for granted, and a crossing for none.
+        let necks = is_on(Rule::NarrowSlot).then(|| self.pairs.contours_with(Rule::NarrowSlot));
+        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
+        for (&key, &side) in ordered.iter().zip(sides) {
+            let Some(side) = side.filter(|_| !crossed.contains(&key)) else {
+                continue;
+            };
+            let asked = (
+                side,
+                necks.as_ref().is_none_or(|necks| necks.contains(&key)),
+            );
+            if self
+                .lost
+                .get(&key)
+                .is_none_or(|answer| answer.asked != asked)
+            {
+                let Some(outlook) = self.outlook(drawing, key) else {
+                    continue;
+                };
+                let lost = lost_pocket::look(&outlook, side, asked.1);
+                self.lost.insert(
+                    key,
+                    Answer {
+                        asked,
+                        lost,
+                        misfit: None,
+                    },
+                );
+            }
+            // Fixes are held against each other by what is cheap to know.
+            if report.shows_findings()
+                && self
+                    .lost
+                    .get(&key)
+                    .is_some_and(|answer| answer.lost.is_empty() && answer.misfit.is_none())
+            {
+                let misfit = self.misfit(drawing, key, side).map(Box::new);
+                if let Some(answer) = self.lost.get_mut(&key) {
+                    answer.misfit = Some(misfit);
+                }
+            }
+            let (Some(Answer { lost, misfit, .. }), Some(outlook)) =
+                (self.lost.get(&key), self.outlook(drawing, key))
+            else {
+                continue;
+            };
+            let misfit = misfit.iter().flatten().next();
+            let slots = if lost.is_empty() && misfit.is_none() || necks.is_none() {
+                Vec::new()
+            } else {
+                self.pairs.slots_of(key)
+            };
+            // What a slot is told of is not told again as what is lost in it.
+            let is_told = |near: Point, index: usize| {
+                slots.iter().any(|(walls, disc)| match disc {
+                    Some((center, radius)) => {
+                        (near - center).norm() <= radius + self.limits.correction
+                    }
+                    None => walls.contains(&index),
+                })
+            };
+            for lost in lost {
+                if matches!(*lost, Lost::Pocket { near, index } if is_told(near, index)) {
+                    continue;
+                }
+                let (rule, index, detail) = match *lost {
+                    Lost::All => (
+                        Rule::OffsetCollapse,
+                        0,
+                        Detail::OffsetCollapse {
+                            required: self.limits.correction,
+                            point: false,
+                        },
+                    ),
+                    Lost::Pocket { near, index } => {
+                        (Rule::LostPocket, index, Detail::LostPocket { near })
+                    }
+                };
+                if report.counts(rule, None)
+                    && let Some(place) = outlook.place(index)
+                {
+                    report.add(rule, None, place, detail, Vec::new());
+                }
+            }
+            if let Some(Finding {
+                rule,
+                severity,
+                place,
+                detail,
+                ..
+            }) = misfit.map(Box::as_ref)
+            {
+                let index = match *place {
+                    Place::Segment { entity, segment } => self
+                        .chains
+                        .index_of(entity, segment)
+                        .map(|(_, index)| index),
+                    _ => None,
+                };
+                let near = |near: Point| is_told(near, index.unwrap_or(usize::MAX));
+                if !matches!(*detail, Detail::LostPocket { near: at } if near(at))
+                    && report.counts(*rule, Some(*severity))
+                {
+                    report.add(
+                        *rule,
+                        Some(*severity),
+                        place.clone(),
+                        detail.clone(),
+                        Vec::new(),
+                    );
+                }
+            }
+        }
+    }
+
+    /// What stands against a path of the wire on `side` of a contour; `None` for one that is too long to ask at every edit, that is the
+    /// wire's path itself, or of whose arcs each says so.
+    pub(super) fn misfit(&self, drawing: &Drawing, key: ContourKey, side: Side) -> Option<Finding> {
+        let (contour, known) = (self.chains.get(key)?, self.known.get(&key)?);
+        if !contour.closed
+            || contour.len() > lost_pocket::MOST_SEGMENTS
+            || self.settings.compensation == Compensation::None
+        {
+            return None;
+        }
+        if known.index.tight().count() == contour.len() {
+            return None;
+        }
+        let twice_area = known.index.twice_area();
+        let role = if side.sign() * twice_area > 0.0 {
+            Role::Opening
+        } else {
+            Role::Punch
+        };
+        toolpath::misfit(
+            drawing,
+            &Outline {
+                contour: contour.clone(),
+                role,
+                twice_area,
+            },
+            &self.settings,
+        )
+    }
+}

@@ -1,0 +1,92 @@
+//! A disc beside the walls of a contour: where it touches them, and where its centre may lie that it does.
+
+use super::Limits;
+use super::locus::Locus;
+use super::wall::{Corner, Wall};
+use crate::finding::Side;
+use crate::geometry::{Point, Segment, Vector, left_normal, turn};
+
+/// A turn (radians) below which two segments are one wall.
+const SMOOTH: f64 = 1e-6;
+
+/// A wall that a disc touches: at a place of it, or at the vertex that it starts in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch {
+    pub index: usize,
+    pub at_vertex: bool,
+    /// From the place towards the disc's centre.
+    pub normal: Vector,
+}
+
+/// How far a wall may reach into a disc by rounding.
+pub(super) fn slack(limits: &Limits, radius: f64) -> f64 {
+    (1e-6 * radius).max(limits.tolerances.clearance)
+}
+
+/// Where a disc may lie that touches a wall, or the vertex that it starts in.
+pub(super) fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
+    let along = Locus::beside(
+        wall.geometry(),
+        side.sign(),
+        radius,
+        wall.outlook.limits.tolerances.zero_length,
+    );
+    [
+        along,
+        start_of(wall)
+            .filter(|corner| is_tip(corner, side))
+            .map(|corner| Locus::about(corner.at, radius)),
+    ]
+}
+
+/// The vertex that a wall starts in.
+fn start_of(wall: &Wall) -> Option<Corner> {
+    wall.corners().next()
+}
+
+/// True for a vertex that the contour turns away from the wire in.
+fn is_tip(corner: &Corner, side: Side) -> bool {
+    let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else {
+        return false;
+    };
+    turn(incoming.end_tangent(), outgoing.start_tangent()) * side.sign() < -SMOOTH
+}
+
+/// How a disc on one side of a wall touches it, if it does.
+pub(super) fn touch(wall: &Wall, side: Side, center: Point, radius: f64) -> Option<Touch> {
+    let slack = slack(wall.outlook.limits, radius);
+    let geometry = wall.geometry();
+    let share = geometry.share_of(center);
+    let rounding = 1e-9 / geometry.length();
+    let place = foot(geometry, center, share);
+    let away = center - place;
+    let touches = |distance: f64| (distance - radius).abs() <= slack;
+    if (-rounding..=1.0 + rounding).contains(&share)
+        && touches(away.norm())
+        && left_normal(geometry.tangent_at(share)).dot(&away) * side.sign() > 0.0
+    {
+        return Some(Touch {
+            index: wall.index,
+            at_vertex: false,
+            normal: away / away.norm(),
+        });
+    }
+    let corner = start_of(wall).filter(|corner| is_tip(corner, side))?;
+    let away = center - corner.at;
+    let normal = away.try_normalize(0.0)?;
+    (touches(away.norm()) && corner.is_nearest(normal)).then_some(Touch {
+        index: wall.index,
+        at_vertex: true,
+        normal,
+    })
+}
+
+/// The place of a segment's line or circle nearest to `point`, which lies at `share` of it.
+fn foot(segment: &Segment, point: Point, share: f64) -> Point {
+    match segment {
+        Segment::Line(line) => line.start + (line.end - line.start) * share,
+        Segment::Arc(arc) => (point - arc.center)
+            .try_normalize(0.0)
+            .map_or(arc.start, |away| arc.center + away * arc.radius),
+    }
+}

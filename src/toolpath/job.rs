@@ -1,0 +1,36 @@
+//! What all contours of one request have in common.
+
+use super::order::Pick;
+use super::path::Refusal;
+use crate::drawing::{Drawing, Outline};
+use crate::settings::Effective;
+use rustc_hash::FxHashMap;
+
+/// How much nearer than the correction a path may come by rounding, mm.
+pub(super) const ROUNDING: f64 = 1e-6;
+
+/// What all contours of one request have in common.
+pub(super) struct Job<'a> {
+    pub drawing: &'a Drawing,
+    pub outlines: &'a [Outline],
+    pub settings: &'a Effective,
+    /// What the selection says of contours, by outline.
+    pub picks: FxHashMap<usize, Pick>,
+    pub unit_mm: f64,
+    pub goes_on: &'a dyn Fn() -> bool,
+}
+
+impl Job<'_> {
+    pub fn go_on(&self) -> Result<(), Refusal> {
+        if (self.goes_on)() {
+            Ok(())
+        } else {
+            Err(Refusal::Cancelled)
+        }
+    }
+
+    /// mm in drawing units.
+    pub fn units(&self, mm: f64) -> f64 {
+        mm / self.unit_mm
+    }
+}

@@ -1,0 +1,267 @@
+//! The path along one closed contour, proved, or the fault that stands in its place.
+
+use super::clearance::Walls;
+use super::corners::{Element, Joining, Raw, with_tips};
+use super::job::{Job, ROUNDING};
+use super::loops::{self, Found};
+use super::offset::{Wall, walls};
+use super::path::Refusal;
+use super::proof::{Proof, Unproved};
+use crate::drawing::Contour;
+use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::geometry::Point;
+use crate::settings::Corner;
+use std::sync::OnceLock;
+
+/// Walls up to this long, mm, are left out where there is no path otherwise.
+const CRUMB: f64 = 4e-6;
+
+/// Elements of a path that are looked at between two questions whether it is still wanted.
+const STEP: usize = 1024;
+
+/// What a contour gives the wire.
+pub(super) enum Laid {
+    Path(Vec<Element>),
+    /// The one place where the wire's centre may be.
+    Point(Point),
+}
+
+/// What comes of a contour.
+pub(super) type Outcome = Result<Laid, Fault>;
+
+/// Why a contour has no path, with the wall where that shows.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Fault {
+    /// Nowhere along it does the wire fit.
+    Nothing,
+    /// There are several places for the wire with no way from one to the other.
+    Several { near: Point, wall: usize },
+    /// There is a path, but it does not hold its proof.
+    Unproved { wall: usize },
+}
+
+impl Job<'_> {
+    /// The walls of a closed contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
+    /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
+    pub fn along(
+        &self,
+        contour: &Contour,
+        side: f64,
+    ) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
+        let of = |shortest: f64| {
+            let walls = walls(contour.segments(self.drawing), true, self.units(shortest));
+            let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+            (walls, own)
+        };
+        let (walls, own) = of(self.settings.tolerances.zero_length);
+        let laid = self.laid(&walls, &own, side)?;
+        if laid.is_err()
+            && walls
+                .iter()
+                .any(|wall| wall.geometry.length() <= self.units(CRUMB))
+        {
+            let (walls, own) = of(CRUMB);
+            if let Ok(path) = self.laid(&walls, &own, side)? {
+                return Ok((walls, own, Ok(path)));
+            }
+        }
+        Ok((walls, own, laid))
+    }
+
+    /// The path along a closed contour, proved; `walls` have the wire on the side of that sign.
+    fn laid(&self, walls: &[Wall], own: &Walls, side: f64) -> Result<Outcome, Refusal> {
+        let correction = self.units(self.settings.correction);
+        let joining = Joining {
+            correction,
+            side,
+            touch: self.units(1e-7),
+            tolerance: self.units(self.settings.tolerances.report),
+        };
+        self.go_on()?;
+        let raw = Raw::new(walls, &joining);
+        let rounding = self.units(ROUNDING);
+        let proof = Proof {
+            walls,
+            raw: &raw,
+            own,
+            correction,
+            side,
+            rounding,
+            near_raw: OnceLock::new(),
+        };
+        let tipped = |path: Vec<(usize, Element)>| {
+            let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
+            Laid::Path(match self.settings.corner {
+                Corner::Intersection => {
+                    with_tips(path, walls, &joining, own, correction - rounding)
+                }
+                Corner::Arc => path,
+            })
+        };
+        self.go_on()?;
+        let found = match &raw.elements[..] {
+            [circle] if circle.geometry.length() > 0.0 => Some(vec![(0, *circle)]),
+            _ => raw.trimmed(),
+        };
+        if let Some(path) = found.filter(|path| keeps_its_side(path, walls, side))
+            && self.holds(&proof, &path)?.is_ok()
+        {
+            return Ok(Ok(tipped(path)));
+        }
+        let mut loops = match loops::find(&proof, self.goes_on) {
+            Found::Loops(loops) => loops,
+            Found::Point(point) => return Ok(Ok(Laid::Point(point))),
+            // Outside of a contour there is always room: one that is turned inside out somewhere is so where it is finest.
+            Found::Nothing if !proof.is_inside() => {
+                return Ok(Err(Fault::Unproved {
+                    wall: shortest(walls),
+                }));
+            }
+            Found::Nothing => return Ok(Err(Fault::Nothing)),
+            Found::Torn(raw_element) => {
+                return Ok(Err(Fault::Unproved {
+                    wall: raw.elements[raw_element].wall,
+                }));
+            }
+            Found::Cancelled => return Err(Refusal::Cancelled),
+        };
+        if loops.len() > 1 {
+            loops.retain(|path| {
+                path.first()
+                    .is_none_or(|(_, piece)| proof.is_on_wire_side(piece.geometry.point_at(0.5)))
+            });
+        }
+        // The wire is threaded into the largest; outside a punch that is the one round it.
+        let size = |path: &Vec<(usize, Element)>| {
+            path.iter()
+                .map(|(_, element)| element.geometry.length())
+                .sum::<f64>()
+        };
+        loops.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        if let Some((_, lost)) = loops.get(1).and_then(|lost| lost.first()) {
+            return Ok(Err(Fault::Several {
+                near: lost.geometry.point_at(0.5),
+                wall: lost.wall,
+            }));
+        }
+        let Some(path) = loops.pop() else {
+            return Ok(Err(Fault::Nothing));
+        };
+        if !keeps_its_side(&path, walls, side) {
+            return Ok(Err(Fault::Unproved { wall: 0 }));
+        }
+        Ok(self
+            .holds(&proof, &path)?
+            .map(|()| tipped(path))
+            .map_err(|Unproved { wall }| Fault::Unproved { wall }))
+    }
+
+    /// Holds a path against its proof.
+    fn holds(
+        &self,
+        proof: &Proof,
+        path: &[(usize, Element)],
+    ) -> Result<Result<(), Unproved>, Refusal> {
+        for pieces in path.chunks(STEP) {
+            self.go_on()?;
+            if let Err(fault) = proof.pieces_hold(pieces) {
+                return Ok(Err(fault));
+            }
+        }
+        let mut by_raw = path.to_vec();
+        let share = |(raw, piece): &(usize, Element)| {
+            proof.raw.elements[*raw]
+                .geometry
+                .share_of(piece.geometry.start())
+        };
+        by_raw.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| share(a).total_cmp(&share(b))));
+        let count = proof.raw.elements.len();
+        for first in (0..count).step_by(STEP) {
+            self.go_on()?;
+            if let Err(fault) = proof.nothing_is_missing(&by_raw, first..(first + STEP).min(count))
+            {
+                return Ok(Err(fault));
+            }
+        }
+        Ok(Ok(()))
+    }
+
+    /// The finding that stands for a path which cannot be made.
+    pub fn no_path(&self, fault: &Fault, walls: &[Wall]) -> Finding {
+        let required = self.units(self.settings.correction);
+        let near = |wall: usize| {
+            walls
+                .get(wall)
+                .map_or_else(Point::origin, |wall| wall.geometry.point_at(0.5))
+        };
+        let (rule, detail, wall) = match *fault {
+            Fault::Nothing => (
+                Rule::OffsetCollapse,
+                Detail::OffsetCollapse {
+                    required,
+                    point: false,
+                },
+                0,
+            ),
+            Fault::Several { near, wall } => (Rule::LostPocket, Detail::LostPocket { near }, wall),
+            Fault::Unproved { wall } => (
+                Rule::UnprovedPath,
+                Detail::UnprovedPath { near: near(wall) },
+                wall,
+            ),
+        };
+        let place = walls
+            .get(wall)
+            .and_then(|wall| wall.source.place())
+            .unwrap_or(Place::Document);
+        let severity = self.settings.severity(rule).unwrap_or(Severity::Error);
+        Finding {
+            rule,
+            severity,
+            place,
+            detail,
+            related: Vec::new(),
+        }
+    }
+}
+
+/// The shortest of the walls.
+fn shortest(walls: &[Wall]) -> usize {
+    let length = |wall: &usize| walls[*wall].geometry.length();
+    (0..walls.len())
+        .min_by(|a, b| length(a).total_cmp(&length(b)))
+        .unwrap_or(0)
+}
+
+/// True for the path in a slot that is just as wide as the wire: it goes round nothing.
+pub(super) fn goes_out_and_back(path: &[Element]) -> bool {
+    let Some(origin) = path.first().map(|element| element.geometry.start()) else {
+        return false;
+    };
+    let area: f64 = path
+        .iter()
+        .map(|element| element.geometry.twice_area(origin))
+        .sum();
+    let length: f64 = path.iter().map(|element| element.geometry.length()).sum();
+    area.abs() <= 1e-9 * length * length
+}
+
+/// True when a path runs round as its contour does, inside an opening and outside a punch. Out and back along a line is no way round.
+fn keeps_its_side(path: &[(usize, Element)], walls: &[Wall], side: f64) -> bool {
+    let Some(origin) = walls.first().map(|wall| wall.geometry.start()) else {
+        return false;
+    };
+    let contour: f64 = walls
+        .iter()
+        .map(|wall| wall.geometry.twice_area(origin))
+        .sum();
+    let area: f64 = path
+        .iter()
+        .map(|(_, element)| element.geometry.twice_area(origin))
+        .sum();
+    let elements: Vec<Element> = path.iter().map(|(_, element)| *element).collect();
+    let grows = (area - contour) * contour.signum();
+    let inside = grows * side * contour.signum() <= 0.0;
+    // To the left of a counter-clockwise contour lies its inside.
+    inside && (area * contour > 0.0 || goes_out_and_back(&elements))
+}

@@ -1,0 +1,66 @@
+//! The path of the wire's centre, as data, and why there may be none.
+
+use crate::drawing::EntityId;
+use crate::finding::{Finding, Place};
+use crate::geometry::{Point, Segment, Side};
+
+/// Where a piece of the path comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The offset of this segment of an entity.
+    Segment {
+        entity: EntityId,
+        segment: usize,
+    },
+    /// The way round the convex corner at the end of this segment.
+    Corner {
+        entity: EntityId,
+        segment: usize,
+    },
+    LeadIn,
+    LeadOut,
+}
+
+impl Source {
+    /// The segment of the drawing, where it is of one.
+    pub fn place(self) -> Option<Place> {
+        match self {
+            Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
+                Some(Place::Segment { entity, segment })
+            }
+            Source::LeadIn | Source::LeadOut => None,
+        }
+    }
+}
+
+/// One piece of the path of the wire's centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSegment {
+    pub geometry: Segment,
+    pub source: Source,
+}
+
+/// The path of the wire's centre for one contour in one pass, in drawing units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WirePath {
+    /// Index of the outline in the drawing's list.
+    pub outline: usize,
+    /// How far the path lies from the contour, drawing units; 0 where the contour is the path.
+    pub correction: f64,
+    /// Where the wire is threaded and comes back to.
+    pub thread_hole: Point,
+    /// The side of travel on which the control is to let the wire run; `None` where the path is that of the wire.
+    pub side: Option<Side>,
+    /// In order of travel, lead-in and lead-out included.
+    pub segments: Vec<PathSegment>,
+}
+
+/// Why no path can be made; a plain sentence for the user, lower-case, no final dot.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    Sentence(String),
+    /// Refused for the geometry: errors in the drawing, at their places. Some it gets only when a path is asked for, such as `lead-in`.
+    Findings(Vec<Finding>),
+    /// Nobody wants the path any more.
+    Cancelled,
+}

@@ -1,0 +1,502 @@
+//! The paths of all contours of one request, with their leads, each held against all contours.
+
+use super::clearance::Walls;
+use super::corners::{Element, elements};
+use super::job::{Job, ROUNDING};
+use super::laid::{Fault, Laid, goes_out_and_back};
+use super::leads::{
+    Contours, Entry, Kerfs, Surroundings, circle_center, default_entry, fault, nearest,
+    off_contour, path_point, thread_hole,
+};
+use super::offset::{Wall, walls};
+use super::order::{begin_at, directed, name};
+use super::path::{PathSegment, Refusal, Source, WirePath};
+use super::wanted::Wanted;
+use crate::drawing::{Contour, Role};
+use crate::finding::{Finding, Rule, Severity};
+use crate::geometry::{Point, Segment};
+use crate::settings::{Compensation, Jumps};
+
+/// The offset of a contour, before it has leads.
+enum Offset {
+    Path(Box<Unled>),
+    /// The wire stands in one point.
+    Point(WirePath),
+}
+
+struct Unled {
+    outline: usize,
+    walls: Vec<Wall>,
+    own: Walls,
+    /// Begins anywhere.
+    path: Vec<Element>,
+    entry: Entry,
+    /// The element of the path that is entered, and where.
+    element: usize,
+    begin: Point,
+}
+
+impl Job<'_> {
+    /// The contours themselves as paths, and the leads that cut through others.
+    pub fn as_drawn_all(
+        &self,
+        chosen: &[usize],
+        wanted: &[Wanted],
+        contours: &Contours,
+    ) -> Result<(Vec<WirePath>, Vec<Finding>), Refusal> {
+        let (mut paths, mut findings) = (Vec::new(), Vec::new());
+        for (&index, wanted) in chosen.iter().zip(wanted) {
+            self.go_on()?;
+            let path = self.as_drawn(index, wanted)?;
+            let lead = path
+                .segments
+                .first()
+                .filter(|piece| piece.source == Source::LeadIn)
+                .map(|piece| piece.geometry);
+            if let Some(lead) = lead
+                && let Some(wall) = self.crossed(&lead, contours, Some(index))
+            {
+                let crossed = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
+                let (from, to) = (lead.start(), lead.end());
+                let sentence = format!(
+                    "the lead-in from the thread hole ({:.3}, {:.3}) to ({:.3}, {:.3}) cuts through contour {crossed}",
+                    from.x, from.y, to.x, to.y
+                );
+                let source = path.segments.get(1).map(|piece| piece.source);
+                findings.push(fault(
+                    self.severity(),
+                    source,
+                    sentence,
+                    Some(contours.place_of(wall)),
+                ));
+            }
+            paths.push(path);
+        }
+        Ok((paths, findings))
+    }
+
+    /// The offsets of contours, with leads that are held against all of them, and the leads that do not fit.
+    pub fn offset_all(
+        &self,
+        chosen: &[usize],
+        wanted: &[Wanted],
+        contours: &Contours,
+    ) -> Result<(Vec<WirePath>, Vec<Finding>), Refusal> {
+        let (mut paths, mut findings) = (Vec::new(), Vec::new());
+        let mut offsets = Vec::with_capacity(chosen.len());
+        for (&index, wanted) in chosen.iter().zip(wanted) {
+            self.go_on()?;
+            match self.compensated(index, wanted) {
+                Ok(offset) => offsets.push((wanted, offset)),
+                Err(Refusal::Findings(found)) => findings.extend(found),
+                Err(refusal) => return Err(refusal),
+            }
+        }
+        let kerfs = Kerfs::new(offsets.iter().filter_map(|(_, offset)| match offset {
+            Offset::Path(unled) => Some((unled.outline, &unled.path[..])),
+            Offset::Point(_) => None,
+        }));
+        for (wanted, offset) in offsets {
+            self.go_on()?;
+            let by_control = self.settings.compensation == Compensation::Controller;
+            let unled = match offset {
+                Offset::Path(unled) => unled,
+                Offset::Point(point) if by_control => {
+                    paths.push(self.controlled(point.outline, wanted, point.thread_hole)?);
+                    continue;
+                }
+                Offset::Point(point) => {
+                    paths.push(point);
+                    continue;
+                }
+            };
+            let thread = match self.thread_hole(&unled, wanted, contours, &kerfs) {
+                Ok(thread) => thread,
+                Err(finding) => {
+                    findings.push(finding);
+                    continue;
+                }
+            };
+            paths.push(if by_control {
+                self.controlled(unled.outline, wanted, thread)?
+            } else {
+                let path = begin_at(unled.path, unled.element, unled.begin);
+                self.with_leads(
+                    unled.outline,
+                    self.units(self.settings.correction),
+                    thread,
+                    path,
+                    true,
+                )
+            });
+        }
+        Ok((paths, findings))
+    }
+
+    fn severity(&self) -> Severity {
+        self.settings
+            .severity(Rule::LeadIn)
+            .unwrap_or(Severity::Error)
+    }
+
+    /// How near the path may come to the walls.
+    fn clearance(&self) -> f64 {
+        match self.settings.compensation {
+            Compensation::None => self.units(ROUNDING),
+            _ => self.units(self.settings.correction - ROUNDING),
+        }
+    }
+
+    /// The wall of a closed contour, `but` for one of them, that a straight way cuts.
+    fn crossed(&self, way: &Segment, contours: &Contours, but: Option<usize>) -> Option<usize> {
+        let counts = |wall: usize, _| {
+            let outline = contours.outline_of(wall);
+            Some(outline) != but && self.outlines[outline].contour.closed
+        };
+        contours.walls.find_near(way, self.clearance(), counts)
+    }
+
+    /// The ways from one contour to the next that cut through a part, where the wire stays threaded.
+    pub fn jumps_that_cut(&self, paths: &[WirePath], contours: &Contours) -> Vec<Finding> {
+        if !self.settings.stays_threaded || self.settings.jumps == Jumps::None {
+            return Vec::new();
+        }
+        let cut = |pair: &[WirePath]| {
+            let (from, next) = (pair[0].segments.last()?.geometry.end(), &pair[1]);
+            let to = next.segments.first()?.geometry.start();
+            let wall = self.crossed(&Segment::line(from, to), contours, None)?;
+            let sentence = format!(
+                "the way from ({:.3}, {:.3}) to ({:.3}, {:.3}) cuts into contour {}: the wire stays threaded, since the profile's pause does not stop the machine",
+                from.x,
+                from.y,
+                to.x,
+                to.y,
+                name(self.drawing, &self.outlines[contours.outline_of(wall)])
+            );
+            let source = next
+                .segments
+                .iter()
+                .map(|piece| piece.source)
+                .find(|source| source.place().is_some());
+            Some(fault(
+                self.severity(),
+                source,
+                sentence,
+                Some(contours.place_of(wall)),
+            ))
+        };
+        paths.windows(2).filter_map(cut).collect()
+    }
+
+    /// The contour in the direction of the cut, and whether that is against its own.
+    fn directed(&self, index: usize) -> (Contour, bool) {
+        let picked = self.picks.get(&index).and_then(|pick| pick.turned);
+        let outline = &self.outlines[index];
+        // An explicit direction wins; an open contour has none but that of the selection.
+        let picked =
+            picked.filter(|_| self.settings.stated_direction.is_none() || !outline.contour.closed);
+        directed(outline, self.settings.direction, picked)
+    }
+
+    /// The contour itself as the wire's path.
+    fn as_drawn(&self, index: usize, wanted: &Wanted) -> Result<WirePath, Refusal> {
+        let outline = &self.outlines[index];
+        let zero_length = self.units(self.settings.tolerances.zero_length);
+        let (contour, _) = self.directed(index);
+        let mut walls = walls(contour.segments(self.drawing), contour.closed, zero_length);
+        let handle = name(self.drawing, outline);
+        let empty = || Refusal::Sentence(format!("contour {handle} has no length"));
+        let path = if contour.closed {
+            let path = elements(&walls);
+            match self.entry(index, &walls, wanted)? {
+                Some(entry) => begin_at(path, entry.wall, entry.point),
+                None => path,
+            }
+        } else {
+            let (first, last) = (
+                walls.first().ok_or_else(empty)?.geometry.start(),
+                walls.last().ok_or_else(empty)?.geometry.end(),
+            );
+            if let Some(begin) = wanted.entry.or(wanted.thread) {
+                let (to_first, to_last) = ((begin - first).norm(), (begin - last).norm());
+                if wanted.entry.is_some()
+                    && to_first.min(to_last) > self.units(self.settings.tolerances.join)
+                {
+                    return Err(Refusal::Sentence(format!(
+                        "contour {handle} is open and cannot be entered at ({}, {}), expected one of its ends",
+                        begin.x, begin.y
+                    )));
+                }
+                if to_last < to_first {
+                    walls.reverse();
+                    walls
+                        .iter_mut()
+                        .for_each(|wall| wall.geometry = wall.geometry.reversed());
+                }
+            }
+            elements(&walls)
+        };
+        let begin = path.first().ok_or_else(empty)?.geometry.start();
+        let thread = wanted
+            .thread
+            .filter(|thread| (thread - begin).norm() > self.units(ROUNDING))
+            .unwrap_or(begin);
+        Ok(self.with_leads(index, 0.0, thread, path, contour.closed))
+    }
+
+    /// The offset of a closed contour.
+    fn compensated(&self, index: usize, wanted: &Wanted) -> Result<Offset, Refusal> {
+        let (outline, settings) = (&self.outlines[index], self.settings);
+        let handle = name(self.drawing, outline);
+        if !outline.contour.closed {
+            return Err(Refusal::Sentence(format!(
+                "contour {handle} is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn"
+            )));
+        }
+        let Some(own_side) = outline.wire_side() else {
+            return Err(Refusal::Sentence(format!(
+                "side of contour {handle} is not known: say opening or punch"
+            )));
+        };
+        let correction = self.units(settings.correction);
+        let (contour, turned) = self.directed(index);
+        let side = if turned {
+            own_side.reversed()
+        } else {
+            own_side
+        }
+        .sign();
+        let (walls, own, laid) = self.along(&contour, side)?;
+        let path = match laid {
+            Ok(Laid::Path(path)) => path,
+            Ok(Laid::Point(point)) => {
+                return self
+                    .threaded(index, wanted, &walls, correction, point)
+                    .map(Offset::Point);
+            }
+            Err(fault) => return Err(Refusal::Findings(vec![self.no_path(&fault, &walls)])),
+        };
+        let entry = match self
+            .entry(index, &walls, wanted)?
+            .or_else(|| default_entry(&walls))
+        {
+            Some(entry) => entry,
+            None => return Err(Refusal::Sentence(format!("contour {handle} has no length"))),
+        };
+        let (element, begin) =
+            path_point(&path, &walls, &entry, correction, side).ok_or_else(|| {
+                Refusal::Findings(vec![
+                    self.no_path(&Fault::Unproved { wall: entry.wall }, &walls),
+                ])
+            })?;
+        Ok(Offset::Path(Box::new(Unled {
+            outline: index,
+            walls,
+            own,
+            path,
+            entry,
+            element,
+            begin,
+        })))
+    }
+
+    /// The thread hole for the offset of a contour, or what is in the way.
+    fn thread_hole(
+        &self,
+        unled: &Unled,
+        wanted: &Wanted,
+        contours: &Contours,
+        kerfs: &Kerfs,
+    ) -> Result<Point, Finding> {
+        if wanted.thread.is_none() && goes_out_and_back(&unled.path) {
+            // There is no room beside the path.
+            return Ok(unled.begin);
+        }
+        let surroundings = Surroundings {
+            drawing: self.drawing,
+            outlines: self.outlines,
+            outline: unled.outline,
+            own: &unled.own,
+            contours,
+            kerfs,
+            clearance: self.clearance(),
+            unit_mm: self.unit_mm,
+            severity: self.severity(),
+        };
+        let is_opening = self.outlines[unled.outline].role == Role::Opening;
+        let says_nothing = wanted.entry.is_none()
+            && wanted.beside.is_none()
+            && self.settings.stated_lead_in.is_none();
+        let center = if is_opening && says_nothing {
+            circle_center(&unled.walls, self.units(self.settings.tolerances.report))
+        } else {
+            None
+        };
+        thread_hole(
+            wanted,
+            center,
+            &unled.entry,
+            unled.begin,
+            &unled.walls,
+            self.settings,
+            &surroundings,
+        )
+    }
+
+    /// The path where the wire's centre can only stand: it is threaded there, and cuts nothing more.
+    fn threaded(
+        &self,
+        index: usize,
+        wanted: &Wanted,
+        walls: &[Wall],
+        correction: f64,
+        point: Point,
+    ) -> Result<WirePath, Refusal> {
+        let join = self.units(self.settings.tolerances.join);
+        if let Some(thread) = wanted
+            .thread
+            .filter(|thread| (thread - point).norm() > join)
+        {
+            let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
+            let sentence = format!(
+                "the thread hole ({:.3}, {:.3}) comes nearer to the contour than the correction {:.3} mm: the wire can stand at ({:.3}, {:.3}) alone",
+                thread.x, thread.y, self.settings.correction, point.x, point.y
+            );
+            let source = walls.get(wall).map(|wall| wall.source);
+            return Err(Refusal::Findings(vec![fault(
+                self.severity(),
+                source,
+                sentence,
+                None,
+            )]));
+        }
+        Ok(WirePath {
+            outline: index,
+            correction,
+            thread_hole: point,
+            side: None,
+            segments: Vec::new(),
+        })
+    }
+
+    /// The part's contour, which the control offsets, with the thread hole of the path that comes of it.
+    ///
+    /// That path has been made all the same: where it cannot be, the control would cut into the part or stop.
+    fn controlled(
+        &self,
+        index: usize,
+        wanted: &Wanted,
+        thread_hole: Point,
+    ) -> Result<WirePath, Refusal> {
+        let outline = &self.outlines[index];
+        let (contour, turned) = self.directed(index);
+        let side = outline
+            .wire_side()
+            .map(|side| if turned { side.reversed() } else { side });
+        let walls = walls(
+            contour.segments(self.drawing),
+            true,
+            self.units(self.settings.tolerances.zero_length),
+        );
+        let Some(entry) = self
+            .entry(index, &walls, wanted)?
+            .or_else(|| default_entry(&walls))
+        else {
+            return Err(Refusal::Sentence(format!(
+                "contour {} has no length",
+                name(self.drawing, outline)
+            )));
+        };
+        let path = begin_at(elements(&walls), entry.wall, entry.point);
+        Ok(WirePath {
+            side,
+            ..self.with_leads(index, 0.0, thread_hole, path, true)
+        })
+    }
+
+    /// The entry that is asked for, that beside the mark, the begin of the entity that was picked first, or the point nearest to the
+    /// thread hole; `None` where nothing of it is given.
+    fn entry(
+        &self,
+        index: usize,
+        walls: &[Wall],
+        wanted: &Wanted,
+    ) -> Result<Option<Entry>, Refusal> {
+        let outline = &self.outlines[index];
+        let tie = self.units(ROUNDING);
+        if let Some(point) = wanted.entry {
+            return match nearest(walls, point, tie) {
+                Some((entry, distance))
+                    if distance <= self.units(self.settings.tolerances.join) =>
+                {
+                    Ok(Some(entry))
+                }
+                found => {
+                    let distance_mm =
+                        found.map_or(f64::INFINITY, |(_, distance)| distance * self.unit_mm);
+                    Err(off_contour(self.drawing, outline, point, distance_mm))
+                }
+            };
+        }
+        let near = |point: Option<Point>| {
+            point
+                .and_then(|point| nearest(walls, point, tie))
+                .map(|(entry, _)| entry)
+        };
+        let picked = || {
+            let first = self.picks.get(&index)?.first;
+            let is_of = |wall: &Wall| matches!(wall.source, Source::Segment { entity, .. } if entity == first);
+            let begins = |&at: &usize| {
+                is_of(&walls[at]) && !is_of(&walls[(at + walls.len() - 1) % walls.len()])
+            };
+            let wall = (0..walls.len()).find(begins)?;
+            Some(Entry {
+                wall,
+                share: 0.0,
+                point: walls[wall].geometry.start(),
+            })
+        };
+        Ok(near(wanted.beside)
+            .or_else(picked)
+            .or_else(|| near(wanted.thread)))
+    }
+
+    /// The path with the way from and back to the thread hole, where that is another point than its begin. An open path ends where it ends.
+    fn with_leads(
+        &self,
+        outline: usize,
+        correction: f64,
+        thread_hole: Point,
+        path: Vec<Element>,
+        closed: bool,
+    ) -> WirePath {
+        let (begin, end) = match (path.first(), path.last()) {
+            (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
+            _ => (thread_hole, thread_hole),
+        };
+        let mut segments: Vec<PathSegment> = Vec::with_capacity(path.len() + 2);
+        if thread_hole != begin {
+            segments.push(PathSegment {
+                geometry: Segment::line(thread_hole, begin),
+                source: Source::LeadIn,
+            });
+        }
+        segments.extend(path.iter().map(|element| PathSegment {
+            geometry: element.geometry,
+            source: element.source,
+        }));
+        if thread_hole != begin && closed {
+            segments.push(PathSegment {
+                geometry: Segment::line(end, thread_hole),
+                source: Source::LeadOut,
+            });
+        }
+        WirePath {
+            outline,
+            correction,
+            thread_hole,
+            side: None,
+            segments,
+        }
+    }
+}
