@@ -71,7 +71,6 @@ pub fn cuts(document: &Document) -> Cuts {
     let trace = document.trace();
     let spans = path::cuts(&trace);
     let trace = trace.as_meant();
-    let sides = document.sides();
     let stated = stated_ends(document);
     let mut cuts = Cuts::default();
     match document {
@@ -109,15 +108,18 @@ pub fn cuts(document: &Document) -> Cuts {
         if step.kind == Kind::Rapid {
             cuts.ways.push([node, end]);
         } else if end != node || is_full(&ideal) {
-            let side = sides.get(index).copied().flatten();
             if let Some(span) = spans.peek() {
                 let contour = span.contour_steps();
                 if contour.contains(&index) {
                     let is_first = open.segments.len() == open.lead_in;
-                    if !is_first && side != open.side {
+                    if !is_first && step.side != open.side {
                         open.switched.get_or_insert(step.line);
                     }
-                    open.side = if is_first { side } else { open.side.or(side) };
+                    open.side = if is_first {
+                        step.side
+                    } else {
+                        open.side.or(step.side)
+                    };
                 }
                 open.closed = span.closed;
                 open.lead_in += usize::from(index < span.contour_steps().start);

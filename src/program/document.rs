@@ -3,7 +3,7 @@
 use super::path::{Chain, Step, Trace};
 use super::steps::{self, Program};
 use super::{gate, iso, three_b};
-use crate::finding::{Finding, Fix, Severity, Side};
+use crate::finding::{Finding, Fix, Severity};
 use crate::geometry::Point;
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
@@ -160,14 +160,6 @@ impl Document {
     /// Where the machine goes, block by block.
     pub fn trace(&self) -> Trace {
         steps::trace(self.program())
-    }
-
-    /// The side of travel on which the control lets the wire run, for each step of the trace; empty where no program can say.
-    pub fn sides(&self) -> Vec<Option<Side>> {
-        match self {
-            Document::ThreeB(_) => Vec::new(),
-            Document::Iso(document) => document.sides(),
-        }
     }
 
     /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them. Of two that

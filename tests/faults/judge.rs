@@ -71,9 +71,8 @@ fn acts(document: &Document) -> Vec<Act> {
     let Some(program) = document.program() else {
         return Vec::new();
     };
-    let sides = program.sides();
     let steps = program.trace().steps;
-    let act = |(index, step): (usize, &program::path::Step)| {
+    let act = |step: &program::path::Step| {
         let by = step.meant();
         let bend = match &step.ideal {
             Some(segment @ Segment::Arc(arc)) => {
@@ -82,16 +81,15 @@ fn acts(document: &Document) -> Vec<Act> {
             _ => None,
         };
         let is_still = by.norm() < 1e-6 && bend.is_none();
-        let side = sides.get(index).copied().flatten();
         (step.moves() && !is_still).then(|| Act {
             contour: step.contour,
             is_rapid: step.kind == Kind::Rapid,
-            side,
+            side: step.side,
             by,
             bend,
         })
     };
-    steps.iter().enumerate().filter_map(act).collect()
+    steps.iter().filter_map(act).collect()
 }
 
 /// How far two decoded blocks may be apart that mean the same, µm.

@@ -1,6 +1,7 @@
 //! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
 
-use super::block::{Block, read_line};
+use super::block::{Block, Offset, read_line};
+use super::control::{Control, lines_from};
 use super::crossings::Crossings;
 use super::cuts::{StopAt, tabs};
 use super::evidence::Evidence;
@@ -8,12 +9,12 @@ use super::limits::Limits;
 use super::machine::{Machine, Reading};
 use super::order::{Order, order};
 use super::repair::{Repairs, repairs};
-use super::stretch::{Hears, Pathless, Stretch};
-use super::table::Table;
+use super::stretch::{Hears, Stretch};
 use crate::finding::{Finding, Fix};
 use crate::program::chunks::{Chunks, Language};
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -42,84 +43,15 @@ pub struct Document {
     repairs: OnceLock<Arc<Repairs>>,
 }
 
+/// The last value of each place of the control's table, nm.
+pub(super) type Table = FxHashMap<Offset, i64>;
+
 /// A stretch and where it stands.
 pub(super) struct Placed<'a> {
     pub stretch: &'a Stretch,
     pub lines: Range<usize>,
     /// Byte of the text from which the stretch's places count.
     pub offset: usize,
-}
-
-/// How ISO text is read: what a line does hangs on those before it.
-pub(super) struct Control {
-    /// What is in force before the first line.
-    begin: Machine,
-    reading: Reading,
-}
-
-impl Language for Control {
-    type State = Machine;
-    type Begun = Pathless;
-    type Chunk = Stretch;
-
-    const LINES: usize = 128;
-
-    fn begin(&self) -> Machine {
-        self.begin
-    }
-
-    fn run(&self, text: &SourceText, lines: Range<usize>, before: Machine) -> (Pathless, Machine) {
-        let pathless = Stretch::run(
-            lines_from(text, lines.start),
-            lines.len(),
-            text.line_start(lines.start),
-            before,
-            self.reading,
-        );
-        let after = pathless.after();
-        (pathless, after)
-    }
-
-    /// How the moves lie on themselves hangs on nothing else.
-    fn finish(&self, _: &SourceText, pathless: Pathless) -> Stretch {
-        pathless.with_paths()
-    }
-
-    fn before(stretch: &Stretch) -> Machine {
-        stretch.before
-    }
-
-    fn after(stretch: &Stretch) -> Machine {
-        stretch.after
-    }
-
-    fn looks_ahead(stretch: &Stretch) -> bool {
-        stretch.ahead > 0
-    }
-
-    fn take_on(stretch: &mut Stretch, before: Machine) -> bool {
-        let old = stretch.before;
-        let is_moved = stretch.is_loose()
-            && Machine {
-                at: old.at,
-                ..before
-            } == old;
-        if is_moved {
-            stretch.shift([0, 1].map(|axis| before.at[axis].wrapping_sub(old.at[axis])));
-        }
-        is_moved
-    }
-}
-
-/// The lines of a text from one on, each with the byte at which it begins.
-pub(super) fn lines_from(
-    text: &SourceText,
-    first: usize,
-) -> impl Iterator<Item = (usize, &[u8])> + Clone {
-    (first..text.line_count()).map(|line| {
-        let range = text.line_range(line);
-        (range.start, &text.bytes()[range])
-    })
 }
 
 impl Document {

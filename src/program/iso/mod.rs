@@ -3,6 +3,7 @@
 //! How numbers and arc centres are meant differs from machine to machine and is found from the program itself, never assumed.
 
 mod block;
+mod control;
 mod corner;
 mod crossings;
 mod cuts;

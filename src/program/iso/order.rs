@@ -1,7 +1,7 @@
 //! The order in which the lines of a program run: from the first to the last, or through the subprograms that `M98 P…` calls.
 
 use super::block::{Stop, read_line};
-use super::document::Control;
+use super::control::Control;
 use crate::program::chunks::Language;
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -2,14 +2,13 @@
 
 use super::block::{Code, Motion, Offset, read_line, word_range};
 use super::cuts::{Cut, cuts};
-use super::document::{Document, Placed};
+use super::document::{Document, Placed, Table};
 use super::evidence::FEW_BARE;
 use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
 use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
 use super::stretch::{Definition, Fault, Run, RunSide, Stretch, Tight};
-use super::table::Table;
 use super::word::{Token, Value, WordFault, words};
 use crate::finding::{
     Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,

@@ -1,17 +1,16 @@
 //! An ISO program run: the moves of its lines, what is in force at one of them, and the cut that is under way there.
 
 use super::block::{Block, Motion, Stop, read_line};
+use super::control::lines_from;
 use super::corner::turned;
-use super::document::{Document, lines_from};
+use super::document::Document;
 use super::machine::{Course, Machine, Move, Place, micrometres};
 use super::stretch::{Run, Stretch, words_of};
-use crate::finding::Side;
 use crate::geometry::{Point, Segment};
 use crate::program::chunks::Language;
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::steps::{self, Program, Sum};
 use crate::text::SourceText;
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A cut that has begun before some line and may go on in it, nm.
@@ -96,35 +95,6 @@ impl Document {
                 }
             });
         }
-    }
-
-    /// The side on which the wire runs beside each step of the trace.
-    pub fn sides(&self) -> Vec<Option<Side>> {
-        let mut sides = Vec::new();
-        for stretch in 0..self.stretches().len() {
-            self.run_lines(stretch, &mut |ran| {
-                sides.extend(ran.moves().map(|made| made.side));
-                sides.extend(ran.block.stop.map(|_| None));
-            });
-        }
-        sides
-    }
-
-    /// Lines of a range whose coordinates count from where the wire stood: they do not say where it ends.
-    pub fn lines_without_ends(&self, range: Range<usize>) -> BTreeSet<usize> {
-        let wanted = self.text().line_of(range.start)..self.text().line_of(range.end) + 1;
-        let mut found = BTreeSet::new();
-        for stretch in 0..self.stretches().len() {
-            let lines = self.lines_of(stretch);
-            if lines.start < wanted.end && wanted.start < lines.end {
-                self.run_lines(stretch, &mut |ran| {
-                    if ran.machine.incremental && ran.step_count() > 0 {
-                        found.insert(ran.line);
-                    }
-                });
-            }
-        }
-        found
     }
 
     /// A move up to where the corner at its end begins, and that corner.
@@ -264,7 +234,7 @@ impl Program for Document {
     fn walk(&self, stretch: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
         let offset = self.placed_at(stretch).map_or(0, |placed| placed.offset);
         self.run_lines(stretch, &mut |ran| {
-            let mut step = |kind, [start, end]: [Point; 2], ideal| {
+            let mut step = |kind, [start, end]: [Point; 2], ideal, side| {
                 each(Step {
                     range: ran.words.clone(),
                     line: ran.line,
@@ -274,6 +244,8 @@ impl Program for Document {
                     end,
                     ideal,
                     contour: *contour,
+                    side,
+                    is_relative: ran.machine.incremental,
                 });
             };
             for made in ran.moves() {
@@ -288,14 +260,14 @@ impl Program for Document {
                     Course::Arc(arc) => Some(Segment::Arc(arc)),
                     Course::OffRadius { .. } | Course::NoRadius => None,
                 };
-                step(kind, ends, ideal);
+                step(kind, ends, ideal, made.side);
             }
             let Some(stop) = ran.block.stop else { return };
             let kind = match stop {
                 Stop::End => Kind::End,
                 Stop::Pause => Kind::Pause,
             };
-            step(kind, [micrometres(ran.machine.at); 2], None);
+            step(kind, [micrometres(ran.machine.at); 2], None, None);
             let is_tab = self.is_tab((stretch, ran.words.start.saturating_sub(offset) as u32));
             *contour += usize::from(stop == Stop::Pause && !is_tab);
         });

@@ -2,14 +2,10 @@
 
 use super::block::Offset;
 use super::document::Document;
-use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
 /// Lines that are looked through for the places of the table that a program uses.
 const LOOKED_AT: usize = 2_000;
-
-/// The last value of each place of the control's table, nm.
-pub(super) type Table = FxHashMap<Offset, i64>;
 
 impl Document {
     /// The correction in nm that the program itself puts into a place of the control's table.

@@ -26,10 +26,6 @@ pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
         .line_start(text.line_of(range.start) + HINT_LINES)
         .min(range.end);
     let looked_at = range.start..end.max(range.start);
-    let unsaid = match document {
-        Document::ThreeB(_) => None,
-        Document::Iso(program) => Some(program.lines_without_ends(looked_at.clone())),
-    };
     let mut found = Vec::new();
     for step in document.steps_in(looked_at) {
         if !step.moves() || step.range.start < range.start || step.range.start > end {
@@ -45,12 +41,7 @@ pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
                 .iter()
                 .any(|part| part.kind == WordKind::Stated)
         };
-        if unsaid
-            .as_ref()
-            .is_none_or(|lines| lines.contains(&step.line))
-            && !is_stated()
-            && step.kind != Kind::Pause
-        {
+        if step.is_relative && !is_stated() && step.kind != Kind::Pause {
             parts.push(format!("→ {}, {}", mm(step.end.x), mm(step.end.y)));
         }
         if !parts.is_empty() {

@@ -4,6 +4,7 @@
 //! them. Nothing here knows how a language is written.
 
 use super::{Node, Way, Writing};
+use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -40,6 +41,10 @@ pub struct Step {
     pub ideal: Option<Segment>,
     /// Index of the contour: pauses are between two of them, but for those before a tab.
     pub contour: usize,
+    /// The side of travel on which the control lets the wire run, where the program says it.
+    pub side: Option<Side>,
+    /// The block counts from where it begins, so its words do not say where it ends.
+    pub is_relative: bool,
 }
 
 impl Step {

@@ -185,6 +185,8 @@ impl Program for Document {
                 end,
                 ideal,
                 contour: *contour,
+                side: None,
+                is_relative: true,
             });
             start = end;
             if let What::Word { .. } = what.what {

@@ -1,0 +1,79 @@
+//! How ISO text is read by the engine that all languages share.
+
+use super::machine::{Machine, Reading};
+use super::stretch::{Pathless, Stretch};
+use crate::program::chunks::Language;
+use crate::text::SourceText;
+use std::ops::Range;
+
+/// How ISO text is read: what a line does hangs on those before it.
+pub(super) struct Control {
+    /// What is in force before the first line.
+    pub begin: Machine,
+    pub reading: Reading,
+}
+
+impl Language for Control {
+    type State = Machine;
+    type Begun = Pathless;
+    type Chunk = Stretch;
+
+    const LINES: usize = 128;
+
+    fn begin(&self) -> Machine {
+        self.begin
+    }
+
+    fn run(&self, text: &SourceText, lines: Range<usize>, before: Machine) -> (Pathless, Machine) {
+        let pathless = Stretch::run(
+            lines_from(text, lines.start),
+            lines.len(),
+            text.line_start(lines.start),
+            before,
+            self.reading,
+        );
+        let after = pathless.after();
+        (pathless, after)
+    }
+
+    /// How the moves lie on themselves hangs on nothing else.
+    fn finish(&self, _: &SourceText, pathless: Pathless) -> Stretch {
+        pathless.with_paths()
+    }
+
+    fn before(stretch: &Stretch) -> Machine {
+        stretch.before
+    }
+
+    fn after(stretch: &Stretch) -> Machine {
+        stretch.after
+    }
+
+    fn looks_ahead(stretch: &Stretch) -> bool {
+        stretch.ahead > 0
+    }
+
+    fn take_on(stretch: &mut Stretch, before: Machine) -> bool {
+        let old = stretch.before;
+        let is_moved = stretch.is_loose()
+            && Machine {
+                at: old.at,
+                ..before
+            } == old;
+        if is_moved {
+            stretch.shift([0, 1].map(|axis| before.at[axis].wrapping_sub(old.at[axis])));
+        }
+        is_moved
+    }
+}
+
+/// The lines of a text from one on, each with the byte at which it begins.
+pub(super) fn lines_from(
+    text: &SourceText,
+    first: usize,
+) -> impl Iterator<Item = (usize, &[u8])> + Clone {
+    (first..text.line_count()).map(|line| {
+        let range = text.line_range(line);
+        (range.start, &text.bytes()[range])
+    })
+}
