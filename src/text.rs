@@ -43,6 +43,17 @@ pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
     Some(result)
 }
 
+/// The one edit from the first byte that differs to the last; `None` where none does, or what changes is not UTF-8.
+pub(crate) fn difference(old: &[u8], new: &[u8]) -> Option<TextEdit> {
+    let same = |(a, b): &(&u8, &u8)| a == b;
+    let start = old.iter().zip(new).take_while(same).count();
+    let tail = old[start..].iter().rev().zip(new[start..].iter().rev());
+    let kept = tail.take_while(same).count();
+    let text = String::from_utf8(new[start..new.len() - kept].to_vec()).ok()?;
+    let range = start..old.len() - kept;
+    (!range.is_empty() || !text.is_empty()).then_some(TextEdit { range, text })
+}
+
 /// The bytes of a document and the starts of its lines, which end with LF, CR LF or CR.
 ///
 /// A text has at least one line; a text that ends with a line end has an empty last line. Texts of 4 GiB and more
@@ -75,6 +86,17 @@ impl SourceText {
 
     pub fn into_bytes(self) -> Vec<u8> {
         Arc::unwrap_or_clone(self.bytes)
+    }
+
+    /// The first digits in a range of bytes.
+    pub(crate) fn digits_in(&self, range: &Range<usize>) -> Option<Range<usize>> {
+        let bytes = self.bytes.get(range.clone())?;
+        let start = bytes.iter().position(u8::is_ascii_digit)?;
+        let digits = bytes[start..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit());
+        let start = range.start + start;
+        Some(start..start + digits.count())
     }
 
     /// The text with `U+FFFD` in the place of what is not UTF-8.

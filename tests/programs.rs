@@ -1,6 +1,9 @@
 //! Programs as files: the right ones are silent; in the wrong ones every fault is found at its line and column, and what can be
 //! repaired safely is repaired.
 
+#[path = "programs/refactorings.rs"]
+mod refactorings;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use wedm::document::{Document, Source};

@@ -77,7 +77,7 @@ pub fn cuts(document: &Document) -> Cuts {
         Document::ThreeB(program) => cuts.four_b = program.first_four_b_line(),
         Document::Iso(program) => {
             cuts.corrections = program.stated_corrections();
-            cuts.taper = iso::refactor::refuse_taper(program, iso::refactor::TaperWords::All).err();
+            cuts.taper = iso::refuse_taper(program, iso::TaperWords::All).err();
         }
     }
     let mut open = Cut::default();

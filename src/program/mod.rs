@@ -13,10 +13,12 @@ pub mod grid;
 pub mod iso;
 pub mod language;
 pub mod path;
+mod refactor;
 mod steps;
 pub mod three_b;
 pub mod write;
 
 pub use document::{Document, Language};
 pub use format::Format;
+pub use refactor::Proposal;
 pub use write::{ProofError, ProvedProgram};

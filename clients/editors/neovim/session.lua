@@ -25,8 +25,7 @@ if native then
     vim.cmd('filetype on')
     vim.cmd('runtime! ftdetect/wedm.lua')
 else
-    vim.opt.runtimepath:append(folder)
-    require('wedm').setup { settings = { correction = 0.1 } }
+    dofile(folder .. '/wedm.lua').setup { settings = { correction = 0.1 } }
 end
 
 local function faults()

@@ -3,9 +3,10 @@
 use super::block::{Motion, Stop, read_line, word_range};
 use super::document::Document;
 use super::layout::is_parted;
+use super::line::{Bent, Target, line_to, with_word};
 use super::machine::{Bend, CenterRule, Machine, Move, Place, distance, micrometres};
+use super::numbers::numbered;
 use super::order::labels;
-use super::refactor::{Bent, Target, line_to, numbered, with_word};
 use super::repair::{Repair, is_trouble, line_of};
 use super::style::Style;
 use super::word::plain;

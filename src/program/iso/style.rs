@@ -62,6 +62,10 @@ impl Style {
         }
     }
 
+    pub fn is_inch(&self) -> bool {
+        self.inch
+    }
+
     /// What the last digit stands for, nm.
     pub fn step(&self) -> i64 {
         match (self.fine, self.inch) {

@@ -1,19 +1,12 @@
 //! Refactorings of a program, whatever its language.
 
-use crate::program::{Document, iso, three_b};
+use crate::program::Document;
+use crate::program::iso::refactor::{self as of_iso, Iso};
+use crate::program::refactor::{self, Proposal, Sheet};
+use crate::program::three_b::refactor::ThreeB;
 use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::ops::Range;
-
-/// A refactoring as it is offered at a selection.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Proposal {
-    /// Kind of its code action.
-    pub id: &'static str,
-    pub title: String,
-    /// The edits, sorted and disjoint, or why it cannot be done: lower-case, no final dot.
-    pub edits: Result<Vec<TextEdit>, String>,
-}
 
 /// What can be done with a program at a selection of bytes; what would change nothing is left out. `wanted` chooses by id.
 pub fn refactorings(
@@ -24,9 +17,9 @@ pub fn refactorings(
 ) -> Vec<Proposal> {
     match document {
         Document::ThreeB(program) => {
-            three_b::refactor::proposals(program, settings, selection, wanted)
+            refactor::proposals::<ThreeB>(program, settings, selection, &wanted)
         }
-        Document::Iso(program) => iso::refactor::proposals(program, settings, selection, wanted),
+        Document::Iso(program) => of_iso::proposals(program, settings, selection, &wanted),
     }
 }
 
@@ -37,10 +30,11 @@ pub fn scaled(
     factor: f64,
 ) -> Result<Vec<TextEdit>, String> {
     match document {
-        Document::ThreeB(program) => three_b::refactor::scaled(
-            &three_b::refactor::Sheet::new(program, settings, 0..0),
-            factor,
-        ),
-        Document::Iso(program) => iso::refactor::scaled(program, settings, factor),
+        Document::ThreeB(program) => {
+            refactor::scaled(&Sheet::<ThreeB>::new(program, settings, 0..0), factor)
+        }
+        Document::Iso(program) => {
+            refactor::scaled(&Sheet::<Iso>::new(program, settings, 0..0), factor)
+        }
     }
 }

@@ -14,7 +14,7 @@ mod parse;
 mod part;
 mod plain;
 mod proof;
-pub mod refactor;
+pub(in crate::program) mod refactor;
 mod repair;
 mod rules;
 mod run;

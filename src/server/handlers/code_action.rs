@@ -124,7 +124,7 @@ fn is_asked_for(context: &CodeActionContext) -> bool {
 fn refactoring(
     context: &RequestContext,
     document: &Document,
-    proposal: language::Proposal,
+    proposal: crate::program::Proposal,
 ) -> Option<CodeAction> {
     let action = CodeAction {
         title: proposal.title,

@@ -4,37 +4,36 @@
 //! G03 X0. Y10. I-5. J0.      →     G03 X0. Y10. I5. J0.     (from the centre to the start)
 //! ```
 
-use super::Refactoring;
-use super::rewrite::Rewrite;
-use super::sheet::Sheet;
+use super::Iso;
 use crate::program::iso::machine::{Bend, CenterRule, Reading};
+use crate::program::refactor::{Refactoring, Rewrite, Sheet};
 use crate::text::TextEdit;
 
-pub const START_TO_CENTER: Refactoring = Refactoring {
+pub(super) const START_TO_CENTER: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.centers.startToCenter",
-    title: "Let I and J lead from the arc's start to its centre",
+    title: |_| "Let I and J lead from the arc's start to its centre".into(),
     rewrite: |sheet| converted(sheet, CenterRule::StartToCenter),
 };
-pub const CENTER_TO_START: Refactoring = Refactoring {
+pub(super) const CENTER_TO_START: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.centers.centerToStart",
-    title: "Let I and J lead from the arc's centre to its start",
+    title: |_| "Let I and J lead from the arc's centre to its start".into(),
     rewrite: |sheet| converted(sheet, CenterRule::CenterToStart),
 };
-pub const ABSOLUTE: Refactoring = Refactoring {
+pub(super) const ABSOLUTE: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.centers.absolute",
-    title: "Let I and J be the centre's own coordinates",
+    title: |_| "Let I and J be the centre's own coordinates".into(),
     rewrite: |sheet| converted(sheet, CenterRule::Absolute),
 };
 
-fn converted(sheet: &Sheet<'_>, rule: CenterRule) -> Result<Vec<TextEdit>, String> {
+fn converted(sheet: &Sheet<'_, Iso>, rule: CenterRule) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
     let old = sheet.document.reading();
     let with_center = |incremental: bool| {
         let arcs = content
             .rows
             .iter()
-            .filter(move |row| row.made.is_arc() && row.made.incremental == incremental);
-        arcs.filter(|row| matches!(row.made.bend, Bend::Center { .. }))
+            .filter(move |row| row.own.made.is_arc() && row.own.made.incremental == incremental);
+        arcs.filter(|row| matches!(row.own.made.bend, Bend::Center { .. }))
             .count()
     };
     let (absolute, incremental) = (with_center(false), with_center(true));
@@ -54,13 +53,11 @@ fn converted(sheet: &Sheet<'_>, rule: CenterRule) -> Result<Vec<TextEdit>, Strin
     } else {
         rule
     };
-    let rewrite = Rewrite {
-        reading: Some(Reading {
-            absolute: rule,
-            incremental: under_g91,
-            ..*old
-        }),
-        ..Rewrite::default()
-    };
+    let mut rewrite = Rewrite::<Iso>::new();
+    rewrite.extra.reading = Some(Reading {
+        absolute: rule,
+        incremental: under_g91,
+        ..*old
+    });
     rewrite.edits(sheet, content)
 }

@@ -1,91 +1,386 @@
-//! Refactorings of ISO programs: the same part, written otherwise; or exactly mirrored, turned, scaled.
-//!
-//! One file a refactoring. Each says where the moves of which lines lead afterwards; `rewrite` writes the words, runs every line again
-//! as the control does and holds its move against what was meant, and at last reads the new program as a whole. What fails that is not
-//! offered.
+//! How ISO is refactored: how its moves are told and written, and the refactorings that it alone has.
 
 mod centers;
 mod mode;
-mod number;
 mod profile;
-mod reverse;
-mod rewrite;
-mod scale;
-mod sheet;
-mod start_here;
-mod taper;
+mod rows;
 #[cfg(test)]
 mod tests;
-mod transform;
+mod turned;
+mod write;
 
+use super::block::{Motion, read_line};
 use super::document::Document;
-use crate::program::language::Proposal;
+use super::line::{Bent, Target};
+use super::machine::{Place, micrometres};
+use super::numbers;
+use super::style::Style;
+use super::taper::{Words, refuse, refuse_anywhere};
+use super::word::{Token, words};
+use crate::finding::{Finding, Side};
+use crate::geometry::Arc;
+use crate::program::grid::{Node, best_center, snap};
+use crate::program::path::Trace;
+use crate::program::refactor::{
+    Change, Content, Contour, Notation, Proposal, Refactoring, Rewrite, Row, Sheet, Transform,
+    proposals as common,
+};
 use crate::settings::Effective;
-use crate::text::TextEdit;
-pub(super) use number::numbered;
-pub use number::renamed;
-pub(super) use rewrite::{Bent, Target, line_to, with_word};
-pub use scale::scaled;
-use sheet::Sheet;
+use crate::text::{SourceText, TextEdit};
+use rows::Own;
 use std::ops::Range;
-pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
+use write::Extra;
 
-/// One refactoring.
-struct Refactoring {
-    /// Kind of its code action.
-    id: &'static str,
-    title: &'static str,
-    /// The edits, sorted and disjoint; none where there is nothing to do. Errors say why it cannot be done: lower-case, no final dot.
-    rewrite: fn(&Sheet<'_>) -> Result<Vec<TextEdit>, String>,
-}
-
-/// All but those of profiles, in the order in which they are offered.
-const ALL: [Refactoring; 14] = [
-    reverse::REVERSE,
-    start_here::START_HERE,
-    transform::MIRROR_X,
-    transform::MIRROR_Y,
-    transform::ROTATE_LEFT,
-    transform::ROTATE_RIGHT,
-    transform::ROTATE_HALF,
-    mode::ABSOLUTE,
-    mode::INCREMENTAL,
-    centers::START_TO_CENTER,
-    centers::CENTER_TO_START,
-    centers::ABSOLUTE,
-    number::NUMBER,
-    number::WITHOUT_NUMBERS,
-];
+/// ISO.
+pub(in crate::program) struct Iso;
 
 /// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
 ///
 /// `wanted` chooses by id.
-pub fn proposals(
+pub(in crate::program) fn proposals(
     document: &Document,
     settings: &Effective,
     selection: Range<usize>,
-    wanted: impl Fn(&str) -> bool,
+    wanted: &dyn Fn(&str) -> bool,
 ) -> Vec<Proposal> {
-    let chosen: Vec<&Refactoring> = ALL
-        .iter()
-        .filter(|refactoring| wanted(refactoring.id))
-        .collect();
-    let mut found = Vec::new();
-    if !chosen.is_empty() {
-        let sheet = Sheet::new(document, settings, selection);
-        for refactoring in chosen {
-            let edits = (refactoring.rewrite)(&sheet);
-            if edits.as_ref().map_or(true, |edits| !edits.is_empty()) {
-                found.push(Proposal {
-                    id: refactoring.id,
-                    title: refactoring.title.to_owned(),
-                    edits,
-                });
-            }
-        }
-    }
+    let mut found = common::<Iso>(document, settings, selection, wanted);
     if wanted(profile::ID) {
         found.extend(profile::proposals(document, settings));
     }
     found
+}
+
+impl Notation for Iso {
+    type Document = Document;
+    type Own = Own;
+    type New = Target;
+    type Extra = Extra;
+
+    const STEP: f64 = 1e-3;
+    const NUMBER: &'static str = "Number the blocks in tens";
+
+    fn read(bytes: Vec<u8>, settings: &Effective) -> Document {
+        Document::read_with(bytes, settings)
+    }
+
+    fn text(document: &Document) -> &SourceText {
+        document.text()
+    }
+
+    fn trace(document: &Document) -> Trace {
+        document.trace()
+    }
+
+    fn findings(document: &Document) -> Vec<Finding> {
+        document.plain_findings()
+    }
+
+    fn rows(document: &Document, _: &Trace, _: &[Contour]) -> Result<Vec<Row<Iso>>, String> {
+        rows::rows(document)
+    }
+
+    fn refuse(sheet: &Sheet<'_, Iso>, change: Change) -> Result<(), String> {
+        match change {
+            Change::Reverse => refuse_anywhere(sheet.document, Words::All),
+            Change::StartHere(lines) => {
+                refuse_anywhere(sheet.document, Words::Guide)?;
+                refuse(sheet.document, lines, Words::All)
+            }
+            Change::Scale => refuse_anywhere(sheet.document, Words::Guide),
+        }
+    }
+
+    fn kept(sheet: &Sheet<'_, Iso>, content: &Content<Iso>, row: usize, place: usize) -> Target {
+        // The side is that of the place in the program.
+        Target {
+            side: content.rows[place].own.made.side,
+            ..Target::of(&content.rows[row].own.made, sheet.document.reading())
+        }
+    }
+
+    fn reversed(
+        sheet: &Sheet<'_, Iso>,
+        content: &Content<Iso>,
+        row: usize,
+    ) -> Result<Vec<Target>, String> {
+        let made = content.rows[row].own.made;
+        Ok(vec![Target {
+            motion: other_way(made.motion),
+            to: made.from,
+            ..Target::of(&made, sheet.document.reading())
+        }])
+    }
+
+    fn straight(
+        sheet: &Sheet<'_, Iso>,
+        content: &Content<Iso>,
+        row: usize,
+        [_, to]: [Node; 2],
+    ) -> Result<Vec<Target>, String> {
+        Ok(vec![Target {
+            to: place_of(to),
+            ..Iso::kept(sheet, content, row, row)
+        }])
+    }
+
+    fn transformed(
+        sheet: &Sheet<'_, Iso>,
+        content: &Content<Iso>,
+        row: usize,
+        transform: Transform,
+    ) -> Target {
+        let of_place = |place| place_of(transform.of_node(node_of(place)));
+        let kept = Iso::kept(sheet, content, row, row);
+        let mirrors = transform.mirrors();
+        Target {
+            motion: if mirrors {
+                other_way(kept.motion)
+            } else {
+                kept.motion
+            },
+            to: of_place(kept.to),
+            bend: match kept.bend {
+                Bent::Center(center) => Bent::Center(of_place(center)),
+                other => other,
+            },
+            side: kept
+                .side
+                .map(|side| if mirrors { side.reversed() } else { side }),
+        }
+    }
+
+    fn scaled_node(_: &Sheet<'_, Iso>, row: &Row<Iso>, node: Node, factor: f64) -> Option<Node> {
+        let style = row.own.style;
+        let of_length = |length: i64| style.rounded((length as f64 * factor).round() as i64);
+        Some(node_of(place_of(node).map(of_length)))
+    }
+
+    fn scaled(
+        sheet: &Sheet<'_, Iso>,
+        content: &Content<Iso>,
+        row: usize,
+        [from, to]: [Node; 2],
+        factor: f64,
+    ) -> Result<Vec<Target>, String> {
+        let style = content.rows[row].own.style;
+        let old = Iso::kept(sheet, content, row, row);
+        let [from, to] = [from, to].map(place_of);
+        let bend = match old.bend {
+            Bent::Line => Bent::Line,
+            Bent::Radius(radius) => {
+                Bent::Radius(style.rounded((radius as f64 * factor).round() as i64))
+            }
+            Bent::Center(center) => Bent::Center(
+                fitting([from, to], center, factor, &style)
+                    .ok_or("the program would run too far out")?,
+            ),
+        };
+        Ok(vec![Target { to, bend, ..old }])
+    }
+
+    fn runs_on(sheet: &Sheet<'_, Iso>, content: &Content<Iso>, first: usize, row: usize) -> bool {
+        let (made, begun) = (content.rows[row].own.made, content.rows[first].own.made);
+        made.motion == Motion::Line
+            && made.corner.is_none()
+            && (row == first
+                || made.switches.is_none()
+                    && begun.switches.is_none()
+                    && (made.side, made.offset) == (begun.side, begun.offset)
+                    && says_only_where(sheet.document, content.rows[row].line))
+    }
+
+    fn is_in_inches(content: &Content<Iso>) -> bool {
+        content.rows.iter().any(|row| row.own.style.is_inch())
+    }
+
+    fn longest(_: &Effective) -> i64 {
+        i64::MAX
+    }
+
+    fn turn_round(
+        sheet: &Sheet<'_, Iso>,
+        content: &Content<Iso>,
+        contour: &Contour,
+        own: Range<usize>,
+        rewrite: &mut Rewrite<Iso>,
+    ) -> Result<(), String> {
+        // The correction's word stands before the way in.
+        let before = contour.rows.start.checked_sub(1);
+        let before = before.map_or(0, |row| content.rows[row].line + 1);
+        let last = content.rows[own.end - 1].line;
+        let words = swapped_sides(sheet.document, before..last + 1);
+        let mut of_contour = content.rows[contour.rows.clone()].iter();
+        if words.is_empty() && of_contour.any(|row| row.own.made.side.is_some()) {
+            return Err("the correction was switched on for another contour before".into());
+        }
+        rewrite.extra.words.extend(words);
+        for index in contour.rows.clone() {
+            let kept = || vec![Iso::kept(sheet, content, index, index)];
+            for target in rewrite.rows.entry(index).or_insert_with(kept) {
+                target.side = content.rows[index].own.made.side.map(Side::reversed);
+            }
+        }
+        Ok(())
+    }
+
+    fn transform_words(
+        sheet: &Sheet<'_, Iso>,
+        transform: Transform,
+        rewrite: &mut Rewrite<Iso>,
+    ) -> Result<(), String> {
+        turned::turn_words(sheet, transform, rewrite)
+    }
+
+    fn scale_words(
+        sheet: &Sheet<'_, Iso>,
+        factor: f64,
+        rewrite: &mut Rewrite<Iso>,
+    ) -> Result<(), String> {
+        rewrite.extra.words = positions(sheet.document, factor)?;
+        Ok(())
+    }
+
+    fn write(
+        sheet: &Sheet<'_, Iso>,
+        content: &Content<Iso>,
+        rewrite: &Rewrite<Iso>,
+    ) -> Result<Vec<TextEdit>, String> {
+        write::edits(sheet, content, rewrite)
+    }
+
+    fn agree(after: &Document, row: &Row<Iso>, meant: &Target) -> Result<(), String> {
+        let made = &row.own.made;
+        if (made.to, made.motion, made.side) != (meant.to, meant.motion, meant.side) {
+            return Err("the new line would lead elsewhere".into());
+        }
+        match meant.bend {
+            _ if meant.is_along(made, after.reading()) => Ok(()),
+            Bent::Center(_) => Err("the arcs would not tell any more how I and J are meant".into()),
+            _ => Err("the new line would lead elsewhere".into()),
+        }
+    }
+
+    fn numbered(document: &Document) -> Result<Vec<TextEdit>, String> {
+        numbers::numbered(document, 10)
+    }
+
+    fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
+        numbers::without_numbers(document)
+    }
+
+    fn own() -> Vec<Refactoring<Iso>> {
+        vec![
+            mode::ABSOLUTE,
+            mode::INCREMENTAL,
+            centers::START_TO_CENTER,
+            centers::CENTER_TO_START,
+            centers::ABSOLUTE,
+        ]
+    }
+}
+
+fn node_of([x, y]: Place) -> Node {
+    Node { x, y }
+}
+
+fn place_of(node: Node) -> Place {
+    [node.x, node.y]
+}
+
+fn other_way(motion: Motion) -> Motion {
+    match motion {
+        Motion::Clockwise => Motion::CounterClockwise,
+        Motion::CounterClockwise => Motion::Clockwise,
+        straight => straight,
+    }
+}
+
+/// True where a line says nothing but its number and where it leads, and can go.
+fn says_only_where(document: &Document, line: usize) -> bool {
+    let mut only = true;
+    words(document.line_bytes(line), 1, |token| {
+        only &= match token {
+            Token::Word { letter, number, .. } => {
+                matches!(letter, b'N' | b'X' | b'Y') || letter == b'G' && number.whole() == Some(1)
+            }
+            _ => false,
+        }
+    });
+    only
+}
+
+/// The G41 and G42 of some lines, each as the other one.
+fn swapped_sides(document: &Document, lines: Range<usize>) -> Vec<TextEdit> {
+    let text = document.text();
+    let mut edits = Vec::new();
+    for line in lines {
+        let start = text.line_start(line);
+        words(document.line_bytes(line), 1, |token| {
+            if let Token::Word {
+                letter: b'G',
+                number,
+                range,
+            } = token
+                && let Some(other) = match number.whole() {
+                    Some(41) => Some("G42"),
+                    Some(42) => Some("G41"),
+                    _ => None,
+                }
+            {
+                edits.push(TextEdit {
+                    range: start + range.start - 1..start + range.end - 1,
+                    text: other.into(),
+                });
+            }
+        });
+    }
+    edits
+}
+
+/// The centre in the program's steps that is most nearly as far from both ends.
+fn fitting(ends: [Place; 2], center: Place, factor: f64, style: &Style) -> Option<Place> {
+    let step = style.step();
+    let scale = 1e3 / step as f64;
+    let [from, to] = ends.map(|end| micrometres(end) * scale);
+    let arc = Arc::about(micrometres(center) * factor * scale, from, to, true);
+    let node = best_center(&arc, snap(from)?, snap(to)?);
+    Some([node.x.checked_mul(step)?, node.y.checked_mul(step)?])
+}
+
+/// Where G92 says that the wire stands, scaled.
+fn positions(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> {
+    let text = document.text();
+    let mut edits = Vec::new();
+    for line in 0..text.line_count() {
+        let (start, bytes) = (text.line_start(line), document.line_bytes(line));
+        let block = read_line(bytes, 1, |_| {});
+        if block.takes_coordinates && block.has_coordinates() {
+            return Err(format!(
+                "line {}: a word takes the coordinates for a place of the machine",
+                line + 1
+            ));
+        }
+        if !block.sets_position {
+            continue;
+        }
+        let before = document.machine_before(line);
+        let inch = before.is_some_and(|machine| machine.inch);
+        let style = Style::of(document, inch);
+        words(bytes, 1, |token| {
+            if let Token::Word {
+                letter: letter @ (b'X' | b'Y'),
+                number,
+                range,
+            } = token
+            {
+                let length = document.reading().length(number, inch) as f64 * factor;
+                let text = style.number(length.round() as i64);
+                edits.push(TextEdit {
+                    range: start + range.start - 1..start + range.end - 1,
+                    text: format!("{}{text}", letter as char),
+                });
+            }
+        });
+    }
+    Ok(edits)
 }

@@ -6,32 +6,31 @@
 //! X5. Y3.                    X0. Y3.
 //! ```
 
-use super::Refactoring;
-use super::rewrite::Rewrite;
-use super::sheet::Sheet;
-use super::taper::{Words, refuse_anywhere};
+use super::Iso;
 use crate::program::iso::block::read_line;
 use crate::program::iso::machine::{CenterRule, Reading};
+use crate::program::iso::taper::{Words, refuse_anywhere};
 use crate::program::iso::word::{Token, words};
+use crate::program::refactor::{Refactoring, Rewrite, Sheet};
 use crate::text::TextEdit;
 
-pub const ABSOLUTE: Refactoring = Refactoring {
+pub(super) const ABSOLUTE: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.coordinates.absolute",
-    title: "Make all coordinates absolute (G90)",
+    title: |_| "Make all coordinates absolute (G90)".into(),
     rewrite: |sheet| converted(sheet, false),
 };
-pub const INCREMENTAL: Refactoring = Refactoring {
+pub(super) const INCREMENTAL: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.coordinates.incremental",
-    title: "Let all coordinates count from where the wire stands (G91)",
+    title: |_| "Let all coordinates count from where the wire stands (G91)".into(),
     rewrite: |sheet| converted(sheet, true),
 };
 
-fn converted(sheet: &Sheet<'_>, incremental: bool) -> Result<Vec<TextEdit>, String> {
+fn converted(sheet: &Sheet<'_, Iso>, incremental: bool) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
     if content
         .rows
         .iter()
-        .all(|row| row.made.incremental == incremental)
+        .all(|row| row.own.made.incremental == incremental)
     {
         return Ok(Vec::new());
     }
@@ -54,10 +53,8 @@ fn converted(sheet: &Sheet<'_>, incremental: bool) -> Result<Vec<TextEdit>, Stri
         ..*old
     };
     let word = if incremental { "G91" } else { "G90" };
-    let mut rewrite = Rewrite {
-        reading: Some(reading),
-        ..Rewrite::default()
-    };
+    let mut rewrite = Rewrite::<Iso>::new();
+    rewrite.extra.reading = Some(reading);
     let first = content.rows.first().map_or(0, |row| row.line);
     let mut stands = false;
     for line in 0..text.line_count() {
@@ -74,7 +71,7 @@ fn converted(sheet: &Sheet<'_>, incremental: bool) -> Result<Vec<TextEdit>, Stri
                 } = token
                     && (number.mantissa, number.decimals) == (if incremental { 90 } else { 91 }, 0)
                 {
-                    rewrite.words.push(TextEdit {
+                    rewrite.extra.words.push(TextEdit {
                         range: range.start - by..range.end - by,
                         text: word.into(),
                     });
@@ -90,6 +87,6 @@ fn converted(sheet: &Sheet<'_>, incremental: bool) -> Result<Vec<TextEdit>, Stri
         stands |= line <= first && block.incremental == Some(incremental);
     }
     // G90 holds where nothing is said.
-    rewrite.first_word = (!stands && incremental).then_some(word);
+    rewrite.extra.first_word = (!stands && incremental).then_some(word);
     rewrite.edits(sheet, content)
 }

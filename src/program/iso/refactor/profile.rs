@@ -1,18 +1,18 @@
 //! Write a program anew as a profile has it.
 
-use super::taper::{Words, refuse_anywhere};
 use crate::program::convert::cuts;
 use crate::program::iso::document::Document;
+use crate::program::iso::taper::{Words, refuse_anywhere};
 use crate::program::iso::write::write;
-use crate::program::language::Proposal;
+use crate::program::refactor::Proposal;
 use crate::program::{self, Format};
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::TextEdit;
 
-pub const ID: &str = "refactor.rewrite.profile";
+pub(super) const ID: &str = "refactor.rewrite.profile";
 
 /// One proposal for each profile that ships and for that of the settings.
-pub fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
+pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
     let own = settings
         .profile
         .iter()

@@ -1,18 +1,29 @@
 //! Each refactoring leads where it says. The cursor is `|` in the text.
 
-use super::*;
+use super::{Iso, proposals};
 use crate::geometry::{Point, Segment};
+use crate::program::iso::document::Document;
+use crate::program::iso::numbers::renamed;
+use crate::program::refactor::{Proposal, Sheet, scaled};
+use crate::settings::Effective;
+use crate::text::{TextEdit, edited};
 use proptest::prelude::*;
-use rewrite::applied;
 
 fn read(text: &str) -> Document {
     Document::read(text.as_bytes().to_vec())
 }
 
+fn scaled_by(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> {
+    scaled(
+        &Sheet::<Iso>::new(document, &Effective::default(), 0..0),
+        factor,
+    )
+}
+
 fn proposed(text: &str, id: &str) -> Vec<Proposal> {
     let offset = text.find('|').unwrap_or(0);
     let document = read(&text.replacen('|', "", 1));
-    proposals(&document, &Effective::default(), offset..offset, |its| {
+    proposals(&document, &Effective::default(), offset..offset, &|its| {
         its == id
     })
 }
@@ -23,7 +34,7 @@ fn after(text: &str, id: &str) -> Result<String, String> {
         None => Ok(plain),
         Some(proposal) => proposal
             .edits
-            .map(|edits| String::from_utf8(applied(plain.as_bytes(), &edits)).unwrap()),
+            .map(|edits| String::from_utf8(edited(plain.as_bytes(), &edits).unwrap()).unwrap()),
     }
 }
 
@@ -135,7 +146,7 @@ fn what_would_part_the_upper_guide_from_the_wire_is_refused() {
     // In a comment they say nothing.
     let harmless = square("(U1 G51) ");
     assert!(after(&harmless, "refactor.rewrite.reverse").is_ok());
-    let sheet = |text: &str| scaled(&read(text), &Effective::default(), 2.0);
+    let sheet = |text: &str| scaled_by(&read(text), 2.0);
     assert!(sheet("G91\nG01 X5. U1.\nM02\n").is_err());
 }
 
@@ -235,7 +246,7 @@ fn blocks_are_numbered_and_calls_follow() {
     let document = read("M98 P7\nM02\nN7 G01 X1\nN8 M99\n");
     let edits = renamed(&document, 12..13, 7, "N70").unwrap();
     assert_eq!(
-        String::from_utf8(applied(document.text().bytes(), &edits)).unwrap(),
+        String::from_utf8(edited(document.text().bytes(), &edits).unwrap()).unwrap(),
         "M98 P70\nM02\nN70 G01 X1\nN8 M99\n"
     );
     assert_eq!(
@@ -248,8 +259,9 @@ fn blocks_are_numbered_and_calls_follow() {
 fn programs_are_scaled_and_stay_in_their_steps() {
     let scaled_by = |text: &str, factor: f64| {
         let document = read(text);
-        scaled(&document, &Effective::default(), factor)
-            .map(|edits| String::from_utf8(applied(document.text().bytes(), &edits)).unwrap())
+        scaled_by(&document, factor).map(|edits| {
+            String::from_utf8(edited(document.text().bytes(), &edits).unwrap()).unwrap()
+        })
     };
     assert_eq!(
         scaled_by(
@@ -266,7 +278,7 @@ fn programs_are_scaled_and_stay_in_their_steps() {
     assert!(
         scaled_by("G01 X1.\n", 0.0)
             .unwrap_err()
-            .contains("expected a number")
+            .contains("expected one between")
     );
     assert!(
         scaled_by("G01 X1.\nG28 X0. Y0.\n", 2.0)
@@ -420,8 +432,8 @@ proptest! {
         prop_assert_eq!(rules(&reversed), rules(&text));
         // Twice as large, and no further off than a step.
         let document = read(&text);
-        let edits = scaled(&document, &Effective::default(), 2.0).unwrap();
-        let larger = String::from_utf8(applied(document.text().bytes(), &edits)).unwrap();
+        let edits = scaled_by(&document, 2.0).unwrap();
+        let larger = String::from_utf8(edited(document.text().bytes(), &edits).unwrap()).unwrap();
         let halved: Vec<Point> = way(&larger).iter().map(|segment| segment.point_at(0.5) / 2.0).collect();
         for (half, whole) in halved.iter().zip(&before) {
             prop_assert!((half - whole.point_at(0.5)).norm() < 1.5, "{larger}");
@@ -441,12 +453,12 @@ proptest! {
         let text = text.repeat(copies);
         let document = read(&text);
         let start = start.min(text.len());
-        for proposal in proposals(&document, &Effective::default(), start..(start + length).min(text.len()), |_| true) {
+        for proposal in proposals(&document, &Effective::default(), start..(start + length).min(text.len()), &|_| true) {
             let Ok(edits) = proposal.edits else { continue };
             prop_assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{}: {edits:?}", proposal.id);
             prop_assert!(edits.iter().all(|edit| edit.range.start <= edit.range.end && edit.range.end <= text.len()), "{}", proposal.id);
         }
-        let _ = scaled(&document, &Effective::default(), 2.0);
+        let _ = scaled_by(&document, 2.0);
     }
 }
 

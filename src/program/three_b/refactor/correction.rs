@@ -9,17 +9,19 @@
 //! The path is that of `wedm/generate` and proved as that is. It begins at the thread hole of the program and goes the same way round.
 //! Comments before the first block stay; others would stand at the wrong blocks and go.
 
-use super::Refactoring;
-use super::sheet::{Content, Contour, Sheet};
+use super::rows::header;
+use super::{ThreeB, refuse_four_b};
 use crate::drawing::{self, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
-use crate::geometry::{Point, Segment};
+use crate::geometry::Segment;
+use crate::program::grid::{Node, point_of};
+use crate::program::refactor::{Content, Contour, Refactoring, Sheet};
 use crate::program::three_b::write;
 use crate::settings::{Compensation, Direction, Effective, Layout, PointSetting};
 use crate::text::TextEdit;
 use crate::toolpath::{Refusal, plan};
 use std::collections::BTreeMap;
 
-pub const OPENING: Refactoring = Refactoring {
+pub(super) const OPENING: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.correct.opening",
     title: |settings| {
         format!(
@@ -29,7 +31,7 @@ pub const OPENING: Refactoring = Refactoring {
     },
     rewrite: |sheet| corrected(sheet, Role::Opening),
 };
-pub const PUNCH: Refactoring = Refactoring {
+pub(super) const PUNCH: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.correct.punch",
     title: |settings| {
         format!(
@@ -40,10 +42,9 @@ pub const PUNCH: Refactoring = Refactoring {
     rewrite: |sheet| corrected(sheet, Role::Punch),
 };
 
-fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
+fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, String> {
     let content = sheet.content()?;
-    content.refuse_four_b()?;
-    let nodes = content.nodes()?;
+    refuse_four_b(content)?;
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     let mut outlines = Vec::new();
     let (mut threads, mut entries) = (BTreeMap::new(), BTreeMap::new());
@@ -57,9 +58,9 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
         }
         let handle = contour.ordinal.to_string();
         let first = contour.own_rows().start;
-        entries.insert(handle.clone(), in_mm(point(nodes[first].0)));
-        threads.insert(handle.clone(), in_mm(point(nodes[contour.rows.start].0)));
-        let geometry = geometry(content, contour, &nodes);
+        entries.insert(handle.clone(), in_mm(content.rows[first].from));
+        threads.insert(handle.clone(), in_mm(content.rows[contour.rows.start].from));
+        let geometry = geometry(content, contour);
         let id = drawing.push(Entity {
             handle: handle.into(),
             layer: "0".into(),
@@ -77,8 +78,8 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
         });
     }
     let layout = match content.rows.first() {
-        Some(row) if row.coordinates.is_some() => Layout::Checking,
-        Some(row) => row.layout,
+        Some(row) if row.own.coordinates.is_some() => Layout::Checking,
+        Some(row) => row.own.layout,
         None => Layout::Compact,
     };
     let settings = Effective {
@@ -102,7 +103,11 @@ fn corrected(sheet: &Sheet<'_>, role: Role) -> Result<Vec<TextEdit>, String> {
 }
 
 /// The new program in the place of all blocks, words included.
-fn replaced(sheet: &Sheet<'_>, content: &Content, program: &str) -> Result<Vec<TextEdit>, String> {
+fn replaced(
+    sheet: &Sheet<'_, ThreeB>,
+    content: &Content<ThreeB>,
+    program: &str,
+) -> Result<Vec<TextEdit>, String> {
     let text = sheet.document.text();
     let first = content
         .rows
@@ -116,9 +121,10 @@ fn replaced(sheet: &Sheet<'_>, content: &Content, program: &str) -> Result<Vec<T
         .max()
         .unwrap_or(0);
     let end = text.line_range(last).end;
+    let has_header = header(sheet.document, text.line_of(first)).is_some();
     // The header that stands there is right as well, and the start stays where it was.
     let blocks = match program.strip_prefix("; Start Point") {
-        Some(rest) if content.header.is_some() || !sheet.trace.start_is_known => {
+        Some(rest) if has_header || !sheet.trace.start_is_known => {
             rest.split_once('\n').map_or(rest, |(_, rest)| rest)
         }
         _ => program,
@@ -136,32 +142,27 @@ fn replaced(sheet: &Sheet<'_>, content: &Content, program: &str) -> Result<Vec<T
     }])
 }
 
-fn geometry(
-    content: &Content,
-    contour: &Contour,
-    nodes: &[(crate::program::three_b::Node, crate::program::three_b::Node)],
-) -> Geometry {
-    let own = contour.own_rows();
-    if let (1, Segment::Arc(arc)) = (own.len(), content.piece_from(own.start, nodes[own.start].0)) {
+fn geometry(content: &Content<ThreeB>, contour: &Contour) -> Geometry {
+    let own = &content.rows[contour.own_rows()];
+    if let [row] = own
+        && let Segment::Arc(arc) = row.piece
+    {
         return Geometry::Circle {
             center: arc.center / 1000.0,
             radius: arc.radius / 1000.0,
         };
     }
-    let vertex = |index: usize| {
-        let [x, y] = in_mm(point(nodes[index].0));
-        Vertex::new(x, y, content.rows[index].piece.bulge())
-    };
+    let vertices = own.iter().map(|row| {
+        let [x, y] = in_mm(row.from);
+        Vertex::new(x, y, row.piece.bulge())
+    });
     Geometry::Polyline {
         closed: true,
-        vertices: own.map(vertex).collect(),
+        vertices: vertices.collect(),
     }
 }
 
-fn point(node: crate::program::three_b::Node) -> Point {
-    Point::new(node.x as f64, node.y as f64)
-}
-
-fn in_mm(point: Point) -> [f64; 2] {
-    [point.x / 1000.0, point.y / 1000.0]
+fn in_mm(node: Node) -> [f64; 2] {
+    let point = point_of(node) / 1000.0;
+    [point.x, point.y]
 }

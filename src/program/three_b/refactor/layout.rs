@@ -4,29 +4,29 @@
 //! B9900B0B9900GXL1     →     N    1: B   9900 B      0 B   9900 GX L1  ;      9.900 ,      0.000
 //! ```
 
-use super::Refactoring;
-use super::sheet::Sheet;
+use super::ThreeB;
+use crate::program::refactor::{Refactoring, Sheet};
 use crate::program::three_b::language::format;
 use crate::settings::Layout;
 use crate::text::TextEdit;
 
-pub const COMPACT: Refactoring = Refactoring {
+pub(super) const COMPACT: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.layout.compact",
     title: |_| "Convert to the compact layout".into(),
     rewrite: |sheet| laid_out(sheet, Layout::Compact),
 };
-pub const ALIGNED: Refactoring = Refactoring {
+pub(super) const ALIGNED: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.layout.aligned",
     title: |_| "Convert to the aligned layout".into(),
     rewrite: |sheet| laid_out(sheet, Layout::Aligned),
 };
-pub const CHECKING: Refactoring = Refactoring {
+pub(super) const CHECKING: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.layout.checking",
     title: |_| "Convert to the checking layout, with numbers and end points".into(),
     rewrite: |sheet| laid_out(sheet, Layout::Checking),
 };
 
-fn laid_out(sheet: &Sheet<'_>, layout: Layout) -> Result<Vec<TextEdit>, String> {
+fn laid_out(sheet: &Sheet<'_, ThreeB>, layout: Layout) -> Result<Vec<TextEdit>, String> {
     let text = sheet.document.text();
     Ok(format(
         text,

@@ -1,87 +1,309 @@
-//! Refactorings of 3B: the same part, written otherwise; or exactly mirrored, turned, scaled, offset.
-//!
-//! One file a refactoring, all in [`ALL`]. Each says what stands in the place of which block; `rewrite` writes the text, reads it
-//! again and holds every new block against the piece of the path that it stands for. What fails that is not offered.
+//! How 3B and 4B are refactored: how its moves are told and written, and the refactorings that it alone has.
 
 mod correction;
 mod layout;
-mod merge;
-mod number;
-mod reverse;
-mod rewrite;
-mod scale;
-mod sheet;
+mod numbers;
+mod rows;
+mod slot;
 mod split;
-mod start_here;
 #[cfg(test)]
 mod tests;
-mod transform;
+mod turned;
 
-pub use scale::scaled;
-pub use sheet::Sheet;
+pub(in crate::program) use rows::Own;
 
 use super::Document;
-use crate::program::language::Proposal;
+use super::block::{Motion, PartArc, Quadrant};
+use super::decode::decode;
+use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, encode, point_of, snap};
+use crate::finding::Finding;
+use crate::geometry::{Arc, Segment};
+use crate::program::grid::{Node, largest_distance};
+use crate::program::path::Trace;
+use crate::program::refactor::{
+    Change, Content, Contour, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
+};
+use crate::program::write::scaled;
 use crate::settings::Effective;
-use crate::text::TextEdit;
-use std::ops::Range;
+use crate::text::{SourceText, TextEdit};
 
-/// One refactoring.
-pub struct Refactoring {
-    /// Kind of its code action.
-    pub id: &'static str,
-    pub title: fn(&Effective) -> String,
-    /// The edits, sorted and disjoint; none where there is nothing to do. Errors say why it cannot be done: lower-case, no final dot.
-    pub rewrite: fn(&Sheet<'_>) -> Result<Vec<TextEdit>, String>,
+/// 3B and 4B.
+pub(in crate::program) struct ThreeB;
+
+/// A block that stands in the place of another.
+#[derive(Clone, Debug)]
+pub(in crate::program) struct New {
+    pub encoded: Encoded,
+    pub part: Option<PartArc>,
+    /// The row whose comment it carries.
+    pub source: usize,
+    /// It runs exactly along its piece, to which it was not fitted: a block that was moved, mirrored, turned round.
+    pub exact: bool,
 }
 
-/// All of them, in the order in which they are offered.
-pub const ALL: [Refactoring; 18] = [
-    reverse::REVERSE,
-    start_here::START_HERE,
-    transform::MIRROR_X,
-    transform::MIRROR_Y,
-    transform::ROTATE_LEFT,
-    transform::ROTATE_RIGHT,
-    transform::ROTATE_HALF,
-    scale::INCH_TO_MM,
-    scale::MM_TO_INCH,
-    merge::MERGE,
-    split::SPLIT,
-    correction::OPENING,
-    correction::PUNCH,
-    layout::COMPACT,
-    layout::ALIGNED,
-    layout::CHECKING,
-    number::NUMBER,
-    number::WITHOUT_NUMBERS,
-];
+/// How far an exact block may lie from its piece, µm: rounding.
+const EXACT: f64 = 1e-3;
 
-/// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
-///
-/// `wanted` chooses by id.
-pub fn proposals(
-    document: &Document,
-    settings: &Effective,
-    selection: Range<usize>,
-    wanted: impl Fn(&str) -> bool,
-) -> Vec<Proposal> {
-    let chosen: Vec<&Refactoring> = ALL
-        .iter()
-        .filter(|refactoring| wanted(refactoring.id))
-        .collect();
-    if chosen.is_empty() {
-        return Vec::new();
+impl Notation for ThreeB {
+    type Document = Document;
+    type Own = Own;
+    type New = New;
+    type Extra = ();
+
+    const STEP: f64 = 1.0;
+    const NUMBER: &'static str = "Number the blocks from 1";
+
+    fn read(bytes: Vec<u8>, settings: &Effective) -> Document {
+        Document::read_with(bytes, settings)
     }
-    let sheet = Sheet::new(document, settings, selection);
-    let propose = |refactoring: &Refactoring| {
-        let edits = (refactoring.rewrite)(&sheet);
-        let changes = edits.as_ref().map_or(true, |edits| !edits.is_empty());
-        changes.then(|| Proposal {
-            id: refactoring.id,
-            title: (refactoring.title)(settings),
-            edits,
-        })
+
+    fn text(document: &Document) -> &SourceText {
+        document.text()
+    }
+
+    fn trace(document: &Document) -> Trace {
+        document.trace()
+    }
+
+    fn findings(document: &Document) -> Vec<Finding> {
+        document.findings()
+    }
+
+    fn rows(
+        document: &Document,
+        trace: &Trace,
+        contours: &[Contour],
+    ) -> Result<Vec<Row<ThreeB>>, String> {
+        rows::rows(document, trace, contours)
+    }
+
+    fn refuse(sheet: &Sheet<'_, ThreeB>, change: Change) -> Result<(), String> {
+        match change {
+            Change::Scale => refuse_four_b(sheet.content()?),
+            Change::Reverse | Change::StartHere(_) => Ok(()),
+        }
+    }
+
+    fn kept(_: &Sheet<'_, ThreeB>, content: &Content<ThreeB>, index: usize, _: usize) -> New {
+        let row = &content.rows[index];
+        New {
+            encoded: Encoded {
+                block: row.own.block,
+                from: row.from,
+                to: row.to,
+                piece: row.piece,
+            },
+            part: row.own.part,
+            source: index,
+            exact: true,
+        }
+    }
+
+    fn reversed(
+        sheet: &Sheet<'_, ThreeB>,
+        content: &Content<ThreeB>,
+        index: usize,
+    ) -> Result<Vec<New>, String> {
+        let row = &content.rows[index];
+        let (piece, ends) = (row.piece.reversed(), [row.to, row.from]);
+        let Motion::Line(quadrant) = row.own.block.motion else {
+            return encoded(sheet, &piece, ends, row.own.part, index);
+        };
+        // The same numbers into the opposite quadrant.
+        let opposite = match quadrant {
+            Quadrant::First => Quadrant::Third,
+            Quadrant::Second => Quadrant::Fourth,
+            Quadrant::Third => Quadrant::First,
+            Quadrant::Fourth => Quadrant::Second,
+        };
+        let mut new = ThreeB::kept(sheet, content, index, index);
+        let [from, to] = ends;
+        new.encoded = Encoded {
+            from,
+            to,
+            piece,
+            ..new.encoded
+        };
+        new.encoded.block.motion = Motion::Line(opposite);
+        Ok(vec![new])
+    }
+
+    fn straight(
+        sheet: &Sheet<'_, ThreeB>,
+        _: &Content<ThreeB>,
+        index: usize,
+        ends: [Node; 2],
+    ) -> Result<Vec<New>, String> {
+        let [start, end] = ends.map(point_of);
+        encoded(sheet, &Segment::line(start, end), ends, None, index)
+    }
+
+    fn transformed(
+        sheet: &Sheet<'_, ThreeB>,
+        content: &Content<ThreeB>,
+        index: usize,
+        transform: Transform,
+    ) -> New {
+        let kept = ThreeB::kept(sheet, content, index, index);
+        let Encoded {
+            block,
+            from,
+            to,
+            piece,
+        } = kept.encoded;
+        New {
+            encoded: Encoded {
+                block: turned::turned(&block, transform),
+                from: transform.of_node(from),
+                to: transform.of_node(to),
+                piece: transform.of_segment(&piece),
+            },
+            ..kept
+        }
+    }
+
+    fn scaled_node(
+        _: &Sheet<'_, ThreeB>,
+        _: &Row<ThreeB>,
+        node: Node,
+        factor: f64,
+    ) -> Option<Node> {
+        snap(point_of(node) * factor)
+    }
+
+    fn scaled(
+        sheet: &Sheet<'_, ThreeB>,
+        content: &Content<ThreeB>,
+        index: usize,
+        ends: [Node; 2],
+        factor: f64,
+    ) -> Result<Vec<New>, String> {
+        let piece = scaled(&content.rows[index].piece, factor);
+        encoded(sheet, &piece, ends, None, index)
+    }
+
+    fn runs_on(_: &Sheet<'_, ThreeB>, content: &Content<ThreeB>, first: usize, row: usize) -> bool {
+        let own = &content.rows[row].own;
+        matches!(own.block.motion, Motion::Line(_))
+            && own.part.is_none()
+            && (row == first || own.comment.is_none())
+    }
+
+    fn longest(settings: &Effective) -> i64 {
+        settings.largest_number()
+    }
+
+    fn write(
+        sheet: &Sheet<'_, ThreeB>,
+        content: &Content<ThreeB>,
+        rewrite: &Rewrite<ThreeB>,
+    ) -> Result<Vec<TextEdit>, String> {
+        slot::edits(sheet, content, rewrite)
+    }
+
+    fn agree(_: &Document, row: &Row<ThreeB>, meant: &New) -> Result<(), String> {
+        let Encoded {
+            block,
+            from,
+            to,
+            piece,
+        } = &meant.encoded;
+        if row.own.block != *block || row.own.part != meant.part {
+            return Err("the new block reads otherwise than it was meant".into());
+        }
+        let beside = || "the block does not run along its piece of the path".to_owned();
+        let decoded = decode(block, point_of(*from)).map_err(|_| beside())?;
+        let apart =
+            |share: f64| -> f64 { (decoded.point_at(share) - piece.point_at(share)).norm() };
+        let runs_along = if meant.exact {
+            [0.0, 0.5, 1.0]
+                .into_iter()
+                .all(|share| apart(share) <= EXACT)
+        } else {
+            (decoded.end() - point_of(*to)).norm() <= END_TOLERANCE
+                && largest_distance(&decoded, piece) <= ASIDE_TOLERANCE
+                && apart(0.5) <= ASIDE_TOLERANCE
+        };
+        if runs_along { Ok(()) } else { Err(beside()) }
+    }
+
+    /// A program whose numbers counted its blocks goes on doing so.
+    fn finishing(before: &Trace, after: &Document) -> Vec<TextEdit> {
+        let counts = |trace: &Trace| {
+            let mut blocks = trace.steps.iter().filter(|step| step.moves()).zip(1_u32..);
+            blocks.all(|(step, ordinal)| step.number == Some(ordinal))
+        };
+        if counts(before) && !counts(&after.trace()) {
+            numbers::numbered(after)
+        } else {
+            Vec::new()
+        }
+    }
+
+    fn numbered(document: &Document) -> Result<Vec<TextEdit>, String> {
+        Ok(numbers::numbered(document))
+    }
+
+    fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
+        Ok(numbers::without_numbers(document))
+    }
+
+    fn own() -> Vec<Refactoring<ThreeB>> {
+        vec![
+            split::SPLIT,
+            correction::OPENING,
+            correction::PUNCH,
+            layout::COMPACT,
+            layout::ALIGNED,
+            layout::CHECKING,
+        ]
+    }
+}
+
+/// An error where a block carries 4B's radius: the program then holds the part's contour.
+fn refuse_four_b(content: &Content<ThreeB>) -> Result<(), String> {
+    match content.rows.iter().find(|row| row.own.part.is_some()) {
+        Some(row) => Err(format!(
+            "line {}: a 4B block cannot be calculated anew",
+            row.line + 1
+        )),
+        None => Ok(()),
+    }
+}
+
+/// The blocks of a piece between two nodes, for the row `source`; none of their numbers is above the largest.
+fn encoded(
+    sheet: &Sheet<'_, ThreeB>,
+    piece: &Segment,
+    [from, to]: [Node; 2],
+    part: Option<PartArc>,
+    source: usize,
+) -> Result<Vec<New>, String> {
+    let (mut blocks, largest) = (Vec::new(), sheet.document.largest());
+    encode(&fitted(piece, from, to), from, to, largest, &mut blocks)
+        .ok_or_else(|| format!("no blocks within tolerance lead from {from:?} to {to:?}"))?;
+    let new = |encoded| New {
+        encoded,
+        part,
+        source,
+        exact: false,
     };
-    chosen.into_iter().filter_map(propose).collect()
+    Ok(blocks.into_iter().map(new).collect())
+}
+
+/// The piece between its nodes. An arc keeps its direction; its centre goes to the nearest place that is as far from both nodes,
+/// because nodes that were snapped, scaled or freed of drift lie beside it by as much.
+fn fitted(piece: &Segment, from: Node, to: Node) -> Segment {
+    let (start, end) = (point_of(from), point_of(to));
+    match piece {
+        Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) => match (end - start).try_normalize(0.0) {
+            None => *piece,
+            Some(along) => {
+                let middle = start + (end - start) * 0.5;
+                let center = arc.center - along * (arc.center - middle).dot(&along);
+                Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0))
+            }
+        },
+    }
 }

@@ -1,8 +1,10 @@
-use super::rewrite::applied;
-use super::*;
+use super::ThreeB;
 use crate::geometry::{Point, Segment};
 use crate::program::path::cuts;
-use crate::program::three_b::{Node, encode};
+use crate::program::refactor::{Sheet, proposals, scaled};
+use crate::program::three_b::{Document, Node, encode};
+use crate::settings::Effective;
+use crate::text::edited;
 use proptest::prelude::*;
 
 const LARGEST: i64 = 999_999;
@@ -16,13 +18,13 @@ fn refactored(id: &str, text: &str) -> Result<String, String> {
     let offset = text.find('|').unwrap_or(0);
     let text = text.replacen('|', "", 1);
     let document = read(&text);
-    let found = proposals(&document, &Effective::default(), offset..offset, |known| {
+    let found = proposals::<ThreeB>(&document, &Effective::default(), offset..offset, &|known| {
         known == id
     });
     match found.into_iter().next() {
         None => Ok(text),
         Some(proposal) => {
-            Ok(String::from_utf8(applied(text.as_bytes(), &proposal.edits?)).unwrap())
+            Ok(String::from_utf8(edited(text.as_bytes(), &proposal.edits?).unwrap()).unwrap())
         }
     }
 }
@@ -139,7 +141,7 @@ fn programs_are_scaled_and_close_again() {
     );
     let document = read("B10B0B10GXL1\n");
     let settings = Effective::default();
-    let sheet = Sheet::new(&document, &settings, 0..0);
+    let sheet = Sheet::<ThreeB>::new(&document, &settings, 0..0);
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
         assert!(
             scaled(&sheet, factor).is_err_and(|reason| reason.contains("expected one between")),
@@ -196,7 +198,7 @@ fn the_correction_is_applied_to_the_parts_contour() {
 #[test]
 fn what_changes_nothing_is_not_offered() {
     let document = read("B5B0B5GXL1\nB0B5B5GYL2\nB5B5B5GYL3\nDD\n");
-    let all = proposals(&document, &Effective::default(), 0..0, |_| true);
+    let all = proposals::<ThreeB>(&document, &Effective::default(), 0..0, &|_| true);
     let ids: Vec<&str> = all.iter().map(|proposal| proposal.id).collect();
     for absent in [
         "refactor.rewrite.merge",
@@ -376,12 +378,12 @@ proptest! {
         let text = text.repeat(copies);
         let document = read(&text);
         let start = start.min(text.len());
-        for proposal in proposals(&document, &Effective::default(), start..(start + length).min(text.len()), |_| true) {
+        for proposal in proposals::<ThreeB>(&document, &Effective::default(), start..(start + length).min(text.len()), &|_| true) {
             let Ok(edits) = proposal.edits else { continue };
             prop_assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{}: {edits:?}", proposal.id);
             prop_assert!(edits.iter().all(|edit| edit.range.start <= edit.range.end && edit.range.end <= text.len()), "{}", proposal.id);
         }
         let settings = Effective::default();
-        let _ = scaled(&Sheet::new(&document, &settings, 0..0), 2.0);
+        let _ = scaled(&Sheet::<ThreeB>::new(&document, &settings, 0..0), 2.0);
     }
 }

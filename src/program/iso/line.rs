@@ -1,0 +1,322 @@
+//! A line written anew, so that its move leads elsewhere; all other words stay.
+
+use super::block::{Motion, read_line};
+use super::document::Document;
+use super::layout::is_parted;
+use super::machine::{Bend, CenterRule, Course, Machine, Move, Place, Reading};
+use super::style::Style;
+use super::word::{Number, Token, words};
+use crate::finding::Side;
+use crate::geometry::Segment;
+use crate::text::{TextEdit, difference};
+use std::ops::Range;
+
+/// How far the middle of an arc may lie from where it is meant to, µm: its centre is written in the program's steps.
+const MIDDLE_TOLERANCE: f64 = 2.5;
+
+/// Where a move leads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::program) struct Target {
+    pub motion: Motion,
+    pub to: Place,
+    pub bend: Bent,
+    pub side: Option<Side>,
+}
+
+/// About what an arc runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::program) enum Bent {
+    Line,
+    Center(Place),
+    Radius(i64),
+}
+
+impl Target {
+    /// What a move does.
+    pub fn of(made: &Move, reading: &Reading) -> Target {
+        let bend = match (made.is_arc(), made.bend) {
+            (true, Bend::Radius(radius)) => Bent::Radius(radius),
+            (true, _) => made
+                .center(reading.rule(made.incremental))
+                .map_or(Bent::Line, Bent::Center),
+            (false, _) => Bent::Line,
+        };
+        Target {
+            motion: made.motion,
+            to: made.to,
+            bend,
+            side: made.side,
+        }
+    }
+
+    /// Whether a move runs along the same arc, or like this one along none.
+    pub fn is_along(&self, made: &Move, reading: &Reading) -> bool {
+        let bend = match self.bend {
+            Bent::Line => return !made.is_arc(),
+            Bent::Radius(radius) => Bend::Radius(radius),
+            Bent::Center(center) => {
+                let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(made.from[axis]));
+                Bend::Center {
+                    i,
+                    j,
+                    absolute: center,
+                }
+            }
+        };
+        let meant = Move {
+            bend,
+            incremental: false,
+            ..*made
+        };
+        let plain = Reading {
+            absolute: CenterRule::StartToCenter,
+            ..*reading
+        };
+        match (made.course(reading), meant.course(&plain)) {
+            (Course::Arc(is), Course::Arc(meant)) => {
+                let middle = |arc| Segment::Arc(arc).point_at(0.5);
+                (middle(is) - middle(meant)).norm() <= MIDDLE_TOLERANCE
+            }
+            _ => false,
+        }
+    }
+}
+
+/// The edit of one line that leads its move to `target`, from what is in force before it; `None` where that cannot be written.
+pub(super) fn line_to(
+    document: &Document,
+    line: usize,
+    before: &Machine,
+    target: &Target,
+) -> Option<TextEdit> {
+    let range = document.text().line_range(line);
+    let own = document.text().bytes().get(range.clone())?;
+    let reading = document.reading();
+    let inch = read_line(own, 1, |_| {}).inch.unwrap_or(before.inch);
+    let written = Line {
+        bytes: own,
+        parted: is_parted(document.text()),
+        style: Style::of(document, inch),
+        reading,
+    };
+    let new = written.leading(target, before).ok()?;
+    let mut machine = *before;
+    let made = machine.run(&read_line(&new, 1, |_| {}), reading);
+    prove(line, made.as_ref(), target, reading).ok()?;
+    let mut edits = Vec::new();
+    push_changed(&mut edits, range, own, &new).ok()?;
+    edits.pop()
+}
+
+/// An edit from the first byte of a line that changes to the last.
+pub(super) fn push_changed(
+    edits: &mut Vec<TextEdit>,
+    range: Range<usize>,
+    old: &[u8],
+    new: &[u8],
+) -> Result<(), String> {
+    if old != new {
+        let TextEdit { range: own, text } =
+            difference(old, new).ok_or("a line is in another code page")?;
+        edits.push(TextEdit {
+            range: range.start + own.start..range.start + own.end,
+            text,
+        });
+    }
+    Ok(())
+}
+
+pub(super) fn prove(
+    line: usize,
+    made: Option<&Move>,
+    target: &Target,
+    reading: &Reading,
+) -> Result<(), String> {
+    let fault = |what: &str| Err(format!("line {}: {what}", line + 1));
+    let Some(made) = made else {
+        return fault("the new line does not move");
+    };
+    if made.to != target.to || made.motion != target.motion {
+        return fault("the new line leads elsewhere");
+    }
+    if !matches!(made.course(reading), Course::Line | Course::Arc(_)) {
+        return fault("its arc cannot be written with the program's decimals");
+    }
+    Ok(())
+}
+
+/// A line that is written anew.
+pub(super) struct Line<'a> {
+    pub bytes: &'a [u8],
+    pub parted: bool,
+    pub style: Style,
+    pub reading: &'a Reading,
+}
+
+impl Line<'_> {
+    /// The line with the words that lead to `target` from where the machine stands before it. All other words stay.
+    pub fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
+        let block = read_line(self.bytes, 1, |_| {});
+        let incremental = block.incremental.unwrap_or(before.incremental);
+        let base = if incremental { before.at } else { before.zero };
+        let mut cluster: Vec<String> = Vec::new();
+        let number = |length: i64| self.style.number(length);
+        let had = [block.x.is_some(), block.y.is_some()];
+        for (axis, letter) in [(0, 'X'), (1, 'Y')] {
+            let moves = target.to[axis] != before.at[axis];
+            // An arc without coordinates is a full circle; a line without any is none.
+            let is_needed = target.to == before.at && target.bend == Bent::Line;
+            if moves || had[axis] || is_needed {
+                cluster.push(format!(
+                    "{letter}{}",
+                    number(target.to[axis].wrapping_sub(base[axis]))
+                ));
+            }
+        }
+        match target.bend {
+            Bent::Line => {}
+            Bent::Radius(radius) => cluster.push(format!("R{}", number(radius))),
+            Bent::Center(center) => {
+                for (axis, letter) in [(0, 'I'), (1, 'J')] {
+                    let length = match self.reading.rule(incremental) {
+                        CenterRule::StartToCenter => center[axis].wrapping_sub(before.at[axis]),
+                        CenterRule::CenterToStart => before.at[axis].wrapping_sub(center[axis]),
+                        CenterRule::Absolute => center[axis].wrapping_sub(before.zero[axis]),
+                    };
+                    cluster.push(format!("{letter}{}", number(length)));
+                }
+            }
+        }
+        let motion = word_of(target.motion);
+        let mut out: Vec<u8> = Vec::with_capacity(self.bytes.len() + 24);
+        let (mut copied, mut is_placed, mut has_motion) = (0, false, false);
+        let mut anchor = 0;
+        let separator = if self.parted { " " } else { "" };
+        let mut fault = None;
+        let mut tokens = Vec::new();
+        words(self.bytes, 1, |token| tokens.push(token));
+        for token in tokens {
+            let Token::Word {
+                letter,
+                number,
+                range,
+            } = token
+            else {
+                if let Token::Fault { .. } = token {
+                    fault = Some("the line cannot be read");
+                }
+                continue;
+            };
+            let range = range.start - 1..range.end - 1;
+            match letter {
+                b'G' if is_motion(number) => {
+                    has_motion = true;
+                    out.extend_from_slice(&self.bytes[copied..range.start]);
+                    let same = Some(target.motion) == motion_of(number);
+                    out.extend_from_slice(if same {
+                        &self.bytes[range.clone()]
+                    } else {
+                        motion.as_bytes()
+                    });
+                    (copied, anchor) = (range.end, out.len());
+                }
+                b'X' | b'Y' | b'I' | b'J' | b'R' => {
+                    let gap = &self.bytes[copied..range.start];
+                    if is_placed {
+                        // The space before a word that goes, goes with it.
+                        let kept = gap
+                            .iter()
+                            .rposition(|byte| !matches!(byte, b' ' | b'\t'))
+                            .map_or(0, |last| last + 1);
+                        out.extend_from_slice(&gap[..kept]);
+                    } else {
+                        out.extend_from_slice(gap);
+                        out.extend_from_slice(cluster.join(separator).as_bytes());
+                        is_placed = true;
+                    }
+                    copied = range.end;
+                }
+                _ => {
+                    out.extend_from_slice(&self.bytes[copied..range.end]);
+                    (copied, anchor) = (range.end, out.len());
+                }
+            }
+        }
+        out.extend_from_slice(&self.bytes[copied..]);
+        if let Some(fault) = fault {
+            return Err(fault.into());
+        }
+        let mut insert = |at: usize, text: String| {
+            let text = if at > 0 && self.parted {
+                format!(" {text}")
+            } else {
+                text
+            };
+            out.splice(at..at, text.bytes());
+        };
+        if !is_placed && !cluster.is_empty() {
+            insert(anchor, cluster.join(separator));
+        }
+        if !has_motion && before.motion != target.motion {
+            return Ok(with_word(&out, motion, self.parted));
+        }
+        Ok(out)
+    }
+}
+
+/// A line with a word put behind its block number.
+pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
+    let mut at = 0;
+    let mut is_first = true;
+    words(line, 1, |token| {
+        if let Token::Word {
+            letter: b'N' | b'O',
+            range,
+            ..
+        }
+        | Token::Skip { range }
+        | Token::Tape { range } = token
+            && is_first
+        {
+            at = range.end - 1;
+        } else {
+            is_first = false;
+        }
+    });
+    let mut out = line.to_vec();
+    let lead = line
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
+    let text = match (at, parted) {
+        (0, true) => format!("{word} "),
+        (_, true) => format!(" {word}"),
+        (_, false) => word.to_owned(),
+    };
+    let at = if at == 0 { lead } else { at };
+    out.splice(at..at, text.bytes());
+    out
+}
+
+fn word_of(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Rapid => "G00",
+        Motion::Line => "G01",
+        Motion::Clockwise => "G02",
+        Motion::CounterClockwise => "G03",
+    }
+}
+
+fn motion_of(number: Number) -> Option<Motion> {
+    Some(match number.whole()? {
+        0 => Motion::Rapid,
+        1 => Motion::Line,
+        2 => Motion::Clockwise,
+        3 => Motion::CounterClockwise,
+        _ => return None,
+    })
+}
+
+fn is_motion(number: Number) -> bool {
+    number.decimals == 0 && motion_of(number).is_some()
+}

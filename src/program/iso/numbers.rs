@@ -1,0 +1,212 @@
+//! Block numbers: counted anew, left out, renamed; calls follow.
+//!
+//! ```text
+//! M98 P7                     M98 P40
+//! M02                   →    N30 M02
+//! N7 G01 X1.                 N40 G01 X1.
+//! ```
+
+use super::block::{read_line, word_range};
+use super::document::Document;
+use super::layout::is_parted;
+use super::line::with_word;
+use super::order::labels;
+use crate::text::{SourceText, TextEdit};
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+
+/// Words of some controls that name a block and are not followed here.
+const UNKNOWN_CALLS: [&str; 5] = ["M97", "G25", "GOTO", "CALL", "M96"];
+
+/// Numbers in steps of `step`, for every line that says something to the machine.
+pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String> {
+    refuse_unknown_calls(document)?;
+    let text = document.text();
+    let parted = is_parted(text);
+    let mut edits = Vec::new();
+    // Of the numbers before, those afterwards, by the line that a call of them leads to.
+    let labels = labels(text);
+    let mut renamed: FxHashMap<u32, u32> = FxHashMap::default();
+    // A block that got the number of a program which is called, or of one that stands elsewhere, would be called in its place.
+    let taken: Vec<u32> = called(document)
+        .into_iter()
+        .filter(|called| {
+            labels
+                .get(called)
+                .is_none_or(|&line| is_program(text, line))
+        })
+        .collect();
+    let mut number = step;
+    for line in 0..text.line_count() {
+        let range = text.line_range(line);
+        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
+        let block = read_line(bytes, 1, |_| {});
+        if block.empty || block.program.is_some() {
+            continue;
+        }
+        while taken.contains(&number) && number < u32::MAX {
+            number = number.saturating_add(step);
+        }
+        match (block.number, number_word(bytes, range.start)) {
+            (Some(old), Some(word)) => {
+                if labels.get(&old) == Some(&line) {
+                    renamed.insert(old, number);
+                }
+                edits.push(TextEdit {
+                    range: word,
+                    text: format!("N{number}"),
+                });
+            }
+            _ => {
+                let new = with_word(bytes, &format!("N{number}"), parted);
+                let new = String::from_utf8(new)
+                    .map_err(|_| format!("line {}: it is in another code page", line + 1))?;
+                edits.push(TextEdit { range, text: new });
+            }
+        }
+        number = number.saturating_add(step);
+    }
+    // Where a line gets its number and holds a call, both are one edit.
+    let calls = calls(document, |called| renamed.get(&called).copied());
+    for call in calls {
+        match edits
+            .iter_mut()
+            .find(|edit| edit.range.start <= call.range.start && call.range.end <= edit.range.end)
+        {
+            Some(whole) => {
+                let old = String::from_utf8_lossy(
+                    text.bytes().get(whole.range.clone()).unwrap_or_default(),
+                )
+                .into_owned();
+                let within =
+                    call.range.start - whole.range.start..call.range.end - whole.range.start;
+                let grown = whole.text.len() - old.len();
+                whole
+                    .text
+                    .replace_range(within.start + grown..within.end + grown, &call.text);
+            }
+            None => edits.push(call),
+        }
+    }
+    edits.sort_by_key(|edit| edit.range.start);
+    edits.retain(|edit| text.bytes().get(edit.range.clone()) != Some(edit.text.as_bytes()));
+    Ok(edits)
+}
+
+/// True where a line begins a program (`O`).
+fn is_program(text: &SourceText, line: usize) -> bool {
+    read_line(
+        text.bytes().get(text.line_range(line)).unwrap_or_default(),
+        1,
+        |_| {},
+    )
+    .program
+    .is_some()
+}
+
+/// No numbers but those that are called.
+pub(super) fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
+    refuse_unknown_calls(document)?;
+    let text = document.text();
+    let called: Vec<u32> = called(document);
+    let mut edits = Vec::new();
+    for line in 0..text.line_count() {
+        let range = text.line_range(line);
+        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
+        let block = read_line(bytes, 1, |_| {});
+        if let (Some(number), Some(word)) = (block.number, number_word(bytes, range.start))
+            && !called.contains(&number)
+        {
+            let behind = text.bytes().get(word.end..range.end).unwrap_or_default();
+            let space = behind
+                .iter()
+                .take_while(|byte| matches!(byte, b' ' | b'\t'))
+                .count();
+            edits.push(TextEdit {
+                range: word.start..word.end + space,
+                text: String::new(),
+            });
+        }
+    }
+    Ok(edits)
+}
+
+/// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
+///
+/// Errors: a name that is no number, or one that another block has.
+pub(in crate::program) fn renamed(
+    document: &Document,
+    digits: Range<usize>,
+    old: u32,
+    name: &str,
+) -> Result<Vec<TextEdit>, String> {
+    refuse_unknown_calls(document)?;
+    let name = name.trim();
+    let name = name
+        .strip_prefix(['N', 'n', 'O', 'o'])
+        .unwrap_or(name)
+        .trim();
+    let is_number =
+        !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());
+    let new: u32 = name
+        .parse()
+        .ok()
+        .filter(|_| is_number)
+        .ok_or_else(|| format!("{name:?} is no block number, expected up to 8 digits"))?;
+    let (text, labels) = (document.text(), labels(document.text()));
+    let own = text.line_of(digits.start);
+    if let Some(line) = labels.get(&new).filter(|line| **line != own) {
+        return Err(format!("N{new} is the block in line {}", line + 1));
+    }
+    let mut edits = vec![TextEdit {
+        range: digits,
+        text: name.to_owned(),
+    }];
+    if labels.get(&old) == Some(&own) {
+        edits.extend(calls(document, |called| (called == old).then_some(new)));
+    }
+    edits.sort_by_key(|edit| edit.range.start);
+    Ok(edits)
+}
+
+/// The P words of calls, with the numbers that `renamed` gives them.
+fn calls(document: &Document, renamed: impl Fn(u32) -> Option<u32>) -> Vec<TextEdit> {
+    let text = document.text();
+    let mut edits = Vec::new();
+    for line in 0..text.line_count() {
+        let range = text.line_range(line);
+        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
+        if let Some(new) = read_line(bytes, 1, |_| {}).call.and_then(&renamed)
+            && let Some(word) = word_range(bytes, range.start, |letter, _| letter == b'P')
+        {
+            edits.push(TextEdit {
+                range: word,
+                text: format!("P{new}"),
+            });
+        }
+    }
+    edits
+}
+
+fn called(document: &Document) -> Vec<u32> {
+    let text = document.text();
+    let call = |line: usize| read_line(text.bytes().get(text.line_range(line))?, 1, |_| {}).call;
+    (0..text.line_count()).filter_map(call).collect()
+}
+
+fn number_word(line: &[u8], start: usize) -> Option<Range<usize>> {
+    word_range(line, start, |letter, _| letter == b'N')
+}
+
+fn refuse_unknown_calls(document: &Document) -> Result<(), String> {
+    let text = document.text().bytes().to_ascii_uppercase();
+    match UNKNOWN_CALLS
+        .iter()
+        .find(|word| memchr::memmem::find(&text, word.as_bytes()).is_some())
+    {
+        Some(word) => Err(format!(
+            "{word} may call a block by its number, and it is not known how"
+        )),
+        None => Ok(()),
+    }
+}

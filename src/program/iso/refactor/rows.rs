@@ -1,0 +1,68 @@
+//! The moves of a program with their places.
+
+use super::{Iso, node_of};
+use crate::finding::{Detail, Place as Where, Severity};
+use crate::program::iso::document::Document;
+use crate::program::iso::machine::{Course, Move};
+use crate::program::iso::style::Style;
+use crate::program::refactor::Row;
+
+/// A move in its line.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::program) struct Own {
+    pub made: Move,
+    /// How lengths are written there, in inches or millimetres.
+    pub style: Style,
+}
+
+/// Reads a program for refactoring. What cannot be read, or is run from somewhere else, is left alone.
+pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
+    if document.order().is_some() {
+        return Err(
+            "the program runs subprograms: a line of them is run in more than one place".into(),
+        );
+    }
+    if document.has_corners() {
+        return Err("the control makes corners of its own (R on a straight cut, `,R`, `,C`): its moves are not those of the lines".into());
+    }
+    let text = document.text();
+    for finding in document.plain_findings() {
+        if let (Detail::Syntax(sentence), Severity::Error, Where::Text { range }) =
+            (&finding.detail, finding.severity, &finding.place)
+        {
+            return Err(format!(
+                "line {}: {sentence}",
+                text.line_of(range.start) + 1
+            ));
+        }
+    }
+    let styles = [false, true].map(|inch| Style::of(document, inch));
+    let mut rows = Vec::new();
+    let mut fault = None;
+    document.moves(&mut |line, made, machine| {
+        if matches!(
+            made.course(document.reading()),
+            Course::OffRadius { .. } | Course::NoRadius
+        ) {
+            fault.get_or_insert_with(|| format!("line {}: the arc leads nowhere", line + 1));
+        }
+        let [from, to] = [made.from, made.to].map(node_of);
+        rows.push(Row {
+            line,
+            from,
+            to,
+            piece: made.segment(document.reading()),
+            own: Own {
+                made,
+                style: styles[usize::from(machine.inch)],
+            },
+        });
+    });
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    if rows.is_empty() {
+        return Err("the program moves nothing".into());
+    }
+    Ok(rows)
+}

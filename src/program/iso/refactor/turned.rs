@@ -1,0 +1,139 @@
+//! The words of a program mirrored or turned: numbers stay as they are written, their letters and signs change.
+
+use super::{Iso, swapped_sides};
+use crate::program::iso::block::{read_line, word_range};
+use crate::program::iso::word::{Number, Token, words};
+use crate::program::refactor::{Rewrite, Sheet, Transform};
+use crate::text::TextEdit;
+use std::ops::Range;
+
+/// Puts the changed words into the rewrite.
+pub(super) fn turn_words(
+    sheet: &Sheet<'_, Iso>,
+    transform: Transform,
+    rewrite: &mut Rewrite<Iso>,
+) -> Result<(), String> {
+    let text = sheet.document.text();
+    let edits = &mut rewrite.extra.words;
+    if transform.mirrors() {
+        edits.extend(swapped_sides(sheet.document, 0..text.line_count()));
+    }
+    for line in 0..text.line_count() {
+        let range = text.line_range(line);
+        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
+        line_words(bytes, range.start, transform, edits)
+            .map_err(|reason| format!("line {}: {reason}", line + 1))?;
+    }
+    Ok(())
+}
+
+/// Where a number stands with its letter, and what takes its place.
+type Turned = (Range<usize>, String);
+
+/// The words of a line that change.
+fn line_words(
+    line: &[u8],
+    start: usize,
+    transform: Transform,
+    edits: &mut Vec<TextEdit>,
+) -> Result<(), String> {
+    let block = read_line(line, 1, |_| {});
+    let mut fault = None;
+    // X and Y, I and J: place and text of the number without its sign.
+    let mut pairs: [[Option<Turned>; 2]; 2] = Default::default();
+    words(line, 1, |token| {
+        let Token::Word {
+            letter,
+            number,
+            range,
+        } = token
+        else {
+            return;
+        };
+        let range = range.start - 1..range.end - 1;
+        let slot = match letter {
+            b'X' => (0, 0),
+            b'Y' => (0, 1),
+            b'I' => (1, 0),
+            b'J' => (1, 1),
+            b'U' | b'V' => {
+                fault = Some("the way of the upper guide (U, V) is not followed".to_owned());
+                return;
+            }
+            b'G' => {
+                let motion = match (number.mantissa, number.decimals) {
+                    (2, 0) => "G03",
+                    (3, 0) => "G02",
+                    (51 | 52, 0) if transform.mirrors() => {
+                        fault = Some("a taper (G51, G52) is not followed".to_owned());
+                        return;
+                    }
+                    _ => return,
+                };
+                if transform.mirrors() {
+                    edits.push(TextEdit {
+                        range: start + range.start..start + range.end,
+                        text: motion.into(),
+                    });
+                }
+                return;
+            }
+            _ => return,
+        };
+        if pairs[slot.0][slot.1].is_some() {
+            fault = Some(format!("{} stands twice", letter as char));
+        }
+        let digits = line.get(range.start + 1..range.end).unwrap_or_default();
+        pairs[slot.0][slot.1] = Some((range, turned(digits, number, transform.sign(slot.1))));
+    });
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    if block.takes_coordinates && block.has_coordinates() {
+        let is_wait = word_range(line, 1, |letter, number| {
+            letter == b'G' && number.whole() == Some(4)
+        })
+        .is_some();
+        return if is_wait {
+            Ok(())
+        } else {
+            Err("a word takes the coordinates for a place of the machine".into())
+        };
+    }
+    for (pair, names) in pairs.into_iter().zip([["X", "Y"], ["I", "J"]]) {
+        let name = |axis: usize| names[if transform.swaps() { 1 - axis } else { axis }];
+        let mut edit = |range: Range<usize>, name: &str, number: String| {
+            edits.push(TextEdit {
+                range: start + range.start..start + range.end,
+                text: format!("{name}{number}"),
+            });
+        };
+        match pair {
+            // Both keep their order in the line.
+            [Some((first, x)), Some((second, y))] if transform.swaps() => {
+                edit(first, names[0], y);
+                edit(second, names[1], x);
+            }
+            [first, second] => {
+                for (axis, word) in [first, second].into_iter().enumerate() {
+                    if let Some((range, number)) = word {
+                        edit(range, name(axis), number);
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A number as it is written, with its sign turned where `sign` is −1.
+fn turned(digits: &[u8], number: Number, sign: i64) -> String {
+    let text = String::from_utf8_lossy(digits).trim().to_owned();
+    if sign > 0 || number.mantissa == 0 {
+        return text;
+    }
+    match text.strip_prefix('-') {
+        Some(rest) => rest.to_owned(),
+        None => format!("-{}", text.trim_start_matches('+')),
+    }
+}

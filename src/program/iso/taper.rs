@@ -1,0 +1,92 @@
+//! Words with which the upper guide goes another way than the lower one. What they say hangs on the order, the direction and the mode of
+//! the moves of X and Y: what changes those refuses a program that has them.
+
+use crate::program::iso::document::Document;
+use std::ops::Range;
+
+/// The words that matter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::program) enum Words {
+    /// Those that say where the upper guide goes: U, V, a second contour behind a colon.
+    Guide,
+    /// Those and the ones that tilt the wire: G51, G52, G140 to G142, TP, TN.
+    All,
+}
+
+/// An error where one of the words stands in some lines.
+pub(in crate::program) fn refuse(
+    document: &Document,
+    mut lines: Range<usize>,
+    wanted: Words,
+) -> Result<(), String> {
+    match lines.find_map(|line| reason(document, line, wanted).map(|reason| (line, reason))) {
+        Some((line, reason)) => Err(format!("line {}: {reason}", line + 1)),
+        None => Ok(()),
+    }
+}
+
+/// An error where one of the words stands anywhere.
+pub(in crate::program) fn refuse_anywhere(
+    document: &Document,
+    wanted: Words,
+) -> Result<(), String> {
+    refuse(document, 0..document.text().line_count(), wanted)
+}
+
+fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static str> {
+    let text = document.text();
+    let code = without_comments(text.bytes().get(text.line_range(line))?);
+    let mut words = code.iter().enumerate().filter(|(at, byte)| {
+        let before = at.checked_sub(1).and_then(|before| code.get(before));
+        byte.is_ascii_alphabetic() && !before.is_some_and(u8::is_ascii_alphabetic) || **byte == b':'
+    });
+    words.find_map(|(at, letter)| {
+        let number = |from: usize| -> Option<&[u8]> {
+            let rest = code.get(from..)?.trim_ascii_start();
+            let length = rest
+                .iter()
+                .take_while(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'))
+                .count();
+            rest.get(..length).filter(|number| !number.is_empty())
+        };
+        match letter {
+            b'U' | b'V' if number(at + 1).is_some() => {
+                Some("the way of the upper guide (U, V) is not followed")
+            }
+            b':' if code[at..].iter().any(|byte| matches!(byte, b'X' | b'Y')) => {
+                Some("the second contour behind the colon is not followed")
+            }
+            b'G' if wanted == Words::All => {
+                let whole = number(at + 1)
+                    .and_then(|number| std::str::from_utf8(number).ok())
+                    .and_then(|number| number.parse::<u32>().ok());
+                whole
+                    .filter(|code| matches!(code, 51 | 52 | 140..=142))
+                    .map(|_| "a taper (G51, G52, G140 to G142) is not followed")
+            }
+            b'T' if wanted == Words::All
+                && matches!(code.get(at + 1), Some(b'P' | b'N'))
+                && number(at + 2).is_some() =>
+            {
+                Some("the planes of a taper (TP, TN) are not followed")
+            }
+            _ => None,
+        }
+    })
+}
+
+/// In upper case.
+fn without_comments(line: &[u8]) -> Vec<u8> {
+    let mut depth = 0_usize;
+    let mut code = Vec::with_capacity(line.len());
+    for byte in line {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth = depth.saturating_sub(1),
+            b';' if depth == 0 => break,
+            byte if depth == 0 => code.push(byte.to_ascii_uppercase()),
+            _ => {}
+        }
+    }
+    code
+}

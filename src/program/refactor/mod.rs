@@ -1,0 +1,85 @@
+//! Refactorings of programs: the same part, written otherwise; or exactly mirrored, turned, scaled.
+//!
+//! One file a refactoring, the same for every language. Each says what stands in the place of which move; the language, which is a
+//! [`Notation`], writes that; [`proof`] reads the new program and holds each of its moves against the one that was meant. What fails
+//! that is not offered.
+
+mod merge;
+mod notation;
+mod number;
+mod proof;
+mod reverse;
+mod rewrite;
+mod scale;
+mod sheet;
+mod start_here;
+mod transform;
+
+pub(in crate::program) use notation::{Change, Notation};
+pub(in crate::program) use rewrite::Rewrite;
+pub(in crate::program) use scale::scaled;
+pub(in crate::program) use sheet::{Content, Contour, Row, Sheet};
+pub(in crate::program) use transform::Transform;
+
+use crate::settings::Effective;
+use crate::text::TextEdit;
+use std::ops::Range;
+
+/// A refactoring as it is offered at a selection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proposal {
+    /// Kind of its code action.
+    pub id: &'static str,
+    pub title: String,
+    /// The edits, sorted and disjoint, or why it cannot be done: lower-case, no final dot.
+    pub edits: Result<Vec<TextEdit>, String>,
+}
+
+/// One refactoring of a language.
+pub(in crate::program) struct Refactoring<N: Notation> {
+    /// Kind of its code action.
+    pub id: &'static str,
+    pub title: fn(&Effective) -> String,
+    /// The edits, sorted and disjoint; none where there is nothing to do. Errors say why it cannot be done: lower-case, no final dot.
+    pub rewrite: fn(&Sheet<'_, N>) -> Result<Vec<TextEdit>, String>,
+}
+
+/// All of a language, in the order in which they are offered.
+fn all<N: Notation>() -> impl Iterator<Item = Refactoring<N>> {
+    let of_contours = [reverse::reverse(), start_here::start_here()];
+    of_contours
+        .into_iter()
+        .chain(transform::all())
+        .chain(scale::all())
+        .chain([merge::merge()])
+        .chain(N::own())
+        .chain(number::all())
+}
+
+/// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
+///
+/// `wanted` chooses by id.
+pub(in crate::program) fn proposals<N: Notation>(
+    document: &N::Document,
+    settings: &Effective,
+    selection: Range<usize>,
+    wanted: &dyn Fn(&str) -> bool,
+) -> Vec<Proposal> {
+    let mut chosen = all::<N>()
+        .filter(|refactoring| wanted(refactoring.id))
+        .peekable();
+    if chosen.peek().is_none() {
+        return Vec::new();
+    }
+    let sheet = Sheet::new(document, settings, selection);
+    let propose = |refactoring: Refactoring<N>| {
+        let edits = (refactoring.rewrite)(&sheet);
+        let changes = edits.as_ref().map_or(true, |edits| !edits.is_empty());
+        changes.then(|| Proposal {
+            id: refactoring.id,
+            title: (refactoring.title)(settings),
+            edits,
+        })
+    };
+    chosen.filter_map(propose).collect()
+}

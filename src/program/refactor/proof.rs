@@ -1,0 +1,93 @@
+//! The proof of a refactoring: the new program, read from its text alone, makes the moves that are meant, ends where it should, pauses
+//! as often as before, and has no kind of error that the old one has not.
+
+use super::{Content, Notation, Rewrite, Sheet};
+use crate::finding::{Rule, Severity};
+use crate::program::grid::point_of;
+use crate::program::path::{Kind, Trace};
+use crate::text::{TextEdit, edited};
+
+/// How far the end of a program that counts may lie from where it is meant to, µm, beside 1 µm for each arc.
+const END_TOLERANCE: f64 = 2.0;
+
+pub(super) fn prove<N: Notation>(
+    sheet: &Sheet<'_, N>,
+    content: &Content<N>,
+    rewrite: &Rewrite<N>,
+    after: &N::Document,
+) -> Result<(), String> {
+    let again = Sheet::<N>::new(after, sheet.settings, 0..0);
+    let now = again
+        .content()
+        .map_err(|reason| format!("the new program cannot be read: {reason}"))?;
+    let meant = rewrite.meant(sheet, content);
+    if now.rows.len() != meant.len() {
+        return Err("the new program reads otherwise than it was meant".into());
+    }
+    for (row, meant) in now.rows.iter().zip(&meant) {
+        N::agree(after, row, meant).map_err(|what| format!("line {}: {what}", row.line + 1))?;
+    }
+    let pauses = |trace: &Trace| {
+        let is_pause = |step: &&crate::program::path::Step| step.kind == Kind::Pause;
+        trace.steps.iter().filter(is_pause).count()
+    };
+    if pauses(&again.trace) != pauses(&sheet.trace) {
+        return Err("a stop would be lost".into());
+    }
+    if !sheet.trace.writing.names_places {
+        // Without a header the program counts from its own start.
+        let start = rewrite.start.map_or(sheet.trace.start, point_of);
+        let end = again.trace.end() + (start - again.trace.start);
+        let miss = (end - rewrite.end.unwrap_or(sheet.trace.end())).norm();
+        if miss > END_TOLERANCE + content.arcs().max(now.arcs()) as f64 {
+            return Err(format!(
+                "the new program ends {miss:.1} µm from where it should"
+            ));
+        }
+    }
+    refuse_new_errors::<N>(sheet.document, after)
+}
+
+/// An error where the new program has a kind of error that the old one has not, or more errors.
+fn refuse_new_errors<N: Notation>(before: &N::Document, after: &N::Document) -> Result<(), String> {
+    let errors = |document: &N::Document| -> Vec<Rule> {
+        let mut findings = N::findings(document);
+        findings.retain(|finding| finding.severity == Severity::Error);
+        findings.iter().map(|finding| finding.rule).collect()
+    };
+    let (before, after) = (errors(before), errors(after));
+    match after.iter().find(|rule| !before.contains(rule)) {
+        Some(rule) => Err(format!(
+            "the new program would have a fault that this one has not: {}",
+            rule.name()
+        )),
+        None if after.len() > before.len() => {
+            Err("the new program would have more faults than this one".into())
+        }
+        None => Ok(()),
+    }
+}
+
+/// The edits, once the machine goes the same way behind them.
+pub(super) fn same_way<N: Notation>(
+    sheet: &Sheet<'_, N>,
+    edits: Vec<TextEdit>,
+) -> Result<Vec<TextEdit>, String> {
+    let way = |trace: &Trace| {
+        let steps = trace.steps.iter();
+        steps
+            .map(|step| (step.kind, step.line, step.ideal))
+            .collect::<Vec<_>>()
+    };
+    if edits.is_empty() {
+        return Ok(edits);
+    }
+    let bytes =
+        edited(N::text(sheet.document).bytes(), &edits).ok_or("the edits lie on each other")?;
+    let after = N::read(bytes, sheet.settings);
+    if way(&N::trace(&after).as_meant()) != way(&sheet.trace) {
+        return Err("the numbers are part of what the machine does".into());
+    }
+    refuse_new_errors::<N>(sheet.document, &after)?;
+    Ok(edits)
+}

@@ -1,0 +1,75 @@
+//! Scale a program about the origin of its frame. Corrections, which are those of the wire, stay.
+//!
+//! ```text
+//! B100B0B100GXL1       →     B2540B0B2540GXL1        (inch to mm)
+//! B100B0B400GYNR1            B2540B0B10160GYNR1
+//! ```
+//!
+//! Nodes are scaled and snapped to the grid in absolute coordinates, so that contours close again; arcs are calculated anew.
+
+use super::{Change, Content, Notation, Refactoring, Rewrite, Sheet};
+use crate::text::TextEdit;
+
+pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
+    [
+        Refactoring {
+            id: "refactor.rewrite.scale.inchToMm",
+            title: |_| "Scale by 25.4 (inch to mm)".into(),
+            rewrite: |sheet| between_units(sheet, 25.4),
+        },
+        Refactoring {
+            id: "refactor.rewrite.scale.mmToInch",
+            title: |_| "Scale by 1/25.4 (mm to inch)".into(),
+            rewrite: |sheet| between_units(sheet, 1.0 / 25.4),
+        },
+    ]
+}
+
+/// Nothing where a word of the program says the unit.
+fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Result<Vec<TextEdit>, String> {
+    if N::is_in_inches(sheet.content()?) {
+        return Ok(Vec::new());
+    }
+    scaled(sheet, factor)
+}
+
+/// Factors that a program is scaled by.
+const FACTORS: std::ops::RangeInclusive<f64> = 1e-4..=1e4;
+
+/// The edits that scale a program. Errors: a factor that is far from 1, or with which a block vanishes or grows too long.
+pub(in crate::program) fn scaled<N: Notation>(
+    sheet: &Sheet<'_, N>,
+    factor: f64,
+) -> Result<Vec<TextEdit>, String> {
+    if !FACTORS.contains(&factor) {
+        let (least, most) = (FACTORS.start(), FACTORS.end());
+        return Err(format!(
+            "the factor is {factor}, expected one between {least} and {most}"
+        ));
+    }
+    let content = sheet.content()?;
+    N::refuse(sheet, Change::Scale)?;
+    let node = |row, node| {
+        N::scaled_node(sheet, row, node, factor)
+            .ok_or_else(|| "the scaled path runs too far out for a program".to_owned())
+    };
+    let mut rewrite = Rewrite::new();
+    let mut from = None;
+    for (index, row) in content.rows.iter().enumerate() {
+        let begin = from.map_or_else(|| node(row, row.from), Ok)?;
+        let to = node(row, row.to)?;
+        rewrite.start = rewrite.start.or(Some(begin));
+        let news = N::scaled(sheet, content, index, [begin, to], factor)?;
+        if news.is_empty() {
+            return Err(format!(
+                "line {}: the block becomes shorter than 1 µm",
+                row.line + 1
+            ));
+        }
+        rewrite.rows.insert(index, news);
+        rewrite.end = Some(Content::<N>::point(to));
+        from = Some(to);
+    }
+    N::scale_words(sheet, factor, &mut rewrite)?;
+    rewrite.edits(sheet, content)
+}

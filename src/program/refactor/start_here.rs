@@ -1,0 +1,107 @@
+//! Begin a closed contour with the selected block; the ways in and out lead to its start.
+//!
+//! ```text
+//! B5000B0B5000GXL3           B5000B10000B10000GYL3       G01 X0 Y0        G01 X10 Y0
+//! B10000B0B10000GXL1    →    B0B10000B10000GYL2          X10         →    Y10          ← the cursor stood here
+//! B0B10000B10000GYL2         B10000B0B10000GXL3          Y10              X0 Y0
+//! ```
+
+use super::{Change, Content, Notation, Refactoring, Rewrite, Sheet};
+use crate::geometry::{Segment, meetings};
+use crate::program::grid::Node;
+use crate::text::TextEdit;
+use std::ops::Range;
+
+pub(super) fn start_here<N: Notation>() -> Refactoring<N> {
+    Refactoring {
+        id: "refactor.rewrite.startHere",
+        title: |_| "Begin the contour with this block".into(),
+        rewrite: begun_here,
+    }
+}
+
+/// How near to its end a way in or out may meet the contour, µm.
+const TOUCH: f64 = 3.0;
+
+fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
+    let content = sheet.content()?;
+    let (rows, line) = (&content.rows, sheet.selected_lines().start);
+    let first = rows.iter().position(|row| row.line == line);
+    let first = first.ok_or("no block is selected")?;
+    let mut contours = content.contours.iter();
+    let contour = contours
+        .find(|contour| contour.rows.contains(&first))
+        .ok_or("no contour is selected")?;
+    let own = content.closed(contour)?;
+    if !own.contains(&first) {
+        return Err(
+            "the block leads to the contour or away from it, expected one of the contour".into(),
+        );
+    }
+    if first == own.start {
+        return Ok(Vec::new());
+    }
+    let all = contour.rows.clone();
+    let lines = rows[all.start].line..rows[all.end - 1].line + 1;
+    N::refuse(sheet, Change::StartHere(lines))?;
+    let begin = rows[first].from;
+    let mut rewrite = Rewrite::new();
+    for (place, row) in own.clone().zip((first..own.end).chain(own.start..first)) {
+        let kept = N::kept(sheet, content, row, place);
+        rewrite.rows.insert(place, vec![kept]);
+    }
+    match (own.start - all.start, all.end - own.end) {
+        (0, 0) if content.contours.len() == 1 && !sheet.trace.writing.names_places => {
+            rewrite.start = Some(begin);
+            rewrite.end = Some(Content::<N>::point(begin));
+        }
+        (0, 0) => return Err("what comes before and behind leads to the present start".into()),
+        (1, 0 | 1) => {
+            let hole = rows[all.start].from;
+            let mut lead = |row: usize, ends: [Node; 2], far: Node| {
+                if rows[row].piece.as_arc().is_some() {
+                    return Err(format!("line {}: the way is an arc", rows[row].line + 1));
+                }
+                refuse_crossing(content, own.clone(), far, begin)?;
+                let straight = N::straight(sheet, content, row, ends)?;
+                rewrite.rows.insert(row, straight);
+                Ok(())
+            };
+            lead(all.start, [hole, begin], hole)?;
+            if own.end < all.end {
+                let away = rows[own.end].to;
+                lead(own.end, [begin, away], away)?;
+            } else {
+                rewrite.end = Some(Content::<N>::point(begin));
+                if own.end < rows.len() {
+                    return Err("what comes behind begins at the present end of the contour".into());
+                }
+            }
+        }
+        _ => return Err("the way in or out is more than one block".into()),
+    }
+    rewrite.edits(sheet, content)
+}
+
+/// An error where the straight way from `hole` to `begin` cuts through the contour.
+fn refuse_crossing<N: Notation>(
+    content: &Content<N>,
+    own: Range<usize>,
+    hole: Node,
+    begin: Node,
+) -> Result<(), String> {
+    if hole == begin {
+        return Err("the thread hole lies on the start".into());
+    }
+    let way = Segment::line(Content::<N>::point(hole), Content::<N>::point(begin));
+    for row in &content.rows[own] {
+        let mut met = meetings(&way, &row.piece).into_iter();
+        if met.any(|at| (at - way.end()).norm() > TOUCH) {
+            return Err(format!(
+                "the way from the thread hole would cut the contour in line {}",
+                row.line + 1
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! The numbers of blocks.
+
+use crate::program::path::Step;
+use crate::program::three_b::Document;
+use crate::program::three_b::language::{Field, pieces};
+use crate::text::{TextEdit, WIDEST_COLUMN};
+use std::ops::Range;
+
+/// The edits that number the blocks from 1, words left out.
+pub(super) fn numbered(document: &Document) -> Vec<TextEdit> {
+    let mut edits = Vec::new();
+    for ((block, word), number) in blocks_of(document).into_iter().zip(1_u32..) {
+        match word.and_then(|word| document.text().digits_in(&word)) {
+            Some(digits) => {
+                let text = number.to_string();
+                // Numbers that stand in columns keep them.
+                let before = document
+                    .text()
+                    .bytes()
+                    .get(..digits.start)
+                    .unwrap_or_default();
+                let room = before
+                    .iter()
+                    .rev()
+                    .take_while(|byte| **byte == b' ')
+                    .count();
+                let start = digits.start
+                    - text
+                        .len()
+                        .saturating_sub(digits.len())
+                        .min(room.saturating_sub(1));
+                let text = format!(
+                    "{text:>width$}",
+                    width = if room > 1 {
+                        (digits.end - start).min(WIDEST_COLUMN)
+                    } else {
+                        0
+                    }
+                );
+                edits.push(TextEdit {
+                    range: start..digits.end,
+                    text,
+                });
+            }
+            None => edits.push(TextEdit {
+                range: block.range.start..block.range.start,
+                text: format!("N{number} "),
+            }),
+        }
+    }
+    let bytes = document.text().bytes();
+    edits.retain(|edit| bytes.get(edit.range.clone()) != Some(edit.text.as_bytes()));
+    edits
+}
+
+/// The edits that leave the block numbers out, with the space behind them.
+pub(super) fn without_numbers(document: &Document) -> Vec<TextEdit> {
+    let edit = |(block, word): (Step, Option<Range<usize>>)| {
+        let word = word?;
+        let bytes = document
+            .text()
+            .bytes()
+            .get(word.end..block.range.start.max(word.end))
+            .unwrap_or_default();
+        let space = bytes
+            .iter()
+            .take_while(|byte| matches!(byte, b' ' | b'\t'))
+            .count();
+        Some(TextEdit {
+            range: word.start..word.end + space,
+            text: String::new(),
+        })
+    };
+    blocks_of(document).into_iter().filter_map(edit).collect()
+}
+
+/// The blocks, each with the number before it.
+fn blocks_of(document: &Document) -> Vec<(Step, Option<Range<usize>>)> {
+    let text = document.text();
+    let mut steps = document.trace().steps;
+    steps.retain(Step::moves);
+    let mut at = 0;
+    let block = |step: Step| {
+        let line = text.line_range(step.line);
+        let bytes = text.bytes().get(line.clone()).unwrap_or_default();
+        let words = pieces(bytes, &document.words());
+        let mut numbers = words
+            .into_iter()
+            .filter(|piece| piece.field == Field::Number)
+            .map(|piece| line.start + piece.range.start..line.start + piece.range.end);
+        let word = numbers.find(|word| word.start >= at && word.start < step.range.end);
+        at = step.range.end;
+        (step, word)
+    };
+    steps.into_iter().map(block).collect()
+}

@@ -1,0 +1,198 @@
+//! The blocks of a program with their places.
+
+use super::ThreeB;
+use crate::geometry::{Point, Segment, Vector};
+use crate::program::path::{Kind, Trace};
+use crate::program::refactor::{Contour, Row};
+use crate::program::three_b::Document;
+use crate::program::three_b::block::{Block, Node, PartArc};
+use crate::program::three_b::encode::{point_of, snap};
+use crate::program::three_b::language::{Field, pieces};
+use crate::program::three_b::parse::{Item, read_line};
+use crate::settings::Layout;
+use std::ops::Range;
+
+/// A block in its line.
+#[derive(Clone, Debug)]
+pub(in crate::program) struct Own {
+    /// Bytes of the text.
+    pub range: Range<usize>,
+    pub block: Block,
+    pub part: Option<PartArc>,
+    /// Its end point as the text states it.
+    pub coordinates: Option<Range<usize>>,
+    pub comment: Option<Range<usize>>,
+    /// Compact or aligned, as it stands.
+    pub layout: Layout,
+}
+
+/// The blocks of a program; the error says which line cannot be read.
+pub(super) fn rows(
+    document: &Document,
+    trace: &Trace,
+    contours: &[Contour],
+) -> Result<Vec<Row<ThreeB>>, String> {
+    let text = document.text();
+    let words = document.words();
+    let mut steps = trace.steps.iter().filter(|step| step.moves());
+    // Words that end programs elsewhere may stand before the one that ends this one.
+    let end = trace
+        .steps
+        .iter()
+        .find(|step| step.kind == Kind::End)
+        .map(|step| step.range.start);
+    let (mut rows, mut pieces_of_path) = (Vec::new(), Vec::new());
+    let (mut fault, mut is_over) = (None, false);
+    for line in 0..text.line_count() {
+        if is_over {
+            break;
+        }
+        let range = text.line_range(line);
+        let bytes = &text.bytes()[range.clone()];
+        let place = |found: Option<&Range<usize>>| {
+            found.map(|found| range.start + found.start..range.start + found.end)
+        };
+        let (mut blocks, cut) = (0, std::cell::OnceCell::new());
+        let piece_of = |field: Field| {
+            let pieces = cut.get_or_init(|| pieces(bytes, &words));
+            pieces
+                .iter()
+                .rev()
+                .find(|piece| piece.field == field)
+                .map(|piece| &piece.range)
+        };
+        read_line(bytes, range.start, &words, |item| match item {
+            _ if is_over => {}
+            Item::Block {
+                block,
+                part,
+                range: own,
+                stated_end,
+                ..
+            } => {
+                blocks += 1;
+                let step = steps.next().filter(|step| step.range.start == own.start);
+                let Some((step, piece)) = step.and_then(|step| Some((step, step.ideal?))) else {
+                    fault.get_or_insert_with(|| {
+                        format!("line {}: the block leads nowhere", line + 1)
+                    });
+                    return;
+                };
+                let is_spaced = bytes
+                    .get(own.start - range.start..own.end - range.start)
+                    .is_some_and(|block| block.contains(&b' '));
+                pieces_of_path.push((step.start, step.end, piece));
+                let own = Own {
+                    range: own,
+                    block,
+                    part,
+                    coordinates: stated_end.and_then(|_| place(piece_of(Field::Coordinates))),
+                    comment: if memchr::memchr(b';', bytes).is_some() {
+                        place(piece_of(Field::Comment))
+                    } else {
+                        None
+                    },
+                    layout: if is_spaced {
+                        Layout::Aligned
+                    } else {
+                        Layout::Compact
+                    },
+                };
+                rows.push((line, own));
+            }
+            Item::Fault(found) => {
+                fault.get_or_insert_with(|| format!("line {}: {}", line + 1, found.sentence()));
+            }
+            Item::Text { .. } if !rows.is_empty() => {
+                fault.get_or_insert_with(|| format!("line {} cannot be read", line + 1));
+            }
+            Item::Text { .. } | Item::CommentedBlock { .. } | Item::StartPoint { .. } => {}
+            Item::Word { range, .. } => is_over |= end.is_some_and(|end| range.start >= end),
+        });
+        if blocks > 1 {
+            fault.get_or_insert_with(|| {
+                format!(
+                    "line {} holds {blocks} blocks: format the program first",
+                    line + 1
+                )
+            });
+        }
+    }
+    match fault {
+        Some(sentence) => Err(sentence),
+        None if rows.is_empty() => Err("the program has no block".into()),
+        None => {
+            let ends = nodes(&pieces_of_path, contours)?;
+            let placed = rows.into_iter().zip(ends).zip(pieces_of_path);
+            let row = |(((line, own), (from, to)), (start, _, piece)): (_, (_, _, Segment))| Row {
+                line,
+                from,
+                to,
+                piece: piece.moved(point_of(from) - start),
+                own,
+            };
+            Ok(placed.map(row).collect())
+        }
+    }
+}
+
+/// Where blocks begin and end, and their pieces, µm.
+type Way = (Point, Point, Segment);
+
+/// The nodes of each row on the µm grid, from and to. Contours close exactly: what their arcs drift is taken back arc by arc.
+fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, String> {
+    let node = |point: Point| {
+        snap(point).ok_or_else(|| "the path runs too far out for a program".to_owned())
+    };
+    let is_arc = |(_, _, piece): &Way| piece.as_arc().is_some();
+    let mut nodes = Vec::with_capacity(pieces.len());
+    // What has been taken back so far.
+    let mut shift = Vector::zeros();
+    for contour in contours {
+        let own = contour.own_rows();
+        let rows = pieces.get(own.clone()).unwrap_or_default();
+        let drift = match (rows.first(), rows.last()) {
+            (Some(first), Some(last)) if contour.closed => last.1 - first.0,
+            _ => Vector::zeros(),
+        };
+        let arcs = rows.iter().filter(|row| is_arc(row)).count().max(1) as f64;
+        let (before, mut passed) = (shift, 0.0);
+        for index in contour.rows.clone() {
+            let Some(row) = pieces.get(index) else { break };
+            let from = node(row.0 - rounded(shift))?;
+            if own.contains(&index) && is_arc(row) {
+                passed += 1.0;
+                shift = before + drift * (passed / arcs);
+            }
+            nodes.push((from, node(row.1 - rounded(shift))?));
+        }
+    }
+    Ok(nodes)
+}
+
+fn rounded(vector: Vector) -> Vector {
+    Vector::new(vector.x.round(), vector.y.round())
+}
+
+/// The header with the start, before the first block.
+pub(super) fn header(document: &Document, first_line: usize) -> Option<Range<usize>> {
+    let (text, words) = (document.text(), document.words());
+    let mut header = None;
+    for line in 0..=first_line {
+        let range = text.line_range(line);
+        let mut is_before = true;
+        read_line(
+            &text.bytes()[range.clone()],
+            range.start,
+            &words,
+            |item| match item {
+                Item::Block { .. } => is_before = false,
+                Item::StartPoint { range, .. } if is_before => {
+                    header = header.clone().or(Some(range))
+                }
+                _ => {}
+            },
+        );
+    }
+    header
+}

@@ -1,0 +1,191 @@
+//! Every refactoring at every fixture: the text that it makes, or why it refuses, as it is recorded in a file. Of long texts, and of
+//! those that are made of faulty programs, a hash is recorded.
+//!
+//! `UPDATE_EXPECT=1 cargo test --test programs refactor` records anew what they do.
+
+use expect_test::expect_file;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use wedm::document::{Document, Source};
+use wedm::finding::Severity;
+use wedm::program::Proposal;
+use wedm::program::language::{refactorings, scaled};
+use wedm::program::{self, Language};
+use wedm::settings::Effective;
+use wedm::text::TextEdit;
+
+/// All programs among the fixtures.
+fn programs() -> Vec<PathBuf> {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let mut files = Vec::new();
+    for folder in ["programs/right", "programs/wrong", "refactorings"] {
+        let mut own: Vec<PathBuf> = std::fs::read_dir(data.join(folder))
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| language(path).is_some())
+            .collect();
+        own.sort();
+        files.extend(own);
+    }
+    files
+}
+
+fn language(path: &Path) -> Option<Language> {
+    Language::of_ending(path.extension()?.to_str()?)
+}
+
+fn applied(bytes: &[u8], edits: &[TextEdit]) -> Vec<u8> {
+    let mut result = bytes.to_vec();
+    for edit in edits.iter().rev() {
+        result.splice(edit.range.clone(), edit.text.bytes());
+    }
+    result
+}
+
+/// FNV-1a.
+fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// What is selected: nothing, and so everything; a block by the cursor; some lines.
+fn selections(program: &program::Document) -> Vec<(String, Range<usize>)> {
+    let text = program.text();
+    let lines: BTreeSet<usize> = program
+        .trace()
+        .steps
+        .iter()
+        .filter(|step| step.moves())
+        .map(|step| step.line)
+        .collect();
+    let mut found = vec![("nothing".to_owned(), 0..0)];
+    for line in lines.iter().take(6) {
+        let start = text.line_start(*line);
+        found.push((format!("line {}", line + 1), start..start));
+    }
+    let lines: Vec<usize> = lines.into_iter().collect();
+    if let [_, first, .., last, _] = lines[..] {
+        let range = text.line_start(first)..text.line_range(last).end;
+        found.push((format!("lines {} to {}", first + 1, last + 1), range));
+    }
+    found
+}
+
+/// Rules of the errors of a program.
+fn errors(language: Language, bytes: &[u8], settings: &Effective) -> BTreeSet<&'static str> {
+    let program = program::Document::read(language, bytes.to_vec(), settings);
+    let mut document = Document::new(
+        Source::Program(program),
+        std::sync::Arc::new(settings.clone()),
+    );
+    let (findings, _) = document.findings(usize::MAX);
+    findings
+        .iter()
+        .filter(|finding| finding.severity == Severity::Error)
+        .map(|finding| finding.rule.name())
+        .collect()
+}
+
+#[test]
+fn refactorings_do_what_is_recorded_and_bring_no_error() {
+    let settings = Effective::default();
+    let mut record = String::new();
+    let mut spoiled = Vec::new();
+    for path in programs() {
+        let (language, bytes) = (language(&path).unwrap(), std::fs::read(&path).unwrap());
+        let before = errors(language, &bytes, &settings);
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let program = program::Document::read(language, bytes.clone(), &settings);
+        let mut of_all: Vec<(String, Result<Vec<u8>, String>)> = Vec::new();
+        let mut say = |title: &str, edits: Result<Vec<TextEdit>, String>| {
+            let result = edits.map(|edits| applied(&bytes, &edits));
+            if let Ok(after) = &result {
+                let now = errors(language, after, &settings);
+                if let Some(rule) = now.difference(&before).next() {
+                    spoiled.push(format!("{name}: {title} brings {rule}"));
+                }
+            }
+            // Most do the same wherever the cursor is.
+            let (id, place) = title.split_once(" at ").unwrap();
+            if place != "nothing" && of_all.contains(&(id.to_owned(), result.clone())) {
+                return;
+            }
+            of_all.push((id.to_owned(), result.clone()));
+            match result {
+                Err(reason) => writeln!(record, "== {name}: {title}: refused: {reason}"),
+                Ok(after)
+                    if path
+                        .parent()
+                        .is_some_and(|folder| folder.ends_with("wrong"))
+                        || after.iter().filter(|byte| **byte == b'\n').count() > 60 =>
+                {
+                    writeln!(record, "== {name}: {title}: {:016x}", hash(&after))
+                }
+                Ok(after) => write!(
+                    record,
+                    "== {name}: {title}\n{}",
+                    String::from_utf8_lossy(&after).replace('\r', "␍")
+                ),
+            }
+            .unwrap();
+        };
+        for (place, selection) in selections(&program) {
+            for Proposal { id, title, edits } in
+                refactorings(&program, &settings, selection, |_| true)
+            {
+                let id = id.trim_start_matches("refactor.rewrite.");
+                let profile = title
+                    .strip_prefix("Write anew as profile ")
+                    .and_then(|title| title.split(':').next())
+                    .unwrap_or_default();
+                say(&format!("{id} {profile} at {place}"), edits);
+            }
+        }
+        for factor in [25.4, 0.5, 1.0 / 25.4, 1e-9] {
+            let edits = scaled(&program, &settings, factor);
+            say(&format!("scaled by {factor:.4} at nothing"), edits);
+        }
+    }
+    expect_file!["../data/refactorings/expected.txt"].assert_eq(&record);
+    assert!(spoiled.is_empty(), "{}", spoiled.join("\n"));
+}
+
+#[test]
+fn refactorings_of_faulty_programs_bring_no_other_fault() {
+    let settings = Effective::default();
+    let mut spoiled = BTreeSet::new();
+    for path in programs() {
+        let (language, right) = (language(&path).unwrap(), std::fs::read(&path).unwrap());
+        let is_small = right.len() < 250 && language == Language::ThreeB;
+        let digits = |at: &usize| right[*at].is_ascii_digit() && is_small;
+        for at in (0..right.len()).filter(digits) {
+            // One digit is another one.
+            let mut bytes = right.clone();
+            bytes[at] = if bytes[at] == b'9' {
+                b'1'
+            } else {
+                bytes[at] + 1
+            };
+            let before = errors(language, &bytes, &settings);
+            let program = program::Document::read(language, bytes.clone(), &settings);
+            let wanted = |id: &str| {
+                ["mirror.x", "rotate.left", "reverse"]
+                    .iter()
+                    .any(|wanted| id.ends_with(wanted))
+            };
+            for Proposal { id, edits, .. } in refactorings(&program, &settings, 0..0, wanted) {
+                let Ok(edits) = edits else { continue };
+                let now = errors(language, &applied(&bytes, &edits), &settings);
+                if let Some(rule) = now.difference(&before).next() {
+                    let text = String::from_utf8_lossy(&bytes);
+                    spoiled.insert(format!("{id} brings {rule}:\n{text}"));
+                }
+            }
+        }
+    }
+    let spoiled: Vec<String> = spoiled.into_iter().collect();
+    assert!(spoiled.is_empty(), "{}", spoiled.join("\n"));
+}
