@@ -751,16 +751,14 @@ fn compensation_and_subprograms_are_ended_and_complete() {
     );
 }
 
+/// The lines and arcs that a program runs along.
+fn way(text: &str) -> Vec<crate::geometry::Segment> {
+    let steps = read(text).trace().steps.into_iter();
+    steps.filter_map(|step| step.ideal).collect()
+}
+
 #[test]
 fn corner_words_are_followed() {
-    let way = |text: &str| {
-        read(text)
-            .trace()
-            .steps
-            .into_iter()
-            .filter_map(|step| step.ideal)
-            .collect::<Vec<_>>()
-    };
     let square = |first: &str, second: &str| {
         format!(
             "G92 X0. Y0.\nG90\nG01 X10. Y0.{first}\nX10. Y10.{second}\nX0. Y10.\nX0. Y0.\nM02\n"
