@@ -94,21 +94,13 @@ impl Blocks for Held<'_> {
 
     fn range(&self, part: usize, nth: usize) -> Option<Range<usize>> {
         let HeldPart { run, entries, .. } = self.parts.get(part)?;
-        let entry = entries
-            .clone()
-            .filter(|entry| {
-                let at = At {
-                    run: *run,
-                    entry: *entry,
-                };
-                self.document
-                    .entry(at)
-                    .is_some_and(|entry| entry.block().is_some())
-            })
-            .nth(nth)?;
-        let base: usize = self.document.runs[..*run].iter().map(|run| run.bytes).sum();
-        let own = self.document.entry(At { run: *run, entry })?.range();
-        Some(own.start + base..own.end + base)
+        let places = entries.clone().map(|entry| At { run: *run, entry });
+        let is_block = |at: &At| {
+            self.document
+                .entry(*at)
+                .is_some_and(|entry| entry.block().is_some())
+        };
+        Some(self.document.range_of(places.filter(is_block).nth(nth)?))
     }
 
     fn writing(&self) -> Writing {
