@@ -10,17 +10,14 @@ use crate::server::convert;
 use crate::server::errors::{internal, refusal, refused, refused_with};
 use crate::toolpath::{Refusal, entities_of};
 use serde::Deserialize;
-use serde_json::Value;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// Params of the request; the options are read by the settings' own reader, which names a misfit.
+/// Params of the request, beside the document and the options.
 #[derive(Deserialize)]
 pub(in crate::server) struct Params {
-    pub(super) uri: String,
     format: String,
     handles: Option<Vec<String>>,
-    pub(super) options: Option<Value>,
     force: Option<bool>,
 }
 

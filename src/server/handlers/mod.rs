@@ -27,8 +27,6 @@ pub(super) mod symbols;
 pub(super) mod tokens;
 pub(super) mod toolpath;
 
-pub(super) use params::WithOptions;
-
 use super::context::RequestContext;
 use super::errors::{refusal, refused};
 use crate::document::{Document, Snapshot, Source};
