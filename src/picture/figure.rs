@@ -29,8 +29,12 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     for fault in &subject.faults {
         let (handle, segment, detail) = (&fault.handle, fault.segment, fault.detail);
         let (radius, required) = (subject.mm(detail.radius), subject.mm(detail.required));
-        let label = format!(
-            "{handle} · segment {segment} · R {radius:.3} mm, the correction is {required:.3} mm"
+        let label = say!(
+            segment_r_mm_the_correction,
+            handle,
+            segment,
+            radius,
+            required
         );
         let data = path_data(frame, [Segment::Arc(fault.arc())], false);
         sheet.path(&named("fault", handle, segment), &data, &label);
@@ -101,7 +105,7 @@ fn asides(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             sheet.path(
                 &format!(r#"class="aside" data-handle="{}""#, escaped(handle)),
                 &data,
-                &format!("{kind} {handle} on layer {layer}, not cut"),
+                &say!(on_layer_not_cut, kind, handle, layer),
             );
         }
     }
@@ -145,7 +149,7 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
     for path in subject.paths {
         let distance = subject.mm(path.correction);
-        let label = format!("path of the wire's centre, {distance:.3} mm from the contour");
+        let label = say!(path_of_the_wire_centre, distance);
         // Runs of one kind: the way round the contour is one line, the leads are others.
         for run in path
             .segments

@@ -32,7 +32,8 @@ pub(super) fn row(sheet: &mut Sheet, subject: &Subject, top: f64) {
     if left_out > 0 {
         let y = number(top + height_of(subject.faults.len()) - 8.0);
         sheet.line(format_args!(
-            r#"<text class="note lens" x="{MARGIN}" y="{y}">and {left_out} more, marked in the drawing</text>"#
+            r#"<text class="note lens" x="{MARGIN}" y="{y}">{}</text>"#,
+            say!(and_more_marked_in_the_drawing, left_out)
         ));
     }
 }
@@ -142,7 +143,7 @@ fn caption(sheet: &mut Sheet, subject: &Subject, fault: &Fault, index: usize, le
     .map(|length| subject.mm(length));
     let (handle, segment) = (&fault.handle, fault.segment);
     let figures = escaped(&format!("R {radius:.3} < {required:.3} mm"));
-    let place = escaped(&format!("{handle} segment {segment}, overcut {overcut:.3}"));
+    let place = escaped(&say!(segment_overcut, handle, segment, overcut));
     sheet.circle(r#"class="badge""#, (left + 10.0, top + 20.0), 9.0, "");
     let [badge, x, y, first, second] =
         [left + 10.0, left + 26.0, top + 24.0, top + 18.0, top + 34.0].map(number);

@@ -120,9 +120,9 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) 
         let hole = path.thread_hole;
         let (across, up) = frame.local(hole);
         let [x, y, left, below] = [across, up, across - 8.0, up - 8.0].map(number);
-        let (x_mm, y_mm) = (subject.mm(hole.x), subject.mm(hole.y));
+        let title = say!(thread_hole_at_mm, subject.mm(hole.x), subject.mm(hole.y));
         sheet.line(format_args!(
-            r#"<g class="thread"><title>thread hole at {x_mm:.3}, {y_mm:.3} mm</title><circle cx="{x}" cy="{y}" r="5"/><path d="M{left} {y}h16M{x} {below}v16"/></g>"#
+            r#"<g class="thread"><title>{title}</title><circle cx="{x}" cy="{y}" r="5"/><path d="M{left} {y}h16M{x} {below}v16"/></g>"#
         ));
         let is_cut = |source: &Source| !matches!(source, Source::LeadIn | Source::LeadOut);
         let mut segments = path.segments.iter();
@@ -140,7 +140,7 @@ fn arrow(sheet: &mut Sheet, frame: &Frame, point: Point, along: Vector) {
     let [tip, left, right] = [from + along * 13.0, from + side, from - side]
         .map(|corner| format!("{} {}", number(corner.x), number(corner.y)));
     let data = format!("M{tip}L{left}L{right}Z");
-    sheet.path(r#"class="arrow""#, &data, "the cut begins here");
+    sheet.path(r#"class="arrow""#, &data, say!(the_cut_begins_here));
 }
 
 /// A text of the drawing; "O", the mark of a starting point, stands upon its point, other texts begin in it.

@@ -37,16 +37,16 @@ pub fn svg(
     unit_mm: f64,
 ) -> String {
     let Some(subject) = Subject::new(drawing, outlines, findings, paths, unit_mm) else {
-        return style::empty("the drawing has no lines, arcs or circles");
+        return style::empty(say!(the_drawing_has_no_lines));
     };
     let faults = &subject.faults;
     let frame = Frame::fitting(&subject.bounds);
     let details_top = frame.bottom + 48.0;
     let legend_top = details_top + lens::height_of(faults.len());
     let title = match faults.len() {
-        0 => "Contour and wire path".into(),
-        1 => "1 arc is tighter than the correction".into(),
-        count => format!("{count} arcs are tighter than the correction"),
+        0 => say!(contour_and_wire_path).into(),
+        1 => say!(n1_arc_is_tighter_than).into(),
+        count => say!(arcs_are_tighter_than_the, count),
     };
     let mut sheet = style::opening(legend_top + 48.0, &title);
     sheet.heading(&title, &facts(&subject));
@@ -84,7 +84,7 @@ fn facts(subject: &Subject) -> String {
     if !subject.paths.is_empty() {
         let segments = subject.paths.iter().flat_map(|path| &path.segments);
         let length: f64 = segments.map(|segment| segment.geometry.length()).sum();
-        facts.push(format!("wire path {:.3} mm", subject.mm(length)));
+        facts.push(say!(wire_path_mm, subject.mm(length)));
     }
     facts.join(" · ")
 }

@@ -20,7 +20,7 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
         min: mm(bounds.min),
         max: mm(bounds.max),
     }) else {
-        return style::empty("the program moves nothing");
+        return style::empty(say!(the_program_moves_nothing));
     };
     let frame = Frame::fitting(&bounds);
     let legend_top = frame.bottom + 48.0;
@@ -30,9 +30,10 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
     let title = title(faults);
     let mut sheet = style::opening(legend_top + 48.0, &title);
     let (closure, length) = (trace.closure(), trace.length() / 1000.0);
-    let facts = format!(
-        "{} blocks · {length:.3} mm · ends {:.0}, {:.0} µm from its start",
+    let facts = say!(
+        blocks_mm_ends_m_from,
         moving.len(),
+        length,
         closure.x,
         closure.y
     );
@@ -46,9 +47,9 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
     }
     thread_holes(&mut sheet, &frame, &moving);
     sheet.line(format_args!("</g>"));
-    let mut entries = vec![(WIRE, "wire"), (THREAD, "start of a contour")];
+    let mut entries = vec![(WIRE, "wire"), (THREAD, say!(start_of_a_contour))];
     if moving.iter().any(|step| step.kind == Kind::Rapid) {
-        entries.push((LEAD, "way without a cut"));
+        entries.push((LEAD, say!(way_without_a_cut)));
     }
     if moving.iter().any(|step| by_line.contains_key(&step.line)) {
         entries.push((r#"<path class="fault" d="M0 0h24"/>"#, "error"));
@@ -93,9 +94,9 @@ fn title(faults: &[(usize, Severity, String)]) -> String {
         .filter(|fault| fault.1 == Severity::Error)
         .count();
     match errors {
-        0 => "Path of the wire".into(),
-        1 => "Path of the wire, with 1 error".into(),
-        count => format!("Path of the wire, with {count} errors"),
+        0 => say!(path_of_the_wire).into(),
+        1 => say!(path_of_the_wire_with).into(),
+        count => say!(path_of_the_wire_with_errors, count),
     }
 }
 
@@ -139,9 +140,9 @@ fn label(step: &Step) -> String {
             arc.radius / 1000.0,
             arc.sweep.to_degrees()
         ),
-        (Some(line), Kind::Rapid) => format!("way without a cut, {:.3} mm", line.length() / 1000.0),
+        (Some(line), Kind::Rapid) => say!(way_without_a_cut_mm, line.length() / 1000.0),
         (Some(line), _) => format!("line, {:.3} mm", line.length() / 1000.0),
-        (None, _) => "leads nowhere".into(),
+        (None, _) => say!(leads_nowhere).into(),
     };
     let end = mm(step.end);
     format!(

@@ -67,7 +67,7 @@ pub(super) fn opening(height: f64, title: &str) -> Sheet {
 
 /// What is shown where there is nothing to draw, and `why`.
 pub(super) fn empty(why: &str) -> String {
-    let mut sheet = opening(120.0, "Nothing to draw");
+    let mut sheet = opening(120.0, say!(nothing_to_draw));
     sheet.line(format_args!(
         "<text class=\"note\" x=\"{MARGIN}\" y=\"64\">{why}</text>\n</svg>"
     ));
@@ -93,16 +93,16 @@ pub(super) const THREAD: &str =
 pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     let mut entries = vec![(r#"<path class="contour" d="M0 0h24"/>"#, "contour")];
     if shown.paths {
-        entries.extend([(WIRE, "wire"), (LEAD, "lead"), (THREAD, "thread hole")]);
+        entries.extend([(WIRE, "wire"), (LEAD, "lead"), (THREAD, say!(thread_hole))]);
     }
     if shown.faults {
         let tight = r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#;
         let correction = r#"<circle class="correction" cx="12" cy="0" r="8"/>"#;
-        entries.extend([(tight, "too tight"), (correction, "correction")]);
+        entries.extend([(tight, say!(too_tight)), (correction, "correction")]);
     }
     if shown.others {
         let dot = r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#;
-        entries.push((dot, "other finding"));
+        entries.push((dot, say!(other_finding)));
     }
     entries
 }

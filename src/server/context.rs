@@ -142,7 +142,7 @@ impl State {
                 catch_unwind(AssertUnwindSafe(|| work(&context))).unwrap_or_else(|panic| {
                     let text = panic_text(&*panic);
                     tracing::error!("{name} panicked: {text}");
-                    Err(internal(format!("internal error: {text}")))
+                    Err(internal(say!(internal_error, text)))
                 })
             });
             // Progress ends before the answer comes.
@@ -245,13 +245,10 @@ impl RequestContext {
     pub fn drawn(&self) -> Result<&Arc<Document>> {
         let document = self
             .document()
-            .ok_or_else(|| refused(format!("{} holds no drawing", self.uri)))?;
+            .ok_or_else(|| refused(say!(holds_no_drawing, self.uri)))?;
         match document.drawing() {
             Some(_) => Ok(document),
-            None => Err(refused(format!(
-                "{} is a program, expected a drawing",
-                self.uri
-            ))),
+            None => Err(refused(say!(is_a_program_expected_a, self.uri))),
         }
     }
 
@@ -275,7 +272,7 @@ impl RequestContext {
     pub fn lsp_uri(&self) -> Result<Uri> {
         self.uri
             .parse()
-            .map_err(|_| Error::invalid_params(format!("{:?} is no URI", self.uri)))
+            .map_err(|_| Error::invalid_params(say!(is_no_uri, self.uri)))
     }
 
     /// Edits of the document's text in the form that the client takes.

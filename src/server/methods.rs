@@ -31,14 +31,14 @@ struct Method<P, R> {
 
 /// Requests of LSP: method of the framework's trait, request, what its handler holds of the document, handler.
 macro_rules! requests {
-    ($($name:ident: $request:ty, $reach:ident $(, $title:literal)? => $handler:path;)*) => {$(
+    ($($name:ident: $request:ty, $reach:ident $(, $title:ident)? => $handler:path;)*) => {$(
         async fn $name(
             &self,
             params: <$request as Request>::Params,
         ) -> Result<<$request as Request>::Result> {
             let method = Method {
                 name: <$request>::METHOD,
-                title: concat!($($title)?),
+                title: ["" $(, say!($title))?].last().copied().unwrap_or_default(),
                 reach: Reach::$reach,
                 handler: $handler,
             };
@@ -49,13 +49,13 @@ macro_rules! requests {
 
 /// Requests of the name space `wedm/`: name, type of the params, what progress is called, what the handler holds, handler.
 macro_rules! own_requests {
-    ($($name:ident: $method:path, $params:ty, $reach:ident, $title:literal => $handler:path;)*) => {
+    ($($name:ident: $method:path, $params:ty, $reach:ident, $title:ident => $handler:path;)*) => {
         impl Backend {$(
             async fn $name(&self, params: Value) -> Result<Value> {
                 let (params, about) = read::<$params>(params)?;
                 let method = Method {
                     name: $method,
-                    title: $title,
+                    title: say!($title),
                     reach: Reach::$reach,
                     handler: $handler,
                 };
@@ -70,13 +70,13 @@ macro_rules! own_requests {
 }
 
 own_requests! {
-    inspect: method::INSPECT, protocol::Inspect, Document, "Listing radii" => inspect::inspect;
-    contours: method::CONTOURS, protocol::DrawingName, Document, "Listing contours" => contours::contours;
-    toolpath: method::TOOLPATH, protocol::DrawingName, Document, "Laying the wire's path" => toolpath::toolpath;
-    picture: method::PICTURE, protocol::DrawingName, Document, "Drawing the picture" => picture::picture;
-    generate: method::GENERATE, generate::Params, Long, "Generating the program" => generate::generate;
-    simulate: method::SIMULATE, protocol::Simulate, Document, "Following the program" => simulate::simulate;
-    locate: method::LOCATE, protocol::Locate, Place, "Locating" => locate::locate;
+    inspect: method::INSPECT, protocol::Inspect, Document, listing_radii => inspect::inspect;
+    contours: method::CONTOURS, protocol::DrawingName, Document, listing_contours => contours::contours;
+    toolpath: method::TOOLPATH, protocol::DrawingName, Document, laying_the_wires_path => toolpath::toolpath;
+    picture: method::PICTURE, protocol::DrawingName, Document, drawing_the_picture => picture::picture;
+    generate: method::GENERATE, generate::Params, Long, generating_the_program => generate::generate;
+    simulate: method::SIMULATE, protocol::Simulate, Document, following_the_program => simulate::simulate;
+    locate: method::LOCATE, protocol::Locate, Place, locating => locate::locate;
 }
 
 impl LanguageServer for Backend {
@@ -100,7 +100,7 @@ impl LanguageServer for Backend {
         formatting: Formatting, Text => formatting::whole;
         range_formatting: RangeFormatting, Text => formatting::range;
         on_type_formatting: OnTypeFormatting, Place => formatting::left_line;
-        code_action: CodeActionRequest, Document, "Looking for fixes" => code_action::code_action;
+        code_action: CodeActionRequest, Document, looking_for_fixes => code_action::code_action;
     }
 
     async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {
@@ -282,7 +282,7 @@ impl Backend {
         self.tell(name, about, move |state| act(state, reply));
         answer
             .await
-            .unwrap_or_else(|_| Err(internal(format!("internal error in {name}"))))
+            .unwrap_or_else(|_| Err(internal(say!(internal_error_in, name))))
     }
 
     /// Has a request about a document answered in its turn, and made into `finish` of it where that was done. It is cancelled with
@@ -331,7 +331,7 @@ impl Backend {
     }
 
     fn ignored(&self, method: &str, reason: &str) {
-        let message = format!("{method} was ignored: {reason}");
+        let message = say!(was_ignored, method, reason);
         self.tell("log", None, move |state| {
             state.client.log(Weight::Warning, message)
         });

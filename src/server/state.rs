@@ -195,7 +195,7 @@ impl State {
             tracing::error!("{name} panicked: {}", panic_text(&*panic));
             self.client.log(
                 Weight::Warning,
-                format!("internal error in {name}: {}", panic_text(&*panic)),
+                say!(internal_error_in_2, name, panic_text(&*panic)),
             );
             if let Some(uri) = about {
                 self.rebuild(&uri);
@@ -286,10 +286,8 @@ impl State {
 
     pub fn log_if_open(&self, uri: &Arc<str>) {
         if self.documents.contains_key(uri) {
-            self.client.log(
-                Weight::Info,
-                format!("{uri} was open already: the new text or drawing takes its place"),
-            );
+            self.client
+                .log(Weight::Info, say!(was_open_already_the_new, uri));
         }
     }
 
@@ -434,6 +432,6 @@ impl State {
     pub fn document(&mut self, uri: &str) -> jsonrpc::Result<&mut Open> {
         self.documents
             .get_mut(uri)
-            .ok_or_else(|| jsonrpc::Error::invalid_params(format!("{uri} is not open")))
+            .ok_or_else(|| jsonrpc::Error::invalid_params(say!(is_not_open, uri)))
     }
 }
