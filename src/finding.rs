@@ -15,11 +15,20 @@ pub use unwritable::Unwritable;
 pub use crate::geometry::Side;
 pub use crate::rule::{Rule, Severity};
 
-use crate::drawing::{DrawingEdit, EntityId, Visibility};
+use crate::drawing::{Change, ContourSegment, DrawingEdit, EntityId, Visibility};
 use crate::geometry::Point;
 use crate::text::TextEdit;
 use rustc_hash::FxHashSet;
 use std::ops::Range;
+
+impl From<&ContourSegment> for Place {
+    fn from(segment: &ContourSegment) -> Place {
+        Place::Segment {
+            entity: segment.entity,
+            segment: segment.segment,
+        }
+    }
+}
 
 impl Place {
     fn is_of(&self, entities: &FxHashSet<EntityId>) -> bool {
@@ -357,6 +366,18 @@ pub enum Edit {
     Drawing(DrawingEdit),
     /// Sorted and disjoint.
     Text(Vec<TextEdit>),
+}
+
+impl Fix {
+    /// The repair that a user most likely wants, and that "fix all" makes.
+    pub(crate) fn new(kind: FixKind, changes: Vec<Change>) -> Fix {
+        Fix {
+            kind,
+            preferred: true,
+            in_fix_all: true,
+            edit: DrawingEdit { changes },
+        }
+    }
 }
 
 impl<E> Fix<E> {

@@ -1,7 +1,7 @@
 //! What the wire leaves beyond its dead ends: `lost-pocket`.
 
 use super::Analysis;
-use super::pairs::FacingWalls;
+use super::pair_findings::FacingWalls;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing};
 use crate::finding::{Detail, Rule, Severity, Side};

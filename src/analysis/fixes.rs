@@ -4,7 +4,7 @@ use super::Analysis;
 use super::repair::{self, Can};
 use crate::drawing::{Drawing, DrawingEdit, EntityId};
 use crate::finding::{Detail, Finding, Fix, FixKind, Place, Rule};
-use crate::rules::{CONTOUR_RULES, Fact, LOCAL_RULES, PAIR_RULES, Wall, small_radius};
+use crate::rules::{CONTOUR_RULES, LOCAL_RULES, Observation, PAIR_RULES, Wall, small_radius};
 
 impl Analysis {
     /// The fixes of one finding, the preferred one first; empty where none is right.
@@ -74,14 +74,7 @@ impl Analysis {
             {
                 return None;
             }
-            return Some((rule.fixes)(
-                &outlook,
-                Fact {
-                    index: index as u32,
-                    side: None,
-                    needs_side: false,
-                },
-            ));
+            return Some((rule.fixes)(&outlook, Observation::at(index)));
         }
         if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == finding.rule) {
             return Some((rule.fixes)(&outlook));

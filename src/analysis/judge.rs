@@ -13,17 +13,17 @@ const MOST_TRIED: usize = 40_000;
 
 impl Analysis {
     /// The contours that have something to tell, in machining order.
-    pub(super) fn loud_in_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
-        // What sleeps is not in the drawing.
+    pub(super) fn notable_in_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
+        // What is suspended is not in the drawing.
         let awake = self
-            .loud
+            .notable
             .iter()
-            .filter(|(_, loud)| Some(loud.first) != self.asleep);
-        let mut loud: Vec<(u64, ContourKey)> = awake
-            .map(|(&key, loud)| (drawing.rank(loud.first), key))
+            .filter(|(_, notable)| Some(notable.first) != self.suspended);
+        let mut notable: Vec<(u64, ContourKey)> = awake
+            .map(|(&key, notable)| (drawing.rank(notable.first), key))
             .collect();
-        loud.sort_unstable();
-        loud.into_iter().map(|(_, key)| key).collect()
+        notable.sort_unstable();
+        notable.into_iter().map(|(_, key)| key).collect()
     }
 
     /// Says of arcs whose repair would bring another fault that there is none. Each takes a look at the drawing: in one where that would be
@@ -86,26 +86,33 @@ impl Analysis {
         let side_of =
             |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
         let ends = self.dead_ends(drawing, &|key| side_of(self, key));
-        let loud: Vec<(ContourKey, Option<Side>)> = self
-            .loud_in_order(drawing)
+        let notable: Vec<(ContourKey, Option<Side>)> = self
+            .notable_in_order(drawing)
             .into_iter()
             .map(|key| (key, side_of(self, key)))
             .collect();
-        for &(key, wire_side) in &loud {
+        for &(key, wire_side) in &notable {
             self.report_small_radii(drawing, key, wire_side, &mut report);
         }
-        for &(key, wire_side) in &loud {
-            if self.loud.get(&key).is_some_and(|loud| loud.has_facts)
+        for &(key, wire_side) in &notable {
+            if self
+                .notable
+                .get(&key)
+                .is_some_and(|notable| notable.has_observations)
                 && let (Some(known), Some(outlook)) =
                     (self.known.get(&key), self.outlook(drawing, key))
             {
                 known.report(&outlook, wire_side, &mut report);
             }
         }
-        let as_a_whole = |key: &ContourKey| self.loud.get(key).is_some_and(|loud| loud.as_a_whole);
+        let as_a_whole = |key: &ContourKey| {
+            self.notable
+                .get(key)
+                .is_some_and(|notable| notable.as_a_whole)
+        };
         self.report_contours(
             drawing,
-            loud.iter().map(|(key, _)| *key).filter(as_a_whole),
+            notable.iter().map(|(key, _)| *key).filter(as_a_whole),
             &mut report,
         );
         self.report_size(drawing, &mut report);
@@ -166,7 +173,7 @@ impl Analysis {
 
     /// Sizes that speak for another unit than the drawing's: of the largest contour.
     pub(super) fn report_size(&self, drawing: &Drawing, report: &mut Report) {
-        // What sleeps is not in the drawing.
+        // What is suspended is not in the drawing.
         let is_there = |key: ContourKey| {
             self.chains
                 .first_of(key)
@@ -214,10 +221,14 @@ impl Analysis {
         wire_side: Option<Side>,
         report: &mut Report,
     ) {
-        let Some(loud) = self.loud.get(&key).filter(|loud| loud.has_tight_arcs) else {
+        let Some(notable) = self
+            .notable
+            .get(&key)
+            .filter(|notable| notable.has_tight_arcs)
+        else {
             return;
         };
-        if let Some((_, count)) = loud.faults.filter(|(side, _)| *side == wire_side)
+        if let Some((_, count)) = notable.faults.filter(|(side, _)| *side == wire_side)
             && report.is_full(Rule::SmallRadius, None)
         {
             report.count(Rule::SmallRadius, None, count);
@@ -235,10 +246,7 @@ impl Analysis {
             count += 1;
             if report.counts(Rule::SmallRadius, None) {
                 numbers.no_fix = self.answer(drawing, key, index);
-                let place = Place::Segment {
-                    entity: segment.entity,
-                    segment: segment.segment,
-                };
+                let place = Place::from(&segment);
                 report.add(
                     Rule::SmallRadius,
                     None,
@@ -248,8 +256,8 @@ impl Analysis {
                 );
             }
         }
-        if let Some(loud) = self.loud.get_mut(&key) {
-            loud.faults = Some((wire_side, count));
+        if let Some(notable) = self.notable.get_mut(&key) {
+            notable.faults = Some((wire_side, count));
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::report::Report;
 use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
 use crate::finding::{Severity, Side};
-use crate::rules::{Fact, LOCAL_RULES, Limits, Outlook};
+use crate::rules::{LOCAL_RULES, Limits, Observation, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
 use std::ops::Range;
@@ -15,7 +15,7 @@ pub struct Known {
     pub stated: Option<Role>,
     /// For each local rule, for each run of the index, what it has seen; nothing at all where it has seen nothing, as in
     /// most contours.
-    facts: Vec<Vec<Vec<Fact>>>,
+    observations: Vec<Vec<Vec<Observation>>>,
     /// Number of runs when the rules looked last.
     runs: usize,
 }
@@ -25,14 +25,14 @@ impl Known {
         Known {
             index,
             stated,
-            facts: Vec::new(),
+            observations: Vec::new(),
             runs: 0,
         }
     }
 
     /// Lets every local rule look again at the segments of `changed` and as far about as it reaches; at all behind when
     /// the number of segments has changed.
-    pub fn look(
+    pub fn check(
         &mut self,
         drawing: &Drawing,
         contour: &Contour,
@@ -68,46 +68,54 @@ impl Known {
             if contour.closed && changed.end + behind > count {
                 ranges.push(0..(changed.end + behind - count).min(count));
             }
-            if let Some(facts) = self.facts.get_mut(number).filter(|facts| !facts.is_empty()) {
-                facts.resize(runs, Vec::new());
+            if let Some(observations) = self
+                .observations
+                .get_mut(number)
+                .filter(|observations| !observations.is_empty())
+            {
+                observations.resize(runs, Vec::new());
             }
             for run in ranges
                 .into_iter()
                 .flat_map(|range| range.start / RUN..range.end.div_ceil(RUN).min(runs))
             {
                 seen.clear();
-                (rule.look)(&outlook, self.index.range_of(run), &mut seen);
-                if seen.is_empty() && self.facts.get(number).is_none_or(Vec::is_empty) {
+                (rule.check)(&outlook, self.index.range_of(run), &mut seen);
+                if seen.is_empty() && self.observations.get(number).is_none_or(Vec::is_empty) {
                     continue;
                 }
-                self.facts.resize(LOCAL_RULES.len(), Vec::new());
-                let facts = &mut self.facts[number];
-                facts.resize(runs, Vec::new());
-                facts[run] = seen.as_slice().into();
+                self.observations.resize(LOCAL_RULES.len(), Vec::new());
+                let observations = &mut self.observations[number];
+                observations.resize(runs, Vec::new());
+                observations[run] = seen.as_slice().into();
             }
         }
     }
 
     /// True when a local rule has seen something.
-    pub fn has_facts(&self) -> bool {
-        !self.facts.iter().flatten().all(Vec::is_empty)
+    pub fn has_observations(&self) -> bool {
+        !self.observations.iter().flatten().all(Vec::is_empty)
     }
 
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
     pub fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
-        for (rule, facts) in LOCAL_RULES.iter().zip(&self.facts) {
-            let concerned = |fact: &&Fact| {
+        for (rule, observations) in LOCAL_RULES.iter().zip(&self.observations) {
+            let concerned = |observation: &&Observation| {
                 let of_side = match wire_side {
-                    Some(_) => fact.side.is_none() || fact.side == wire_side,
-                    None => !fact.needs_side,
+                    Some(_) => observation.side.is_none() || observation.side == wire_side,
+                    None => !observation.needs_side,
                 };
                 of_side
-                    && (fact.index > 0 || !outlook.contour.closed || (rule.holds)(outlook, **fact))
+                    && (observation.index > 0
+                        || !outlook.contour.closed
+                        || (rule.holds)(outlook, **observation))
             };
-            let mut facts = facts.iter().flatten().filter(concerned);
+            let mut observations = observations.iter().flatten().filter(concerned);
             if rule.one_hint_when_side_unknown && wire_side.is_none() {
-                let Some(&first) = facts.next() else { continue };
-                let (mildest, count) = (Some(Severity::Hint), 1 + facts.count());
+                let Some(&first) = observations.next() else {
+                    continue;
+                };
+                let (mildest, count) = (Some(Severity::Hint), 1 + observations.count());
                 if report.counts(rule.rule, mildest)
                     && let (Some(place), Some(detail)) = (
                         outlook.place(first.index as usize),
@@ -123,11 +131,11 @@ impl Known {
                 }
                 continue;
             }
-            for &fact in facts {
+            for &observation in observations {
                 if report.counts(rule.rule, None)
                     && let (Some(place), Some(detail)) = (
-                        outlook.place(fact.index as usize),
-                        (rule.detail)(outlook, fact, None),
+                        outlook.place(observation.index as usize),
+                        (rule.detail)(outlook, observation, None),
                     )
                 {
                     report.add(
@@ -135,7 +143,7 @@ impl Known {
                         None,
                         place,
                         detail,
-                        (rule.related)(outlook, fact),
+                        (rule.related)(outlook, observation),
                     );
                 }
             }

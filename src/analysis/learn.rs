@@ -1,9 +1,9 @@
 //! What is seen of contours for the first time, and again where an edit has touched them.
 
+use super::compare::RunId;
 use super::contours::role_of;
 use super::known::Known;
-use super::pairs::RunId;
-use super::{Analysis, Loud};
+use super::{Analysis, Notable};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
 use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rustc_hash::FxHashSet;
@@ -24,19 +24,21 @@ impl Analysis {
     }
 
     /// Takes down whether a contour has something to tell.
-    pub(super) fn listen_to(&mut self, drawing: &Drawing, key: ContourKey) {
+    pub(super) fn note(&mut self, drawing: &Drawing, key: ContourKey) {
         let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
         let known = self.known.get(&key);
-        let loud = self.chains.first_of(key).map(|first| Loud {
+        let notable = self.chains.first_of(key).map(|first| Notable {
             first,
             has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
-            has_facts: known.is_some_and(Known::has_facts),
+            has_observations: known.is_some_and(Known::has_observations),
             as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
             faults: None,
         });
-        match loud.filter(|loud| loud.has_tight_arcs || loud.has_facts || loud.as_a_whole) {
-            Some(loud) => drop(self.loud.insert(key, loud)),
-            None => drop(self.loud.remove(&key)),
+        match notable.filter(|notable| {
+            notable.has_tight_arcs || notable.has_observations || notable.as_a_whole
+        }) {
+            Some(notable) => drop(self.notable.insert(key, notable)),
+            None => drop(self.notable.remove(&key)),
         }
         if self
             .known
@@ -65,7 +67,7 @@ impl Analysis {
                 index,
                 stated_role(contour, &|id| role_of(drawing, &self.settings, id)),
             );
-            known.look(
+            known.check(
                 drawing,
                 contour,
                 &self.limits,
@@ -74,7 +76,7 @@ impl Analysis {
             );
             runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
             self.enter_known(key, known);
-            self.listen_to(drawing, key);
+            self.note(drawing, key);
         }
         self.look_at_pairs(drawing, &runs);
     }
@@ -84,7 +86,7 @@ impl Analysis {
     pub(super) fn look_at_pairs(&mut self, drawing: &Drawing, runs: &[RunId]) {
         let mut pairs = std::mem::take(&mut self.pairs);
         let outlook = |key| self.outlook(drawing, key);
-        pairs.look(&outlook, &self.limits, &self.settings, runs);
+        pairs.check(&outlook, &self.limits, &self.settings, runs);
         self.pairs = pairs;
     }
 
@@ -193,7 +195,7 @@ impl Analysis {
             let mut changed = known.index.bounds_about(range.clone());
             known.index.update(drawing, contour, range.clone());
             changed.merge(&known.index.bounds_about(range.clone()));
-            known.look(
+            known.check(
                 drawing,
                 contour,
                 &self.limits,
@@ -210,7 +212,7 @@ impl Analysis {
             .map(|run| (key, run as u32));
         let runs: BTreeSet<RunId> = runs.collect();
         self.enter_known(key, known);
-        self.listen_to(drawing, key);
+        self.note(drawing, key);
         let runs: Vec<RunId> = runs.into_iter().chain(beginnings).collect();
         self.look_at_pairs(drawing, &runs);
         true

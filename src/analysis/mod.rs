@@ -1,12 +1,14 @@
 //! Drawing → contours → findings, and what of it may be reused after an edit.
 
 mod arcs;
+mod compare;
 mod contours;
 mod dead_ends;
 mod fixes;
 mod judge;
 mod known;
 mod learn;
+mod pair_findings;
 mod pairs;
 mod pockets;
 mod repair;
@@ -35,11 +37,11 @@ const MANY: usize = 256;
 /// What of a contour that has something to tell is asked at every report, so that those beyond the limit of a report are not
 /// looked at.
 #[derive(Clone, Copy, Debug)]
-struct Loud {
+struct Notable {
     /// The first of its entities in machining order.
     first: EntityId,
     has_tight_arcs: bool,
-    has_facts: bool,
+    has_observations: bool,
     /// A rule on whole contours holds.
     as_a_whole: bool,
     /// How many of its arcs are below the correction with the wire on a side, once they have been counted.
@@ -54,14 +56,14 @@ pub struct Analysis {
     chains: Chains,
     known: FxHashMap<ContourKey, Known>,
     /// Contours that have something to tell without a look at others: most have not.
-    loud: FxHashMap<ContourKey, Loud>,
+    notable: FxHashMap<ContourKey, Notable>,
     /// Contours larger than any machine.
     vast: FxHashSet<ContourKey>,
     /// How many contours have a stated role.
     stated: usize,
     /// An entity that was removed and may come back nearly as it was, as one does in whose text a number is being typed: all
     /// that is known of it is kept until the next change. Nothing of it shows, since the drawing does not hold it.
-    asleep: Option<EntityId>,
+    suspended: Option<EntityId>,
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region that the answer depends on.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
@@ -84,10 +86,10 @@ impl Analysis {
             limits,
             chains,
             known: FxHashMap::default(),
-            loud: FxHashMap::default(),
+            notable: FxHashMap::default(),
             vast: FxHashSet::default(),
             stated: 0,
-            asleep: None,
+            suspended: None,
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
             lost: FxHashMap::default(),
@@ -129,18 +131,18 @@ impl Analysis {
             self.outlines = OnceLock::new();
         }
         let mut moved = Vec::new();
-        let asleep = self.asleep.take();
-        match (asleep, delta.touched.as_slice()) {
+        let suspended = self.suspended.take();
+        match (suspended, delta.touched.as_slice()) {
             (Some(_), []) => {
-                self.asleep = asleep;
+                self.suspended = suspended;
                 return;
             }
             (Some(entity), [Touched::Vertices { entity: woken, .. }]) if *woken == entity => {
                 self.order = OnceLock::new()
             }
             (Some(entity), _) => moved.push(entity),
-            (None, [Touched::Removed { entity }]) if self.may_sleep(*entity) => {
-                self.asleep = Some(*entity);
+            (None, [Touched::Removed { entity }]) if self.may_be_suspended(*entity) => {
+                self.suspended = Some(*entity);
                 self.order = OnceLock::new();
                 return;
             }
@@ -180,7 +182,7 @@ impl Analysis {
         }
         for key in &rechained.gone {
             self.lost.remove(key);
-            self.loud.remove(key);
+            self.notable.remove(key);
             self.vast.remove(key);
             if let Some(known) = self.take_known(*key) {
                 self.pairs.forget(*key, &known.index);
@@ -192,7 +194,7 @@ impl Analysis {
     }
 
     /// True for an entity that is a contour of its own, and in the way of nothing that has been seen of others.
-    fn may_sleep(&self, entity: EntityId) -> bool {
+    fn may_be_suspended(&self, entity: EntityId) -> bool {
         let key = self.chains.contour_of(entity);
         let contour = key.and_then(|key| self.chains.get(key));
         contour.is_some_and(|contour| contour.closed && contour.pieces.len() == 1)

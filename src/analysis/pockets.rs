@@ -54,7 +54,7 @@ impl Analysis {
                 let Some(outlook) = self.outlook(drawing, key) else {
                     continue;
                 };
-                let lost = lost_pocket::look(&outlook, side, asked.1);
+                let lost = lost_pocket::check(&outlook, side, asked.1);
                 self.lost.insert(
                     key,
                     Answer {

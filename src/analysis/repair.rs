@@ -49,7 +49,7 @@ impl Analysis {
         // What one circle could not hold may leave a second sequence of chords behind.
         let is_less = after.of(rule) < before.of(rule)
             || (rule == Rule::ArcAsChords && after.of(rule) <= before.of(rule))
-            // Where there is more than is sought, others come into sight.
+            // Where there is more than is sought, others come into observation.
             || after.unseen < before.unseen;
         let is_no_worse = match rule {
             Rule::OpenContour => after.is_no_worse_once_closed(before),

@@ -61,7 +61,7 @@ impl Tally {
         self.errors <= before.errors && self.brings_nothing_new(before, is_spared)
     }
 
-    /// Where pairs have come into sight that nobody had looked at, more findings do not mean more faults.
+    /// Where pairs have come into observation that nobody had looked at, more findings do not mean more faults.
     fn brings_nothing_new(&self, before: &Tally, is_spared: impl Fn(Rule) -> bool) -> bool {
         // Where a contour comes to be closed, an end that does not quite meet is what is left of the opening.
         let is_closed = self.of(Rule::OpenContour) < before.of(Rule::OpenContour);

@@ -6,8 +6,8 @@
 //! What is seen at a segment depends on a window of [`LEAST`] chords from there on and from the one before: a sequence begins
 //! where a window fits one circle and that before does not. How far the sequence reaches is found when it is shown.
 
-use super::{Fact, LocalRule, Outlook};
-use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry, Vertex};
+use super::{LocalRule, Observation, Outlook};
+use crate::drawing::{Change, ContourSegment, Geometry, Vertex};
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use crate::geometry::{Arc, Line, Point, Segment, cross, left_normal, line_line, positive_angle};
 use std::f64::consts::TAU;
@@ -15,13 +15,12 @@ use std::ops::Range;
 
 pub const RULE: LocalRule = LocalRule {
     rule: Rule::ArcAsChords,
-    look,
+    check,
     reach: |_, _| (LEAST, 1),
     holds,
-    related: |_, _| Vec::new(),
     detail,
     fixes,
-    one_hint_when_side_unknown: false,
+    ..LocalRule::PLAIN
 };
 
 /// Chords that make an arc.
@@ -118,17 +117,13 @@ fn window_fits(outlook: &Outlook, first: isize) -> bool {
     points.len() > LEAST && fit(&points, outlook.limits.tolerances.chords).is_some()
 }
 
-fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
+fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     // From the segment before the range on.
     let fits = windows(outlook, range.start as isize - 1..range.end as isize);
     for (index, pair) in range.zip(fits.windows(2)) {
         // A round of nothing but chords has no beginning: it may be given one at the first segment.
         if pair[1] && (!pair[0] || (outlook.contour.closed && index == 0)) {
-            facts.push(Fact {
-                index: index as u32,
-                side: None,
-                needs_side: false,
-            });
+            observations.push(Observation::at(index));
         }
     }
 }
@@ -176,9 +171,9 @@ pub fn steepest() -> f64 {
 }
 
 /// At the first segment of a closed contour: whether the sequence begins there, or is one that has no beginning.
-fn holds(outlook: &Outlook, fact: Fact) -> bool {
+fn holds(outlook: &Outlook, observation: Observation) -> bool {
     let most = outlook.contour.len().min(MOST) as isize;
-    let first = fact.index as isize;
+    let first = observation.index as isize;
     !window_fits(outlook, first - 1) || (2..most).all(|back| window_fits(outlook, first - back))
 }
 
@@ -209,8 +204,8 @@ fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)>
     Some((fitting, best, points))
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
-    let (chords, fit, _) = sequence(outlook, fact.index as usize)?;
+fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {
+    let (chords, fit, _) = sequence(outlook, observation.index as usize)?;
     Some(Detail::ArcAsChords {
         chords,
         center: fit.center,
@@ -219,8 +214,8 @@ fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail
     })
 }
 
-fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
-    let first = fact.index as usize;
+fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
+    let first = observation.index as usize;
     let count = outlook.contour.len();
     let Some((mut chords, fit, mut points)) = sequence(outlook, first) else {
         return Vec::new();
@@ -278,10 +273,8 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
         radius: fit.radius,
     };
     vec![Fix {
-        kind,
-        preferred: true,
         in_fix_all: moved <= outlook.limits.tolerances.join,
-        edit: DrawingEdit { changes },
+        ..Fix::new(kind, changes)
     }]
 }
 

@@ -9,7 +9,7 @@ use super::arc_as_chords::are_between_chords;
 use super::disc::{Touch, loci, slack, touch};
 use super::sharp_corner::inner_side;
 use super::wall::Wall;
-use super::{Limits, NEIGHBOURS, Outlook, PairRule, Sight, small_radius};
+use super::{Limits, NEIGHBOURS, Outlook, PairObservation, PairRule, small_radius};
 use crate::finding::{Rule, Side};
 use crate::geometry::{Point, Segment, cross, turn};
 use std::f64::consts::FRAC_PI_2;
@@ -17,14 +17,10 @@ use std::f64::consts::FRAC_PI_2;
 pub const RULE: PairRule = PairRule {
     rule: Rule::LostPocket,
     reach: |limits| 2.0 * limits.correction,
-    look,
+    check,
     // Said of what lies between the two, by `left`.
-    detail: |_, _, _| None,
-    fixes: |_, _| Vec::new(),
-    one_per_place: false,
-    silent_for_doubles: false,
-    warning_when_side_unknown: false,
     pair_by_pair: false,
+    ..PairRule::PLAIN
 };
 
 /// Less than this, mm, is what rounding to three decimals makes of a contour.
@@ -61,12 +57,12 @@ fn radius(limits: &Limits) -> f64 {
     limits.correction - limits.tolerances.report
 }
 
-fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
-    let mut sights = Vec::new();
+fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
+    let mut observations = Vec::new();
     let limits = one.outlook.limits;
     let radius = radius(limits);
     if !same_contour || radius <= limits.tolerances.touch || run_on(one, other, radius) {
-        return sights;
+        return observations;
     }
     for side in [Side::Left, Side::Right] {
         let of_one = loci(one, side, radius);
@@ -77,7 +73,7 @@ fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
                     && end.may_matter(&one.outlook)
                 {
                     let disc = Some((center, radius));
-                    sights.push(Sight {
+                    observations.push(PairObservation {
                         sides: (Some(side), Some(side)),
                         disc,
                         own_disc: true,
@@ -87,7 +83,7 @@ fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
             }
         }
     }
-    sights
+    observations
 }
 
 /// A turn (as the distance of unit vectors) up to which lines are asked whether they run on.

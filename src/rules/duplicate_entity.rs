@@ -4,27 +4,24 @@
 
 use super::short_segment::is_point;
 use super::wall::Wall;
-use super::{PairRule, Sight};
-use crate::drawing::{Change, DrawingEdit, Geometry, run_together};
+use super::{PairObservation, PairRule};
+use crate::drawing::{Change, Geometry, run_together};
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use crate::geometry::{Point, Segment};
 
 pub const RULE: PairRule = PairRule {
     rule: Rule::DuplicateEntity,
     reach: |limits| limits.tolerances.same_place,
-    look: |one, other, _| {
+    check: |one, other, _| {
         if are_doubles(one, other).unwrap_or(false) {
-            vec![Sight::default()]
+            vec![PairObservation::default()]
         } else {
             Vec::new()
         }
     },
     detail: |_, _, _| Some(Detail::DuplicateEntity),
     fixes,
-    one_per_place: false,
-    silent_for_doubles: false,
-    warning_when_side_unknown: false,
-    pair_by_pair: true,
+    ..PairRule::PLAIN
 };
 
 /// Seen at the first segment of each of the two entities, once for a pair of entities. Closed ones may begin anywhere and have their
@@ -172,13 +169,6 @@ fn fixes(one: &Wall, other: &Wall) -> Vec<Fix> {
     } else {
         b.entity
     };
-    let edit = DrawingEdit {
-        changes: vec![Change::RemoveEntity { entity }],
-    };
-    vec![Fix {
-        kind: FixKind::DeleteDouble,
-        preferred: true,
-        in_fix_all: true,
-        edit,
-    }]
+    let changes = vec![Change::RemoveEntity { entity }];
+    vec![Fix::new(FixKind::DeleteDouble, changes)]
 }

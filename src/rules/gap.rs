@@ -4,24 +4,22 @@
 //! moves onto the other.
 
 use super::ends::joined;
-use super::{Fact, LocalRule, Outlook};
-use crate::drawing::DrawingEdit;
+use super::{LocalRule, Observation, Outlook};
 use crate::finding::{Detail, Fix, FixKind, Place, Rule};
 use std::ops::Range;
 
 pub const RULE: LocalRule = LocalRule {
     rule: Rule::Gap,
-    look,
+    check,
     reach: |_, _| (0, 1),
-    holds: |_, _| true,
     related,
     detail,
     fixes,
-    one_hint_when_side_unknown: false,
+    ..LocalRule::PLAIN
 };
 
 /// Only where a piece begins can there be a gap.
-fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
+fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     let pieces = &outlook.contour.pieces;
     let first = pieces.partition_point(|piece| piece.first() < range.start);
     for piece in pieces[first..]
@@ -31,11 +29,7 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
         if distance(outlook, piece.first())
             .is_some_and(|distance| distance > outlook.limits.tolerances.report)
         {
-            facts.push(Fact {
-                index: piece.first() as u32,
-                side: None,
-                needs_side: false,
-            });
+            observations.push(Observation::at(piece.first()));
         }
     }
 }
@@ -49,41 +43,25 @@ fn distance(outlook: &Outlook, index: usize) -> Option<f64> {
 }
 
 /// The segment before the gap.
-fn related(outlook: &Outlook, fact: Fact) -> Vec<Place> {
-    let before = outlook.segment(fact.index as isize - 1);
-    before
-        .map(|before| Place::Segment {
-            entity: before.entity,
-            segment: before.segment,
-        })
-        .into_iter()
-        .collect()
+fn related(outlook: &Outlook, observation: Observation) -> Vec<Place> {
+    let before = outlook.segment(observation.index as isize - 1);
+    before.iter().map(Place::from).collect()
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
+fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {
     Some(Detail::Gap {
-        distance: distance(outlook, fact.index as usize)?,
+        distance: distance(outlook, observation.index as usize)?,
     })
 }
 
-fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
-    let index = fact.index as isize;
+fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
+    let index = observation.index as isize;
     let (Some(before), Some(behind)) = (outlook.segment(index - 1), outlook.segment(index)) else {
         return Vec::new();
     };
     let distance = (behind.geometry.start() - before.geometry.end()).norm();
     let change = joined(outlook.drawing, &before, &behind)
         .filter(|_| distance > outlook.limits.tolerances.report);
-    let fix = |change| {
-        let edit = DrawingEdit {
-            changes: vec![change],
-        };
-        Fix {
-            kind: FixKind::Snap { distance },
-            preferred: true,
-            in_fix_all: true,
-            edit,
-        }
-    };
+    let fix = |change| Fix::new(FixKind::Snap { distance }, vec![change]);
     change.map(fix).into_iter().collect()
 }

@@ -28,7 +28,7 @@ pub enum Lost {
 
 /// What the offset to `side` of a contour loses. `has_neck` tells that two of its walls form a narrow slot: without one,
 /// it can lose nothing but all.
-pub fn look(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
+pub fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
     let contour = outlook.contour;
     if !contour.closed || contour.len() > MOST_SEGMENTS {
         return Vec::new();

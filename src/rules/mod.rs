@@ -87,11 +87,7 @@ impl Outlook<'_> {
 
     /// The place of the segment at `index`.
     pub fn place(&self, index: usize) -> Option<Place> {
-        let segment = self.segment(index as isize)?;
-        Some(Place::Segment {
-            entity: segment.entity,
-            segment: segment.segment,
-        })
+        Some(Place::from(&self.segment(index as isize)?))
     }
 
     /// The angle (radians, positive to the left) by which the contour turns where the segment at `index` begins.
@@ -110,7 +106,7 @@ impl Outlook<'_> {
 /// Something that a rule has seen at one segment of a contour. Small, since a contour may have one at every segment;
 /// its numbers are worked out when it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fact {
+pub struct Observation {
     /// Index of the segment within the contour.
     pub index: u32,
     /// The side of travel that it concerns, `None` where it holds whichever side the wire runs on.
@@ -119,40 +115,59 @@ pub struct Fact {
     pub needs_side: bool,
 }
 
+impl Observation {
+    /// At the segment with this index, whichever side the wire runs on.
+    pub fn at(index: usize) -> Observation {
+        Observation {
+            index: index as u32,
+            side: None,
+            needs_side: false,
+        }
+    }
+}
+
 /// A rule on a segment and its near neighbours. All of them stand in [`LOCAL_RULES`].
 pub struct LocalRule {
     pub rule: Rule,
     /// Looks at the segments `range` of a contour and adds what it sees there. What it sees at a segment may depend only on
     /// that segment and those within `reach` of it.
-    pub look: fn(&Outlook, Range<usize>, &mut Vec<Fact>),
+    pub check: fn(&Outlook, Range<usize>, &mut Vec<Observation>),
     /// How many segments before and behind a changed one must be looked at again.
     pub reach: fn(&Outlook, Range<usize>) -> (usize, usize),
     /// Whether what was seen at the first segment of a closed contour stands, where that depends on the whole round.
-    pub holds: fn(&Outlook, Fact) -> bool,
+    pub holds: fn(&Outlook, Observation) -> bool,
     /// The other places that are concerned.
-    pub related: fn(&Outlook, Fact) -> Vec<Place>,
-    /// The numbers of a fact. With a count, the wire side is not known and one finding stands for so many facts.
-    pub detail: fn(&Outlook, Fact, Option<usize>) -> Option<Detail>,
+    pub related: fn(&Outlook, Observation) -> Vec<Place>,
+    /// The numbers of a observation. With a count, the wire side is not known and one finding stands for so many observations.
+    pub detail: fn(&Outlook, Observation, Option<usize>) -> Option<Detail>,
     /// Repairs, the preferred one first.
-    pub fixes: fn(&Outlook, Fact) -> Vec<Fix>,
-    /// Where the wire side is not known: one hint for each contour in place of a finding for each fact.
+    pub fixes: fn(&Outlook, Observation) -> Vec<Fix>,
+    /// Where the wire side is not known: one hint for each contour in place of a finding for each observation.
     pub one_hint_when_side_unknown: bool,
 }
 
-/// The segment before the joint that a fact stands at, where it is of another entity.
-fn other_at_joint(outlook: &Outlook, fact: Fact) -> Vec<Place> {
+impl LocalRule {
+    /// A rule that sees nothing, in a segment by itself.
+    const PLAIN: LocalRule = LocalRule {
+        rule: Rule::More,
+        check: |_, _, _| {},
+        reach: |_, _| (0, 0),
+        holds: |_, _| true,
+        related: |_, _| Vec::new(),
+        detail: |_, _, _| None,
+        fixes: |_, _| Vec::new(),
+        one_hint_when_side_unknown: false,
+    };
+}
+
+/// The segment before the joint that a observation stands at, where it is of another entity.
+fn other_at_joint(outlook: &Outlook, observation: Observation) -> Vec<Place> {
     let (before, own) = (
-        outlook.segment(fact.index as isize - 1),
-        outlook.segment(fact.index as isize),
+        outlook.segment(observation.index as isize - 1),
+        outlook.segment(observation.index as isize),
     );
     let other = before.filter(|before| own.is_some_and(|own| own.entity != before.entity));
-    other
-        .map(|before| Place::Segment {
-            entity: before.entity,
-            segment: before.segment,
-        })
-        .into_iter()
-        .collect()
+    other.iter().map(Place::from).collect()
 }
 
 /// Every rule on single segments and their neighbours.
@@ -185,7 +200,7 @@ pub const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
 
 /// What a pair rule has seen between two segments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sight {
+pub struct PairObservation {
     /// Sides of travel that it concerns, of the first and of the second segment; `None` where any.
     pub sides: (Option<Side>, Option<Side>),
     /// A disc (centre, radius) that no segment of the drawing may reach into, else there is nothing to see.
@@ -203,7 +218,7 @@ pub struct PairRule {
     pub reach: fn(&Limits) -> f64,
     /// Looks at two segments, the one of the earlier entity first; the flag tells that they are of one contour.
     /// What it sees may depend only on the two and on the [`NEIGHBOURS`] that follow and precede each in its contour.
-    pub look: fn(&Wall, &Wall, bool) -> Vec<Sight>,
+    pub check: fn(&Wall, &Wall, bool) -> Vec<PairObservation>,
     pub detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
     pub fixes: fn(&Wall, &Wall) -> Vec<Fix>,
     /// What neighbouring pairs see is one thing: the narrowest stands for all.
@@ -214,6 +229,21 @@ pub struct PairRule {
     pub warning_when_side_unknown: bool,
     /// Each pair that sees something is a finding; else whoever asks for what was seen makes the findings of it.
     pub pair_by_pair: bool,
+}
+
+impl PairRule {
+    /// A rule that sees nothing, and says what it sees pair by pair.
+    const PLAIN: PairRule = PairRule {
+        rule: Rule::More,
+        reach: |_| 0.0,
+        check: |_, _, _| Vec::new(),
+        detail: |_, _, _| None,
+        fixes: |_, _| Vec::new(),
+        one_per_place: false,
+        silent_for_doubles: false,
+        warning_when_side_unknown: false,
+        pair_by_pair: true,
+    };
 }
 
 /// How many segments before and behind a segment a pair rule may look at.

@@ -5,24 +5,24 @@
 //! walls the disc can always shrink. The mouth of a run of arcs below the correction is none either: `small-radius` says it.
 
 use super::wall::{Corner, Joints, Wall, parts_for_good, side_of};
-use super::{Limits, NEIGHBOURS, PairRule, Sight, small_radius};
+use super::{Limits, NEIGHBOURS, PairObservation, PairRule, small_radius};
 use crate::finding::{Detail, Rule, Side};
 use crate::geometry::{Point, Segment, curvature, facing, foot_inside};
 
 pub const RULE: PairRule = PairRule {
     rule: Rule::NarrowSlot,
     reach: |limits| 2.0 * limits.correction,
-    look: |one, other, same_contour| {
-        let sight = |slot: Slot| {
+    check: |one, other, same_contour| {
+        let observation = |slot: Slot| {
             let center = slot.from + (slot.to - slot.from) * 0.5;
-            Sight {
+            PairObservation {
                 sides: slot.sides,
                 disc: Some((center, slot.width / 2.0)),
-                ..Sight::default()
+                ..PairObservation::default()
             }
         };
         narrowest(one, other, same_contour)
-            .map(sight)
+            .map(observation)
             .into_iter()
             .collect()
     },
@@ -33,11 +33,9 @@ pub const RULE: PairRule = PairRule {
             required: 2.0 * one.outlook.limits.correction,
         })
     },
-    fixes: |_, _| Vec::new(),
     one_per_place: true,
-    silent_for_doubles: false,
     warning_when_side_unknown: true,
-    pair_by_pair: true,
+    ..PairRule::PLAIN
 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]

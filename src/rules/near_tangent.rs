@@ -5,7 +5,7 @@
 
 use super::sharp_corner::{CLEAR, inner_side};
 use super::small_radius::{Travel, center_side, drawing_edit, made_tangent};
-use super::{Fact, LocalRule, Outlook, other_at_joint};
+use super::{LocalRule, Observation, Outlook, other_at_joint};
 use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
 use crate::geometry::Segment;
@@ -13,45 +13,43 @@ use std::ops::Range;
 
 pub const RULE: LocalRule = LocalRule {
     rule: Rule::NearTangent,
-    look,
+    check,
     reach: |_, _| (0, 1),
-    holds: |_, _| true,
     related: other_at_joint,
     detail,
     fixes,
-    one_hint_when_side_unknown: false,
+    ..LocalRule::PLAIN
 };
 
 /// Turns (radians) below this are rounding.
 const LEAST: f64 = 0.02 * std::f64::consts::PI / 180.0;
 
-fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
+fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     for index in range {
         if let Some(turn) = outlook
             .turn_at(index)
             .filter(|turn| turn.abs() > LEAST && turn.abs() < CLEAR)
         {
             // Where the wire runs inside, the larger of them are sharp corners.
-            facts.push(Fact {
-                index: index as u32,
+            observations.push(Observation {
                 side: inner_side(turn).map(Side::reversed),
-                needs_side: false,
+                ..Observation::at(index)
             });
         }
     }
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
-    let turn = outlook.turn_at(fact.index as usize)?;
-    let reversed = outlook.segment(fact.index as isize)?.reversed;
+fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {
+    let turn = outlook.turn_at(observation.index as usize)?;
+    let reversed = outlook.segment(observation.index as isize)?.reversed;
     Some(Detail::NearTangent {
         turn: if reversed { -turn } else { turn },
     })
 }
 
 /// The change that moves the contour least, and by less than a difference that counts as the same place.
-fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
-    let index = fact.index as isize;
+fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
+    let index = observation.index as isize;
     let (Some(before), Some(behind)) = (outlook.segment(index - 1), outlook.segment(index)) else {
         return Vec::new();
     };

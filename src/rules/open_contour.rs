@@ -3,7 +3,7 @@
 //! The wire has no side on an open contour, and nothing drops out of the plate. Fix: close it with a line.
 
 use super::{ContourRule, Outlook};
-use crate::drawing::{Change, DrawingEdit, Geometry};
+use crate::drawing::{Change, Geometry};
 use crate::finding::{Detail, Fix, FixKind, Place, Rule, Severity};
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Effective};
@@ -96,11 +96,8 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
         .sum();
     let preferred = length < (SHARE * along).max(JOINS * outlook.limits.tolerances.join);
     vec![Fix {
-        kind: FixKind::Close { length },
         preferred,
         in_fix_all: false,
-        edit: DrawingEdit {
-            changes: vec![change],
-        },
+        ..Fix::new(FixKind::Close { length }, vec![change])
     }]
 }

@@ -4,28 +4,26 @@
 //! doubles of each other as a whole are `duplicate-entity`. Fix: an entity that lies wholly within another one goes.
 
 use super::wall::{Joints, Wall};
-use super::{PairRule, Sight};
-use crate::drawing::{Change, DrawingEdit};
+use super::{PairObservation, PairRule};
+use crate::drawing::Change;
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use crate::geometry::shared_length;
 
 pub const RULE: PairRule = PairRule {
     rule: Rule::Overlap,
     reach: |limits| limits.tolerances.same_place,
-    look,
+    check,
     detail: |one, other, _| {
         Some(Detail::Overlap {
             length: shared(one, other),
         })
     },
     fixes,
-    one_per_place: false,
     silent_for_doubles: true,
-    warning_when_side_unknown: false,
-    pair_by_pair: true,
+    ..PairRule::PLAIN
 };
 
-fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
+fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
     let tolerances = &one.outlook.limits.tolerances;
     let length = shared(one, other);
     if length <= tolerances.same_place {
@@ -37,7 +35,7 @@ fn look(one: &Wall, other: &Wall, same_contour: bool) -> Vec<Sight> {
     if joined {
         Vec::new()
     } else {
-        vec![Sight::default()]
+        vec![PairObservation::default()]
     }
 }
 
@@ -65,15 +63,9 @@ fn fixes(one: &Wall, other: &Wall) -> Vec<Fix> {
     let inner = [(other, one), (one, other)]
         .into_iter()
         .find(|(inner, outer)| lies_within(inner, outer));
-    let delete = |(inner, _): (&Wall, &Wall)| Fix {
-        kind: FixKind::DeleteDouble,
-        preferred: true,
-        in_fix_all: true,
-        edit: DrawingEdit {
-            changes: vec![Change::RemoveEntity {
-                entity: inner.segment.entity,
-            }],
-        },
+    let delete = |(inner, _): (&Wall, &Wall)| {
+        let entity = inner.segment.entity;
+        Fix::new(FixKind::DeleteDouble, vec![Change::RemoveEntity { entity }])
     };
     inner.map(delete).into_iter().collect()
 }

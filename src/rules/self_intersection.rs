@@ -5,7 +5,7 @@
 //! does, it is a warning. Segments that run on one another are `overlap`.
 
 use super::wall::{Corner, Joints, Wall, parts_for_good};
-use super::{PairRule, Sight};
+use super::{PairObservation, PairRule};
 use crate::finding::{Detail, Rule, Severity};
 use crate::geometry::{
     Point, Segment, Vector, cross, facing, foot_inside, meetings, positive_angle, shared_length,
@@ -14,14 +14,14 @@ use crate::geometry::{
 pub const RULE: PairRule = PairRule {
     rule: Rule::SelfIntersection,
     reach: |limits| limits.tolerances.touch,
-    look: |one, other, same_contour| {
+    check: |one, other, same_contour| {
         let both_closed = one.outlook.contour.closed && other.outlook.contour.closed;
-        let sight = |contact: Contact| Sight {
+        let observation = |contact: Contact| PairObservation {
             mildest: (contact.touches && !both_closed).then_some(Severity::Warning),
-            ..Sight::default()
+            ..PairObservation::default()
         };
         contact(one, other, same_contour)
-            .map(sight)
+            .map(observation)
             .into_iter()
             .collect()
     },
@@ -29,11 +29,8 @@ pub const RULE: PairRule = PairRule {
         let Contact { at, touches } = contact(one, other, same_contour)?;
         Some(Detail::SelfIntersection { at, touches })
     },
-    fixes: |_, _| Vec::new(),
-    one_per_place: false,
     silent_for_doubles: true,
-    warning_when_side_unknown: false,
-    pair_by_pair: true,
+    ..PairRule::PLAIN
 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]

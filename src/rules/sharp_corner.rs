@@ -8,20 +8,20 @@ use super::disc::{loci, slack, touch};
 use super::locus::Locus;
 use super::small_radius::{Travel, fillet};
 use super::wall::Wall;
-use super::{Fact, LocalRule, Outlook, other_at_joint};
+use super::{LocalRule, Observation, Outlook, other_at_joint};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
 use crate::geometry::{Point, turn};
 use std::ops::Range;
 
 pub const RULE: LocalRule = LocalRule {
     rule: Rule::SharpCorner,
-    look,
+    check,
     reach: |_, _| (arc_as_chords::REACH, arc_as_chords::REACH),
-    holds: |_, _| true,
     related: other_at_joint,
     detail,
     fixes,
     one_hint_when_side_unknown: true,
+    ..LocalRule::PLAIN
 };
 
 /// Turns (radians) above this are corners.
@@ -35,7 +35,7 @@ pub fn inner_side(turn: f64) -> Option<Side> {
     (turn.abs() > LEAST).then_some(if turn > 0.0 { Side::Left } else { Side::Right })
 }
 
-fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
+fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     // Asked only where some corner is flat enough.
     let mut between: Option<Vec<bool>> = None;
     let (first, steepest) = (range.start, arc_as_chords::steepest());
@@ -52,10 +52,10 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
             if turn.abs() <= steepest && is_between().unwrap_or(false) {
                 continue;
             }
-            facts.push(Fact {
-                index: index as u32,
+            observations.push(Observation {
                 side: Some(side),
                 needs_side: turn.abs() < CLEAR,
+                ..Observation::at(index)
             });
         }
     }
@@ -63,8 +63,8 @@ fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
 
 /// Left with R, the last pass's correction; uncut is what stands between the arc and this one corner: `R (1 / cos(θ/2) − 1)` between
 /// straight walls, less where they are short. What stays beyond that since the wire does not come so far is `lost-pocket`.
-fn detail(outlook: &Outlook, fact: Fact, count: Option<usize>) -> Option<Detail> {
-    let index = fact.index as usize;
+fn detail(outlook: &Outlook, observation: Observation, count: Option<usize>) -> Option<Detail> {
+    let index = observation.index as usize;
     let turn = outlook.turn_at(index)?;
     let radius = outlook.limits.last_correction;
     let uncut = corner_depth(outlook, index, radius)?;
@@ -165,8 +165,11 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     Some(least.min(own_share))
 }
 
-fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
-    let Some(side) = outlook.turn_at(fact.index as usize).and_then(inner_side) else {
+fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
+    let Some(side) = outlook
+        .turn_at(observation.index as usize)
+        .and_then(inner_side)
+    else {
         return Vec::new();
     };
     let travel = Travel {
@@ -175,7 +178,7 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
         index: outlook.index,
         side,
     };
-    let index = fact.index as usize;
+    let index = observation.index as usize;
     // The corner lies at the start of the segment at `index`; against the contour's direction, at its end.
     let before = match side {
         Side::Left => travel.position_of(index) - 1,

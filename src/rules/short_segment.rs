@@ -4,39 +4,35 @@
 //! the offset the wrong way. Fix: the segment goes, its neighbours meet. What has no length at all just goes.
 
 use super::ends::joined;
-use super::{Fact, LocalRule, Outlook};
-use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry, Vertex};
+use super::{LocalRule, Observation, Outlook};
+use crate::drawing::{Change, ContourSegment, Geometry, Vertex};
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use std::ops::Range;
 
 pub const RULE: LocalRule = LocalRule {
     rule: Rule::ShortSegment,
-    look,
-    reach: |_, _| (0, 0),
-    holds: |_, _| true,
-    related: |_, _| Vec::new(),
+    check,
     detail,
     fixes,
-    one_hint_when_side_unknown: false,
+    ..LocalRule::PLAIN
 };
 
-fn look(outlook: &Outlook, range: Range<usize>, facts: &mut Vec<Fact>) {
+fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     for index in range {
         let short = outlook
             .segment(index as isize)
             .is_some_and(|segment| segment.geometry.length() < outlook.limits.tolerances.short);
         if short {
-            facts.push(Fact {
-                index: index as u32,
-                side: None,
-                needs_side: false,
-            });
+            observations.push(Observation::at(index));
         }
     }
 }
 
-fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail> {
-    let length = outlook.segment(fact.index as isize)?.geometry.length();
+fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {
+    let length = outlook
+        .segment(observation.index as isize)?
+        .geometry
+        .length();
     Some(Detail::ShortSegment {
         length: if length > outlook.limits.tolerances.zero_length {
             length
@@ -46,22 +42,16 @@ fn detail(outlook: &Outlook, fact: Fact, _count: Option<usize>) -> Option<Detail
     })
 }
 
-fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
-    let Some(place) = outlook.segment(fact.index as isize) else {
+fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
+    let Some(place) = outlook.segment(observation.index as isize) else {
         return Vec::new();
     };
     if is_point(outlook, &place) {
-        let edit = DrawingEdit {
-            changes: vec![Change::RemoveEntity {
-                entity: place.entity,
-            }],
-        };
-        return vec![Fix {
-            kind: FixKind::DeletePoint,
-            preferred: true,
-            in_fix_all: true,
-            edit,
-        }];
+        let entity = place.entity;
+        return vec![Fix::new(
+            FixKind::DeletePoint,
+            vec![Change::RemoveEntity { entity }],
+        )];
     }
     let changes = match outlook
         .drawing
@@ -70,16 +60,11 @@ fn fixes(outlook: &Outlook, fact: Fact) -> Vec<Fix> {
     {
         Some(Geometry::Polyline { closed, vertices }) => in_polyline(&place, *closed, vertices),
         Some(Geometry::Line { .. } | Geometry::Arc { .. }) => {
-            in_chain(outlook, fact.index as isize, &place)
+            in_chain(outlook, observation.index as isize, &place)
         }
         _ => None,
     };
-    let fix = |changes| Fix {
-        kind: FixKind::Merge,
-        preferred: true,
-        in_fix_all: true,
-        edit: DrawingEdit { changes },
-    };
+    let fix = |changes| Fix::new(FixKind::Merge, changes);
     changes.map(fix).into_iter().collect()
 }
 

@@ -1,0 +1,240 @@
+//! The segments of two runs held against each other by the rules on pairs.
+
+use crate::drawing::{ContourKey, ContourSegment};
+use crate::finding::{Severity, Side};
+use crate::geometry::{Bounds, Point, Segment, left_normal};
+use crate::rules::{Outlook, PAIR_RULES, PairObservation, Wall};
+use rustc_hash::FxHashMap;
+use std::rc::Rc;
+
+/// A run of segments of one contour.
+pub type RunId = (ContourKey, u32);
+
+/// A segment by its contour and its index in there.
+pub type SegmentId = (ContourKey, usize);
+
+/// A contour's outlook by key.
+pub type Outlooks<'a, 'b> = &'a dyn Fn(ContourKey) -> Option<Outlook<'b>>;
+
+/// What a pair rule has seen between two segments.
+#[derive(Clone, Copy, Debug)]
+pub struct Observed {
+    /// Index into [`PAIR_RULES`].
+    pub rule: usize,
+    pub one: SegmentId,
+    pub other: SegmentId,
+    pub sides: (Option<Side>, Option<Side>),
+    pub mildest: Option<Severity>,
+    /// A disc that must be empty, of the contour's own segments or of all, and whether something reaches into it.
+    pub disc: Option<(Point, f64)>,
+    pub own_disc: bool,
+    pub blocked: bool,
+}
+
+/// What the rules take for two segments that come near each other, in looks.
+pub const LOOKS_OF_A_PAIR: u64 = 16;
+
+/// Segments of a run that have one box together.
+const GROUP: usize = 8;
+
+/// Runs whose segments are kept at hand while runs are compared.
+const KEPT: usize = 256;
+
+/// False when the line or circle of a segment passes a box at more than `reach`.
+pub fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
+    let center = bounds.min + (bounds.max - bounds.min) * 0.5;
+    match segment {
+        Segment::Line(line) => {
+            let normal = left_normal(line.direction());
+            let half = (bounds.width() * normal.x.abs() + bounds.height() * normal.y.abs()) / 2.0;
+            normal.dot(&(center - line.start)).abs() <= half + reach * 2.0
+        }
+        Segment::Arc(arc) => {
+            let half_diagonal = bounds.width().hypot(bounds.height()) / 2.0;
+            ((center - arc.center).norm() - arc.radius).abs() <= half_diagonal + reach * 2.0
+        }
+    }
+}
+
+/// The walls of some runs, which are met again and again by those about them.
+pub struct Kept<'a, 'b> {
+    pub outlook: Outlooks<'a, 'b>,
+    pub walls: FxHashMap<RunId, Rc<Walls<'b>>>,
+}
+
+impl<'b> Kept<'_, 'b> {
+    pub fn walls_of(&mut self, run: RunId) -> Option<Rc<Walls<'b>>> {
+        if let Some(walls) = self.walls.get(&run) {
+            return Some(walls.clone());
+        }
+        if self.walls.len() >= KEPT {
+            self.walls.clear();
+        }
+        let walls = Rc::new(Walls::of(&(self.outlook)(run.0)?, run.1));
+        self.walls.insert(run, walls.clone());
+        Some(walls)
+    }
+}
+
+/// The segments of a run with their boxes.
+pub struct Walls<'a> {
+    pub each: Vec<(Wall<'a>, Bounds)>,
+    /// The box of each [`GROUP`] of them, and that of all.
+    pub groups: Vec<Bounds>,
+    pub all: Bounds,
+}
+
+impl<'a> Walls<'a> {
+    fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
+        let range = outlook.index.range_of(run as usize);
+        let first = range.start;
+        let segments = outlook
+            .contour
+            .segments_in(outlook.drawing, range)
+            .enumerate();
+        let wall = |(along, segment): (usize, ContourSegment)| {
+            let bounds = segment.geometry.bounds();
+            (
+                Wall {
+                    outlook: *outlook,
+                    index: first + along,
+                    segment,
+                },
+                bounds,
+            )
+        };
+        let each: Vec<(Wall, Bounds)> = segments.map(wall).collect();
+        let mut all = Bounds::EMPTY;
+        let groups = each.chunks(GROUP).map(|group| {
+            let mut bounds = Bounds::EMPTY;
+            group.iter().for_each(|(_, own)| bounds.merge(own));
+            all.merge(&bounds);
+            bounds
+        });
+        let groups = groups.collect();
+        Walls { each, groups, all }
+    }
+
+    /// True when a segment comes nearer to `center` than `radius`; `area` is the box of that disc.
+    pub fn reach_into(&self, area: &Bounds, center: Point, radius: f64) -> bool {
+        let groups = self
+            .each
+            .chunks(GROUP)
+            .zip(&self.groups)
+            .filter(|(_, bounds)| bounds.touches(area));
+        let mut near = groups
+            .flat_map(|(group, _)| group)
+            .filter(|(_, bounds)| bounds.touches(area));
+        near.any(|(wall, _)| wall.geometry().distance_to(center) < radius)
+    }
+}
+
+/// One look at the pairs that two runs form.
+pub struct Comparison<'a> {
+    /// Indices into [`PAIR_RULES`], and how far each reaches.
+    pub rules: &'a [(usize, f64)],
+    pub reach: f64,
+    pub keys: (ContourKey, ContourKey),
+}
+
+impl Comparison<'_> {
+    /// The pairs within one run. Gives back how many looks it took, as [`Comparison::between`] does.
+    pub fn within(&self, walls: &Walls, found: &mut Vec<Observed>) -> u64 {
+        let mut looks = (walls.each.len() * walls.groups.len()) as u64;
+        for (at, one) in walls.each.iter().enumerate() {
+            let area = one.1.grown(self.reach);
+            for (group, _) in walls
+                .groups
+                .iter()
+                .enumerate()
+                .skip((at + 1) / GROUP)
+                .filter(|(_, bounds)| area.touches(bounds))
+            {
+                let others = walls
+                    .each
+                    .iter()
+                    .enumerate()
+                    .skip(group * GROUP)
+                    .take(GROUP);
+                for (_, other) in
+                    others.filter(|(other, (_, bounds))| *other > at && area.touches(bounds))
+                {
+                    looks += LOOKS_OF_A_PAIR;
+                    self.at(one, other, found);
+                }
+            }
+        }
+        looks
+    }
+
+    pub fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Observed>) -> u64 {
+        let mut looks = (walls.each.len() + others.each.len()) as u64;
+        for one in &walls.each {
+            let area = one.1.grown(self.reach);
+            if !(area.touches(&others.all) && passes(one.0.geometry(), &others.all, self.reach)) {
+                continue;
+            }
+            looks += others.groups.len() as u64;
+            for (group, _) in others
+                .each
+                .chunks(GROUP)
+                .zip(&others.groups)
+                .filter(|(_, bounds)| area.touches(bounds))
+            {
+                let near = |other: &&(Wall, Bounds)| {
+                    area.touches(&other.1) && passes(one.0.geometry(), &other.1, self.reach)
+                };
+                for other in group.iter().filter(near) {
+                    looks += LOOKS_OF_A_PAIR;
+                    self.at(one, other, found);
+                }
+            }
+        }
+        looks
+    }
+
+    /// Lets the rules look at two segments whose boxes come near each other. The one of the entity that is machined earlier
+    /// comes first, so that the answer depends neither on how contours are keyed nor on when an entity was drawn.
+    fn at(&self, one: &(Wall, Bounds), other: &(Wall, Bounds), found: &mut Vec<Observed>) {
+        let place = |wall: &Wall| {
+            (
+                wall.outlook.drawing.rank(wall.segment.entity),
+                wall.segment.segment,
+            )
+        };
+        let (own, theirs) = ((self.keys.0, one.0.index), (self.keys.1, other.0.index));
+        let ((one, own), (other, theirs)) = if place(&one.0) <= place(&other.0) {
+            ((one, own), (other, theirs))
+        } else {
+            ((other, theirs), (one, own))
+        };
+        let mut is_double = false;
+        for &(rule, reach) in self.rules {
+            // What is said of the two as doubles needs no other word. A contour that doubles itself also crosses itself.
+            if is_double && PAIR_RULES[rule].silent_for_doubles && own.0 != theirs.0 {
+                continue;
+            }
+            if one.1.grown(reach).touches(&other.1) {
+                for PairObservation {
+                    sides,
+                    disc,
+                    own_disc,
+                    mildest,
+                } in (PAIR_RULES[rule].check)(&one.0, &other.0, own.0 == theirs.0)
+                {
+                    is_double |= PAIR_RULES[rule].rule == crate::finding::Rule::DuplicateEntity;
+                    found.push(Observed {
+                        rule,
+                        one: own,
+                        other: theirs,
+                        sides,
+                        mildest,
+                        disc,
+                        own_disc,
+                        blocked: false,
+                    });
+                }
+            }
+        }
+    }
+}

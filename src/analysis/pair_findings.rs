@@ -1,0 +1,274 @@
+//! What has been seen between segments, as findings, and for those who make findings of it themselves.
+
+use super::compare::{Observed, Outlooks, SegmentId};
+use super::pairs::Pairs;
+use super::report::Report;
+use crate::drawing::{ContourKey, Drawing, EntityId};
+use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
+use crate::geometry::Point;
+use crate::rules::{PAIR_RULES, Wall};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Two segments of a contour that form a slot, and the disc between them.
+pub type Slot = ([usize; 2], Option<(Point, f64)>);
+
+/// Two segments of a contour that form a slot, and the side of travel that it lies on, `None` where any.
+pub type FacingWalls = ([usize; 2], Option<Side>);
+
+impl Pairs {
+    /// Contours that have something of `rule` between two of their own segments.
+    pub fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
+        let own = |each: &&Observed| {
+            PAIR_RULES[each.rule].rule == rule && each.one.0 == each.other.0 && !each.blocked
+        };
+        self.seen
+            .values()
+            .flatten()
+            .filter(own)
+            .map(|each| each.one.0)
+            .collect()
+    }
+
+    /// What `narrow-slot` tells of one contour: the two segments, and the disc between them.
+    pub fn slots_of(&self, key: ContourKey) -> Vec<Slot> {
+        let own = |each: &&Observed| {
+            PAIR_RULES[each.rule].rule == Rule::NarrowSlot
+                && each.one.0 == key
+                && each.other.0 == key
+                && !each.blocked
+        };
+        self.seen
+            .values()
+            .flatten()
+            .filter(own)
+            .map(|each| ([each.one.1, each.other.1], each.disc))
+            .collect()
+    }
+
+    /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour.
+    pub fn slots(&self) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
+        let mut slots: FxHashMap<ContourKey, Vec<FacingWalls>> = FxHashMap::default();
+        for each in self.seen.values().flatten() {
+            if PAIR_RULES[each.rule].rule == Rule::NarrowSlot
+                && each.one.0 == each.other.0
+                && !each.blocked
+            {
+                slots
+                    .entry(each.one.0)
+                    .or_default()
+                    .push(([each.one.1, each.other.1], each.sides.0.or(each.sides.1)));
+            }
+        }
+        slots
+    }
+
+    /// What `lost-pocket` has seen between two segments of one contour: the contour, the two, the side of the wire, and the centre of the
+    /// disc that touches them. In no order.
+    pub fn dead_ends(&self) -> impl Iterator<Item = (ContourKey, [usize; 2], Side, Point)> + '_ {
+        let of_rule =
+            |each: &&Observed| PAIR_RULES[each.rule].rule == Rule::LostPocket && !each.blocked;
+        let told = |each: &Observed| {
+            Some((
+                each.one.0,
+                [each.one.1, each.other.1],
+                each.sides.0?,
+                each.disc?.0,
+            ))
+        };
+        self.seen
+            .values()
+            .flatten()
+            .filter(of_rule)
+            .filter_map(told)
+    }
+
+    /// Entities that lie in the same place as another.
+    pub fn doubled(&self, outlook: Outlooks) -> FxHashSet<EntityId> {
+        let mut doubled = FxHashSet::default();
+        for seen in self
+            .seen
+            .values()
+            .flatten()
+            .filter(|seen| PAIR_RULES[seen.rule].rule == Rule::DuplicateEntity)
+        {
+            for (key, index) in [seen.one, seen.other] {
+                doubled.extend(
+                    outlook(key)
+                        .and_then(|outlook| outlook.segment(index as isize))
+                        .map(|segment| segment.entity),
+                );
+            }
+        }
+        doubled
+    }
+
+    /// Says where segments have not been compared.
+    fn report_uncompared(&self, drawing: &Drawing, outlook: Outlooks, report: &mut Report) {
+        if self.uncompared.is_empty() || !report.counts(Rule::NotJudged, None) {
+            return;
+        }
+        let first = self.uncompared.iter().filter_map(|&(key, run)| {
+            outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start)
+        });
+        let rank = |place: &Place| match place {
+            Place::Segment { entity, segment } => Some((drawing.rank(*entity), *segment)),
+            _ => None,
+        };
+        if let Some(place) = first.min_by_key(rank) {
+            let left_out = NotJudged::Pairs {
+                count: self.uncompared.len(),
+            };
+            report.add(
+                Rule::NotJudged,
+                None,
+                place,
+                Detail::NotJudged(left_out),
+                Vec::new(),
+            );
+        }
+    }
+
+    /// Adds the findings, in the machining order of their entities.
+    pub fn report(
+        &self,
+        drawing: &Drawing,
+        outlook: Outlooks,
+        wire_side: &dyn Fn(ContourKey) -> Option<Side>,
+        report: &mut Report,
+    ) {
+        self.report_uncompared(drawing, outlook, report);
+        type Ends = ((EntityId, usize), (EntityId, usize));
+        let concerned = |key: ContourKey, side: Option<Side>| {
+            side.is_none() || wire_side(key).is_none() || side == wire_side(key)
+        };
+        let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
+        for each in self.seen.values().flatten() {
+            let ends = |(key, index): SegmentId| {
+                outlook(key)?
+                    .segment(index as isize)
+                    .map(|segment| (segment.entity, segment.segment))
+            };
+            if !each.blocked
+                && PAIR_RULES[each.rule].pair_by_pair
+                && concerned(each.one.0, each.sides.0)
+                && concerned(each.other.0, each.sides.1)
+                && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
+            {
+                seen.push((each.rule, (one, other), each));
+            }
+        }
+        let rank = |(entity, segment): (EntityId, usize)| (drawing.rank(entity), segment);
+        seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, rank(ends.0), rank(ends.1)));
+        let is_double =
+            |each: &&(usize, Ends, &Observed)| PAIR_RULES[each.0].rule == Rule::DuplicateEntity;
+        let doubles: FxHashSet<(EntityId, EntityId)> = seen
+            .iter()
+            .filter(is_double)
+            .map(|(_, ends, _)| (ends.0.0, ends.1.0))
+            .collect();
+        let merged = merged(
+            &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
+            &|key| outlook(key).map(|it| it.contour.len()),
+        );
+        for (at, (rule, ends, each)) in seen.iter().enumerate() {
+            let rule = &PAIR_RULES[*rule];
+            if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0))
+                || merged.contains(&at)
+            {
+                continue;
+            }
+            let unknown = rule.warning_when_side_unknown
+                && (wire_side(each.one.0).is_none() || wire_side(each.other.0).is_none());
+            // Where the contour is the wire's own path it may well touch and cross itself: leads do.
+            let mildest = if unknown || report.is_for_a_path() {
+                Some(Severity::Warning)
+            } else {
+                each.mildest
+            };
+            if report.counts(rule.rule, mildest)
+                && let (Some(own), Some(theirs)) = (outlook(each.one.0), outlook(each.other.0))
+                && let (Some(one), Some(other)) = (
+                    Wall::new(&own, each.one.1),
+                    Wall::new(&theirs, each.other.1),
+                )
+                && let (Some(place), Some(related)) =
+                    (own.place(each.one.1), theirs.place(each.other.1))
+                && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
+            {
+                report.add(rule.rule, mildest, place, detail, vec![related]);
+            }
+        }
+    }
+}
+
+/// Which of `seen` another one stands for: of neighbouring pairs that see one thing, all but the one with the smallest disc.
+fn merged(seen: &[&Observed], count_of: &dyn Fn(ContourKey) -> Option<usize>) -> FxHashSet<usize> {
+    let mut at: FxHashMap<(usize, SegmentId, SegmentId), usize> = FxHashMap::default();
+    let pair = |seen: &Observed| {
+        if seen.one <= seen.other {
+            (seen.one, seen.other)
+        } else {
+            (seen.other, seen.one)
+        }
+    };
+    for (position, each) in seen
+        .iter()
+        .enumerate()
+        .filter(|(_, each)| PAIR_RULES[each.rule].one_per_place)
+    {
+        let (one, other) = pair(each);
+        at.insert((each.rule, one, other), position);
+    }
+    let mut gone = FxHashSet::default();
+    let mut known = FxHashSet::default();
+    let width = |position: usize| seen[position].disc.map_or(0.0, |(_, radius)| radius);
+    for start in (0..seen.len()).filter(|&position| PAIR_RULES[seen[position].rule].one_per_place) {
+        if !known.insert(start) {
+            continue;
+        }
+        let (mut group, mut waiting) = (vec![start], vec![start]);
+        while let Some(position) = waiting.pop() {
+            let (one, other) = pair(seen[position]);
+            let beside = |(key, index): SegmentId| {
+                let count = count_of(key).unwrap_or(1).max(1);
+                [
+                    (key, index),
+                    (key, (index + 1) % count),
+                    (key, (index + count - 1) % count),
+                ]
+            };
+            for one in beside(one) {
+                for other in beside(other) {
+                    let (one, other) = if one <= other {
+                        (one, other)
+                    } else {
+                        (other, one)
+                    };
+                    if let Some(&met) = at.get(&(seen[position].rule, one, other))
+                        && known.insert(met)
+                    {
+                        group.push(met);
+                        waiting.push(met);
+                    }
+                }
+            }
+        }
+        // Of equally narrow ones the first in the order of entities stays.
+        let narrowest = group
+            .iter()
+            .copied()
+            .map(width)
+            .fold(f64::INFINITY, f64::min);
+        let stays = group
+            .iter()
+            .copied()
+            .filter(|&position| width(position) <= narrowest + 1e-9)
+            .min();
+        gone.extend(
+            group
+                .into_iter()
+                .filter(|&position| Some(position) != stays),
+        );
+    }
+    gone
+}
