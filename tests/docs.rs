@@ -22,14 +22,15 @@ fn wedm(folder: &Path, arguments: &[&str]) -> Output {
         .unwrap()
 }
 
-/// README.md, CHANGELOG.md and every page of `docs`.
+/// The pages of the project, and every page of `docs`.
 fn pages() -> Vec<PathBuf> {
     let of_docs = walkdir::WalkDir::new(root().join("docs"))
         .sort_by_file_name()
         .into_iter()
         .map(|entry| entry.unwrap().into_path());
     let pages = of_docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
-    [root().join("README.md"), root().join("CHANGELOG.md")]
+    ["README.md", "CHANGELOG.md", "CONTRIBUTING.md"]
+        .map(|name| root().join(name))
         .into_iter()
         .chain(pages)
         .collect()
@@ -448,5 +449,174 @@ fn the_settings_of_the_readme_are_the_defaults() {
             "{}",
             rule.name()
         );
+    }
+}
+
+/// The floors of `docs/architecture.md`, from the top down: the names in the first column of its picture.
+fn floors() -> Vec<Vec<String>> {
+    let page = read(&root().join("docs/architecture.md"));
+    let rows = page
+        .lines()
+        .filter_map(|line| line.strip_prefix("│ ")?.split_once('│'));
+    let names = |cell: &str| {
+        cell.split_whitespace()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    rows.map(|(cell, _)| names(cell))
+        .filter(|floor| !floor.is_empty())
+        .collect()
+}
+
+/// Sources without their comments and tests, each with the room that it belongs to: `geometry` for `geometry.rs` and `geometry/arc.rs`.
+fn sources() -> Vec<(String, PathBuf, String)> {
+    let folder = root().join("src");
+    let mut of_tests = Vec::new();
+    let mut sources = Vec::new();
+    for entry in walkdir::WalkDir::new(&folder).sort_by_file_name() {
+        let path = entry.unwrap().into_path();
+        if path.extension().is_none_or(|ending| ending != "rs") {
+            continue;
+        }
+        let within = path.strip_prefix(&folder).unwrap().with_extension("");
+        let room = within.iter().next().unwrap().to_str().unwrap().to_owned();
+        let mut source = String::new();
+        let mut is_for_tests = false;
+        for line in read(&path).lines() {
+            let code = line.split("//").next().unwrap();
+            if is_for_tests && let Some(name) = code.strip_prefix("mod ") {
+                // What stands behind a module of tests within a file is of tests too.
+                let Some(name) = name.strip_suffix(';') else {
+                    break;
+                };
+                let beside = if within.ends_with("mod") {
+                    within.parent().unwrap().into()
+                } else {
+                    within.clone()
+                };
+                of_tests.push(folder.join(beside).join(name));
+            }
+            is_for_tests = code.trim() == "#[cfg(test)]";
+            source += code;
+            source.push('\n');
+        }
+        sources.push((room, path, source));
+    }
+    let is_of_tests = |path: &Path| {
+        of_tests
+            .iter()
+            .any(|test| path.with_extension("") == *test || path.starts_with(test))
+    };
+    sources.retain(|(room, path, _)| !is_of_tests(path) && room != "lib" && room != "main");
+    sources
+}
+
+/// What a source names behind `crate::`: the first name, or those of a list in braces.
+fn rooms_named(source: &str) -> Vec<String> {
+    let name_at = |text: &str| {
+        let is_of_name = |c: &char| c.is_alphanumeric() || *c == '_';
+        text.trim_start()
+            .chars()
+            .take_while(is_of_name)
+            .collect::<String>()
+    };
+    let mut rooms = Vec::new();
+    for rest in source.split("crate::").skip(1) {
+        let Some(list) = rest.strip_prefix('{') else {
+            rooms.push(name_at(rest));
+            continue;
+        };
+        let (mut depth, mut begins) = (1, vec![0]);
+        for (at, c) in list.char_indices() {
+            match c {
+                '{' => depth += 1,
+                '}' => depth -= 1,
+                ',' if depth == 1 => begins.push(at + 1),
+                _ => {}
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        rooms.extend(begins.into_iter().map(|begin| name_at(&list[begin..])));
+    }
+    rooms
+}
+
+/// Every room stands in the picture of the floors, and imports only from floors below its own.
+#[test]
+fn no_room_imports_upwards() {
+    let floors = floors();
+    let floor_of = |room: &str| {
+        floors
+            .iter()
+            .position(|floor| floor.iter().any(|name| name == room))
+    };
+    let sources = sources();
+    for (room, path, _) in &sources {
+        assert!(
+            floor_of(room).is_some(),
+            "{} is on no floor of docs/architecture.md",
+            path.display()
+        );
+    }
+    for room in floors.iter().flatten() {
+        assert!(
+            sources.iter().any(|(other, ..)| other == room),
+            "docs/architecture.md draws {room}, which is not in src"
+        );
+    }
+    let mut upwards = Vec::new();
+    for (room, path, source) in &sources {
+        let named = rooms_named(source);
+        let wrong = named.iter().filter(|other| {
+            *other != room && floor_of(other).is_some_and(|floor| Some(floor) <= floor_of(room))
+        });
+        upwards.extend(wrong.map(|other| format!("{} imports {other}", path.display())));
+    }
+    assert!(
+        upwards.is_empty(),
+        "not from a floor below:\n{}",
+        upwards.join("\n")
+    );
+    let program = sources
+        .iter()
+        .find(|(_, path, _)| path.ends_with("document.rs"))
+        .unwrap();
+    assert!(rooms_named(&program.2).len() > 3, "imports are not read");
+}
+
+/// Code spans of a page that name a file or folder: relative to the root, or to `src`. What has a capital letter for a name that one
+/// chooses, as `docs/rules/NAME.md`, is none.
+fn paths_named(page: &str) -> Vec<String> {
+    let spans = page
+        .lines()
+        .flat_map(|line| line.split('`').skip(1).step_by(2));
+    let is_path = |span: &&str| {
+        let is_of_path = |c: char| c.is_alphanumeric() || "/._-".contains(c);
+        let is_file = [".rs", ".md", ".toml", ".json", ".ts", ".mjs"]
+            .iter()
+            .any(|ending| span.ends_with(ending));
+        let is_other = ["wedm/", "textDocument/", "workspace/", "target/"]
+            .iter()
+            .any(|space| span.starts_with(space));
+        (is_file || span.contains('/'))
+            && span.chars().all(is_of_path)
+            && !is_other
+            && !span.contains("NAME")
+            && *span != "wedm.toml"
+    };
+    spans.filter(is_path).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_files_that_the_maps_name_are_there() {
+    for name in ["docs/architecture.md", "CONTRIBUTING.md"] {
+        let named = paths_named(&read(&root().join(name)));
+        assert!(named.len() > 10, "{name}: {} paths", named.len());
+        for path in named {
+            let there = root().join(&path).exists() || root().join("src").join(&path).exists();
+            assert!(there, "{name} names {path}, which is not there");
+        }
     }
 }

@@ -16,7 +16,6 @@ mod judge;
 mod methods;
 mod open;
 mod parent;
-mod settings;
 mod state;
 #[cfg(feature = "testing")]
 pub mod testing;

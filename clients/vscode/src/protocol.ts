@@ -22,7 +22,7 @@ export type Role = "opening" | "punch" | "both" | "ignore";
 /**
  * Side of the contour on which the wire runs, where neither the entity nor its layer says.
  */
-export type SideSetting = ("opening" | "punch") | "both" | "auto";
+export type SideSetting = "both" | "auto" | "opening" | "punch";
 export type UnitSetting = "mm" | "inch";
 /**
  * Severity of a rule, or off.
@@ -56,7 +56,7 @@ export type Order = "as-drawn" | "inside-first" | "nearest" | "as-picked";
 /**
  * What happens between the contours of one program.
  */
-export type Jumps = "none" | "blocks";
+export type Jumps = "blocks" | "none";
 /**
  * Where the correction is applied.
  */
@@ -298,59 +298,67 @@ export interface OptionsOf {
  */
 export interface Settings {
   /**
-   * Wire radius + spark gap in mm: how far the wire's centre runs from the contour.
+   * Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour.
    */
   correction?: number;
   /**
-   * mm. With `gap` it says the correction where that is not set; beside it, how thick the wire is.
+   * Diameter of the wire, mm. With `gap` it says the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Beside `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` says the correction anew.
    */
   wireDiameter?: number;
   /**
-   * Spark gap in mm; see `wireDiameter`.
+   * Spark gap, mm. See `wire-diameter`.
    */
   gap?: number;
+  /**
+   * Where the wire runs, for contours of which neither the entity nor its layer says.
+   */
   side?: SideSetting;
   /**
-   * Unit of drawings that do not state one.
+   * Unit of drawings that do not say.
    */
   units?: UnitSetting;
   /**
    * mm added to the correction when a fix chooses its radius.
    */
   margin?: number;
+  /**
+   * Several passes.
+   */
   passes?: Passes;
   /**
-   * Role by layer name.
+   * Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that has one. A role other than `ignore` cuts also what is frozen or switched off.
    */
   layers?: {
     [k: string]: Role;
   };
   /**
-   * Role by the handle of an entity: comes before those of layers and colours. Handles are those of one drawing.
+   * Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing: in a `wedm.toml` that holds for several they mean each one's own entity of that name.
    */
   contours?: {
     [k: string]: Role;
   };
   /**
-   * Role by colour, where neither entity nor layer has one: `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255`
-   * (AutoCAD colour index) or `#rrggbb`.
+   * Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`; in DXF.
    */
   colors?: {
     [k: string]: Role;
   };
   /**
-   * How near the arcs lie to the ellipses and splines that they stand for, in mm.
+   * How near the arcs lie to the ellipses and splines that they stand for, mm.
    */
   arcFit?: number;
   /**
-   * Severity by rule name.
+   * Severity of a rule, by its name. What is set here holds also where a case would be milder; the defaults stand on each rule's page.
    */
   rules?: {
     [k: string]: RuleSeverity;
   };
+  /**
+   * How a program is written.
+   */
   program?: ProgramSettings;
   /**
-   * Profiles of ISO programs by name.
+   * Profiles of ISO programs of your own, by name.
    */
   profiles?: {
     [k: string]: ProfileSettings;
@@ -361,7 +369,7 @@ export interface Settings {
  */
 export interface Passes {
   /**
-   * Correction of each pass in mm, falling.
+   * Correction of each pass, mm, in place of `correction`. Radii are held against the largest. They fall: `pass-order`.
    */
   corrections?: number[];
 }
@@ -369,42 +377,60 @@ export interface Passes {
  * How a program is written.
  */
 export interface ProgramSettings {
+  /**
+   * Form of the blocks. Programs that are formatted keep their own where none is set. The last two begin with `; Start Point = x , y`.
+   */
   layout?: Layout;
+  /**
+   * Direction in which closed contours are cut.
+   */
   direction?: Direction2;
+  /**
+   * How the wire goes round a convex corner of the part.
+   */
   corner?: Corner;
   /**
-   * Thread hole in drawing units; a table by handle for several contours.
+   * Thread hole `[x, y]` in drawing units, or a table of them by handle. Else the TEXT or MTEXT "O", or the POINT, nearest to the contour, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
    */
   thread?: PointSetting;
   /**
-   * Point on the contour in drawing units where the cut begins; a table by handle for several contours.
+   * Point `[x, y]` of the contour where the cut begins, in drawing units, or a table of them by handle. Else the point beside an "O" that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x.
    */
   entry?: PointSetting;
   /**
-   * Length of the lead-in in mm when no thread hole is given.
+   * Length of the lead from thread hole to contour where no thread hole is given, mm. Halved until it fits.
    */
   leadIn?: number;
+  /**
+   * Order of the contours; what lies within one always comes before it.
+   */
   order?: Order;
+  /**
+   * What stands between the contours of one program.
+   */
   jumps?: Jumps;
+  /**
+   * Where the correction is applied.
+   */
   compensation?: Compensation;
   /**
-   * Digits of the controller's numbers in 3B: a block with a longer one is split. 4 to 9.
+   * Digits of the controller's numbers in 3B and 4B. Longer blocks are split when they are written, and a fault (`too-many-digits`) where they stand.
    */
   digits?: number;
   /**
-   * In what the numbers of an ISO program are that does not say so (G20, G21).
+   * In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint (`units`) where its size speaks for inches.
    */
   units?: UnitSetting;
   /**
-   * How ISO programs are written: a profile that ships, or one of `profiles`.
+   * How ISO programs are written: `fast-wire`, `robofil`, `generic`, or one of `profiles`.
    */
   profile?: string;
   /**
-   * Word that ends the program.
+   * Word of letters and digits that ends the program.
    */
   end?: string;
   /**
-   * Word that pauses it, to thread the wire.
+   * Word of letters and digits that stops the machine so that the wire can be cut or threaded.
    */
   pause?: string;
 }
@@ -416,13 +442,25 @@ export interface ProfileSettings {
    * The profile whose values hold where none is set: one that ships, `generic` by default.
    */
   base?: string;
+  /**
+   * G90 or G91.
+   */
   coordinates?: Coordinates;
+  /**
+   * Where absolute coordinates count from.
+   */
   zero?: Zero;
+  /**
+   * Millimetres with a decimal point, or whole micrometres without one.
+   */
   unit?: NumberUnit;
   /**
-   * Digits behind the point of millimetres: 3 to 6.
+   * Digits behind the point of millimetres.
    */
   decimals?: number;
+  /**
+   * How I and J lead to an arc's centre.
+   */
   center?: CenterRule;
   /**
    * False: a full circle is written as two halves, which every control takes.
@@ -440,6 +478,9 @@ export interface ProfileSettings {
    * Step of the N numbers; 0 for none.
    */
   numbers?: number;
+  /**
+   * What ends a line.
+   */
   lineEnd?: LineEnd;
   /**
    * Lines before everything. `{x}` and `{y}` are the place where the wire is threaded first.

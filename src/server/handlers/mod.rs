@@ -27,6 +27,8 @@ pub(super) mod symbols;
 pub(super) mod tokens;
 pub(super) mod toolpath;
 
+pub(super) use params::WithOptions;
+
 use super::context::RequestContext;
 use super::errors::{refusal, refused};
 use crate::document::{Document, Snapshot, Source};
@@ -65,7 +67,7 @@ impl Task {
             settings,
         } = document
             .snapshot()
-            .ok_or_else(|| refused(say!(the_document_is_a_program)))?;
+            .ok_or_else(|| refused("the document is a program, expected a drawing"))?;
         Ok(Task {
             subject,
             document,
@@ -99,5 +101,5 @@ impl Task {
 }
 
 fn no_entity(handle: &str) -> Error {
-    Error::invalid_params(say!(there_is_no_entity, handle))
+    Error::invalid_params(format!("there is no entity {handle}"))
 }

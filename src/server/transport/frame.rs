@@ -62,7 +62,9 @@ impl<R: Read> Frames<R> {
             Ok(None) => Frame::End,
             Ok(Some(length)) if length > BODY_CAP => {
                 self.skip_body(length);
-                Frame::Broken(say!(a_body_of_bytes_is, length, BODY_CAP))
+                Frame::Broken(format!(
+                    "a body of {length} bytes is over the limit of {BODY_CAP}"
+                ))
             }
             Ok(Some(length)) => self.body(length as usize),
             Err(reason) => Frame::Broken(reason),
@@ -125,14 +127,16 @@ impl<R: Read> Frames<R> {
             else {
                 if self.rest().len() > HEADER_CAP {
                     self.skip_to_header(at + 1);
-                    return Err(say!(no_whole_header_within_bytes, HEADER_CAP));
+                    return Err(format!(
+                        "no whole header within {HEADER_CAP} bytes, expected Content-Length and a blank line"
+                    ));
                 }
                 if !self.fill() {
                     return match self.rest().iter().all(u8::is_ascii_whitespace) {
                         true => Ok(None),
                         false => {
                             self.start = self.buffer.len();
-                            Err(say!(the_stream_ends_within_a).into())
+                            Err("the stream ends within a header".into())
                         }
                     };
                 }
@@ -147,7 +151,7 @@ impl<R: Read> Frames<R> {
                     _ if is_between_frames => continue,
                     None => {
                         self.skip_to_header(0);
-                        return Err(say!(a_header_without_content_length).into());
+                        return Err("a header without Content-Length".into());
                     }
                     length => return Ok(length),
                 }
@@ -163,7 +167,10 @@ impl<R: Read> Frames<R> {
                 }
                 // Something was printed right before the next header.
                 Some(_) if marker(&self.rest()[at..=end]).is_none() => None,
-                _ => Some(say!(is_no_header_line_expected, shown(line))),
+                _ => Some(format!(
+                    "\"{}\" is no header line, expected Content-Length and a blank line",
+                    shown(line)
+                )),
             };
             if let Some(fault) = fault {
                 self.skip_to_header(at + 1);
@@ -181,7 +188,9 @@ impl<R: Read> Frames<R> {
             let from = searched.saturating_sub(MARKER_CAP);
             if let Some(at) = marker(&self.rest()[from..have]) {
                 self.start += from + at;
-                return Frame::Broken(say!(the_next_frame_begins_before, length));
+                return Frame::Broken(format!(
+                    "the next frame begins before {length} bytes of body came"
+                ));
             }
             searched = have;
             if have == length {
@@ -189,7 +198,7 @@ impl<R: Read> Frames<R> {
             }
             if !self.fill() {
                 self.start = self.buffer.len();
-                return Frame::Broken(say!(the_stream_ends_within_a_body, length));
+                return Frame::Broken(format!("the stream ends within a body of {length} bytes"));
             }
         }
         let end = self.start + length;

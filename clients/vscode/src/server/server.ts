@@ -2,6 +2,7 @@
 
 import type { ChildProcessWithoutNullStreams } from "node:child_process";
 import { homedir } from "node:os";
+import { setTimeout as sleep } from "node:timers/promises";
 import * as vscode from "vscode";
 import type { CodeAction, CodeActionParams, LanguageClient, LanguageClientOptions } from "vscode-languageclient/node";
 import { CloseAction, ErrorAction, State as ClientState } from "vscode-languageclient/node";
@@ -22,6 +23,8 @@ interface Requests extends Methods {
 
 /** A program that has not answered by then is no server. */
 const PATIENCE = 20_000;
+/** How long after its pipe was closed it is waited for the code with which a server has ended. */
+const CODE_FOLLOWS = 500;
 /** How long a server may take to end by itself. */
 const LAST_WORDS = 2_000;
 
@@ -114,13 +117,18 @@ export class Server implements vscode.Disposable {
 
   async #begin(start: number, program: string, child: ChildProcessWithoutNullStreams): Promise<void> {
     let ended = "it ended";
-    const gone = new Promise<never>((_resolve, reject) => {
+    const exited = new Promise<void>((resolve) => {
       child.once("exit", (code, signal) => {
         ended = `it ended with ${signal ?? `code ${code ?? 0}`}`;
         this.log.info(`${program} (process ${child.pid ?? 0}): ${ended}`);
-        reject(new Error(ended));
+        resolve();
       });
     });
+    // The client may hear of the closed pipe before there is a code.
+    const died = async (): Promise<void> => {
+      await Promise.race([exited, sleep(CODE_FOLLOWS)]);
+      this.#died(start, ended);
+    };
     const client = new QuietClient("wedm", "Wire EDM", () => Promise.resolve(child), this.#options());
     client.registerFeature(abilities);
     this.#client = client;
@@ -131,22 +139,22 @@ export class Server implements vscode.Disposable {
     }, PATIENCE);
     try {
       // The client may wait for ever for a server that has ended before it answered, or take it for one that has started.
-      await Promise.race([client.start(), gone]);
-      if (client.initializeResult === undefined) {
-        throw new Error(ended);
-      }
+      await Promise.race([client.start(), exited]);
     } catch (error) {
-      if (silence.signal.aborted && start === this.#start) {
-        await this.#end();
-        this.#fail(`${program} does not answer: there was nothing within ${PATIENCE / 1_000} s`, "program");
-      } else {
-        this.#died(start, error instanceof Error ? error.message : String(error));
-      }
-      return;
+      this.log.debug(`${program}: ${String(error)}`);
     } finally {
       clearTimeout(clock);
     }
     if (start !== this.#start) {
+      return;
+    }
+    if (client.initializeResult === undefined) {
+      if (silence.signal.aborted) {
+        await this.#end();
+        this.#fail(`${program} does not answer: there was nothing within ${PATIENCE / 1_000} s`, "program");
+      } else {
+        await died();
+      }
       return;
     }
     const unfit = misfit(client.initializeResult, program);
@@ -157,9 +165,13 @@ export class Server implements vscode.Disposable {
     }
     client.onDidChangeState(({ newState }) => {
       if (newState === ClientState.Stopped) {
-        this.#died(start, ended);
+        void died();
       }
     });
+    if (client.state === ClientState.Stopped) {
+      await died();
+      return;
+    }
     this.#ready = Date.now();
     this.log.info(`${program} (process ${child.pid ?? 0}) runs: ${client.initializeResult.serverInfo?.version ?? ""}`);
     this.#become({ kind: "running" });
