@@ -19,6 +19,8 @@ mod inject;
 mod judge;
 #[path = "faults/known.rs"]
 mod known;
+#[path = "faults/properties.rs"]
+mod properties;
 
 use chance::Chance;
 use contours::{Group, program};

@@ -22,6 +22,7 @@ const ONE_BY_ONE_OF_LONG: usize = 4;
 #[derive(Clone, Debug)]
 pub(super) struct Standing {
     findings: BTreeMap<&'static str, usize>,
+    errors: usize,
     open: usize,
     /// µm.
     gap: f64,
@@ -30,19 +31,24 @@ pub(super) struct Standing {
 }
 
 impl Standing {
-    pub fn of(program: &Document) -> Standing {
-        let own = findings_of(program);
+    fn of(program: &Document) -> Standing {
+        Standing::with(program, &plain_findings(program))
+    }
+
+    fn with(program: &Document, findings: &[Finding]) -> Standing {
         let mut standing = Standing {
             findings: BTreeMap::new(),
+            errors: 0,
             open: 0,
             gap: 0.0,
             full_turns: 0,
             moves: Vec::new(),
         };
-        for finding in own
+        for finding in findings
             .iter()
             .filter(|finding| finding.severity <= Severity::Information)
         {
+            standing.errors += usize::from(finding.severity == Severity::Error);
             *standing.findings.entry(finding.rule.name()).or_default() += 1;
             if let Some(gap) = gap_of(finding) {
                 standing.open += 1;
@@ -85,17 +91,46 @@ impl Standing {
     }
 }
 
-fn findings_of(program: &Document) -> Vec<Finding> {
+/// What is said of a program, without the blocks that are only suspected.
+fn plain_findings(program: &Document) -> Vec<Finding> {
     match program {
         Document::ThreeB(program) => program.findings(),
         Document::Iso(program) => program.plain_findings(),
     }
 }
 
-/// How many findings of a program say what `finding` says, and how many are of its rule.
-fn alike(program: &Document, finding: &Finding) -> [usize; 2] {
-    let own = findings_of(program);
-    let of_rule = own.iter().filter(|other| other.rule == finding.rule);
+/// What a program comes to, and how often a finding is said of it.
+struct Judged {
+    standing: Standing,
+    /// How many findings say the same, and how many are of its rule.
+    alike: [usize; 2],
+}
+
+impl Judged {
+    fn of(program: &Document, finding: &Finding) -> Judged {
+        let plain = plain_findings(program);
+        let alike = match (program, finding.rule) {
+            (Document::Iso(program), Rule::SuspectBlock) => alike(&program.findings(), finding),
+            _ => alike(&plain, finding),
+        };
+        Judged {
+            standing: Standing::with(program, &plain),
+            alike,
+        }
+    }
+
+    /// True where it says as much as before of the finding. One that says the same elsewhere may stay. What cannot be read is not mended
+    /// by something else that cannot, nor a crossing by one beside it.
+    fn still_says(&self, before: &Judged, rule: Rule) -> bool {
+        let needs_fewer = matches!(rule, Rule::Syntax | Rule::PathCrossesItself);
+        before.alike[0] > 0
+            && self.alike[1] >= before.alike[1]
+            && (needs_fewer || self.alike[0] >= before.alike[0])
+    }
+}
+
+fn alike(findings: &[Finding], finding: &Finding) -> [usize; 2] {
+    let of_rule = findings.iter().filter(|other| other.rule == finding.rule);
     let says_the_same = |other: &&Finding| match gap_of(finding) {
         // What is as far apart as before to the micron is the same.
         Some(gap) => gap_of(other).is_some_and(|its| (its - gap).abs() < 1.0),
@@ -210,23 +245,16 @@ pub(super) fn gated(
             .for_each(refuse);
         return fixes;
     }
-    let (before, alike_before) = (Standing::of(program), alike(program, finding));
+    let before = Judged::of(program, finding);
     let (mut good, mut bad) = (Vec::new(), Vec::new());
     for mut fix in fixes {
-        let tried = edited(program, &fix.edit);
-        // One that says the same elsewhere may stay. What cannot be read is not mended by something else that cannot, nor a crossing by
-        // one beside it.
-        let [says_the_same, of_rule] = alike(&tried, finding);
-        let needs_fewer = matches!(finding.rule, Rule::Syntax | Rule::PathCrossesItself);
-        if alike_before[0] > 0
-            && of_rule >= alike_before[1]
-            && (needs_fewer || says_the_same >= alike_before[0])
-        {
+        let after = Judged::of(&edited(program, &fix.edit), finding);
+        let brings_error = after.standing.errors > before.standing.errors;
+        if after.still_says(&before, finding.rule) || (brings_error && invents(&fix.kind)) {
             continue;
         }
-        let after = Standing::of(&tried);
-        let passes = before.allows(
-            &after,
+        let passes = before.standing.allows(
+            &after.standing,
             speaks_for_itself(finding.rule),
             is_by_a_slip(program, &fix.edit),
         );
@@ -267,7 +295,7 @@ pub(super) fn together(program: &Document, fixes: Vec<(Rule, TextFix)>) -> Vec<T
     if before.allows(&Standing::of(&edited(program, &all)), for_itself, by_slips) {
         return all;
     }
-    let mut kept = Taken::default();
+    let (mut kept, mut present) = (Taken::default(), before);
     let most = if program.text().len() > TRIED {
         ONE_BY_ONE_OF_LONG
     } else {
@@ -276,14 +304,13 @@ pub(super) fn together(program: &Document, fixes: Vec<(Rule, TextFix)>) -> Vec<T
     for (rule, fix) in fixes.into_iter().take(most) {
         let mut more = kept.clone();
         more.take(program, &fix.edit);
-        let present = Standing::of(&edited(program, &kept.clone().edits()));
         let after = Standing::of(&edited(program, &more.clone().edits()));
         if present.allows(
             &after,
             speaks_for_itself(rule),
             is_by_a_slip(program, &fix.edit),
         ) {
-            kept = more;
+            (kept, present) = (more, after);
         }
     }
     kept.edits()

@@ -14,6 +14,7 @@ pub mod iso;
 pub mod language;
 pub mod path;
 mod refactor;
+mod repair;
 mod steps;
 pub mod three_b;
 pub mod write;

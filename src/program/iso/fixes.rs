@@ -677,7 +677,7 @@ fn rapid_word(document: &Document, range: &Range<usize>) -> Option<Range<usize>>
 }
 
 /// The line end that the text uses before a place.
-fn line_end(document: &Document, place: usize) -> &'static str {
+pub(super) fn line_end(document: &Document, place: usize) -> &'static str {
     let before = document.text().bytes().get(..place).unwrap_or_default();
     match memchr::memrchr(b'\n', before) {
         Some(at) if at > 0 && before[at - 1] == b'\r' => "\r\n",

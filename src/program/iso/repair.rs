@@ -67,11 +67,9 @@ pub type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
 
 /// Searches the cuts in which something is wrong.
 pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
-    if document.order().is_some() || document.has_corners() {
-        return Vec::new();
-    }
     let text = document.text();
     let mut found: Repairs = Vec::new();
+    let mut too_long: Vec<Range<usize>> = Vec::new();
     let mut left = MOST_RUNS;
     let places: Vec<usize> = findings
         .iter()
@@ -79,16 +77,20 @@ pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
         .filter_map(|finding| line_of(document, finding))
         .collect();
     for &line in &places {
-        if found.iter().any(|(lines, _)| lines.contains(&line)) {
+        let known = found.iter().map(|(lines, _)| lines).chain(&too_long);
+        if known.clone().any(|lines| lines.contains(&line)) {
             continue;
         }
         if found.len() == MOST_CUTS || left == 0 {
             break;
         }
-        let Some(lines) = cut_around(document, line) else {
+        let lines = cut_around(document, line);
+        if lines.len() > LONGEST || !stands_alone(document, &lines) {
+            too_long.push(lines);
             continue;
-        };
+        }
         let Some(before) = document.machine_before(lines.start) else {
+            too_long.push(lines);
             continue;
         };
         let own: Vec<usize> = places
@@ -144,17 +146,45 @@ pub fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
     }
 }
 
-/// The lines between the stops around a line; `None` where there are too many.
-fn cut_around(document: &Document, line: usize) -> Option<Range<usize>> {
-    let is_stop = |line: usize| document.block(line).stop.is_some();
-    let first = (line.saturating_sub(LONGEST)..line)
-        .rev()
-        .find(|line| is_stop(*line))
-        .map_or(0, |stop| stop + 1);
-    let end = (line..document.text().line_count().min(line + LONGEST))
-        .find(|line| is_stop(*line))
-        .map_or(document.text().line_count(), |stop| stop + 1);
-    (end - first <= LONGEST).then_some(first..end)
+/// The lines between the stops around a line, or between the places where subprograms begin, end and are called; more than [`LONGEST`]
+/// where there are too many.
+fn cut_around(document: &Document, line: usize) -> Range<usize> {
+    let is_order_kept = document.order().is_none();
+    let ends_with = |line: usize| {
+        let block = document.block(line);
+        block.stop.is_some() || (!is_order_kept && (block.call.is_some() || block.returns))
+    };
+    let begins_with = |line: usize| {
+        let block = document.block(line);
+        let is_called = |number: u32| document.calls(number);
+        !is_order_kept && (block.program.is_some() || block.number.is_some_and(is_called))
+    };
+    let count = document.text().line_count();
+    let mut first = line;
+    while first > 0 && line - first <= LONGEST && !begins_with(first) && !ends_with(first - 1) {
+        first -= 1;
+    }
+    let mut end = line + 1;
+    while end < count && end - line <= LONGEST && !ends_with(end - 1) && !begins_with(end) {
+        end += 1;
+    }
+    first..end
+}
+
+/// True where the lines of a cut hold all of it. The search does not make the corners that the control makes, and an arc begins where one
+/// of them ends; and what a subprogram goes on with is not known.
+fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
+    let (mut has_corner, mut has_arc) = (false, false);
+    for block in lines.clone().map(|line| document.block(line)) {
+        has_corner |= block.corner.is_some();
+        has_arc |= block.i.is_some() || block.j.is_some();
+    }
+    let is_begun = || {
+        document
+            .begun_cut(lines.start)
+            .is_some_and(|begun| begun.moves > 0)
+    };
+    !(has_corner && has_arc) && (document.order().is_none() || !is_begun())
 }
 
 struct Search<'a> {

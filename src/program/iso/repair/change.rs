@@ -3,13 +3,19 @@
 use super::Repair;
 use super::scan::{Line, Way};
 use crate::finding::FixKind;
+use crate::geometry::{Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
+use crate::program::iso::fixes::line_end;
 use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::with_word;
-use crate::program::iso::machine::{Bend, CenterRule, Machine, Move, Place};
+use crate::program::iso::machine::{
+    Bend, CenterRule, Machine, Move, Place, Reading, distance, micrometres,
+};
+use crate::program::iso::shape::directions;
 use crate::program::iso::style::Style;
 use crate::program::iso::word::{Number, Token, WordFault, plain, words};
+use crate::program::repair::gap::{half_turn_between, is_one_line};
 use crate::text::TextEdit;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -30,6 +36,8 @@ mod prior {
     pub const WORD: f64 = 1.2;
     pub const VALUE: f64 = 1.0;
     pub const BLOCK: f64 = 3.0;
+    pub const LOST_BLOCK: f64 = 2.0;
+    pub const TANGENT: f64 = 1.0;
     /// A length that stands elsewhere in the cut, and one that stands nowhere else.
     pub const KNOWN: f64 = 1.0;
     pub const ALONE: f64 = 0.5;
@@ -134,8 +142,11 @@ pub fn of_line(
     let plain = plain(own);
     let bytes = plain.as_deref().unwrap_or(own);
     let block = &way.lines[index].block;
-    if block.empty || block.stop.is_some() || block.sets_position || block.takes_coordinates {
+    if block.empty || block.sets_position || block.takes_coordinates {
         return Vec::new();
+    }
+    if block.stop.is_some() {
+        return lost_blocks(document, way, pool, lines.start, index);
     }
     let before = way.machine_before(index);
     let mut own = Words {
@@ -157,6 +168,7 @@ pub fn of_line(
     }
     let is_move = made.is_some() || way.lines[index].faults > 0;
     let mut changes = own.changes;
+    changes.extend(lost_blocks(document, way, pool, lines.start, index));
     let next = (index + 1..lines.len()).find(|next| !way.lines[*next].block.empty);
     let shown = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim().to_owned();
     if is_move {
@@ -207,6 +219,156 @@ pub fn of_line(
         }
     }
     changes
+}
+
+/// Blocks that may have been lost before a line: what closes the cut, and the line that leads to an arc on its tangent.
+fn lost_blocks(
+    document: &Document,
+    way: &Way<'_>,
+    pool: &Pool,
+    first: usize,
+    index: usize,
+) -> Vec<Change> {
+    let before = way.machine_before(index);
+    let mut machine = *before;
+    let next = machine.run(&way.lines[index].block, way.reading);
+    if before.lost != [false, false] {
+        return Vec::new();
+    }
+    let gaps = if before.incremental {
+        way.gaps(index)
+    } else {
+        next.map_or_else(Vec::new, |next| tangent_gaps(&next, way.reading))
+    };
+    let heading = way.heading_before(index);
+    let ahead = next.and_then(|next| Some(directions(&next, way.reading)?.0));
+    let style = pool.styles[usize::from(before.inch)];
+    let parted = if pool.is_parted { " " } else { "" };
+    let mut changes = Vec::new();
+    for gap in gaps {
+        let to = [0, 1].map(|axis| style.rounded(before.at[axis].wrapping_add(gap[axis])));
+        let along = micrometres(to) - micrometres(before.at);
+        if along.norm() < SHORTEST {
+            continue;
+        }
+        let mut shapes = vec![None];
+        if let (Some(heading), Some(ahead), true) = (heading, ahead, before.incremental) {
+            shapes.extend(half_turn_between(heading, ahead, along).map(Some));
+        }
+        let is_part = heading.is_some_and(|heading| is_one_line(heading, along));
+        for half in shapes {
+            let base = if before.incremental {
+                before.at
+            } else {
+                before.zero
+            };
+            let motion = match half {
+                None => "G01",
+                Some(half) if half > 0.0 => "G03",
+                Some(_) => "G02",
+            };
+            let mut words = vec![motion.to_owned()];
+            let number = |length: i64| style.number(length);
+            for (axis, letter) in [(0, 'X'), (1, 'Y')] {
+                words.push(format!(
+                    "{letter}{}",
+                    number(to[axis].wrapping_sub(base[axis]))
+                ));
+            }
+            if let Some(half) = half {
+                let sign = match way.reading.rule(before.incremental) {
+                    CenterRule::StartToCenter => 1.0,
+                    CenterRule::CenterToStart => -1.0,
+                    CenterRule::Absolute => continue,
+                };
+                let center = (along + left_normal(along) / half.tan()) / 2.0;
+                let nm = |um: f64| style.number((sign * um * 1e3).round() as i64);
+                words.extend([format!("I{}", nm(center.x)), format!("J{}", nm(center.y))]);
+            }
+            let words = words.join(parted);
+            let line = match free_number(document, first + index) {
+                Some(number) => with_word(words.as_bytes(), &format!("N{number}"), pool.is_parted),
+                None => words.clone().into_bytes(),
+            };
+            let prior = match half {
+                _ if is_part => prior::BLOCK + prior::MORE,
+                None if !before.incremental => prior::TANGENT,
+                _ => prior::LOST_BLOCK,
+            };
+            let kind = FixKind::InsertBlock {
+                length: along.norm() / 1e3,
+                is_arc: half.is_some(),
+            };
+            changes.push(Change {
+                index,
+                replaced: 0,
+                lines: vec![line],
+                is_a_slip: false,
+                prior,
+                kind,
+                found: String::new(),
+                meant: words,
+            });
+        }
+    }
+    changes
+}
+
+/// Shorter blocks are not lost, but rounding, µm.
+const SHORTEST: f64 = 10.0;
+
+/// The number of a block before a line, where there is room for one.
+fn free_number(document: &Document, line: usize) -> Option<u32> {
+    let (last, step) = document.numbers_before(line)?;
+    let number = last.checked_add(step)?;
+    let next = document
+        .block(line)
+        .number
+        .or_else(|| document.number_behind(line));
+    next.is_none_or(|next| next > number).then_some(number)
+}
+
+/// From where an arc begins to where it would begin if the line were there that leads to it on its tangent: its end stays, and its centre
+/// goes along where I and J count from the start.
+fn tangent_gaps(arc: &Move, reading: &Reading) -> Vec<Place> {
+    let (Bend::Center { .. }, false) = (arc.bend, arc.incremental) else {
+        return Vec::new();
+    };
+    let rule = reading.rule(false);
+    let (Some(center), Some((tangent, _))) = (arc.center(rule), directions(arc, reading)) else {
+        return Vec::new();
+    };
+    let (along, lengths) = if rule == CenterRule::Absolute {
+        let radius = distance(center, arc.to) / 1e3;
+        let across = micrometres(center) - micrometres(arc.from);
+        let length = (across.norm_squared() - radius * radius).max(0.0).sqrt();
+        let turned = (radius / across.norm().max(radius)).asin();
+        let turned = if arc.motion == Motion::CounterClockwise {
+            -turned
+        } else {
+            turned
+        };
+        (rotated(across, turned), vec![length])
+    } else {
+        let from_end = micrometres(center) - micrometres(arc.to);
+        let radius = distance(center, arc.from) / 1e3;
+        let half = from_end.dot(&tangent.normalize());
+        let square = half * half - from_end.norm_squared() + radius * radius;
+        let root = square.sqrt();
+        (tangent, vec![-half - root, -half + root])
+    };
+    let along = along.normalize();
+    let is_likely = |length: &f64| length.is_finite() && *length > SHORTEST;
+    let place = |length: f64| [along.x, along.y].map(|part| (part * length * 1e3).round() as i64);
+    lengths.into_iter().filter(is_likely).map(place).collect()
+}
+
+fn rotated(vector: Vector, by: f64) -> Vector {
+    let (sin, cos) = by.sin_cos();
+    Vector::new(
+        vector.x * cos - vector.y * sin,
+        vector.x * sin + vector.y * cos,
+    )
 }
 
 /// Two lines exchanged; their block numbers stay where they are.
@@ -493,6 +655,16 @@ impl Words<'_> {
             }
             _ => {}
         }
+        // Nobody writes a number with a zero more in front of it.
+        let zeros = |text: &str| {
+            let digits = text.trim_start_matches(['-', '+']);
+            let zeros = digits.len() - digits.trim_start_matches('0').len();
+            zeros
+                - usize::from(digits[zeros..].is_empty() || digits[zeros..].starts_with('.'))
+                    .min(zeros)
+        };
+        let has_zeros = zeros(text);
+        meant.retain(|(text, _)| zeros(text) <= has_zeros);
         for (text, prior) in meant {
             let more = number_of(&text).map_or(0.0, |number| {
                 self.pool.prior(letter, found, self.length(number))
@@ -678,6 +850,15 @@ impl Change {
         let text = document.text();
         let line = first + self.index;
         let edits = match &self.lines[..] {
+            [new] if self.replaced == 0 => {
+                let place = text.line_start(line);
+                let end = line_end(document, text.line_range(line).end);
+                let new = String::from_utf8(new.clone()).ok()?;
+                vec![TextEdit {
+                    range: place..place,
+                    text: format!("{new}{end}"),
+                }]
+            }
             // The whole line goes, with its end.
             [] => vec![TextEdit {
                 range: text.line_start(line)..text.line_start(line + 1),

@@ -155,6 +155,11 @@ impl<'a> Way<'a> {
         self.before[self.lines.len()]
     }
 
+    /// Where the last move of the cut that is under way before a line leads at its end.
+    pub fn heading_before(&self, index: usize) -> Option<Vector> {
+        self.before[index].cut.and_then(|cut| cut.heading)
+    }
+
     pub fn machine_before(&self, index: usize) -> &Machine {
         &self.before[index].machine
     }
@@ -340,6 +345,8 @@ impl Scan {
         let begins = self.cut.as_ref().map(|cut| (cut.last, cut.heading));
         let mut heading = None;
         let mut slack = 0.0175;
+        // Controls switch the correction on straight cuts alone.
+        self.hard += u32::from(made.is_arc() && made.switches.is_some());
         match made.course(reading) {
             Course::Line => self.soft += slant(made),
             Course::Arc(arc) => {

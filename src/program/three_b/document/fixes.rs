@@ -95,26 +95,14 @@ impl Document {
 
     /// The coordinates that stand behind the block before, or those of the start.
     pub(super) fn stated_before(&self, at: At) -> Option<StatedPoint> {
-        (0..=at.run).rev().find_map(|run| {
-            let of = self.runs.get(run)?;
-            let end = if run == at.run {
-                at.entry
-            } else {
-                of.entries.len()
-            };
-            of.entries
-                .get(..end)?
-                .iter()
-                .rev()
-                .find_map(|entry| match &entry.what {
-                    What::Block(block) => Some(block.stated_end()),
-                    What::StartPoint(at) => Some(Some(StatedPoint {
-                        at: *at,
-                        decimals: 3,
-                    })),
-                    What::Unread => Some(None),
-                    What::Word { .. } | What::Text { .. } | What::CommentedBlock { .. } => None,
-                })
+        self.before(at).find_map(|(_, entry)| match &entry.what {
+            What::Block(block) => Some(block.stated_end()),
+            What::StartPoint(at) => Some(Some(StatedPoint {
+                at: *at,
+                decimals: 3,
+            })),
+            What::Unread => Some(None),
+            What::Word { .. } | What::Text { .. } | What::CommentedBlock { .. } => None,
         })?
     }
 
@@ -238,19 +226,10 @@ impl Document {
     /// The number that a block behind another one has, where the two before it are numbered.
     fn number_behind(&self, at: At) -> Option<u32> {
         let own = self.entry(at)?.number()?;
-        let before = (0..=at.run).rev().find_map(|run| {
-            let of = self.runs.get(run)?;
-            let end = if run == at.run {
-                at.entry
-            } else {
-                of.entries.len()
-            };
-            of.entries
-                .get(..end)?
-                .iter()
-                .rev()
-                .find(|entry| entry.block().is_some())
-        });
+        let before = self
+            .before(at)
+            .map(|(_, entry)| entry)
+            .find(|entry| entry.block().is_some());
         own.checked_add(
             own.checked_sub(before?.number()?)
                 .filter(|step| *step > 0)?,

@@ -7,7 +7,7 @@ use super::super::parse::{StatedPoint, before_comment, two_numbers};
 use super::super::repair::{
     BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
-use super::super::rules::{TextFix, axis_of, motion_name};
+use super::super::rules::{TextFix, axis_of, block_number, motion_name};
 use super::super::run::{Entry, Move, What};
 use super::{At, Document, Section};
 use crate::finding::{Axis, Finding, Fix, FixKind, Place, ProgramFault, Rule};
@@ -49,20 +49,12 @@ impl Document {
         let Some((places, pieces)) = self.pieces_of(&section) else {
             return Vec::new();
         };
-        let start = places.first().and_then(|first| self.stated_before(*first));
-        let number = places.first().and_then(|first| self.number_before(*first));
         let is_closed = self.closes(&self.view, &section) && section.sum.unread == 0;
-        let path = Path {
-            pieces: &pieces,
-            start,
-            number,
-            limits: &self.limits,
-            is_jump: section.is_jump,
-            is_closed,
-        };
+        let path = self.path_of(&section, &places, &pieces, is_closed);
         let found = repairs(&path, scope);
         let fix = |(nth, repair): (usize, &Repair)| {
-            let (kind, mut edit) = self.edit_of(&repair.change, &places, &pieces)?;
+            let (kind, mut edit) =
+                self.edit_of(&repair.change, &places, &pieces, section.is_jump)?;
             edit.sort_by_key(|edit| edit.range.start);
             Some(Fix {
                 kind,
@@ -77,16 +69,7 @@ impl Document {
     /// The block that keeps a contour open, by its number in the section, where no other repair is as likely.
     pub(super) fn blamed(&self, section: &Section) -> Option<(usize, ProgramFault)> {
         let (places, pieces) = self.pieces_of(section)?;
-        let start = places.first().and_then(|first| self.stated_before(*first));
-        let number = places.first().and_then(|first| self.number_before(*first));
-        let path = Path {
-            pieces: &pieces,
-            start,
-            number,
-            limits: &self.limits,
-            is_jump: section.is_jump,
-            is_closed: false,
-        };
+        let path = self.path_of(section, &places, &pieces, false);
         let best = repairs(&path, Scope::Blocks)
             .into_iter()
             .next()
@@ -132,16 +115,51 @@ impl Document {
         }
     }
 
+    fn path_of<'a>(
+        &'a self,
+        section: &Section,
+        places: &[At],
+        pieces: &'a [Piece],
+        is_closed: bool,
+    ) -> Path<'a> {
+        let first = places.first().copied();
+        Path {
+            pieces,
+            start: first.and_then(|first| self.stated_before(first)),
+            number: first.and_then(|first| self.number_before(first)),
+            step: self.number_step(),
+            limits: &self.limits,
+            is_jump: section.is_jump,
+            is_closed,
+        }
+    }
+
+    /// The usual step of the numbers, as the first of them tell it.
+    fn number_step(&self) -> Option<u32> {
+        let blocks = self.runs.iter().flat_map(|of| &of.entries);
+        let numbers = blocks
+            .filter(|entry| entry.block().is_some())
+            .map(Entry::number)
+            .take(block_number::FIRST);
+        block_number::usual_step(&numbers.collect::<Vec<_>>())
+    }
+
     /// The last number before a block.
     fn number_before(&self, at: At) -> Option<u32> {
-        (0..=at.run).rev().find_map(|run| {
-            let of = self.runs.get(run)?;
+        self.before(at).find_map(|(_, entry)| entry.number())
+    }
+
+    /// The entries before one, the nearest first.
+    pub(super) fn before(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
+        (0..=at.run).rev().flat_map(move |run| {
+            let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
             let end = if run == at.run {
-                at.entry
+                at.entry.min(entries.len())
             } else {
-                of.entries.len()
+                entries.len()
             };
-            of.entries.get(..end)?.iter().rev().find_map(Entry::number)
+            let own = entries[..end].iter().enumerate().rev();
+            own.map(move |(entry, of)| (At { run, entry }, of))
         })
     }
 
@@ -244,6 +262,7 @@ impl Document {
         change: &Change,
         places: &[At],
         pieces: &[Piece],
+        is_jump: bool,
     ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
         let own = |index: usize| Some(self.range_of(*places.get(index)?));
@@ -331,7 +350,9 @@ impl Document {
                 ];
                 Some((FixKind::ExchangeBlocks, edits))
             }
-            Change::Insert { index, block } => self.insertion(*index, block, places, pieces),
+            Change::Insert { index, block } => {
+                self.insertion(*index, block, places, pieces, is_jump)
+            }
         }
     }
 
@@ -342,6 +363,7 @@ impl Document {
         block: &Block,
         places: &[At],
         pieces: &[Piece],
+        is_jump: bool,
     ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
         let model = index.saturating_sub(1);
@@ -350,20 +372,17 @@ impl Document {
         let found = text.get(own.clone())?;
         let is_spaced = found.contains(&b' ');
         let number = |index: usize| pieces.get(index).and_then(|piece| piece.number);
-        let step = places.len().checked_sub(1).and_then(|last| {
-            (0..last)
-                .filter_map(|at| number(at + 1)?.checked_sub(number(at)?))
-                .filter(|step| *step > 0)
-                .min()
-        });
         let mut made = Vec::new();
-        if let Some(number) = number(model).zip(step).map(|(own, step)| {
-            if index == 0 {
-                own
-            } else {
-                own.saturating_add(step)
-            }
-        }) {
+        let first = || self.number_before(*places.first()?);
+        let number = number(model)
+            .zip(self.number_step())
+            .map(|(own, step)| match index {
+                0 => first().map_or(own.saturating_sub(step), |last| {
+                    last.saturating_add(step).min(own)
+                }),
+                _ => own.saturating_add(step),
+            });
+        if let Some(number) = number {
             made.extend_from_slice(&renumbered(text.get(line.start..own.start)?, number));
         }
         push_fields(
@@ -398,10 +417,21 @@ impl Document {
         let made = String::from_utf8(made).ok()?;
         let line_end = super::super::rules::missing_end::line_end_of(&self.text);
         let edit = match index {
-            0 => TextEdit {
-                range: line.start..line.start,
-                text: format!("{made}{line_end}"),
-            },
+            0 => {
+                // What leads to the stop before a jump was cut.
+                let stop = places
+                    .first()
+                    .and_then(|first| self.before(*first).next())
+                    .filter(|(_, entry)| is_jump && matches!(entry.what, What::Word { .. }))
+                    .map(|(at, _)| self.range_of(at).start);
+                let place = self
+                    .text
+                    .line_start(self.text.line_of(stop.unwrap_or(line.start)));
+                TextEdit {
+                    range: place..place,
+                    text: format!("{made}{line_end}"),
+                }
+            }
             _ => TextEdit {
                 range: line.end..line.end,
                 text: format!("{line_end}{made}"),

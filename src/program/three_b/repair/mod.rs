@@ -23,6 +23,7 @@ use crate::geometry::{Point, Segment, Vector, turn};
 use crate::program::grid::Node;
 use crate::program::path::crossings_of;
 use crate::program::path::{HeldWay, Node as WayNode, Writing, closing, tolerance};
+use crate::program::repair::gap::{SMOOTH, half_turn_between, is_one_line};
 use slips::{Wanted, blocks_to, is_usual, solved, straight, with};
 
 /// Contours of more blocks cost too long to try.
@@ -30,9 +31,6 @@ pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 
 /// How far coordinates of three decimals may lie from where a block ends, µm.
 const STATED: f64 = 4.0;
-
-/// Blocks that meet within this angle run smoothly into each other, radians: two degrees, what rounding to µm makes of a small arc.
-const SMOOTH: f64 = 0.035;
 
 /// Repairs that are looked at to the end, and those that are handed out.
 const LOOKED_AT: usize = 400;
@@ -88,6 +86,19 @@ pub(super) struct Repair {
     pub is_whole: bool,
 }
 
+/// A repair with what it comes to.
+struct Judged {
+    /// How much is left against the contour.
+    left: usize,
+    /// What it asks for.
+    cost: f64,
+    change: Change,
+    /// Where the changed block leads.
+    by: Move,
+    /// It leaves a number out of its turn: a block may be lost.
+    lacks_a_number: bool,
+}
+
 /// What speaks against a contour.
 #[derive(Clone, Copy, Debug, Default)]
 struct Against {
@@ -110,10 +121,19 @@ struct Joints {
     smooth: i32,
     /// Those of them at an arc.
     round: i32,
+    /// Two lines that would have been written as one.
+    split: i32,
     /// Where the wire runs back on the way that it came.
     doubled: i32,
     /// Sum of all turns, radians.
     turns: f64,
+}
+
+impl Joints {
+    /// What speaks for them.
+    fn gain(&self) -> i32 {
+        self.smooth - self.split
+    }
 }
 
 /// A block on its way, changed or not.
@@ -142,6 +162,8 @@ pub(super) struct Path<'a> {
     /// What is stated before its first block, and the last number there.
     pub start: Option<StatedPoint>,
     pub number: Option<u32>,
+    /// The usual step of the program's numbers, where its blocks have numbers.
+    pub step: Option<u32>,
     pub limits: &'a Limits,
     /// It leads from one contour to the next.
     pub is_jump: bool,
@@ -149,13 +171,19 @@ pub(super) struct Path<'a> {
     pub is_closed: bool,
 }
 
-/// What kind of fault is looked for beside wrong blocks.
+/// Which repairs are handed out. All are looked for: a block that may be lost speaks against another one that may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
-    /// Blocks that are wrong, and blocks twice.
+    /// Of blocks that are wrong, and blocks twice.
     Blocks,
-    /// Blocks that are lost or exchanged, too.
+    /// Of blocks that are lost or exchanged, too.
     All,
+}
+
+impl Scope {
+    fn holds(self, change: &Change) -> bool {
+        self == Scope::All || !matches!(change, Change::Insert { .. } | Change::Exchange { .. })
+    }
 }
 
 /// The repairs of a contour, the most likely one first.
@@ -164,69 +192,77 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
     if search.before.count() == 0 && scope == Scope::Blocks {
         return Vec::new();
     }
-    let mut found = search.changes(scope);
+    let mut found = search.changes();
     found.truncate(LOOKED_AT);
-    let mut judged: Vec<(usize, f64, Change, Move)> = found
+    let mut judged: Vec<Judged> = found
         .into_iter()
         .filter_map(|(change, cost)| search.judged(change, cost))
         .collect();
-    judged.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    judged.sort_by(|a, b| a.left.cmp(&b.left).then(a.cost.total_cmp(&b.cost)));
     // Of those that lead the same way the first is the plainest; what crosses itself as before comes last.
-    let mut kept: Vec<(usize, f64, Change, Move)> = Vec::new();
-    let mut crossing: Vec<(usize, f64, Change, Move)> = Vec::new();
-    let mut is_either = false;
+    let (mut kept, mut crossing): (Vec<Judged>, Vec<Judged>) = (Vec::new(), Vec::new());
+    let (mut is_either, mut outside) = (false, None::<(usize, f64)>);
     let crosses_now = !judged.is_empty() && search.crosses(None);
-    for (left, cost, change, by) in judged {
-        if kept.len() == HANDED_OUT || kept.first().is_some_and(|(best, ..)| left > *best) {
+    for repair in judged {
+        if kept.len() == HANDED_OUT || kept.first().is_some_and(|best| repair.left > best.left) {
             break;
         }
-        let is_known = |(_, _, known, to): &(usize, f64, Change, Move)| {
-            at(known) == at(&change) && to.minus(by).is_within(2.5) && is_alike(known, &change)
+        let change = &repair.change;
+        let is_known = |known: &Judged| {
+            at(&known.change) == at(change)
+                && known.by.minus(repair.by).is_within(2.5)
+                && is_alike(&known.change, change)
         };
         if let Some(known) = kept.iter().position(is_known) {
             // Two numbers of one block that may each be wrong: which is not known.
-            is_either |=
-                known == 0 && field(&kept[0].2) != field(&change) && cost - kept[0].1 < CLEARLY;
+            is_either |= known == 0
+                && field(&kept[0].change) != field(change)
+                && repair.cost - kept[0].cost < CLEARLY;
             continue;
         }
-        if search.crosses(Some(&change)) {
+        if !scope.holds(change) {
+            if outside.is_none() && !search.crosses(Some(change)) {
+                outside = Some((repair.left, repair.cost));
+            }
+        } else if search.crosses(Some(change)) {
             let is_as_before = crosses_now
                 && !matches!(change, Change::Exchange { .. })
                 && crossing.len() < HANDED_OUT;
-            crossing.extend(is_as_before.then_some((left, cost, change, by)));
+            crossing.extend(is_as_before.then_some(repair));
         } else {
-            kept.push((left, cost, change, by));
+            kept.push(repair);
         }
     }
-    if kept.is_empty() {
-        let made = crossing.into_iter().map(|(left, _, change, _)| Repair {
-            change,
-            is_sure: false,
-            is_whole: left == 0,
-        });
-        return made.collect();
-    }
-    let best = kept.first().map(|(left, cost, ..)| (*left, *cost));
-    // A block that stands twice says more than one that could be lost.
-    let is_twin = kept
-        .first()
-        .is_some_and(|(_, _, change, _)| matches!(change, Change::Delete { .. }));
-    let counts = |change: &Change| !is_twin || !matches!(change, Change::Insert { .. });
-    let rival = kept
-        .iter()
-        .skip(1)
-        .find(|(_, _, change, _)| counts(change))
-        .map(|(_, cost, ..)| *cost);
-    let is_clear = best.is_some_and(|(_, cost)| rival.is_none_or(|rival| rival - cost >= CLEARLY));
-    let made = kept
-        .into_iter()
-        .enumerate()
-        .map(|(nth, (left, _, change, _))| Repair {
-            change,
-            is_sure: nth == 0 && is_clear && !is_either && search.may_be_sure(&change, left),
-            is_whole: left == 0,
-        });
+    let is_sure = is_sure(&search, &kept, outside) && !is_either;
+    let is_best = |nth: usize| !kept.is_empty() && nth == 0;
+    let all = if kept.is_empty() { &crossing } else { &kept };
+    let made = all.iter().enumerate().map(|(nth, repair)| Repair {
+        change: repair.change,
+        is_sure: is_best(nth) && is_sure,
+        is_whole: repair.left == 0,
+    });
     made.collect()
+}
+
+/// True where the first of the repairs is the one that is meant: no other one, `outside` of those that are handed out neither, explains
+/// as much with as little.
+fn is_sure(search: &Search<'_>, kept: &[Judged], outside: Option<(usize, f64)>) -> bool {
+    let Some(best) = kept.first() else {
+        return false;
+    };
+    // A block that stands twice says more than one that could be lost.
+    let is_twin = matches!(best.change, Change::Delete { .. });
+    let counts = |repair: &&Judged| !is_twin || !matches!(repair.change, Change::Insert { .. });
+    let rival = kept.iter().skip(1).find(counts);
+    let rivals = [
+        rival.map(|rival| (rival.left, rival.cost)),
+        outside.filter(|_| !is_twin),
+    ];
+    let is_clear = rivals
+        .into_iter()
+        .flatten()
+        .all(|(left, cost)| left > best.left || (left == best.left && cost - best.cost >= CLEARLY));
+    is_clear && !best.lacks_a_number && search.may_be_sure(&best.change, best.left)
 }
 
 /// What a block asks for that is read with so many keys more or less: one that is written like a line is no arc, and a line is seldom
@@ -280,8 +316,6 @@ struct Search<'a> {
     before: Against,
     joints: Joints,
     arcs: usize,
-    /// The usual step of the numbers, where the blocks have numbers.
-    step: Option<u32>,
     /// The way out is the way in backwards.
     is_mirrored: bool,
     /// It has to come back to where it began.
@@ -306,14 +340,9 @@ impl<'a> Search<'a> {
             block: piece.block,
         };
         let items: Vec<Item> = path.pieces.iter().map(item).collect();
-        let steps = items
-            .windows(2)
-            .filter_map(|pair| pair[1].number?.checked_sub(pair[0].number?))
-            .filter(|step| *step > 0);
         let is_mirrored = is_mirrored(&items);
         let mut search = Search {
             path,
-            step: steps.min(),
             arcs: items
                 .iter()
                 .filter(|item| item.is_arc || item.is_unread)
@@ -361,7 +390,7 @@ impl<'a> Search<'a> {
             against.off += usize::from(off.is_some() && !goes_back);
             off_before = off.filter(|_| !goes_back);
             before = item.stated;
-            if let (Some(last), Some(own), Some(step)) = (last, item.number, self.step) {
+            if let (Some(last), Some(own), Some(step)) = (last, item.number, self.path.step) {
                 against.out_of_turn += usize::from(own != u32::saturating_add(last, step));
             }
             last = item.number.or(last);
@@ -439,7 +468,7 @@ impl<'a> Search<'a> {
     }
 
     /// All changes that may explain it, and what each asks for.
-    fn changes(&self, scope: Scope) -> Vec<(Change, f64)> {
+    fn changes(&self) -> Vec<(Change, f64)> {
         let mut found = Vec::new();
         for index in 0..self.items.len() {
             self.replacements(index, &mut found);
@@ -454,10 +483,8 @@ impl<'a> Search<'a> {
                 found.push((Change::Delete { index: index + 1 }, 0.2));
             }
         }
-        if scope == Scope::All {
-            self.exchanges(&mut found);
-            self.insertions(&mut found);
-        }
+        self.exchanges(&mut found);
+        self.insertions(&mut found);
         found
     }
 
@@ -506,6 +533,8 @@ impl<'a> Search<'a> {
                 let is_line = |block: &Block| matches!(block.motion, Motion::Line(_));
                 let cost = match slip {
                     Slip::Number(Number::J, Digits::Any) => 1.6,
+                    // Along an axis nothing of a number stands there.
+                    Slip::Number(_, Digits::Any) if block.x == 0 || block.y == 0 => 3.4,
                     Slip::Number(_, Digits::Any) => 2.6,
                     // What is written like a line is one.
                     Slip::Motion
@@ -572,13 +601,19 @@ impl<'a> Search<'a> {
                 .and_then(|before| self.items[before].number)
                 .zip(self.items.get(index).and_then(|item| item.number));
             numbers
-                .zip(self.step)
+                .zip(self.path.step)
                 .is_some_and(|((before, own), step)| own == before.saturating_add(2 * step))
         };
+        // Counting begins with the first block.
+        let may_be_first = self.path.number.is_some()
+            || self.items[0]
+                .number
+                .zip(self.path.step)
+                .is_none_or(|(first, step)| first > step);
         let lost: Vec<usize> = (1..self.items.len())
             .filter(|index| is_number_lost(*index))
             .collect();
-        for index in 0..=self.items.len() {
+        for index in usize::from(!may_be_first)..=self.items.len() {
             let stated = if index < self.items.len() {
                 self.stated(index)
             } else {
@@ -643,9 +678,7 @@ impl<'a> Search<'a> {
         // The way in meets the contour with a corner.
         let is_at_lead = self.is_mirrored && (index <= 1 || index + 1 >= self.items.len());
         if let (Some(from), Some(to), false) = (before, behind, is_at_lead) {
-            let (into, out) = (turn(from, across), turn(across, to));
-            let half = (into + out) / 2.0;
-            if (into - out).abs() <= SMOOTH && half.abs() > SMOOTH && half.abs() < 2.9 {
+            if let Some(half) = half_turn_between(from, to, across) {
                 let (start, end) = (Point::origin(), Point::new(gap[0].round(), gap[1].round()));
                 let arc = Segment::from_bulge(start, end, (half / 2.0).tan());
                 let mut blocks = Vec::new();
@@ -675,7 +708,10 @@ impl<'a> Search<'a> {
             }
         }
         if let Some(line) = straight(&wanted) {
-            found.push((Change::Insert { index, block: line }, 2.5));
+            // Coordinates between which a line along an axis is lacking speak for one that is lost.
+            let is_plain = self.stated(index).is_some() && (line.x == 0 || line.y == 0);
+            let cost = if is_plain { 1.3 } else { 2.5 };
+            found.push((Change::Insert { index, block: line }, cost));
         }
     }
 
@@ -705,9 +741,9 @@ impl<'a> Search<'a> {
                 let before = index
                     .checked_sub(1)
                     .and_then(|before| self.items.get(before));
-                item.number = before
-                    .and_then(|before| before.number)
-                    .zip(self.step)
+                let number = before.map_or(self.path.number, |before| before.number);
+                item.number = number
+                    .zip(self.path.step)
                     .map(|(number, step)| number.saturating_add(step));
                 let from = before.map_or(self.path.start, |before| before.stated);
                 item.stated = from.map(|from| {
@@ -723,8 +759,8 @@ impl<'a> Search<'a> {
         items
     }
 
-    /// What is left against the contour, what the change asks for, and where the changed block leads; `None` for what explains nothing.
-    fn judged(&self, change: Change, cost: f64) -> Option<(usize, f64, Change, Move)> {
+    /// What a change comes to; `None` for what explains nothing.
+    fn judged(&self, change: Change, cost: f64) -> Option<Judged> {
         let items = self.with(&change);
         let after = self.against(&items);
         let (left, was) = (after.count(), self.before.count());
@@ -734,7 +770,7 @@ impl<'a> Search<'a> {
             Change::Delete { index } => self::joints(&self.items[index - 1..=index]),
             _ => Joints::default(),
         };
-        let gain = joints.smooth - self.joints.smooth + was_joined.smooth;
+        let gain = joints.gain() - self.joints.gain() + was_joined.gain();
         let doubled = joints.doubled - self.joints.doubled + was_joined.doubled;
         let is_better = match change {
             // Where nothing else is wrong it has to run on better.
@@ -780,7 +816,16 @@ impl<'a> Search<'a> {
         let by = items
             .get(at(&change))
             .map_or(Move::default(), |item| item.travel);
-        Some((left, weighed, change, by))
+        // Where most are out of their turn, the numbers follow another rule.
+        let lacks_a_number =
+            after.out_of_turn > 0 && (2 * after.out_of_turn <= items.len() || items.len() == 1);
+        Some(Judged {
+            left,
+            cost: weighed,
+            change,
+            by,
+            lacks_a_number,
+        })
     }
 
     /// Whether the way crosses itself.
@@ -842,7 +887,13 @@ fn joints(items: &[Item]) -> Joints {
             continue;
         };
         let angle = turn(from, to).abs();
-        joints.smooth += i32::from(angle <= SMOOTH);
+        let along = |item: &Item| item.way.map(|way| way.end() - way.start());
+        let is_split = !(pair[0].is_arc || pair[1].is_arc)
+            && along(&pair[0])
+                .zip(along(&pair[1]))
+                .is_some_and(|(one, other)| is_one_line(one, other));
+        joints.split += i32::from(is_split);
+        joints.smooth += i32::from(angle <= SMOOTH && !is_split);
         joints.round += i32::from(angle <= SMOOTH && (pair[0].is_arc || pair[1].is_arc));
         joints.doubled += i32::from(angle >= std::f64::consts::PI - SMOOTH);
         joints.turns += angle;

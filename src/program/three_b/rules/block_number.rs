@@ -44,7 +44,8 @@ pub(in super::super) struct Sequence<P> {
 impl<P> Sequence<P> {
     /// `blocks` are up to [`FIRST`] of the first ones, `first` the first number of all; `None` where these tell no step.
     pub fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence<P>> {
-        let step = usual_step(blocks)?;
+        let numbers: Vec<Option<u32>> = blocks.iter().map(|block| block.number).collect();
+        let step = usual_step(&numbers)?;
         Some(Sequence {
             step,
             first: first?,
@@ -138,9 +139,9 @@ impl<P> Sequence<P> {
 }
 
 /// The difference that most of the numbers have to the one before; the smaller one of two that are as frequent.
-fn usual_step(blocks: &[Numbered]) -> Option<u32> {
-    let step = |pair: &[Numbered]| pair[1].number?.checked_sub(pair[0].number?);
-    let steps: Vec<u32> = blocks
+pub(in super::super) fn usual_step(numbers: &[Option<u32>]) -> Option<u32> {
+    let step = |pair: &[Option<u32>]| pair[1]?.checked_sub(pair[0]?);
+    let steps: Vec<u32> = numbers
         .windows(2)
         .filter_map(step)
         .filter(|step| *step > 0)

@@ -274,6 +274,10 @@ fn j_to_close(block: &Block, sum: &Sum, is_first: bool) -> Option<i64> {
         });
     let on_circle = |end: &Point| ((end - arc.center).norm() - arc.radius).abs() <= near;
     let end = ends.into_iter().find(on_circle)?;
+    // Back to where it starts it turns once: rounding does not decide between that and nothing.
+    if (end - arc.start).norm() <= near {
+        return Some((4.0 * arc.radius).round() as i64);
+    }
     Some(
         counted(
             &Arc::about(arc.center, arc.start, end, arc.sweep > 0.0),

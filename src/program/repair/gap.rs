@@ -1,0 +1,55 @@
+//! What may fill a gap between two blocks.
+
+use crate::geometry::{Vector, turn};
+
+/// Blocks that meet within this angle run smoothly into each other, radians: two degrees, what rounding to µm makes of a small arc.
+pub(in crate::program) const SMOOTH: f64 = 0.035;
+
+/// No arc turns so far between two others, half of its turn in radians.
+const WIDEST: f64 = 2.9;
+
+/// Lines that end this far, µm, beside one line are parts of it.
+const COLLINEAR: f64 = 1.5;
+
+/// Half the turn of the arc that fills the gap smoothly between the direction before it and the one behind it, radians; `None` where
+/// none does, or a line would.
+pub(in crate::program) fn half_turn_between(
+    before: Vector,
+    behind: Vector,
+    gap: Vector,
+) -> Option<f64> {
+    let (into, out) = (turn(before, gap), turn(gap, behind));
+    let half = (into + out) / 2.0;
+    let is_arc = (into - out).abs() <= SMOOTH && half.abs() > SMOOTH && half.abs() < WIDEST;
+    is_arc.then_some(half)
+}
+
+/// True for two straight pieces, one behind the other, that would have been written as one.
+pub(in crate::program) fn is_one_line(one: Vector, other: Vector) -> bool {
+    turn(one, other).abs() * one.norm().min(other.norm()) <= COLLINEAR
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arc_fills_a_gap_whose_ends_it_is_tangent_to() {
+        let [right, up, left] =
+            [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)].map(|(x, y)| Vector::new(x, y));
+        let quarter = half_turn_between(right, up, Vector::new(5.0, 5.0));
+        assert!(quarter.is_some_and(|half| (half - std::f64::consts::FRAC_PI_4).abs() < 1e-9));
+        let half = half_turn_between(right, left, up * 8.0);
+        assert!(half.is_some_and(|half| (half - std::f64::consts::FRAC_PI_2).abs() < 1e-9));
+        assert_eq!(half_turn_between(right, right, right), None);
+        assert_eq!(half_turn_between(right, up, up), None);
+    }
+
+    #[test]
+    fn lines_that_run_on_are_one_within_rounding() {
+        let line = Vector::new(8000.0, 0.0);
+        assert!(is_one_line(line, Vector::new(500.0, 1.0)));
+        assert!(!is_one_line(line, Vector::new(500.0, 9.0)));
+        assert!(!is_one_line(line, -line));
+    }
+}

@@ -1,0 +1,3 @@
+//! Repairs of a program's one slip, whatever its language.
+
+pub(super) mod gap;
