@@ -106,7 +106,7 @@ fn a_line_that_closes_a_contour_brings_no_error() {
     let mut failures = Vec::new();
     let mut tried = 0;
     for group in Group::ALL {
-        for _ in 0..12 {
+        for _ in 0..5 {
             let Some(sound) = program(group, chance) else {
                 continue;
             };
