@@ -1,6 +1,7 @@
 //! Axis-parallel boxes.
 
 use super::Point;
+use super::Vector;
 
 /// A closed axis-parallel box. The empty box has `min` above `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +62,14 @@ impl Bounds {
     }
 
     /// The box grown by `margin` on every side.
+    /// The box elsewhere.
+    pub fn moved(&self, by: Vector) -> Bounds {
+        Bounds {
+            min: self.min + by,
+            max: self.max + by,
+        }
+    }
+
     pub fn grown(&self, margin: f64) -> Bounds {
         Bounds {
             min: self.min.map(|c| c - margin),

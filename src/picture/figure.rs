@@ -1,135 +1,235 @@
-//! Geometry as SVG path data, and how numbers and texts are written.
+//! The drawing itself: areas, contours, what is not cut, the wire's path and the faults on it.
 
+use super::marks;
+use super::sheet::{Frame, Sheet, escaped, named, number, path_data};
+use super::subject::{Subject, is_other};
+use crate::drawing::{Entity, EntityId, Geometry, Role};
+use crate::finding::{Detail, Finding, Place};
 use crate::geometry::{Point, Segment};
-use std::f64::consts::PI;
-use std::fmt::Write;
+use crate::toolpath::Source;
+use rustc_hash::FxHashSet;
 
-/// Where on the sheet a part of the drawing is shown, and how large.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
-    /// The point of the drawing at (`left`, `bottom`) of the sheet.
-    pub origin: Point,
-    /// Sheet units in one drawing unit.
-    pub scale: f64,
-    pub left: f64,
-    pub bottom: f64,
+/// How far the material reaches beyond an opening that no outline holds.
+const GROUND: f64 = 22.0;
+/// Radius of the dot at a fault.
+const DOT: f64 = 4.5;
+/// Up to this many segments each one is an element of its own, with a tooltip; beyond it each entity is.
+const TOOLTIP_SEGMENTS: usize = 4000;
+
+pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    sheet.line(format_args!(
+        "{}",
+        frame.opening_of_drawing(subject.unit_mm)
+    ));
+    areas(sheet, frame, subject);
+    asides(sheet, frame, subject);
+    contours(sheet, frame, subject);
+    wire(sheet, frame, subject);
+    other_faults(sheet, frame, subject);
+    for fault in &subject.faults {
+        let (handle, segment, detail) = (&fault.handle, fault.segment, fault.detail);
+        let (radius, required) = (subject.mm(detail.radius), subject.mm(detail.required));
+        let label = say!(
+            segment_r_mm_the_correction,
+            handle,
+            segment,
+            radius,
+            required
+        );
+        let data = path_data(frame, [Segment::Arc(fault.arc())], false);
+        sheet.path(&named("fault", handle, segment), &data, &label);
+        let middle = frame.local(fault.correction_disc());
+        let radius = detail.required * frame.scale;
+        sheet.circle(r#"class="correction fine""#, middle, radius, "");
+    }
+    marks::thread_holes(sheet, frame, subject);
+    sheet.line(format_args!("</g>"));
 }
 
-impl Frame {
-    /// Opens the group in which y points up and [`Frame::local`] coordinates hold.
-    pub fn opening(&self) -> String {
-        format!(
-            r#"<g transform="matrix(1 0 0 -1 {} {})">"#,
-            number(self.left),
-            number(self.bottom)
-        )
-    }
-
-    /// The same for the drawing itself, with what turns coordinates within the group into the drawing's:
-    /// `data-origin` + local / `data-scale`, of which one is `data-unit-mm` millimetres.
-    pub fn opening_of_drawing(&self, unit_mm: f64) -> String {
-        format!(
-            r#"<g class="drawing" transform="matrix(1 0 0 -1 {} {})" data-origin="{:?} {:?}" data-scale="{:?}" data-unit-mm="{unit_mm:?}">"#,
-            number(self.left),
-            number(self.bottom),
-            self.origin.x,
-            self.origin.y,
-            self.scale
-        )
-    }
-
-    /// Coordinates within the group, y up.
-    pub fn local(&self, point: Point) -> (f64, f64) {
-        let shifted = (point - self.origin) * self.scale;
-        (shifted.x, shifted.y)
-    }
-
-    /// Coordinates on the sheet, y down, where text is written.
-    pub fn on_sheet(&self, point: Point) -> (f64, f64) {
-        let (x, y) = self.local(point);
-        (self.left + x, self.bottom - y)
-    }
+/// The segments of an entity as path data.
+fn data_of(frame: &Frame, subject: &Subject, entity: &Entity) -> String {
+    let geometry = &entity.geometry;
+    let segments = geometry.segments_of(subject.drawing.flat());
+    path_data(frame, segments, geometry.is_closed())
 }
 
-/// The segments as one path, in the frame's local coordinates; `close` joins its end to its start.
-///
-/// An arc is split into pieces of less than a half turn, so that a full circle is drawn, and so that no viewer has
-/// to guess which of two arcs is meant.
-pub(super) fn path_data(
-    frame: &Frame,
-    segments: impl IntoIterator<Item = Segment>,
-    close: bool,
-) -> String {
-    let mut data = String::new();
-    let mut pen = String::new();
-    for segment in segments {
-        let start = pair(frame, segment.start());
-        if pen.is_empty() {
-            let _ = write!(data, "M{start}");
-        } else if pen != start {
-            let _ = write!(data, "L{start}");
+/// The insides of closed contours, the largest first, so that openings lie upon the part that holds them.
+fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    let drawing = subject.drawing;
+    let mut areas: Vec<(f64, &str, String)> = Vec::new();
+    for (id, entity) in drawing.entities() {
+        if entity.geometry.is_closed() && !subject.cut.contains(&id) {
+            let bounds = entity.geometry.bounds(drawing.flat());
+            let size = bounds.width() * bounds.height() * 2.0;
+            areas.push((size, "part", data_of(frame, subject, entity)));
         }
-        pen = match segment {
-            Segment::Line(line) => {
-                let end = pair(frame, line.end);
-                let _ = write!(data, "L{end}");
-                end
-            }
-            Segment::Arc(arc) => {
-                let pieces = (arc.sweep.abs() / (0.9 * PI)).ceil().max(1.0);
-                let radius = number(arc.radius * frame.scale);
-                let direction = u8::from(arc.sweep > 0.0);
-                for piece in 1..=pieces as u32 {
-                    let end = pair(frame, arc.point_at(f64::from(piece) / pieces));
-                    let _ = write!(data, "A{radius} {radius} 0 0 {direction} {end}");
-                }
-                pair(frame, arc.end)
-            }
+    }
+    let closed = subject.outlines.iter();
+    for outline in closed.filter(|outline| outline.contour.closed) {
+        let class = match outline.role {
+            Role::Opening => "void",
+            _ => "part",
         };
+        let segments = outline.contour.segments(drawing);
+        let data = path_data(frame, segments.map(|segment| segment.geometry), true);
+        areas.push((outline.twice_area.abs(), class, data));
     }
-    if close && !data.is_empty() {
-        data.push('Z');
+    areas.sort_by(|a, b| b.0.total_cmp(&a.0));
+    if areas.first().is_some_and(|(_, class, _)| *class == "void") {
+        let [width, height] = [subject.bounds.width(), subject.bounds.height()]
+            .map(|length| number(length * frame.scale + 2.0 * GROUND));
+        sheet.line(format_args!(
+            r#"<rect class="part" x="-{GROUND}" y="-{GROUND}" width="{width}" height="{height}" rx="8"/>"#
+        ));
     }
-    data
-}
-
-fn pair(frame: &Frame, point: Point) -> String {
-    let (x, y) = frame.local(point);
-    format!("{} {}", number(x), number(y))
-}
-
-/// The attributes by which an element is found that stands for a segment.
-pub(super) fn named(handle: &str, segment: usize) -> String {
-    format!(
-        r#"data-handle="{}" data-segment="{segment}""#,
-        escaped(handle)
-    )
-}
-
-/// At most three decimals, without trailing zeros and without a minus before zero.
-pub(super) fn number(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" {
-        "0".into()
-    } else {
-        short.into()
+    for (_, class, data) in areas {
+        sheet.path(&format!(r#"class="{class}""#), &data, "");
     }
 }
 
-/// Text for XML: markup characters replaced, characters that XML forbids left out.
-pub(super) fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\t' | '\n' => safe.push(' '),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
-            c => safe.push(c),
+/// What is drawn and not cut.
+fn asides(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    let entities = subject.drawing.entities();
+    for (_, entity) in entities.filter(|(id, _)| !subject.cut.contains(id)) {
+        if let Geometry::Text { at, text } = &entity.geometry {
+            let is_hole = |hole: Point| (hole - at).norm() * frame.scale < 1.0;
+            let mut holes = subject.paths.iter().map(|path| path.thread_hole);
+            if !text.is_empty() && !holes.any(is_hole) {
+                marks::text(sheet, frame, *at, text);
+            }
+            continue;
+        }
+        let data = data_of(frame, subject, entity);
+        let (kind, handle, layer) = (entity.kind, &entity.handle, &entity.layer);
+        if !data.is_empty() {
+            sheet.path(
+                &format!(r#"class="aside" data-handle="{}""#, escaped(handle)),
+                &data,
+                &say!(on_layer_not_cut, kind, handle, layer),
+            );
         }
     }
-    safe
+}
+
+fn contours(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    let outlines = || subject.outlines.iter().map(|outline| &outline.contour);
+    let count: usize = outlines().map(|contour| contour.len()).sum();
+    for piece in outlines().flat_map(|contour| &contour.pieces) {
+        let Some(entity) = subject.drawing.get(piece.entity) else {
+            continue;
+        };
+        let (kind, handle) = (entity.kind, &entity.handle);
+        if count > TOOLTIP_SEGMENTS {
+            sheet.path(
+                &format!(r#"class="contour" data-handle="{}""#, escaped(handle)),
+                &data_of(frame, subject, entity),
+                &format!("{kind} {handle} · {} segments", piece.count()),
+            );
+            continue;
+        }
+        let segments = entity.geometry.segments_of(subject.drawing.flat());
+        for (index, segment) in segments.enumerate() {
+            let what = match segment {
+                Segment::Line(line) => format!("line, {:.3} mm", subject.mm(line.length())),
+                Segment::Arc(arc) => {
+                    let (radius, sweep) = (subject.mm(arc.radius), arc.sweep.to_degrees());
+                    format!("arc R {radius:.3} mm, {sweep:.1}°")
+                }
+            };
+            sheet.path(
+                &named("contour", handle, index),
+                &path_data(frame, [segment], false),
+                &format!("{kind} {handle} · segment {index} · {what}"),
+            );
+        }
+    }
+}
+
+fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
+    for path in subject.paths {
+        let distance = subject.mm(path.correction);
+        let label = say!(path_of_the_wire_centre, distance);
+        // Runs of one kind: the way round the contour is one line, the leads are others.
+        for run in path
+            .segments
+            .chunk_by(|a, b| is_lead(&a.source) == is_lead(&b.source))
+        {
+            let (class, label) = match run.first() {
+                Some(first) if is_lead(&first.source) => ("lead", "lead-in and lead-out"),
+                _ => ("wire", label.as_str()),
+            };
+            let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
+            sheet.path(&format!(r#"class="{class}""#), &data, label);
+        }
+    }
+}
+
+/// Errors and warnings that have no picture of their own: a dot where they are of a point, else the segment is marked.
+fn other_faults(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    let pieces = subject
+        .outlines
+        .iter()
+        .map(|outline| &outline.contour.pieces);
+    let reversed: FxHashSet<EntityId> = pieces
+        .flatten()
+        .filter(|piece| piece.reversed)
+        .map(|piece| piece.entity)
+        .collect();
+    for finding in subject.findings.iter().filter(|finding| is_other(finding)) {
+        if let Place::Segment { entity, segment } = finding.place
+            && let Some(found) = subject.drawing.get(entity)
+        {
+            let place = (found, segment, reversed.contains(&entity));
+            other_fault(sheet, frame, subject, finding, place);
+        }
+    }
+}
+
+fn other_fault(
+    sheet: &mut Sheet,
+    frame: &Frame,
+    subject: &Subject,
+    finding: &Finding,
+    (entity, segment, is_reversed): (&Entity, usize, bool),
+) {
+    let flat = subject.drawing.flat();
+    let Some(geometry) = entity.geometry.segment_of(segment, flat) else {
+        return;
+    };
+    let point = match finding.detail {
+        Detail::SelfIntersection { at, .. }
+        | Detail::LostPocket { near: at }
+        | Detail::UnprovedPath { near: at }
+        | Detail::DeadEnd { near: at, .. } => Some(at),
+        // Seen where the segment begins in the direction of travel.
+        Detail::SharpCorner { .. } | Detail::NearTangent { .. } | Detail::Gap { .. } => {
+            Some(match is_reversed {
+                true => geometry.end(),
+                false => geometry.start(),
+            })
+        }
+        // Too short to be seen.
+        _ if geometry.length() * frame.scale < DOT => Some(geometry.point_at(0.5)),
+        _ => None,
+    };
+    let (handle, rule) = (&entity.handle, finding.rule.name());
+    let label = format!("{handle} · segment {segment} · {rule}");
+    if let Some(point) = point {
+        let attributes = named("dot", handle, segment);
+        sheet.circle(&attributes, frame.local(point), DOT, &label);
+        return;
+    }
+    // Chords are shown in full where they are of one entity.
+    let count = match finding.detail {
+        Detail::ArcAsChords { chords, .. } => chords,
+        _ => 1,
+    };
+    let from = match is_reversed {
+        true => (segment + 1).saturating_sub(count),
+        false => segment,
+    };
+    let all = entity.geometry.segments_of(flat).skip(from).take(count);
+    let data = path_data(frame, all, false);
+    sheet.path(&named("other", handle, segment), &data, &label);
 }

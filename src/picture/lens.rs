@@ -1,10 +1,9 @@
 //! The first faults enlarged, each with the circle of the correction beside the arc that is too tight for it.
 
-use super::figure::{Frame, escaped, named, number, path_data};
-use super::{Fault, MARGIN, Picture, SHEET_WIDTH};
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number, path_data};
+use super::subject::{Fault, Subject};
 use crate::drawing::{Outline, Role};
 use crate::geometry::{Bounds, Point, Segment};
-use std::fmt::Write;
 
 const COLUMNS: usize = 4;
 const GAP: f64 = 16.0;
@@ -23,27 +22,25 @@ pub(super) fn height_of(faults: usize) -> f64 {
     rows as f64 * (WINDOW + CAPTION) + note
 }
 
-pub(super) fn row(sheet: &mut String, picture: &Picture, top: f64) {
-    for (index, fault) in picture.faults.iter().take(MOST).enumerate() {
+pub(super) fn row(sheet: &mut Sheet, subject: &Subject, top: f64) {
+    for (index, fault) in subject.faults.iter().take(MOST).enumerate() {
         let left = MARGIN + (index % COLUMNS) as f64 * (WIDTH + GAP);
         let top = top + (index / COLUMNS) as f64 * (WINDOW + CAPTION);
-        lens(sheet, picture, fault, index, left, top);
+        lens(sheet, subject, fault, index, left, top);
     }
-    let left_out = picture.faults.len().saturating_sub(MOST);
+    let left_out = subject.faults.len().saturating_sub(MOST);
     if left_out > 0 {
-        let y = top + height_of(picture.faults.len()) - 8.0;
-        let _ = writeln!(
-            sheet,
-            r#"<text class="note lens" x="{MARGIN}" y="{}">and {left_out} more, marked in the drawing</text>"#,
-            number(y)
-        );
+        let y = number(top + height_of(subject.faults.len()) - 8.0);
+        sheet.line(format_args!(
+            r#"<text class="note lens" x="{MARGIN}" y="{y}">{}</text>"#,
+            say!(and_more_marked_in_the_drawing, left_out)
+        ));
     }
 }
 
-fn lens(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, left: f64, top: f64) {
-    let disc = correction_disc(fault);
-    let required = fault.detail.required;
-    let mut seen = Bounds::of_disc(disc, required);
+fn lens(sheet: &mut Sheet, subject: &Subject, fault: &Fault, index: usize, left: f64, top: f64) {
+    let disc = fault.correction_disc();
+    let mut seen = Bounds::of_disc(disc, fault.detail.required);
     seen.merge(&fault.arc().bounds());
     let scale = (WIDTH / seen.width()).min(WINDOW / seen.height()) / 1.5;
     if !scale.is_finite() || scale <= 0.0 {
@@ -62,171 +59,96 @@ fn lens(sheet: &mut String, picture: &Picture, fault: &Fault, index: usize, left
         max: middle,
     }
     .grown(WIDTH / scale);
-    let outline = picture.outlines.iter().find(|outline| {
-        fault.entity.is_some_and(|entity| {
-            outline
-                .contour
-                .pieces
-                .iter()
-                .any(|piece| piece.entity == entity)
-        })
-    });
-
-    let (x, y, width, height) = (number(left), number(top), number(WIDTH), number(WINDOW));
-    let rectangle = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}" rx="6""#);
-    let _ = writeln!(
-        sheet,
-        r#"<g class="lens" {}>"#,
-        named(&fault.handle, fault.segment)
-    );
-    let _ = writeln!(
-        sheet,
-        r#"<clipPath id="lens{index}"><rect {rectangle}/></clipPath>"#
-    );
-    let _ = writeln!(sheet, r#"<g clip-path="url(#lens{index})">"#);
-    let ground = if outline.is_some_and(|outline| outline.role == Role::Opening) {
-        "ground"
-    } else {
-        "sheet"
+    let holds = |outline: &&Outline| {
+        let mut pieces = outline.contour.pieces.iter();
+        fault
+            .entity
+            .is_some_and(|entity| pieces.any(|piece| piece.entity == entity))
     };
-    let _ = writeln!(sheet, r#"<rect class="{ground}" {rectangle}/>"#);
-    let _ = writeln!(sheet, "{}", frame.opening());
+    let outline = subject.outlines.iter().find(holds);
+    let ground = match outline {
+        Some(outline) if outline.role == Role::Opening => "ground",
+        _ => "sheet",
+    };
+    let [x, y, width, height] = [left, top, WIDTH, WINDOW].map(number);
+    let rectangle = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}" rx="6""#);
+    let named = named("lens", &fault.handle, fault.segment);
+    let opening = frame.opening();
+    sheet.line(format_args!(
+        r##"<g {named}>
+<clipPath id="lens{index}"><rect {rectangle}/></clipPath>
+<g clip-path="url(#lens{index})">
+<rect class="{ground}" {rectangle}/>
+{opening}"##
+    ));
     if let Some(outline) = outline {
-        shade(sheet, picture, outline, &frame);
+        shade(sheet, subject, outline, &frame);
     }
-    contents(sheet, picture, &frame, &window);
+    contents(sheet, subject, &frame, &window);
     marks(sheet, fault, disc, &frame);
-    let _ = writeln!(sheet, r#"</g></g><rect class="window" {rectangle}/>"#);
-    caption(sheet, picture, fault, index, left, top + WINDOW);
-    sheet.push_str("</g>\n");
+    sheet.line(format_args!(
+        r#"</g></g><rect class="window" {rectangle}/>"#
+    ));
+    caption(sheet, subject, fault, index, left, top + WINDOW);
+    sheet.line(format_args!("</g>"));
 }
 
-fn shade(sheet: &mut String, picture: &Picture, outline: &Outline, frame: &Frame) {
+fn shade(sheet: &mut Sheet, subject: &Subject, outline: &Outline, frame: &Frame) {
     if !outline.contour.closed || outline.contour.len() > SHADED_SEGMENTS {
         return;
     }
-    let class = if outline.role == Role::Opening {
-        "void"
-    } else {
-        "ground"
+    let attributes = match outline.role {
+        Role::Opening => r#"class="void""#,
+        _ => r#"class="ground""#,
     };
-    let segments = outline
-        .contour
-        .segments(picture.drawing)
-        .map(|segment| segment.geometry);
-    let _ = writeln!(
-        sheet,
-        r#"<path class="{class}" d="{}"/>"#,
-        path_data(frame, segments, true)
-    );
+    let segments = outline.contour.segments(subject.drawing);
+    let data = path_data(frame, segments.map(|segment| segment.geometry), true);
+    sheet.path(attributes, &data, "");
 }
 
 /// Contour and wire path as far as they reach into the window.
-fn contents(sheet: &mut String, picture: &Picture, frame: &Frame, window: &Bounds) {
-    let mut draw = |class: &str, segments: &mut dyn Iterator<Item = Segment>| {
-        for segment in segments.filter(|segment| segment.bounds().touches(window)) {
-            let _ = writeln!(
-                sheet,
-                r#"<path class="{class}" d="{}"/>"#,
-                path_data(frame, [segment], false)
-            );
+fn contents(sheet: &mut Sheet, subject: &Subject, frame: &Frame, window: &Bounds) {
+    let mut draw = |attributes: &str, segment: Segment| {
+        if segment.bounds().touches(window) {
+            sheet.path(attributes, &path_data(frame, [segment], false), "");
         }
     };
-    for outline in picture.outlines {
-        draw(
-            "contour",
-            &mut outline
-                .contour
-                .segments(picture.drawing)
-                .map(|segment| segment.geometry),
-        );
-    }
-    for path in picture.paths {
-        draw(
-            "wire",
-            &mut path.segments.iter().map(|segment| segment.geometry),
-        );
-    }
-}
-
-fn marks(sheet: &mut String, fault: &Fault, disc: Point, frame: &Frame) {
-    let arc = fault.arc();
-    let (x, y) = frame.local(disc);
-    let radius = fault.detail.required * frame.scale;
-    let _ = writeln!(
-        sheet,
-        r#"<circle class="correction" cx="{}" cy="{}" r="{}"/>"#,
-        number(x),
-        number(y),
-        number(radius)
-    );
-    let _ = writeln!(
-        sheet,
-        r#"<circle class="dot" cx="{}" cy="{}" r="2.2"/>"#,
-        number(x),
-        number(y)
-    );
-    let spoke = Segment::line(arc.center, arc.point_at(0.5));
-    let _ = writeln!(
-        sheet,
-        r#"<path class="spoke" d="{}"/>"#,
-        path_data(frame, [spoke], false)
-    );
-    let _ = writeln!(
-        sheet,
-        r#"<path class="fault" d="{}"/>"#,
-        path_data(frame, [Segment::Arc(arc)], false)
-    );
-}
-
-fn caption(
-    sheet: &mut String,
-    picture: &Picture,
-    fault: &Fault,
-    index: usize,
-    left: f64,
-    top: f64,
-) {
-    let detail = fault.detail;
-    let place = format!("{} segment {}", fault.handle, fault.segment);
-    let figures = format!(
-        "R {:.3} < {:.3} mm",
-        picture.mm(detail.radius),
-        picture.mm(detail.required)
-    );
-    let overcut = format!("overcut {:.3}", picture.mm(detail.overcut));
-    let _ = writeln!(
-        sheet,
-        r#"<circle class="badge" cx="{}" cy="{}" r="9"/>"#,
-        number(left + 10.0),
-        number(top + 20.0)
-    );
-    let _ = writeln!(
-        sheet,
-        r#"<text class="count" x="{}" y="{}">{}</text><text class="figures" x="{}" y="{}">{}</text><text class="place" x="{}" y="{}">{}</text>"#,
-        number(left + 10.0),
-        number(top + 24.0),
-        index + 1,
-        number(left + 26.0),
-        number(top + 18.0),
-        escaped(&figures),
-        number(left + 26.0),
-        number(top + 34.0),
-        escaped(&format!("{place}, {overcut}"))
-    );
-}
-
-/// Centre of the circle of the correction as it would have to lie: touching both neighbours of a fillet.
-///
-/// From a half turn on no circle touches both; it is then shown about the arc's own centre.
-pub(super) fn correction_disc(fault: &Fault) -> Point {
-    let arc = fault.arc();
-    let opening = (arc.sweep.abs() / 2.0).cos();
-    let inward = (arc.center - arc.point_at(0.5)).try_normalize(0.0);
-    match inward {
-        Some(inward) if arc.sweep.abs() < 2.8 => {
-            arc.center + inward * ((fault.detail.required - arc.radius) / opening)
+    for outline in subject.outlines {
+        for segment in outline.contour.segments(subject.drawing) {
+            draw(r#"class="contour""#, segment.geometry);
         }
-        _ => arc.center,
     }
+    for segment in subject.paths.iter().flat_map(|path| &path.segments) {
+        draw(r#"class="wire""#, segment.geometry);
+    }
+}
+
+fn marks(sheet: &mut Sheet, fault: &Fault, disc: Point, frame: &Frame) {
+    let (arc, middle) = (fault.arc(), frame.local(disc));
+    let radius = fault.detail.required * frame.scale;
+    sheet.circle(r#"class="correction""#, middle, radius, "");
+    sheet.circle(r#"class="dot""#, middle, 2.2, "");
+    let spoke = Segment::line(arc.center, arc.point_at(0.5));
+    sheet.path(r#"class="spoke""#, &path_data(frame, [spoke], false), "");
+    let arc = path_data(frame, [Segment::Arc(arc)], false);
+    sheet.path(r#"class="fault""#, &arc, "");
+}
+
+fn caption(sheet: &mut Sheet, subject: &Subject, fault: &Fault, index: usize, left: f64, top: f64) {
+    let [radius, required, overcut] = [
+        fault.detail.radius,
+        fault.detail.required,
+        fault.detail.overcut,
+    ]
+    .map(|length| subject.mm(length));
+    let (handle, segment) = (&fault.handle, fault.segment);
+    let figures = escaped(&format!("R {radius:.3} < {required:.3} mm"));
+    let place = escaped(&say!(segment_overcut, handle, segment, overcut));
+    sheet.circle(r#"class="badge""#, (left + 10.0, top + 20.0), 9.0, "");
+    let [badge, x, y, first, second] =
+        [left + 10.0, left + 26.0, top + 24.0, top + 18.0, top + 34.0].map(number);
+    let count = index + 1;
+    sheet.line(format_args!(
+        r#"<text class="count" x="{badge}" y="{y}">{count}</text><text class="figures" x="{x}" y="{first}">{figures}</text><text class="place" x="{x}" y="{second}">{place}</text>"#
+    ));
 }

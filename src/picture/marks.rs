@@ -1,11 +1,10 @@
 //! Numbered marks beside the faults, thread holes, starting points and texts.
 
-use super::figure::{Frame, escaped, named, number};
-use super::{Fault, MARGIN, Picture, SHEET_WIDTH};
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number};
+use super::subject::{Fault, Subject};
 use crate::geometry::{Point, Vector, direction};
 use crate::toolpath::Source;
 use std::f64::consts::FRAC_PI_4;
-use std::fmt::Write;
 
 /// More faults than this are only coloured: numbers would cover the drawing.
 const MOST: usize = 24;
@@ -13,7 +12,7 @@ const MOST: usize = 24;
 const WITH_RADIUS: usize = 16;
 
 /// A number beside each fault, in sheet coordinates, joined to it by a thin line.
-pub(super) fn faults(sheet: &mut String, frame: &Frame, faults: &[Fault], unit_mm: f64, top: f64) {
+pub(super) fn faults(sheet: &mut Sheet, frame: &Frame, faults: &[Fault], unit_mm: f64, top: f64) {
     let mut taken: Vec<Label> = Vec::new();
     let with_radius = faults.len() <= WITH_RADIUS;
     for (index, fault) in faults.iter().take(MOST).enumerate() {
@@ -25,39 +24,34 @@ pub(super) fn faults(sheet: &mut String, frame: &Frame, faults: &[Fault], unit_m
         // On the sheet y points down.
         let angle = (-outward.y).atan2(outward.x);
         let label = free_place(at, angle, with_radius, &taken, top);
-        let (x, y) = label.badge;
-        let _ = writeln!(
-            sheet,
-            r#"<g class="mark" {} data-at="{} {}">"#,
-            named(&fault.handle, fault.segment),
-            number(at.0),
-            number(at.1)
-        );
-        let _ = writeln!(
-            sheet,
-            r#"<path class="leader" d="M{} {}L{} {}"/><circle class="badge" cx="{2}" cy="{3}" r="9"/><text class="count" x="{2}" y="{}">{}</text>"#,
-            number(at.0),
-            number(at.1),
-            number(x),
-            number(y),
-            number(y + 4.0),
-            index + 1
-        );
+        let named = named("mark", &fault.handle, fault.segment);
+        let [from_x, from_y, x, y, text_y] = [
+            at.0,
+            at.1,
+            label.badge.0,
+            label.badge.1,
+            label.badge.1 + 4.0,
+        ]
+        .map(number);
+        let count = index + 1;
+        sheet.line(format_args!(
+            r#"<g {named} data-at="{from_x} {from_y}">
+<path class="leader" d="M{from_x} {from_y}L{x} {y}"/><circle class="badge" cx="{x}" cy="{y}" r="9"/><text class="count" x="{x}" y="{text_y}">{count}</text>"#
+        ));
         if with_radius {
-            let (anchor, x) = if label.text_to_the_left {
-                ("end", x - 13.0)
-            } else {
-                ("start", x + 13.0)
+            let (anchor, beside) = match label.text_to_the_left {
+                true => ("end", -13.0),
+                false => ("start", 13.0),
             };
-            let radius = fault.detail.radius * unit_mm;
-            let _ = writeln!(
-                sheet,
-                r#"<text class="radius" text-anchor="{anchor}" x="{}" y="{}">R {radius:.3}</text>"#,
-                number(x),
-                number(y + 4.0)
+            let (x, radius) = (
+                number(label.badge.0 + beside),
+                fault.detail.radius * unit_mm,
             );
+            sheet.line(format_args!(
+                r#"<text class="radius" text-anchor="{anchor}" x="{x}" y="{text_y}">R {radius:.3}</text>"#
+            ));
         }
-        sheet.push_str("</g>\n");
+        sheet.line(format_args!("</g>"));
         taken.push(label);
     }
 }
@@ -121,72 +115,46 @@ fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], to
 }
 
 /// Thread hole, where the cut begins on the path, and which way it goes.
-pub(super) fn thread_holes(sheet: &mut String, frame: &Frame, picture: &Picture) {
-    for path in picture.paths {
-        let (x, y) = frame.local(path.thread_hole);
-        let (x_mm, y_mm) = (
-            picture.mm(path.thread_hole.x),
-            picture.mm(path.thread_hole.y),
-        );
-        let _ = writeln!(
-            sheet,
-            r#"<g class="thread"><title>thread hole at {x_mm:.3}, {y_mm:.3} mm</title><circle cx="{}" cy="{}" r="5"/><path d="M{} {}h16M{} {}v16"/></g>"#,
-            number(x),
-            number(y),
-            number(x - 8.0),
-            number(y),
-            number(x),
-            number(y - 8.0)
-        );
-        let first = path
-            .segments
-            .iter()
-            .find(|segment| !matches!(segment.source, Source::LeadIn | Source::LeadOut));
-        if let Some(first) = first {
-            arrow(
-                sheet,
-                frame,
-                first.geometry.start(),
-                first.geometry.start_tangent(),
-            );
+pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    for path in subject.paths {
+        let hole = path.thread_hole;
+        let (across, up) = frame.local(hole);
+        let [x, y, left, below] = [across, up, across - 8.0, up - 8.0].map(number);
+        let title = say!(thread_hole_at_mm, subject.mm(hole.x), subject.mm(hole.y));
+        sheet.line(format_args!(
+            r#"<g class="thread"><title>{title}</title><circle cx="{x}" cy="{y}" r="5"/><path d="M{left} {y}h16M{x} {below}v16"/></g>"#
+        ));
+        let is_cut = |source: &Source| !matches!(source, Source::LeadIn | Source::LeadOut);
+        let mut segments = path.segments.iter();
+        if let Some(first) = segments.find(|segment| is_cut(&segment.source)) {
+            let first = &first.geometry;
+            arrow(sheet, frame, first.start(), first.start_tangent());
         }
     }
 }
 
 /// A head that points along `along` and begins in `point`.
-fn arrow(sheet: &mut String, frame: &Frame, point: Point, along: Vector) {
-    let (x, y) = frame.local(point);
-    let across = Vector::new(-along.y, along.x) * 4.5;
-    let tip = along * 13.0;
-    let _ = writeln!(
-        sheet,
-        r#"<path class="arrow" d="M{} {}L{} {}L{} {}Z"><title>the cut begins here</title></path>"#,
-        number(x + tip.x),
-        number(y + tip.y),
-        number(x + across.x),
-        number(y + across.y),
-        number(x - across.x),
-        number(y - across.y)
-    );
+fn arrow(sheet: &mut Sheet, frame: &Frame, point: Point, along: Vector) {
+    let from = Vector::from(<[f64; 2]>::from(frame.local(point)));
+    let side = Vector::new(-along.y, along.x) * 4.5;
+    let [tip, left, right] = [from + along * 13.0, from + side, from - side]
+        .map(|corner| format!("{} {}", number(corner.x), number(corner.y)));
+    let data = format!("M{tip}L{left}L{right}Z");
+    sheet.path(r#"class="arrow""#, &data, say!(the_cut_begins_here));
 }
 
 /// A text of the drawing; "O", the mark of a starting point, stands upon its point, other texts begin in it.
-pub(super) fn text(sheet: &mut String, frame: &Frame, at: Point, text: &str) {
+pub(super) fn text(sheet: &mut Sheet, frame: &Frame, at: Point, text: &str) {
     let (x, y) = frame.local(at);
+    let [x, y] = [x, y].map(number);
     let shown: String = text.chars().take(48).collect();
-    let is_mark = shown.trim().eq_ignore_ascii_case("o");
-    let (class, anchor) = if is_mark {
-        ("start", "middle")
-    } else {
-        ("annotation", "start")
+    let (class, anchor, down) = match shown.trim().eq_ignore_ascii_case("o") {
+        true => ("start", "middle", 4),
+        false => ("annotation", "start", 0),
     };
     // Text is turned back, or it would be read in a mirror.
-    let _ = writeln!(
-        sheet,
-        r#"<text class="{class}" text-anchor="{anchor}" transform="matrix(1 0 0 -1 {} {})" y="{}">{}</text>"#,
-        number(x),
-        number(y),
-        if is_mark { 4 } else { 0 },
+    sheet.line(format_args!(
+        r#"<text class="{class}" text-anchor="{anchor}" transform="matrix(1 0 0 -1 {x} {y})" y="{down}">{}</text>"#,
         escaped(&shown)
-    );
+    ));
 }

@@ -3,8 +3,8 @@
 //! Every block is a path of its own whose `data-line` is its line in the text, from 0, in the order in which the machine runs them;
 //! beyond [`MOST_BLOCKS`] consecutive blocks share a path with the line of the first.
 
-use super::figure::{Frame, escaped, number, path_data};
-use super::{FIGURE_TOP, MARGIN, SHEET_WIDTH, scale_to_fit, style};
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, number, path_data};
+use super::style::{self, LEAD, THREAD, WIRE};
 use crate::finding::Severity;
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use crate::program::path::{Kind, Step, Trace};
@@ -20,24 +20,25 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
         min: mm(bounds.min),
         max: mm(bounds.max),
     }) else {
-        return style::empty_program();
+        return style::empty(say!(the_program_moves_nothing));
     };
-    let scale = scale_to_fit(&bounds);
-    let height = (bounds.height() * scale).max(24.0);
-    let left = (SHEET_WIDTH - bounds.width() * scale) / 2.0;
-    let frame = Frame {
-        origin: bounds.min,
-        scale,
-        left,
-        bottom: FIGURE_TOP + height,
-    };
+    let frame = Frame::fitting(&bounds);
     let legend_top = frame.bottom + 48.0;
     let by_line: FxHashMap<usize, &(usize, Severity, String)> =
         faults.iter().rev().map(|fault| (fault.0, fault)).collect();
     let moving: Vec<&Step> = trace.steps.iter().filter(|step| step.moves()).collect();
-    let mut sheet = style::opening(SHEET_WIDTH, legend_top + 48.0, &title(faults));
-    header(&mut sheet, trace, &moving, faults);
-    let _ = writeln!(sheet, "{}", frame.opening_of_drawing(1.0));
+    let title = title(faults);
+    let mut sheet = style::opening(legend_top + 48.0, &title);
+    let (closure, length) = (trace.closure(), trace.length() / 1000.0);
+    let facts = say!(
+        blocks_mm_ends_m_from,
+        moving.len(),
+        length,
+        closure.x,
+        closure.y
+    );
+    sheet.heading(&title, &facts);
+    sheet.line(format_args!("{}", frame.opening_of_drawing(1.0)));
     let per_path = moving.len().div_ceil(MOST_BLOCKS).max(1);
     for steps in moving.chunk_by(|a, b| joins(a, b)) {
         for steps in steps.chunks(per_path) {
@@ -45,17 +46,22 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
         }
     }
     thread_holes(&mut sheet, &frame, &moving);
-    sheet.push_str("</g>\n");
-    let has_ways = moving.iter().any(|step| step.kind == Kind::Rapid);
-    style::program_legend(
-        &mut sheet,
-        legend_top + 12.0,
-        has_ways,
-        moving.iter().any(|step| by_line.contains_key(&step.line)),
-    );
-    style::scale_bar(&mut sheet, SHEET_WIDTH - MARGIN, legend_top + 12.0, scale);
-    sheet.push_str("</svg>\n");
-    sheet
+    sheet.line(format_args!("</g>"));
+    let mut entries = vec![(WIRE, "wire"), (THREAD, say!(start_of_a_contour))];
+    if moving.iter().any(|step| step.kind == Kind::Rapid) {
+        entries.push((LEAD, say!(way_without_a_cut)));
+    }
+    if moving.iter().any(|step| by_line.contains_key(&step.line)) {
+        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, "error"));
+        entries.push((r#"<path class="other" d="M0 0h24"/>"#, "warning"));
+    }
+    sheet.line(format_args!(r#"<g class="chrome">"#));
+    style::legend(&mut sheet, legend_top + 12.0, &entries);
+    sheet.line(format_args!("</g>"));
+    let right = SHEET_WIDTH - MARGIN;
+    style::scale_bar(&mut sheet, right, legend_top + 12.0, frame.scale);
+    sheet.line(format_args!("</svg>"));
+    sheet.0
 }
 
 /// µm to mm.
@@ -88,40 +94,14 @@ fn title(faults: &[(usize, Severity, String)]) -> String {
         .filter(|fault| fault.1 == Severity::Error)
         .count();
     match errors {
-        0 => "Path of the wire".into(),
-        1 => "Path of the wire, with 1 error".into(),
-        count => format!("Path of the wire, with {count} errors"),
+        0 => say!(path_of_the_wire).into(),
+        1 => say!(path_of_the_wire_with).into(),
+        count => say!(path_of_the_wire_with_errors, count),
     }
 }
 
-fn header(
-    sheet: &mut String,
-    trace: &Trace,
-    moving: &[&Step],
-    faults: &[(usize, Severity, String)],
-) {
-    let closure = trace.closure();
-    let facts = format!(
-        "{} blocks · {:.3} mm · ends {:.0}, {:.0} µm from its start",
-        moving.len(),
-        trace.length() / 1000.0,
-        closure.x,
-        closure.y
-    );
-    let _ = writeln!(
-        sheet,
-        r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
-        escaped(&title(faults))
-    );
-    let _ = writeln!(
-        sheet,
-        r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#,
-        escaped(&facts)
-    );
-}
-
 fn path(
-    sheet: &mut String,
+    sheet: &mut Sheet,
     frame: &Frame,
     steps: &[&Step],
     faults: &FxHashMap<usize, &(usize, Severity, String)>,
@@ -142,11 +122,11 @@ fn path(
     if let Some((_, _, sentence)) = fault {
         let _ = write!(label, " · {sentence}");
     }
-    let _ = writeln!(
-        sheet,
-        r#"<path class="{class}" data-line="{}" d="{data}"><title>{}</title></path>"#,
-        first.line,
-        escaped(&label)
+    let line = first.line;
+    sheet.path(
+        &format!(r#"class="{class}" data-line="{line}""#),
+        &data,
+        &label,
     );
 }
 
@@ -160,9 +140,9 @@ fn label(step: &Step) -> String {
             arc.radius / 1000.0,
             arc.sweep.to_degrees()
         ),
-        (Some(line), Kind::Rapid) => format!("way without a cut, {:.3} mm", line.length() / 1000.0),
+        (Some(line), Kind::Rapid) => say!(way_without_a_cut_mm, line.length() / 1000.0),
         (Some(line), _) => format!("line, {:.3} mm", line.length() / 1000.0),
-        (None, _) => "leads nowhere".into(),
+        (None, _) => say!(leads_nowhere).into(),
     };
     let end = mm(step.end);
     format!(
@@ -174,16 +154,15 @@ fn label(step: &Step) -> String {
 }
 
 /// Where each contour begins, once each place.
-fn thread_holes(sheet: &mut String, frame: &Frame, moving: &[&Step]) {
+fn thread_holes(sheet: &mut Sheet, frame: &Frame, moving: &[&Step]) {
     let begins = moving.iter().enumerate().filter(|(index, step)| {
         let before = index.checked_sub(1).and_then(|before| moving.get(before));
         step.kind != Kind::Rapid && before.is_none_or(|before| before.contour != step.contour)
     });
     for (x, y) in begins.map(|(_, step)| frame.local(mm(step.start))) {
         let (x, y) = (number(x), number(y));
-        let _ = writeln!(
-            sheet,
+        sheet.line(format_args!(
             r#"<g class="thread" transform="translate({x} {y})"><circle r="5"/><path d="M-8 0h16M0 -8v16"/></g>"#
-        );
+        ));
     }
 }

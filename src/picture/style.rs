@@ -1,8 +1,6 @@
 //! Colours of light and dark viewers, the legend and the scale bar.
 
-use super::figure::{escaped, number};
-use super::{MARGIN, SHEET_WIDTH};
-use std::fmt::Write;
+use super::sheet::{MARGIN, SHEET_WIDTH, Sheet, escaped, number};
 
 const STYLE: &str = "\
 text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;font-size:12px;fill:#24292f}
@@ -58,64 +56,22 @@ text{fill:#e6edf3}
 ";
 
 /// The head of the file: size, title, colours and the ground.
-pub(super) fn opening(width: f64, height: f64, title: &str) -> String {
-    let (width, height) = (number(width), number(height.ceil()));
-    format!(
+pub(super) fn opening(height: f64, title: &str) -> Sheet {
+    let [width, height] = [SHEET_WIDTH, height.ceil()].map(number);
+    let title = escaped(title);
+    Sheet(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\">\n\
-         <title>{}</title>\n<style>\n{STYLE}</style>\n<rect class=\"sheet\" width=\"{width}\" height=\"{height}\"/>\n",
-        escaped(title)
-    )
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n<rect class=\"sheet\" width=\"{width}\" height=\"{height}\"/>\n"
+    ))
 }
 
-/// What is shown of a drawing without geometry.
-pub(super) fn empty_sheet() -> String {
-    let mut sheet = opening(SHEET_WIDTH, 120.0, "Nothing to draw");
-    let _ = writeln!(
-        sheet,
-        r#"<text class="note" x="{MARGIN}" y="64">the drawing has no lines, arcs or circles</text>"#
-    );
-    sheet.push_str("</svg>\n");
-    sheet
-}
-
-/// What is shown of a program that moves nothing.
-pub(super) fn empty_program() -> String {
-    let mut sheet = opening(SHEET_WIDTH, 120.0, "Nothing to draw");
-    let _ = writeln!(
-        sheet,
-        r#"<text class="note" x="{MARGIN}" y="64">the program moves nothing</text>"#
-    );
-    sheet.push_str("</svg>\n");
-    sheet
-}
-
-/// What the lines of a program mean, as far as they occur.
-pub(super) fn program_legend(sheet: &mut String, top: f64, has_ways: bool, has_faults: bool) {
-    let mut entries = vec![
-        (r#"<path class="wire" d="M0 0h24"/>"#, "wire"),
-        (
-            r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#,
-            "start of a contour",
-        ),
-    ];
-    if has_ways {
-        entries.push((r#"<path class="lead" d="M0 0h24"/>"#, "way without a cut"));
-    }
-    if has_faults {
-        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, "error"));
-        entries.push((r#"<path class="other" d="M0 0h24"/>"#, "warning"));
-    }
-    let mut x = MARGIN;
-    let _ = writeln!(sheet, r#"<g class="chrome">"#);
-    for (sample, text) in entries {
-        let (left, y) = (number(x), number(top + 8.0));
-        let _ = writeln!(
-            sheet,
-            r#"<g transform="translate({left} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#
-        );
-        x += 32.0 + text.chars().count() as f64 * 6.6 + 22.0;
-    }
-    sheet.push_str("</g>\n");
+/// What is shown where there is nothing to draw, and `why`.
+pub(super) fn empty(why: &str) -> String {
+    let mut sheet = opening(120.0, say!(nothing_to_draw));
+    sheet.line(format_args!(
+        "<text class=\"note\" x=\"{MARGIN}\" y=\"64\">{why}</text>\n</svg>"
+    ));
+    sheet.0
 }
 
 /// What occurs in a picture.
@@ -125,63 +81,54 @@ pub(super) struct Shown {
     pub paths: bool,
 }
 
-/// What the lines mean, as far as they occur.
-pub(super) fn legend(sheet: &mut String, top: f64, shown: Shown) {
-    let y = top + 8.0;
-    let mut x = MARGIN;
-    let mut entry = |sample: &str, text: &str| {
-        let _ = writeln!(
-            sheet,
-            r#"<g transform="translate({} {})">{sample}<text class="note" x="32" y="4">{}</text></g>"#,
-            number(x),
-            number(y),
-            escaped(text)
-        );
-        x += 32.0 + text.chars().count() as f64 * 6.6 + 22.0;
-    };
-    entry(r#"<path class="contour" d="M0 0h24"/>"#, "contour");
+/// A sample of what is drawn, and what it means.
+pub(super) type Entry = (&'static str, &'static str);
+
+pub(super) const WIRE: &str = r#"<path class="wire" d="M0 0h24"/>"#;
+pub(super) const LEAD: &str = r#"<path class="lead" d="M0 0h24"/>"#;
+pub(super) const THREAD: &str =
+    r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#;
+
+/// What the lines of a drawing mean, as far as they occur.
+pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
+    let mut entries = vec![(r#"<path class="contour" d="M0 0h24"/>"#, "contour")];
     if shown.paths {
-        entry(r#"<path class="wire" d="M0 0h24"/>"#, "wire");
-        entry(r#"<path class="lead" d="M0 0h24"/>"#, "lead");
-        entry(
-            r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#,
-            "thread hole",
-        );
+        entries.extend([(WIRE, "wire"), (LEAD, "lead"), (THREAD, say!(thread_hole))]);
     }
     if shown.faults {
-        entry(
-            r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#,
-            "too tight",
-        );
-        entry(
-            r#"<circle class="correction" cx="12" cy="0" r="8"/>"#,
-            "correction",
-        );
+        let tight = r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#;
+        let correction = r#"<circle class="correction" cx="12" cy="0" r="8"/>"#;
+        entries.extend([(tight, say!(too_tight)), (correction, "correction")]);
     }
     if shown.others {
-        entry(
-            r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#,
-            "other finding",
-        );
+        let dot = r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#;
+        entries.push((dot, say!(other_finding)));
+    }
+    entries
+}
+
+pub(super) fn legend(sheet: &mut Sheet, top: f64, entries: &[Entry]) {
+    let (mut x, y) = (MARGIN, number(top + 8.0));
+    for (sample, text) in entries {
+        let left = number(x);
+        sheet.line(format_args!(
+            r#"<g transform="translate({left} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#
+        ));
+        x += 32.0 + text.chars().count() as f64 * 6.6 + 22.0;
     }
 }
 
 /// A bar of a round length whose right end is at `right`; `scale` is sheet units in 1 mm.
-pub(super) fn scale_bar(sheet: &mut String, right: f64, top: f64, scale: f64) {
+pub(super) fn scale_bar(sheet: &mut Sheet, right: f64, top: f64, scale: f64) {
     let Some(length) = round_length(140.0 / scale) else {
         return;
     };
-    let (left, y) = (right - length * scale, top + 8.0);
-    let _ = writeln!(
-        sheet,
-        r#"<path class="bar" d="M{} {}v8h{}v-8"/><text class="note" text-anchor="middle" x="{}" y="{}">{} mm</text>"#,
-        number(left),
-        number(y),
-        number(length * scale),
-        number((left + right) / 2.0),
-        number(y),
-        plain(length)
-    );
+    let left = right - length * scale;
+    let [x, width, middle, y] = [left, length * scale, (left + right) / 2.0, top + 8.0].map(number);
+    let length = plain(length);
+    sheet.line(format_args!(
+        r#"<path class="bar" d="M{x} {y}v8h{width}v-8"/><text class="note" text-anchor="middle" x="{middle}" y="{y}">{length} mm</text>"#
+    ));
 }
 
 /// The largest of 1, 2, 5 × 10ⁿ that is not above `length`; `None` where there is none.

@@ -1,9 +1,9 @@
-use super::figure::number;
+use super::sheet::{number, path_data};
 use super::*;
-use crate::drawing::{Contour, Geometry, Kind, Vertex};
-use crate::finding::{Rule, Severity, Side};
+use crate::drawing::{Contour, Entity, EntityId, Geometry, Kind, Role, Vertex};
+use crate::finding::{Detail, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::{Point, Segment};
-use crate::toolpath::PathSegment;
+use crate::toolpath::{PathSegment, Source};
 
 fn entity(handle: &str, layer: &str, kind: Kind, geometry: Geometry) -> Entity {
     Entity {

@@ -138,15 +138,14 @@ pub(super) fn answered(state: &mut State, id: &str, result: Result<Value, Value>
                 let reason = error
                     .get("message")
                     .and_then(Value::as_str)
-                    .unwrap_or("no reason given");
+                    .unwrap_or(say!(no_reason_given));
                 format!("{method} failed: {reason}")
             });
             then(state, result);
         }
-        None => state.client.log(
-            Weight::Info,
-            format!("an answer to {id} came late or answers nothing that was asked"),
-        ),
+        None => state
+            .client
+            .log(Weight::Info, say!(an_answer_to_came_late, id)),
     }
 }
 
@@ -163,14 +162,11 @@ pub(super) fn expire(state: &mut State) {
         if let Some(Asked { then, method, .. }) = state.client.asked.remove(&id) {
             state.client.log(
                 Weight::Warning,
-                format!("{method} was not answered within {} s", TIME_OUT.as_secs()),
+                say!(was_not_answered_within_s, method, TIME_OUT.as_secs()),
             );
             then(
                 state,
-                Err(format!(
-                    "the client did not answer {method} within {} s",
-                    TIME_OUT.as_secs()
-                )),
+                Err(say!(the_client_did_not_answer, method, TIME_OUT.as_secs())),
             );
         }
     }

@@ -73,7 +73,7 @@ impl Config {
         errors.extend(self.settings_for(None).pass_errors(&|_| None));
         let sentences: Vec<String> = errors
             .iter()
-            .map(|error| format!("settings in {}: {}", level.name(), error.message))
+            .map(|error| say!(settings_in, level.name(), error.message))
             .collect();
         let old: FxHashSet<String> = self
             .shown
@@ -199,7 +199,7 @@ fn read_file(path: &Path) -> ProjectFile {
             settings: Settings::default(),
             errors: vec![SettingsError::new(
                 "",
-                format!("the file cannot be taken: {reason}"),
+                say!(the_file_cannot_be_taken, reason),
                 None,
             )],
         },

@@ -116,7 +116,7 @@ impl Content {
         changed.unwrap_or_else(|panic| {
             report(&*panic);
             self.forget();
-            Err(format!("internal error: {}", panic_text(&*panic)))
+            Err(say!(internal_error, panic_text(&*panic)))
         })
     }
 
@@ -204,7 +204,7 @@ impl Content {
 }
 
 fn no_drawing() -> String {
-    "there is no such drawing open".into()
+    say!(there_is_no_such_drawing).into()
 }
 
 fn kind_of(document: &Document) -> Kind {
@@ -256,7 +256,7 @@ fn internal_error() -> Diagnostic {
         code: Rule::Syntax.name().into(),
         code_description: None,
         source: "wedm".into(),
-        message: "internal error: the document could not be judged; its text is kept and is tried again with the next change".into(),
+        message: say!(internal_error_the_document_could).into(),
         related_information: None,
         data: None,
     }

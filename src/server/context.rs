@@ -38,23 +38,15 @@ pub(super) enum Reach {
     Outline,
 }
 
-/// What params say about their document.
-pub(super) trait About {
-    fn uri(&self) -> &str;
-
-    fn position(&self) -> Option<Position> {
-        None
-    }
-
+/// What the params of a request say about its document.
+#[derive(Default)]
+pub(super) struct About {
+    pub uri: Arc<str>,
+    pub position: Option<Position>,
     /// Settings for this request alone.
-    fn options(&self) -> Option<&Value> {
-        None
-    }
-
+    pub options: Option<Value>,
     /// Where progress is told.
-    fn token(&self) -> Option<Value> {
-        None
-    }
+    pub token: Option<Value>,
 }
 
 /// A request on its way: its name for the log, and for the user where progress is told.
@@ -62,7 +54,7 @@ pub(super) struct Asked {
     pub name: &'static str,
     pub title: &'static str,
     pub reach: Reach,
-    pub token: Option<Value>,
+    pub about: About,
     /// Gone when the client has cancelled the request.
     pub client: Weak<()>,
 }
@@ -120,15 +112,14 @@ impl Wanted {
 impl State {
     /// Answers a request by `work`: at once where the document is small, else on a worker. An answer about a document that has
     /// changed meanwhile is none.
-    pub fn answer<P: About + Send + 'static, T: Send + 'static>(
+    pub fn answer<T: Send + 'static>(
         &mut self,
         asked: Asked,
-        params: P,
         reply: Reply<T>,
-        work: impl FnOnce(&RequestContext, P) -> Result<T> + Send + 'static,
+        work: impl FnOnce(&RequestContext) -> Result<T> + Send + 'static,
     ) {
         let (name, reach) = (asked.name, asked.reach);
-        let (context, is_small) = match RequestContext::new(self, asked, &params) {
+        let (context, is_small) = match RequestContext::new(self, asked) {
             Ok(context) => context,
             Err(error) => {
                 let _ = reply.send(Err(error));
@@ -136,7 +127,7 @@ impl State {
             }
         };
         if is_small {
-            let result = work(&context, params);
+            let result = work(&context);
             drop(context);
             let _ = reply.send(result);
             return;
@@ -148,10 +139,10 @@ impl State {
         };
         self.workers.run(reach == Reach::Place, is_wanted, move || {
             let result = wanted.check().and_then(|()| {
-                catch_unwind(AssertUnwindSafe(|| work(&context, params))).unwrap_or_else(|panic| {
+                catch_unwind(AssertUnwindSafe(|| work(&context))).unwrap_or_else(|panic| {
                     let text = panic_text(&*panic);
                     tracing::error!("{name} panicked: {text}");
-                    Err(internal(format!("internal error: {text}")))
+                    Err(internal(say!(internal_error, text)))
                 })
             });
             // Progress ends before the answer comes.
@@ -163,13 +154,20 @@ impl State {
 
 impl RequestContext {
     /// And whether the document is so small that the request is answered at once.
-    fn new(state: &mut State, asked: Asked, params: &impl About) -> Result<(RequestContext, bool)> {
-        let options = with_options(state, params.uri(), params.options());
+    fn new(state: &mut State, asked: Asked) -> Result<(RequestContext, bool)> {
+        let Asked {
+            title,
+            reach,
+            about,
+            client,
+            ..
+        } = asked;
+        let options = with_options(state, &about.uri, about.options.as_ref());
         let (encoding, abilities) = (state.encoding, state.client.abilities.clone());
-        let progress = Progress::begin(state.client.writer(), asked.token, asked.title);
-        let open = state.document(params.uri())?;
+        let progress = Progress::begin(state.client.writer(), about.token, title);
+        let open = state.document(&about.uri)?;
         let is_small =
-            asked.reach != Reach::Long && open.content.is_small() && open.findings <= FEW_FINDINGS;
+            reach != Reach::Long && open.content.is_small() && open.findings <= FEW_FINDINGS;
         let context = RequestContext {
             uri: open.uri.clone(),
             version: open.version,
@@ -179,11 +177,11 @@ impl RequestContext {
             progress,
             tokens: open.tokens.clone(),
             held: open.document().map_or(Held::Nothing, |document| {
-                Held::of(document, asked.reach, params.position(), encoding)
+                Held::of(document, reach, about.position, encoding)
             }),
             options,
             wanted: Wanted {
-                client: asked.client,
+                client,
                 revision: open.revision(),
             },
         };
@@ -247,13 +245,10 @@ impl RequestContext {
     pub fn drawn(&self) -> Result<&Arc<Document>> {
         let document = self
             .document()
-            .ok_or_else(|| refused(format!("{} holds no drawing", self.uri)))?;
+            .ok_or_else(|| refused(say!(holds_no_drawing, self.uri)))?;
         match document.drawing() {
             Some(_) => Ok(document),
-            None => Err(refused(format!(
-                "{} is a program, expected a drawing",
-                self.uri
-            ))),
+            None => Err(refused(say!(is_a_program_expected_a, self.uri))),
         }
     }
 
@@ -277,7 +272,7 @@ impl RequestContext {
     pub fn lsp_uri(&self) -> Result<Uri> {
         self.uri
             .parse()
-            .map_err(|_| Error::invalid_params(format!("{:?} is no URI", self.uri)))
+            .map_err(|_| Error::invalid_params(say!(is_no_uri, self.uri)))
     }
 
     /// Edits of the document's text in the form that the client takes.

@@ -25,7 +25,7 @@ impl Sent {
         let uri = drawing
             .get("uri")
             .and_then(Value::as_str)
-            .ok_or("drawing.uri is missing or not a string")?;
+            .ok_or(say!(drawing_uri_is_missing_or))?;
         let uri: Arc<str> = uri.into();
         let read =
             serde_json::from_value::<protocol::Drawing>(drawing).map_err(|error| error.to_string());
@@ -41,11 +41,7 @@ pub(super) fn open(state: &mut State, sent: Sent) {
             state.log_if_open(&uri);
             insert(state, uri, version, drawing);
         }
-        Err(reason) => refuse(
-            state,
-            &uri,
-            &format!("the drawing {uri} is not sound: {reason}"),
-        ),
+        Err(reason) => refuse(state, &uri, &say!(the_drawing_is_not_sound, uri, reason)),
     }
 }
 
@@ -73,7 +69,7 @@ impl SentChanges {
         let uri = params
             .pointer("/drawing/uri")
             .and_then(Value::as_str)
-            .ok_or("drawing.uri is missing or not a string")?;
+            .ok_or(say!(drawing_uri_is_missing_or))?;
         let uri: Arc<str> = uri.into();
         let changes = serde_json::from_value::<protocol::ChangeDrawing>(params);
         let changes = changes
@@ -93,28 +89,23 @@ pub(super) fn change(state: &mut State, sent: SentChanges) {
         Ok((version, changes)) if is_open => {
             state.add_task(&uri, Task::ChangeDrawing { version, changes })
         }
-        Ok(_) => does_not_apply(state, &uri, "there is no such drawing open"),
+        Ok(_) => does_not_apply(state, &uri, say!(there_is_no_such_drawing)),
         Err(reason) => does_not_apply(state, &uri, &reason),
     }
 }
 
 /// A change of a drawing was not made.
 pub(super) fn does_not_apply(state: &mut State, uri: &Arc<str>, reason: &str) {
-    refuse(
-        state,
-        uri,
-        &format!("a change of the drawing {uri} does not apply: {reason}"),
-    );
+    refuse(state, uri, &say!(a_change_of_the_drawing, uri, reason));
 }
 
 pub(super) fn close(state: &mut State, uri: &Arc<str>) {
     state.resending.remove(uri);
     let is_open = state.documents.get(uri).is_some_and(|open| open.is_drawing);
     if !is_open || !state.close(uri) {
-        state.client.log(
-            Weight::Warning,
-            format!("the drawing {uri} was closed without being open"),
-        );
+        state
+            .client
+            .log(Weight::Warning, say!(the_drawing_was_closed_without, uri));
     }
 }
 
@@ -140,10 +131,9 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
             })
             .and_then(|resent| resent_drawing(state, &uri, resent));
         if let Err(reason) = drawing {
-            state.client.log(
-                Weight::Warning,
-                format!("the drawing {uri} was not sent again as it should be: {reason}"),
-            );
+            state
+                .client
+                .log(Weight::Warning, say!(the_drawing_was_not_sent, uri, reason));
         }
     };
     state
@@ -158,7 +148,7 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
 fn resent_drawing(state: &mut State, uri: &Arc<str>, resent: Resent) -> Result<(), String> {
     let drawing = resent.drawing;
     if *drawing.uri != **uri {
-        return Err(format!("its uri is {}", drawing.uri));
+        return Err(say!(its_uri_is, drawing.uri));
     }
     let version = drawing.version;
     if let Some(open) = state
@@ -166,7 +156,7 @@ fn resent_drawing(state: &mut State, uri: &Arc<str>, resent: Resent) -> Result<(
         .get(uri)
         .filter(|open| open.version > version)
     {
-        return Err(format!("version {version} is older than {}", open.version));
+        return Err(say!(version_is_older_than, version, open.version));
     }
     insert(state, uri.clone(), version, drawing.into_core()?);
     Ok(())

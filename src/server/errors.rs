@@ -35,7 +35,7 @@ pub(super) fn internal(message: impl Into<String>) -> Error {
 pub(super) fn moved_on() -> Error {
     Error {
         code: ErrorCode::ContentModified,
-        message: "the document has changed meanwhile".into(),
+        message: say!(the_document_has_changed_meanwhile).into(),
         data: None,
     }
 }
@@ -48,7 +48,7 @@ pub(super) fn refusal(document: &Document, refusal: Refusal, encoding: Encoding)
         Refusal::Findings(findings) => {
             let diagnostics = convert::diagnostics(document, &findings, encoding);
             let first = diagnostics.first().map_or_else(
-                || "no path can be made".into(),
+                || say!(no_path_can_be_made).into(),
                 |first| first.message.clone(),
             );
             refused_with(first, diagnostics)

@@ -138,13 +138,13 @@ impl Job {
                     changes,
                 } => {
                     if newer < version {
-                        remarks.push(format!("{uri} was changed to version {newer}, which is older than {version}: applied all the same"));
+                        remarks.push(say!(was_changed_to_version_which, uri, newer, version));
                     }
                     version = version.max(newer);
                     change(&mut content, changes, encoding);
                 }
                 Task::ChangeDrawing { version: newer, .. } if newer <= version => {
-                    refused.push(format!("version {newer} is not newer than {version}"));
+                    refused.push(say!(version_is_not_newer_than, newer, version));
                 }
                 Task::ChangeDrawing {
                     version: newer,

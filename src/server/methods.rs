@@ -31,36 +31,35 @@ struct Method<P, R> {
 
 /// Requests of LSP: method of the framework's trait, request, what its handler holds of the document, handler.
 macro_rules! requests {
-    ($($name:ident: $request:ty, $reach:ident $(, $title:literal)? => $handler:path;)*) => {$(
+    ($($name:ident: $request:ty, $reach:ident $(, $title:ident)? => $handler:path;)*) => {$(
         async fn $name(
             &self,
             params: <$request as Request>::Params,
         ) -> Result<<$request as Request>::Result> {
             let method = Method {
                 name: <$request>::METHOD,
-                title: concat!($($title)?),
+                title: ["" $(, say!($title))?].last().copied().unwrap_or_default(),
                 reach: Reach::$reach,
                 handler: $handler,
             };
-            let token = params.token();
-            self.answer(method, params, token).await
+            self.answer(method, About::from(&params), params).await
         }
     )*};
 }
 
 /// Requests of the name space `wedm/`: name, type of the params, what progress is called, what the handler holds, handler.
 macro_rules! own_requests {
-    ($($name:ident: $method:path, $params:ty, $reach:ident, $title:literal => $handler:path;)*) => {
+    ($($name:ident: $method:path, $params:ty, $reach:ident, $title:ident => $handler:path;)*) => {
         impl Backend {$(
             async fn $name(&self, params: Value) -> Result<Value> {
-                let (params, token) = read::<$params>(params)?;
+                let (params, about) = read::<$params>(params)?;
                 let method = Method {
                     name: $method,
-                    title: $title,
+                    title: say!($title),
                     reach: Reach::$reach,
                     handler: $handler,
                 };
-                self.answer(method, params, token).await
+                self.answer(method, about, params).await
             }
         )*}
 
@@ -71,13 +70,13 @@ macro_rules! own_requests {
 }
 
 own_requests! {
-    inspect: method::INSPECT, protocol::Inspect, Document, "Listing radii" => inspect::inspect;
-    contours: method::CONTOURS, protocol::DrawingName, Document, "Listing contours" => contours::contours;
-    toolpath: method::TOOLPATH, WithOptions, Document, "Laying the wire's path" => toolpath::toolpath;
-    picture: method::PICTURE, WithOptions, Document, "Drawing the picture" => picture::picture;
-    generate: method::GENERATE, generate::Params, Long, "Generating the program" => generate::generate;
-    simulate: method::SIMULATE, protocol::Simulate, Document, "Following the program" => simulate::simulate;
-    locate: method::LOCATE, protocol::Locate, Place, "Locating" => locate::locate;
+    inspect: method::INSPECT, protocol::Inspect, Document, listing_radii => inspect::inspect;
+    contours: method::CONTOURS, protocol::DrawingName, Document, listing_contours => contours::contours;
+    toolpath: method::TOOLPATH, protocol::DrawingName, Document, laying_the_wires_path => toolpath::toolpath;
+    picture: method::PICTURE, protocol::DrawingName, Document, drawing_the_picture => picture::picture;
+    generate: method::GENERATE, generate::Params, Long, generating_the_program => generate::generate;
+    simulate: method::SIMULATE, protocol::Simulate, Document, following_the_program => simulate::simulate;
+    locate: method::LOCATE, protocol::Locate, Place, locating => locate::locate;
 }
 
 impl LanguageServer for Backend {
@@ -101,7 +100,7 @@ impl LanguageServer for Backend {
         formatting: Formatting, Text => formatting::whole;
         range_formatting: RangeFormatting, Text => formatting::range;
         on_type_formatting: OnTypeFormatting, Place => formatting::left_line;
-        code_action: CodeActionRequest, Document, "Looking for fixes" => code_action::code_action;
+        code_action: CodeActionRequest, Document, looking_for_fixes => code_action::code_action;
     }
 
     async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {
@@ -109,7 +108,7 @@ impl LanguageServer for Backend {
             parent::watch(pid, orphaned);
         }
         self.ask(Initialize::METHOD, None, move |state, reply| {
-            let _ = reply.send(Ok(lifecycle::initialize(state, params)));
+            let _ = reply.send(lifecycle::initialize(state, params));
         })
         .await
     }
@@ -161,7 +160,7 @@ impl LanguageServer for Backend {
 
     async fn did_change_configuration(&self, params: DidChangeConfigurationParams) {
         self.tell("workspace/didChangeConfiguration", None, move |state| {
-            lifecycle::configuration_changed(state, &params.settings)
+            state.configuration_changed(&params.settings)
         });
     }
 
@@ -175,7 +174,7 @@ impl LanguageServer for Backend {
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
         self.tell("workspace/didChangeWorkspaceFolders", None, move |state| {
-            lifecycle::folders_changed(state, &params.event)
+            state.folders_changed(&params.event)
         });
     }
 
@@ -196,7 +195,13 @@ impl LanguageServer for Backend {
             reach: Reach::Document,
             handler: commands::scaled,
         };
-        let edit = self.perform(scaling, factor, None, |result| result).await?;
+        let about = About {
+            uri: factor.uri.as_str().into(),
+            ..About::default()
+        };
+        let edit = self
+            .perform(scaling, about, factor, |result| result)
+            .await?;
         self.ask(ExecuteCommand::METHOD, None, move |state, reply| {
             commands::apply_edit(state, edit, reply)
         })
@@ -277,16 +282,16 @@ impl Backend {
         self.tell(name, about, move |state| act(state, reply));
         answer
             .await
-            .unwrap_or_else(|_| Err(internal(format!("internal error in {name}"))))
+            .unwrap_or_else(|_| Err(internal(say!(internal_error_in, name))))
     }
 
     /// Has a request about a document answered in its turn, and made into `finish` of it where that was done. It is cancelled with
     /// this future.
-    async fn perform<P: About + Send + 'static, R: 'static, T: Send + 'static>(
+    async fn perform<P: Send + 'static, R: 'static, T: Send + 'static>(
         &self,
         method: Method<P, R>,
+        about: About,
         params: P,
-        token: Option<Value>,
         finish: impl FnOnce(Result<R>) -> Result<T> + Send + 'static,
     ) -> Result<T> {
         let alive = Arc::new(());
@@ -296,16 +301,16 @@ impl Backend {
             reach,
             handler,
         } = method;
+        let uri = about.uri.clone();
         let asked = Asked {
             name,
             title,
             reach,
-            token,
+            about,
             client: Arc::downgrade(&alive),
         };
-        let about = Some(params.uri().into());
-        self.ask(name, about, move |state, reply| {
-            state.answer(asked, params, reply, move |context, params| {
+        self.ask(name, Some(uri), move |state, reply| {
+            state.answer(asked, reply, move |context| {
                 finish(handler(context, params))
             });
         })
@@ -313,20 +318,20 @@ impl Backend {
     }
 
     /// Answers with text, which takes the place of the framework's empty result.
-    async fn answer<P: About + Send + 'static, R: Serialize + 'static, T: Default>(
+    async fn answer<P: Send + 'static, R: Serialize + 'static, T: Default>(
         &self,
         method: Method<P, R>,
+        about: About,
         params: P,
-        token: Option<Value>,
     ) -> Result<T> {
         let written =
             |result: Result<R>| Written::of(&result?).map_err(|error| internal(error.to_string()));
-        self.perform(method, params, token, written).await?.leave();
+        self.perform(method, about, params, written).await?.leave();
         Ok(T::default())
     }
 
     fn ignored(&self, method: &str, reason: &str) {
-        let message = format!("{method} was ignored: {reason}");
+        let message = say!(was_ignored, method, reason);
         self.tell("log", None, move |state| {
             state.client.log(Weight::Warning, message)
         });
@@ -391,13 +396,17 @@ impl Backend {
     }
 }
 
-/// Params and the token for progress beside them.
-fn read<P: DeserializeOwned>(mut params: Value) -> Result<(P, Option<Value>)> {
-    let token = params
-        .get_mut("workDoneToken")
-        .map(Value::take)
-        .filter(|token| token.is_string() || token.is_number());
+/// Params of a request in `wedm/`, and what all of them may say.
+fn read<P: DeserializeOwned>(mut params: Value) -> Result<(P, About)> {
+    let mut take = |key: &str| params.get_mut(key).map(Value::take);
+    let about = About {
+        token: take("workDoneToken").filter(|token| token.is_string() || token.is_number()),
+        // They are read by the settings' own reader, which names a misfit.
+        options: take("options"),
+        uri: params["uri"].as_str().unwrap_or_default().into(),
+        position: None,
+    };
     let params =
         serde_json::from_value(params).map_err(|error| Error::invalid_params(error.to_string()))?;
-    Ok((params, token))
+    Ok((params, about))
 }

@@ -16,6 +16,7 @@ mod judge;
 mod methods;
 mod open;
 mod parent;
+mod settings;
 mod state;
 #[cfg(feature = "testing")]
 pub mod testing;

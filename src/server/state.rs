@@ -4,20 +4,17 @@
 //! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
 
 use super::client::{self, Client, Weight};
-use super::config::{self, Config, ProjectFile, Search};
+use super::config::{self, Config};
 use super::content::Content;
 use super::jobs::Workers;
 use super::judge::{Job, Judged, Task};
 use super::open::Open;
 use super::transport::{Publish, Writer, panic_text};
-use crate::finding::Rule;
-use crate::protocol::Diagnostic;
-use crate::settings::Effective;
-use crate::text::{Encoding, SourceText};
+use crate::text::Encoding;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
@@ -93,15 +90,15 @@ pub(super) struct State {
     /// Documents that have to be judged and published, in the order in which they changed.
     dirty: Vec<Arc<str>>,
     /// Documents for which other settings hold: they are judged when nothing else is to be done, a few at a time.
-    unsettled: VecDeque<Arc<str>>,
+    pub unsettled: VecDeque<Arc<str>>,
     /// Open texts of project files, by their paths.
-    settings_texts: FxHashMap<PathBuf, Arc<str>>,
+    pub settings_texts: FxHashMap<PathBuf, Arc<str>>,
     /// What came about documents that a worker has, in its order.
     waiting: FxHashMap<Arc<str>, VecDeque<Message>>,
     /// Documents that a worker has.
     away: usize,
     /// Files on disk whose errors the client is shown.
-    shown_files: FxHashSet<PathBuf>,
+    pub shown_files: FxHashSet<PathBuf>,
     stamp: u64,
     stopped: Option<std::sync::mpsc::Sender<()>>,
 }
@@ -198,7 +195,7 @@ impl State {
             tracing::error!("{name} panicked: {}", panic_text(&*panic));
             self.client.log(
                 Weight::Warning,
-                format!("internal error in {name}: {}", panic_text(&*panic)),
+                say!(internal_error_in_2, name, panic_text(&*panic)),
             );
             if let Some(uri) = about {
                 self.rebuild(&uri);
@@ -289,10 +286,8 @@ impl State {
 
     pub fn log_if_open(&self, uri: &Arc<str>) {
         if self.documents.contains_key(uri) {
-            self.client.log(
-                Weight::Info,
-                format!("{uri} was open already: the new text or drawing takes its place"),
-            );
+            self.client
+                .log(Weight::Info, say!(was_open_already_the_new, uri));
         }
     }
 
@@ -433,125 +428,10 @@ impl State {
         }
     }
 
-    /// The settings that hold for a document, its project's file read anew.
-    pub fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
-        let file = self.file_for(uri);
-        self.config.effective_for(file.as_deref())
-    }
-
-    pub fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
-        let file = self
-            .config
-            .file_for(uri, &mut Search::default(), &|file| self.opened_text(file))?;
-        self.show_file(&file.path, Some(&file));
-        Some(file)
-    }
-
-    /// The text of a project's file that the client holds open.
-    fn opened_text(&self, file: &Path) -> Option<SourceText> {
-        self.documents
-            .get(self.settings_texts.get(file)?)?
-            .content
-            .source_text()
-            .cloned()
-    }
-
-    /// Shows the errors of a file that the client does not hold open itself.
-    fn show_file(&mut self, file: &Path, project: Option<&ProjectFile>) {
-        if self.settings_texts.contains_key(file) {
-            self.shown_files.remove(file);
-            return;
-        }
-        let errors = match project {
-            Some(project) => {
-                let own = project
-                    .errors
-                    .iter()
-                    .filter(|error| error.rule == Rule::Settings)
-                    .cloned();
-                let beside = self
-                    .config
-                    .errors_in(&project.text.as_str_lossy())
-                    .into_iter()
-                    .filter(|error| error.rule != Rule::Settings);
-                super::convert::settings_diagnostics(
-                    &project.text,
-                    &own.chain(beside).collect::<Vec<_>>(),
-                    self.encoding,
-                )
-            }
-            None => Vec::new(),
-        };
-        let was_shown = self.shown_files.contains(file);
-        if errors.is_empty() && !was_shown {
-            return;
-        }
-        if errors.is_empty() {
-            self.shown_files.remove(file);
-        } else {
-            self.shown_files.insert(file.to_path_buf());
-        }
-        self.publish_file(file, errors);
-    }
-
-    fn publish_file(&self, file: &Path, diagnostics: Vec<Diagnostic>) {
-        if let Some(uri) = config::uri_of(file) {
-            self.client.writer().publish(Publish {
-                uri: uri.into(),
-                version: None,
-                diagnostics,
-                owed: false,
-            });
-        }
-    }
-
-    /// Settings of any level may have changed: every open document is looked at under what holds for it now. Each folder is looked at
-    /// and each file read once, however many documents there are.
-    pub fn settings_changed(&mut self) {
-        for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
-            let project = config::read(&file, &|file| self.opened_text(file));
-            self.show_file(&file, project.as_ref());
-        }
-        let mut search = Search::default();
-        let mut effective: FxHashMap<Option<PathBuf>, Arc<Effective>> = FxHashMap::default();
-        let mut uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
-        uris.sort_unstable();
-        for uri in uris {
-            let file = self
-                .config
-                .file_for(&uri, &mut search, &|file| self.opened_text(file));
-            let key = file.as_ref().map(|file| file.path.clone());
-            let settings = match effective.get(&key) {
-                Some(settings) => settings.clone(),
-                None => {
-                    if let Some(file) = &file {
-                        self.show_file(&file.path, Some(file));
-                    }
-                    let settings = self.config.effective_for(file.as_deref());
-                    effective.insert(key, settings.clone());
-                    settings
-                }
-            };
-            let stamp = self.next_stamp();
-            if let Some(open) = self
-                .documents
-                .get_mut(&uri)
-                .filter(|open| open.settings != settings)
-            {
-                open.settings = settings;
-                if !matches!(open.content, Content::Settings(_)) {
-                    open.tasks.push(Task::Settings);
-                    open.set_stamp(stamp);
-                    self.unsettled.push_back(uri);
-                }
-            }
-        }
-    }
-
     /// The open document, or the error that says there is none.
     pub fn document(&mut self, uri: &str) -> jsonrpc::Result<&mut Open> {
         self.documents
             .get_mut(uri)
-            .ok_or_else(|| jsonrpc::Error::invalid_params(format!("{uri} is not open")))
+            .ok_or_else(|| jsonrpc::Error::invalid_params(say!(is_not_open, uri)))
     }
 }

@@ -33,10 +33,9 @@ pub(super) fn change(
 ) {
     let encoding = state.encoding;
     let Some(open) = state.documents.get_mut(uri).filter(|open| !open.is_drawing) else {
-        state.client.log(
-            Weight::Warning,
-            format!("{uri} was changed without being open as a text: nothing was done"),
-        );
+        state
+            .client
+            .log(Weight::Warning, say!(was_changed_without_being_open, uri));
         return;
     };
     if !matches!(open.content, Content::Settings(_)) {
@@ -62,9 +61,8 @@ pub(super) fn close(state: &mut State, uri: &Arc<str>) {
                 state.settings_changed();
             }
         }
-        _ => state.client.log(
-            Weight::Warning,
-            format!("{uri} was closed without being open as a text"),
-        ),
+        _ => state
+            .client
+            .log(Weight::Warning, say!(was_closed_without_being_open, uri)),
     }
 }

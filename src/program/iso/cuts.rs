@@ -1,12 +1,13 @@
 //! The cuts of a program: consecutive moves without a rapid or a stop between, put together from the stretches that they run through;
 //! and which stops stand within a contour, before its tab.
 
-use super::crossings::pieces;
 use super::document::{Document, Placed};
-use super::machine::{Place, micrometres};
-use super::stretch::{Run, SEVERAL, changes_side};
-use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::path::{self, HeldWay, Node, Way, Writing, closing, is_tab, pieces_of};
+use super::machine::{Move, Place, apart, micrometres};
+use super::stretch::{Path, Run, SEVERAL, changes_side};
+use crate::geometry::{Point, Segment};
+use crate::program::path::{
+    self, Blocks, HeldWay, Node, PartedWay, Writing, closing, goes_round, is_tab, pieces_of,
+};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -90,9 +91,39 @@ impl Cut {
         self.stop.filter(|_| self.stops == 1)
     }
 
+    /// Indices of its stretches and of its runs in there.
+    pub fn places(&self) -> Vec<(usize, usize)> {
+        let place = |part: &Part| (part.stretch, part.run);
+        self.parts.iter().map(place).collect()
+    }
+
+    /// Its moves, from where it begins.
+    pub fn way<'a>(&self, document: &'a Document) -> PartedWay<'a> {
+        let begin = self.run.start();
+        let seen = |place: Place| Node::at(micrometres(apart(place, begin)));
+        let step = |step: &Move| [seen(step.from), seen(step.to)];
+        let ends = [step(&self.run.first[0]), step(&self.run.last[1])];
+        let stop = self.before_tab.map(|moves| moves as usize);
+        way_of(document, self.places(), stop, Some(ends))
+    }
+
     /// How far it may end beside a place and still end in it, µm.
     pub fn tolerance(&self, document: &Document) -> f64 {
         path::tolerance(self.run.arcs as usize).max(document.reading().writing().slack)
+    }
+
+    /// How it lies on itself, where it runs through one stretch.
+    fn only_path<'a>(&self, document: &'a Document) -> Option<&'a Path> {
+        let [part] = self.parts[..] else { return None };
+        document.stretches().get(part.stretch)?.paths.get(part.run)
+    }
+
+    /// Whether it goes round something: passes to and fro do not.
+    fn goes_round(&self, document: &Document) -> bool {
+        self.only_path(document).map_or_else(
+            || goes_round(&self.way(document)) == Some(true),
+            |path| path.goes_round,
+        )
     }
 
     /// Whether it closes; its ends alone tell that for nearly all cuts.
@@ -103,14 +134,10 @@ impl Cut {
         if is_near(begin.from, end) || (self.run.moves > 2 && is_near(begin.to, end)) {
             return true;
         }
-        if let [part] = self.parts[..] {
-            let path = document
-                .stretches()
-                .get(part.stretch)
-                .and_then(|stretch| stretch.paths.get(part.run));
-            return path.is_some_and(|path| path.closes);
+        if let Some(path) = self.only_path(document) {
+            return path.closes;
         }
-        closing(&CutWay::of(document, &[self])).is_some_and(|closing| closing.closed)
+        closing(&self.way(document)).is_some_and(|closing| closing.closed)
     }
 }
 
@@ -123,6 +150,7 @@ pub(super) fn cuts(document: &Document, each: &mut dyn FnMut(Option<Cut>)) {
             && let Some(cut) = &mut open
         {
             cut.run.whole &= whole;
+            cut.run.faulty |= cut.run.open && stretch.faulty_before;
             cut.run.open = false;
         }
         if let Some(cut) = &mut open {
@@ -157,6 +185,27 @@ pub(super) fn cuts(document: &Document, each: &mut dyn FnMut(Option<Cut>)) {
     open.into_iter().for_each(|cut| each(Some(cut)));
 }
 
+/// Hands out the cuts with which something may be wrong, each with what goes on behind the stop at its tab.
+pub(super) fn contours(document: &Document, each: &mut dyn FnMut(Cut)) {
+    let mut waiting: Option<Cut> = None;
+    cuts(document, &mut |cut| {
+        let Some(cut) = cut else { return };
+        let cut = match waiting.take() {
+            Some(mut before) => {
+                before.append(cut);
+                before
+            }
+            None => cut,
+        };
+        if cut.single_stop().is_some_and(|stop| document.is_tab(stop)) {
+            waiting = Some(cut);
+        } else {
+            each(cut);
+        }
+    });
+    waiting.into_iter().for_each(each);
+}
+
 /// The stops before tabs, in the order in which they run.
 pub(super) fn tabs(document: &Document) -> Vec<StopAt> {
     if document
@@ -170,7 +219,7 @@ pub(super) fn tabs(document: &Document) -> Vec<StopAt> {
     // Cuts that are open, one behind the other.
     let mut open: Vec<OpenCut> = Vec::new();
     cuts(document, &mut |cut| {
-        let Some(cut) = cut.filter(|cut| cut.run.whole && !cut.closes(document)) else {
+        let Some(cut) = cut.filter(|cut| cut.run.whole && !cut.goes_round(document)) else {
             return open.clear();
         };
         let goes_on = |last: &OpenCut| {
@@ -220,7 +269,7 @@ pub(super) fn tabs(document: &Document) -> Vec<StopAt> {
     found
 }
 
-/// A cut that does not close for itself, and its moves, once they were asked for.
+/// A cut that does not go round for itself, and its moves, once they were asked for.
 struct OpenCut {
     cut: Cut,
     pieces: OnceCell<Vec<Segment>>,
@@ -234,14 +283,8 @@ fn held(document: &Document, cuts: &[OpenCut]) -> HeldWay {
         if nth > 0 {
             way.stop_here();
         }
-        let own =
-            pieces.get_or_init(|| pieces_of(&CutWay::of(document, &[cut])).unwrap_or_default());
-        let start = cut.run.start();
-        let by = micrometres([
-            start[0].wrapping_sub(begin[0]),
-            start[1].wrapping_sub(begin[1]),
-        ])
-        .coords;
+        let own = pieces.get_or_init(|| pieces_of(&cut.way(document)).unwrap_or_default());
+        let by = micrometres(apart(cut.run.start(), begin)).coords;
         for piece in own.iter().map(|piece| piece.moved(by)) {
             way.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));
         }
@@ -252,184 +295,71 @@ fn held(document: &Document, cuts: &[OpenCut]) -> HeldWay {
 /// Stops in one contour.
 const MOST_STOPS: usize = 4;
 
-/// Cuts as one way, from where the first begins. Costs their parts, and the lines of those that are asked for.
-pub(super) struct CutWay<'a> {
-    document: &'a Document,
-    parts: Vec<WayPart>,
-    count: usize,
-    arcs: usize,
+/// The way of some parts that go on one behind the other, stretches and their runs, from where the first begins.
+pub(super) fn way_of(
+    document: &Document,
+    places: Vec<(usize, usize)>,
     stop: Option<usize>,
-    /// Before and behind the first and the last move, µm, where they are known beforehand.
-    ends: Option<[[Point; 2]; 2]>,
-}
-
-struct WayPart {
-    /// Indices of the stretch and of the run in there.
-    part: (usize, usize),
-    first: usize,
-    start: Vector,
-    bounds: Bounds,
-    pieces: OnceCell<Vec<Segment>>,
-}
-
-impl<'a> CutWay<'a> {
-    fn of(document: &'a Document, cuts: &[&Cut]) -> CutWay<'a> {
-        let begin = cuts.first().map_or([0, 0], |cut| cut.run.start());
-        let seen = |place: Place| {
-            micrometres([
-                place[0].wrapping_sub(begin[0]),
-                place[1].wrapping_sub(begin[1]),
-            ])
-        };
-        let step = |step: &super::machine::Move| [seen(step.from), seen(step.to)];
-        let first = cuts
-            .first()
-            .map_or([Point::origin(); 2], |cut| step(&cut.run.first[0]));
-        let last = cuts
-            .last()
-            .map_or([Point::origin(); 2], |cut| step(&cut.run.last[1]));
-        let first_cut = cuts
-            .first()
-            .and_then(|cut| cut.before_tab.or((cuts.len() > 1).then_some(cut.run.moves)));
-        let stop = first_cut.map(|moves| moves as usize);
-        let parts = cuts
-            .iter()
-            .flat_map(|cut| &cut.parts)
-            .map(|part| (part.stretch, part.run));
-        CutWay {
-            stop,
-            ends: Some([first, last]),
-            ..CutWay::from(document, begin, parts)
-        }
-    }
-
-    /// The way of some parts that go on one behind the other: stretches and their runs.
-    pub fn of_parts(document: &'a Document, parts: &[(usize, usize)]) -> CutWay<'a> {
-        let first = parts
-            .first()
-            .and_then(|(stretch, run)| document.stretches().get(*stretch)?.extent(*run));
-        CutWay::from(
-            document,
-            first.map_or([0, 0], |(start, ..)| start),
-            parts.iter().copied(),
-        )
-    }
-
-    fn from(
-        document: &'a Document,
-        begin: Place,
-        parts: impl Iterator<Item = (usize, usize)>,
-    ) -> CutWay<'a> {
-        let seen = |place: Place| {
-            micrometres([
-                place[0].wrapping_sub(begin[0]),
-                place[1].wrapping_sub(begin[1]),
-            ])
-        };
-        let mut way = CutWay {
-            document,
-            parts: Vec::new(),
-            count: 0,
-            arcs: 0,
-            stop: None,
-            ends: None,
-        };
-        for (index, run) in parts {
-            let Some(stretch) = document.stretches().get(index) else {
-                continue;
-            };
-            let (Some((start, moves, arcs)), Some(path)) =
-                (stretch.extent(run), stretch.paths.get(run))
-            else {
-                continue;
-            };
-            way.parts.push(WayPart {
-                part: (index, run),
-                first: way.count,
-                start: seen(start).coords,
-                bounds: path.bounds,
-                pieces: OnceCell::new(),
-            });
-            way.count += moves as usize;
-            way.arcs += arcs as usize;
-        }
-        way
-    }
-
-    fn pieces<'b>(&self, part: &'b WayPart) -> &'b [Segment] {
-        part.pieces.get_or_init(|| {
-            let own = pieces(self.document, part.part.0, part.part.1).0;
-            own.into_iter()
-                .map(|piece| piece.moved(part.start))
-                .collect()
+    ends: Option<[[Node; 2]; 2]>,
+) -> PartedWay<'_> {
+    let extent = |&(index, run): &(usize, usize)| document.stretches().get(index)?.extent(run);
+    let begin = places
+        .first()
+        .and_then(extent)
+        .map_or([0, 0], |(start, ..)| start);
+    let part = |place: &(usize, usize)| {
+        let (start, moves, arcs) = extent(place)?;
+        let path = document.stretches().get(place.0)?.paths.get(place.1)?;
+        Some(path::Part {
+            mark: path.mark,
+            blocks: moves as usize,
+            arcs: arcs as usize,
+            start: apart(start, begin),
+            bounds: path.bounds,
+            near: &path.near,
         })
+    };
+    let parts = places.iter().filter_map(part).collect();
+    PartedWay::new(Box::new(Held { document, places }), parts, stop, ends)
+}
+
+/// The moves of a cut as its stretches hold them.
+struct Held<'a> {
+    document: &'a Document,
+    places: Vec<(usize, usize)>,
+}
+
+impl Held<'_> {
+    /// Tells of the moves of a part; gives the byte from which their places count.
+    fn moves(&self, part: usize, each: &mut dyn FnMut(&Move, Range<usize>)) -> usize {
+        let (stretch, run) = self.places[part];
+        let heard = &mut |index: usize, step: &Move, range: (u32, u32)| {
+            if index == run {
+                each(step, range.0 as usize..range.1 as usize);
+            }
+        };
+        self.document.run_again(stretch, heard)
     }
 }
 
-impl Way for CutWay<'_> {
-    fn count(&self) -> usize {
-        self.count
+impl Blocks for Held<'_> {
+    fn pieces(&self, part: usize) -> Vec<Segment> {
+        let (mut start, mut pieces) = (None, Vec::new());
+        self.moves(part, &mut |step, _| {
+            let start = *start.get_or_insert(step.from);
+            pieces.push(step.seen_from(start).segment(self.document.reading()));
+        });
+        pieces
     }
 
-    fn arcs(&self) -> usize {
-        self.arcs
+    fn range(&self, part: usize, nth: usize) -> Option<Range<usize>> {
+        let mut ranges = Vec::new();
+        let offset = self.moves(part, &mut |_, range| ranges.push(range));
+        let own = ranges.into_iter().nth(nth)?;
+        Some(own.start + offset..own.end + offset)
     }
 
     fn writing(&self) -> Writing {
         self.document.reading().writing()
-    }
-
-    fn stop(&self) -> Option<usize> {
-        self.stop
-    }
-
-    fn node(&self, index: usize) -> Option<Node> {
-        let known = self.ends.and_then(|[first, last]| match index {
-            0 => Some(first[0]),
-            1 => Some(first[1]),
-            _ if index == self.count => Some(last[1]),
-            _ if index + 1 == self.count => Some(last[0]),
-            _ => None,
-        });
-        let point = match known {
-            Some(point) => point,
-            None if index == self.count => self.piece(index.checked_sub(1)?)?.end(),
-            None => self.piece(index)?.start(),
-        };
-        Some(Node::at(point))
-    }
-
-    fn piece(&self, index: usize) -> Option<Segment> {
-        let part = self.parts.get(
-            self.parts
-                .partition_point(|part| part.first <= index)
-                .checked_sub(1)?,
-        )?;
-        self.pieces(part).get(index - part.first).copied()
-    }
-
-    fn pieces_about(
-        &self,
-        at: Point,
-        reach: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()> {
-        let place = Bounds::of_disc(at, reach + 1.0);
-        for part in &self.parts {
-            let bounds = Bounds {
-                min: part.bounds.min + part.start,
-                max: part.bounds.max + part.start,
-            };
-            if bounds.touches(&place)
-                && self
-                    .pieces(part)
-                    .iter()
-                    .zip(part.first..)
-                    .any(|(piece, index)| each(index, piece))
-            {
-                break;
-            }
-        }
-        Some(())
     }
 }

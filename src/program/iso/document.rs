@@ -290,11 +290,8 @@ impl Document {
         self.find_reading();
         self.tabs = tabs(self);
         let mut crossings = std::mem::take(&mut self.crossings);
-        let calm = crossings.look(self);
+        crossings.look(self);
         self.crossings = crossings;
-        for index in calm {
-            self.stretches[index].is_calm = true;
-        }
         self.find_quiet();
     }
 

@@ -243,6 +243,11 @@ pub fn added(place: Place, by: Place) -> Place {
     [place[0].wrapping_add(by[0]), place[1].wrapping_add(by[1])]
 }
 
+/// From `b` to `a`.
+pub fn apart(a: Place, b: Place) -> Place {
+    [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
+}
+
 pub fn distance(a: Place, b: Place) -> f64 {
     ((a[0].wrapping_sub(b[0])) as f64).hypot((a[1].wrapping_sub(b[1])) as f64)
 }

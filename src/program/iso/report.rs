@@ -1,11 +1,11 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
 use super::block::{Code, Motion, Offset, read_line, word_range};
-use super::cuts::{Cut, cuts};
+use super::cuts::{Cut, contours};
 use super::document::{Document, Placed, Table};
 use super::evidence::FEW_BARE;
 use super::limits::Limits;
-use super::machine::{Course, Move, Place as Spot, Reading, distance, micrometres};
+use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
 use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
 use super::stretch::{Definition, Fault, Run, RunSide, Stretch, Tight};
@@ -121,7 +121,7 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
             report.add(Rule::TextAfterEnd, at(offset, behind), IsoFault::BehindEnd);
         }
     }
-    report.follow();
+    contours(document, &mut |cut| report.judge(&cut));
     report
         .findings
         .extend(document.crossings().findings(document));
@@ -203,11 +203,6 @@ struct Report<'a> {
     tight_below: f64,
     moves: u32,
     is_behind_end_said: bool,
-}
-
-/// From `b` to `a`.
-fn apart(a: Spot, b: Spot) -> Spot {
-    [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
 }
 
 fn at(offset: usize, range: (u32, u32)) -> Range<usize> {
@@ -343,28 +338,6 @@ impl<'a> Report<'a> {
             .is_none_or(|order| order.left_out.is_none())
     }
 
-    /// Judges the cuts, each with what goes on behind the stop at its tab.
-    fn follow(&mut self) {
-        let document = self.document;
-        let mut waiting: Option<Cut> = None;
-        cuts(document, &mut |cut| {
-            let Some(cut) = cut else { return };
-            let cut = match waiting.take() {
-                Some(mut before) => {
-                    before.append(cut);
-                    before
-                }
-                None => cut,
-            };
-            if cut.single_stop().is_some_and(|stop| document.is_tab(stop)) {
-                waiting = Some(cut);
-            } else {
-                self.judge(&cut);
-            }
-        });
-        waiting.into_iter().for_each(|cut| self.judge(&cut));
-    }
-
     /// The arcs of a cut that may be too tight, with their places in the text.
     fn tight_of(&self, cut: &Cut) -> Vec<(Tight, Range<usize>)> {
         let mut found = Vec::new();
@@ -396,6 +369,14 @@ impl<'a> Report<'a> {
 
     /// Whether nothing is wrong with the cuts that begin and end in a stretch, each as a whole.
     fn is_quiet(&mut self, placed: &Placed<'_>, index: usize) -> bool {
+        // Passes to and fro are closed for themselves, and may belong to the next or to the one before.
+        let may_be_tab = |run: usize| {
+            let path = placed.stretch.paths.get(run);
+            path.is_some_and(|path| path.closes && !path.goes_round)
+        };
+        if self.document.crossings().touch(index) || placed.stretch.inner().any(may_be_tab) {
+            return false;
+        }
         let known = self.findings.len();
         for run in placed.stretch.inner() {
             if let Some(cut) = Cut::of(placed, index, run) {

@@ -12,8 +12,7 @@ use super::shape;
 use super::word::{Term, WordFault};
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment};
-use crate::program::path::near_each_other;
-use crate::program::path::{HeldWay, Node, closing};
+use crate::program::path::{HeldWay, Node, closing, goes_round, mixed, near_each_other};
 use crate::program::steps::Sum;
 use std::ops::Range;
 
@@ -251,14 +250,6 @@ fn joined(a: RunSide, b: RunSide) -> RunSide {
     }
 }
 
-/// How a run is joined to those of other stretches, and whether nothing of it was lost or is wrong in its lines.
-#[derive(Clone, Copy, Debug)]
-pub struct Joints {
-    pub continues: bool,
-    pub open: bool,
-    pub sound: bool,
-}
-
 /// How a run lies on itself: what tells where the way crosses itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
@@ -268,8 +259,9 @@ pub struct Path {
     pub bounds: Bounds,
     /// Moves of it that come near each other, by their number in the run.
     pub near: Box<[(u32, u32)]>,
-    /// It holds a closed contour.
+    /// It holds a closed contour, and one that goes round something.
     pub closes: bool,
+    pub goes_round: bool,
 }
 
 /// Hears of every move of a run: the run's index, the move, the place of its words.
@@ -295,28 +287,27 @@ impl Ways {
         let bounds = boxes
             .iter()
             .fold(Bounds::EMPTY, |whole, part| whole.merged(part));
+        let way = self.held(&ways, reading);
+        let closes = closing(&way).is_some_and(|closing| closing.closed);
         Path {
             mark: self.mark(reading),
             bounds,
             near: near.into(),
-            closes: self.closes(&ways, reading),
+            closes,
+            goes_round: closes && goes_round(&way) == Some(true),
         }
     }
 
-    fn closes(&self, ways: &[Segment], reading: &Reading) -> bool {
+    fn held(&self, ways: &[Segment], reading: &Reading) -> HeldWay {
         let mut held = HeldWay::from(Node::at(Point::origin()), reading.writing());
         for (step, piece) in self.0.iter().zip(ways) {
             held.push(*piece, step.is_arc(), Node::at(piece.end()));
         }
-        closing(&held).is_some_and(|closing| closing.closed)
+        held
     }
 
     fn mark(&self, reading: &Reading) -> u64 {
-        let mix = |mark: u64, field: i64| {
-            (mark ^ field as u64)
-                .wrapping_mul(0x2545_f491_4f6c_dd1d)
-                .rotate_left(23)
-        };
+        let mix = |mark: u64, field: i64| mixed(mark, field as u64);
         let with = |mark: u64, step: &Move| {
             let along = step.at_origin();
             let bend = match along.bend {
@@ -402,8 +393,7 @@ pub struct Stretch {
     moved: Place,
     /// Of each run, how it lies on itself.
     pub paths: Vec<Path>,
-    /// The runs that begin and end here are known not to cross themselves, and to have nothing wrong with them as a whole.
-    pub is_calm: bool,
+    /// The runs that begin and end here are known to have nothing wrong with them as a whole.
     pub is_quiet: bool,
     pub foreign: Vec<Foreign>,
     pub definitions: Vec<Definition>,
@@ -483,7 +473,6 @@ impl Stretch {
             runs: Vec::new(),
             moved: [0, 0],
             paths: Vec::new(),
-            is_calm: false,
             is_quiet: false,
             foreign: Vec::new(),
             definitions: Vec::new(),
@@ -870,15 +859,6 @@ impl Stretch {
             .map(|run| (added(run.start(), self.moved), run.moves, run.arcs))
     }
 
-    /// How a run is joined to those of other stretches.
-    pub fn joints(&self, index: usize) -> Option<Joints> {
-        self.runs.get(index).map(|run| Joints {
-            continues: run.continues,
-            open: run.open,
-            sound: run.whole && !run.faulty,
-        })
-    }
-
     /// The runs that begin and end here.
     pub fn inner(&self) -> Range<usize> {
         let first = usize::from(self.runs.first().is_some_and(|run| run.continues));
@@ -926,11 +906,6 @@ impl<'a, L: Lines<'a>> Ahead<'_, L> {
 
 /// Lines with a move that say the same have the same mark, whatever their number.
 fn mark_of(block: &Block, made: &Move) -> u64 {
-    let mix = |mark: u64, field: u64| {
-        (mark ^ field)
-            .wrapping_mul(0x2545_f491_4f6c_dd1d)
-            .rotate_left(23)
-    };
     let numbers = [
         block.x,
         block.y,
@@ -942,11 +917,11 @@ fn mark_of(block: &Block, made: &Move) -> u64 {
     numbers
         .into_iter()
         .fold(1 + made.motion as u64, |mark, number| match number {
-            Some(number) => mix(
+            Some(number) => mixed(
                 mark,
                 number.mantissa as u64 ^ u64::from(number.decimals) << 56,
             ),
-            None => mix(mark, 1 << 55),
+            None => mixed(mark, 1 << 55),
         })
 }
 

@@ -4,7 +4,7 @@
 //! the way in has; a way out may follow. A stop while the contour is open, behind which a block goes on from that very point and comes
 //! to close or meet the contour, belongs to the contour: it holds the part while its tab is cut.
 
-use crate::geometry::{Point, Segment};
+use super::Way;
 
 /// How far a way of so many arcs may end beside a place and still end in it, µm: rounding adds up as a random walk.
 pub fn tolerance(arcs: usize) -> f64 {
@@ -19,66 +19,6 @@ const LONGEST_WAY_OUT: usize = 12;
 
 /// Blocks behind a stop of which one has to meet the contour that is open.
 const BEHIND_A_STOP: usize = 16;
-
-/// Where a way stands between two of its blocks, µm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Node {
-    /// Where the machine stands.
-    pub stands: Point,
-    /// Where it would, did it not drift while it counts.
-    pub meant: Point,
-}
-
-impl Node {
-    /// A node of a program that names its places.
-    pub fn at(point: Point) -> Node {
-        Node {
-            stands: point,
-            meant: point,
-        }
-    }
-
-    fn is_near(&self, other: &Node, tolerance: f64) -> bool {
-        (self.stands - other.stands).norm() <= tolerance
-            || (self.meant - other.meant).norm() <= tolerance
-    }
-}
-
-/// How a program says where its blocks lead.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Writing {
-    /// Its places are named, not only the ways between them.
-    pub names_places: bool,
-    /// How far ends that are meant as one may lie apart because numbers are written so coarsely, µm.
-    pub slack: f64,
-}
-
-/// Blocks that cut one after another. What is `None` is not held.
-pub trait Way {
-    fn count(&self) -> usize;
-    fn arcs(&self) -> usize;
-    fn writing(&self) -> Writing;
-    /// Where it stands before a block, or behind the last.
-    fn node(&self, index: usize) -> Option<Node>;
-    /// What a block means, where it is meant to begin; a line without length where it leads nowhere.
-    fn piece(&self, index: usize) -> Option<Segment>;
-    /// Hands out all pieces that come within `reach` µm of a place, and perhaps others, in their order, until `each` says that it has
-    /// seen enough.
-    fn pieces_about(
-        &self,
-        at: Point,
-        reach: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()>;
-
-    /// The blocks before its first stop, where it holds one: what comes behind is the tab.
-    fn stop(&self) -> Option<usize>;
-
-    /// How far it may end beside a place and still end in it, µm.
-    fn tolerance(&self) -> f64 {
-        tolerance(self.arcs()).max(self.writing().slack)
-    }
-}
 
 /// How a way falls into way in, contour and way out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -225,6 +165,21 @@ fn encloses(way: &dyn Way, lead_in: usize, lead_out: usize) -> Option<bool> {
 /// Blocks of which one has to lead away from where a contour begins.
 const LOOKED_THROUGH: usize = 16;
 
+/// Whether a way holds a closed contour that goes round something. Passes to and fro that leave the tab come back to where they begin,
+/// too, on the way on which they went.
+pub fn goes_round(way: &dyn Way) -> Option<bool> {
+    let closing = closing(way)?;
+    let pieces = closing.lead_in..way.count() - closing.lead_out;
+    let looked_at = (pieces.len() / 2).min(LOOKED_THROUGH);
+    let mut comes_back = closing.closed && looked_at > 0;
+    for nth in 0..looked_at {
+        let there = way.piece(pieces.start + nth)?.point_at(0.5);
+        let back = way.piece(pieces.end - 1 - nth)?.point_at(0.5);
+        comes_back &= (there - back).norm() <= way.tolerance();
+    }
+    Some(closing.closed && !comes_back)
+}
+
 /// Whether the last block runs as far and in the same or the opposite direction as the first.
 fn is_mirrored(way: &dyn Way, tolerance: f64) -> Option<bool> {
     let count = way.count();
@@ -252,87 +207,11 @@ pub fn gap(way: &dyn Way) -> Option<[f64; 2]> {
 /// Whether a way that goes on behind a stop belongs to the contour before it, which is open: it closes the contour or comes to meet it.
 /// `before` are the blocks up to the stop, `whole` those and the ones behind it.
 pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<bool> {
-    if before.count() == 0
-        || behind.count() == 0
-        || closing(before)?.closed
-        || closing(behind)?.closed
-    {
+    if before.count() == 0 || behind.count() == 0 || goes_round(before)? || goes_round(behind)? {
         return Some(false);
     }
     let closing = closing(whole)?;
     Some(closing.closed && closing.lead_in <= before.count())
-}
-
-/// A way of which everything is held.
-#[derive(Clone, Debug, Default)]
-pub struct HeldWay {
-    nodes: Vec<Node>,
-    pieces: Vec<Segment>,
-    arcs: usize,
-    writing: Writing,
-    stop: Option<usize>,
-}
-
-impl HeldWay {
-    pub fn from(start: Node, writing: Writing) -> HeldWay {
-        HeldWay {
-            nodes: vec![start],
-            writing,
-            ..HeldWay::default()
-        }
-    }
-
-    /// What comes next stands behind a stop.
-    pub fn stop_here(&mut self) {
-        self.stop.get_or_insert(self.pieces.len());
-    }
-
-    /// One block more: what it means, from where the way is meant to stand, and where the machine stands behind it.
-    pub fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
-        self.pieces.push(piece);
-        self.nodes.push(end);
-        self.arcs += usize::from(is_arc);
-    }
-}
-
-impl Way for HeldWay {
-    fn count(&self) -> usize {
-        self.pieces.len()
-    }
-
-    fn arcs(&self) -> usize {
-        self.arcs
-    }
-
-    fn writing(&self) -> Writing {
-        self.writing
-    }
-
-    fn stop(&self) -> Option<usize> {
-        self.stop
-    }
-
-    fn node(&self, index: usize) -> Option<Node> {
-        self.nodes.get(index).copied()
-    }
-
-    fn piece(&self, index: usize) -> Option<Segment> {
-        self.pieces.get(index).copied()
-    }
-
-    fn pieces_about(
-        &self,
-        _: Point,
-        _: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()> {
-        _ = self
-            .pieces
-            .iter()
-            .enumerate()
-            .any(|(index, piece)| each(index, piece));
-        Some(())
-    }
 }
 
 #[cfg(test)]

@@ -1,137 +1,177 @@
-//! The search for crossings in a contour, stretch by stretch: what an edit leaves as it was is not looked at again.
+//! `path-crosses-itself`: the search for crossings in a cut, part by part: what an edit leaves as it was is not looked at again.
 //!
-//! A stretch is the blocks of one run that belong to a contour. Two of them are held against each other where their boxes touch, and
-//! what came of it is kept by what they say and how they lie to each other: an edit changes the pairs of the stretch that it touched,
-//! and of what it moved away from the rest. Which pieces cross is then decided from the whole way, so that it does not hang on where
-//! runs begin.
+//! Two parts of a cut are held against each other where their boxes touch, and what came of it is kept by what they say and how they lie
+//! to each other: an edit changes the pairs of the part that it touched, and of what it moved away from the rest. Which pieces cross is
+//! then decided from the whole way, so that it does not hang on where parts begin.
 
 use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings, margin};
+use super::way::micrometres;
+use super::{Part, PartedWay, Way, passes, pieces_of};
+use crate::finding::{Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
-use crate::program::three_b::Displacement as Move;
+use crate::text::SourceText;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// The blocks of a contour in one run.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::program) struct Stretch<'a> {
-    /// Tells two stretches apart: equal ways have equal marks.
-    pub mark: u64,
-    pub blocks: usize,
-    /// Where it begins, seen from the beginning of the contour.
-    pub start: Move,
-    /// µm, seen from its beginning.
-    pub bounds: Bounds,
-    /// Pieces of it that come near each other.
-    pub near: &'a [(u32, u32)],
-}
-
-impl Stretch<'_> {
-    fn placed(&self) -> Bounds {
-        let [x, y] = self.start.meant_um();
-        placed(&self.bounds, Vector::new(x, y))
-    }
-}
-
-/// Two stretches, how the second lies to the first, nm, and whether it comes next.
+/// Two parts, how the second lies to the first, nm, and whether it comes next.
 type Pair = (u64, u64, [i64; 2], bool);
 
-/// Pieces of two stretches that come near each other, by their indices in there, and what it cost to find that out.
+/// Pieces of two parts that come near each other, by their indices in there, and what it cost to find that out.
 type Near = (Box<[(u32, u32)]>, usize);
 
-/// What is known of pairs of stretches.
+/// What is known of pairs of parts.
 #[derive(Clone, Debug, Default)]
-pub(in crate::program) struct Known {
+pub struct Known {
     pairs: FxHashMap<Pair, Near>,
-    /// What was found in contours, by their marks.
+    /// What was found in cuts, by their marks.
     found: FxHashMap<u64, Arc<Found>>,
+    /// What is in use since the last look began: pairs of parts, and cuts.
+    used: [usize; 2],
 }
 
 impl Known {
-    /// What was found in a contour before.
-    pub fn of(&self, mark: u64) -> Option<Arc<Found>> {
-        self.found.get(&mark).cloned()
+    /// A look through the cuts of a program begins.
+    pub fn begin(&mut self) {
+        self.used = [0, 0];
     }
 
-    /// Keeps in mind what was found in a contour.
-    pub fn note(&mut self, mark: u64, found: &Arc<Found>) {
-        self.found.insert(mark, found.clone());
+    /// Where a cut crosses itself.
+    pub fn crossings(&mut self, way: &PartedWay<'_>) -> Arc<Found> {
+        let mark = way.mark();
+        let found = match self.found.get(&mark) {
+            Some(found) => found.clone(),
+            None => {
+                let found = Arc::new(self.search(way));
+                self.found.insert(mark, found.clone());
+                found
+            }
+        };
+        self.used[0] += found.pairs.max(way.parts.len());
+        self.used[1] += 1;
+        found
     }
 
-    /// Forgets all where much more is known than is in use.
-    pub fn tidy(&mut self, pairs: usize, contours: usize) {
+    fn search(&mut self, way: &PartedWay<'_>) -> Found {
+        if let [one] = &way.parts[..]
+            && one.near.is_empty()
+        {
+            return Found::default();
+        }
+        let passes = passes(way);
+        if passes.is_empty() {
+            return search(way, self);
+        }
+        crossings_of_passes(&pieces_of(way).unwrap_or_default(), &passes)
+    }
+
+    /// The look has ended: forgets all where much more is known than is in use.
+    pub fn tidy(&mut self) {
+        let [pairs, cuts] = self.used;
         if self.pairs.len() > 4 * pairs + 16_384 {
             self.pairs.clear();
         }
-        if self.found.len() > 4 * contours + 4096 {
+        if self.found.len() > 4 * cuts + 4096 {
             self.found.clear();
         }
     }
 }
 
-/// What was found in a contour.
+/// What was found in a cut.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::program) struct Found {
+pub struct Found {
     pub crossings: Vec<Crossing>,
     /// So much lies on one place that not all of it was looked at.
     pub is_crowded: bool,
-    /// Pairs of stretches that were held against each other.
-    pub pairs: usize,
+    /// Pairs of parts that were held against each other.
+    pairs: usize,
 }
 
-/// Pairs of boxes that are held against each other in a contour of so many blocks. One that does not lie on itself takes a few for each
+impl Found {
+    pub fn is_clean(&self) -> bool {
+        self.crossings.is_empty() && !self.is_crowded
+    }
+
+    /// What is told of them.
+    pub fn findings(&self, way: &PartedWay<'_>, text: &SourceText) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        for crossing in &self.crossings {
+            let (Some(from), Some(own)) = (way.range(crossing.first), way.range(crossing.second))
+            else {
+                continue;
+            };
+            let fault = ProgramFault::PathCrossesItself {
+                at: [crossing.at.x / 1000.0, crossing.at.y / 1000.0],
+                other: text.line_of(from.start),
+            };
+            findings.push(Finding {
+                rule: fault.rule(),
+                severity: fault.rule().default_severity(),
+                place: Place::Text { range: own },
+                detail: Detail::Program(Box::new(fault)),
+                related: vec![Place::Text { range: from }],
+            });
+        }
+        let last = way.count().checked_sub(1).and_then(|last| way.range(last));
+        if let Some(range) = last.filter(|_| self.is_crowded) {
+            let what = NotJudged::Crossings {
+                blocks: way.count(),
+            };
+            findings.push(Finding {
+                rule: Rule::NotJudged,
+                severity: Severity::Information,
+                place: Place::Text { range },
+                detail: Detail::NotJudged(what),
+                related: Vec::new(),
+            });
+        }
+        findings
+    }
+}
+
+/// Pairs of boxes that are held against each other in a cut of so many blocks. One that does not lie on itself takes a few for each
 /// block.
 fn most_looks(blocks: usize) -> usize {
     500_000 + 32 * blocks
 }
 
-/// Pairs of stretches that are held against each other at once.
+/// Pairs of parts that are held against each other at once.
 const AT_ONCE: usize = 1024;
 
-/// Finds where a contour crosses itself. `pieces` gives the pieces of a stretch from the origin.
-pub(in crate::program) fn search(
-    stretches: &[Stretch<'_>],
-    arcs: usize,
-    known: &mut Known,
-    pieces: &(dyn Fn(usize) -> Vec<Segment> + Sync),
-) -> Found {
-    let mut firsts = Vec::with_capacity(stretches.len());
+/// Finds where a cut crosses itself.
+fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
+    let (parts, blocks) = (&way.parts[..], &*way.blocks);
+    let mut firsts = Vec::with_capacity(parts.len());
     let mut count = 0;
-    for stretch in stretches {
+    for part in parts {
         firsts.push(count);
-        count += stretch.blocks;
+        count += part.blocks;
     }
-    let prepared: Vec<OnceLock<Prepared>> = stretches.iter().map(|_| OnceLock::new()).collect();
-    let prepared = |index: usize| prepared[index].get_or_init(|| Prepared::of(pieces(index)));
-    let (mut pairs, is_all) = touching(stretches, 1024 + 256 * stretches.len());
+    let prepared: Vec<OnceLock<Prepared>> = parts.iter().map(|_| OnceLock::new()).collect();
+    let prepared =
+        |index: usize| prepared[index].get_or_init(|| Prepared::of(blocks.pieces(index)));
+    let (mut pairs, is_all) = touching(parts, 1024 + 256 * parts.len());
     // In the order of the later one: the pieces that count are the first ones along the way, so the search may end where these are found.
     pairs.sort_unstable_by_key(|&(a, b)| (b, a));
-    let key = |a: usize, b: usize| {
-        (
-            stretches[a].mark,
-            stretches[b].mark,
-            stretches[b].start.minus(stretches[a].start).meant,
-            b == a + 1,
-        )
+    let apart = |a: usize, b: usize| {
+        [0, 1].map(|axis| parts[b].start[axis].wrapping_sub(parts[a].start[axis]))
     };
+    let key = |a: usize, b: usize| (parts[a].mark, parts[b].mark, apart(a, b), b == a + 1);
     let look = |&(a, b): &(usize, usize)| -> (Pair, Near) {
-        let [x, y] = stretches[b].start.minus(stretches[a].start).meant_um();
-        (
-            key(a, b),
-            prepared(a).near(prepared(b), Vector::new(x, y), b == a + 1),
-        )
+        let by = micrometres(apart(a, b));
+        (key(a, b), prepared(a).near(prepared(b), by, b == a + 1))
     };
     let mut near: Vec<(usize, usize)> = Vec::new();
     let mut left = most_looks(count);
     let mut is_crowded = !is_all;
-    // Pairs and stretches that have been gone through.
+    // Pairs and parts that have been gone through.
     let (mut gone, mut behind) = (0, 0);
-    while behind < stretches.len() && near.len() <= MOST_PAIRS {
+    while behind < parts.len() && near.len() <= MOST_PAIRS {
         let next = pairs
             .get(gone + AT_ONCE)
-            .map_or(stretches.len(), |pair| pair.1)
+            .map_or(parts.len(), |pair| pair.1)
             .max(behind + 1);
         let end = gone + pairs[gone..].partition_point(|pair| pair.1 < next);
         let some = if left > 0 { &pairs[gone..end] } else { &[] };
@@ -147,16 +187,15 @@ pub(in crate::program) fn search(
             unknown.iter().map(look).collect()
         };
         known.pairs.extend(found);
-        for (stretch, first) in stretches[behind..next].iter().zip(&firsts[behind..next]) {
+        for (part, first) in parts[behind..next].iter().zip(&firsts[behind..next]) {
             near.extend(
-                stretch
-                    .near
+                part.near
                     .iter()
                     .map(|&(a, b)| (first + a as usize, first + b as usize)),
             );
         }
         for &(a, b) in some {
-            // What was known before counts as well: how much of a contour is looked at must not hang on that.
+            // What was known before counts as well: how much of a cut is looked at must not hang on that.
             let Some((found, cost)) = known.pairs.get(&key(a, b)).filter(|_| left > 0) else {
                 is_crowded = true;
                 break;
@@ -178,17 +217,16 @@ pub(in crate::program) fn search(
         };
     }
     let piece = |index: usize| {
-        let stretch = firsts
+        let part = firsts
             .partition_point(|first| *first <= index)
             .checked_sub(1)?;
-        let [x, y] = stretches.get(stretch)?.start.meant_um();
-        let own = prepared(stretch).pieces.get(index - firsts[stretch])?;
-        Some(own.moved(Vector::new(x, y)))
+        let own = prepared(part).pieces.get(index - firsts[part])?;
+        Some(own.moved(parts.get(part)?.offset()))
     };
     let (found, is_all) = Tangle {
         piece: &piece,
         count,
-        margin: margin(arcs),
+        margin: margin(way.arcs()),
         steps: Cell::new(0),
     }
     .crossings(near);
@@ -199,11 +237,8 @@ pub(in crate::program) fn search(
     }
 }
 
-/// Where the passes of a contour cross themselves, each for itself: one may lie on another, and ways in and out cross others.
-pub(in crate::program) fn crossings_of_passes(
-    pieces: &[Segment],
-    passes: &[Range<usize>],
-) -> Found {
+/// Where the passes of a cut cross themselves, each for itself: one may lie on another, and ways in and out cross others.
+fn crossings_of_passes(pieces: &[Segment], passes: &[Range<usize>]) -> Found {
     let crossings = passes.iter().flat_map(|pass| {
         let own = pieces.get(pass.clone()).unwrap_or_default();
         let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
@@ -223,7 +258,7 @@ pub(in crate::program) fn crossings_of_passes(
     }
 }
 
-/// The pieces of a stretch from the origin, with boxes about them, about pairs of boxes, and so on up to one.
+/// The pieces of a part from the origin, with boxes about them, about pairs of boxes, and so on up to one.
 struct Prepared {
     pieces: Vec<Segment>,
     levels: Vec<Vec<Bounds>>,
@@ -240,7 +275,7 @@ impl Prepared {
         Prepared { pieces, levels }
     }
 
-    /// The pieces of two stretches that come near each other, where the other one begins at `by`; it may begin where this one ends.
+    /// The pieces of two parts that come near each other, where the other one begins at `by`; it may begin where this one ends.
     fn near(&self, other: &Prepared, by: Vector, is_next: bool) -> Near {
         let mut found = Vec::new();
         let mut cost = 16;
@@ -252,7 +287,7 @@ impl Prepared {
             else {
                 continue;
             };
-            let theirs = placed(theirs, by);
+            let theirs = theirs.moved(by);
             if !ours.touches(&theirs) {
                 continue;
             }
@@ -277,13 +312,6 @@ impl Prepared {
 /// What boxes are grown by, µm: places are rounded to nm.
 const SLACK: f64 = 1.0;
 
-fn placed(bounds: &Bounds, by: Vector) -> Bounds {
-    Bounds {
-        min: bounds.min + by,
-        max: bounds.max + by,
-    }
-}
-
 /// Boxes about pairs of boxes, and so on up to one.
 fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
     let mut levels = vec![boxes];
@@ -300,12 +328,12 @@ fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
     levels
 }
 
-/// Pairs of stretches whose boxes touch, the earlier first; at most so many, and whether those are all.
-fn touching(stretches: &[Stretch<'_>], most: usize) -> (Vec<(usize, usize)>, bool) {
+/// Pairs of parts whose boxes touch, the earlier first; at most so many, and whether those are all.
+fn touching(parts: &[Part<'_>], most: usize) -> (Vec<(usize, usize)>, bool) {
     let levels = levels_over(
-        stretches
+        parts
             .iter()
-            .map(|stretch| stretch.placed().grown(SLACK))
+            .map(|part| part.placed().grown(SLACK))
             .collect(),
     );
     let mut found = Vec::new();

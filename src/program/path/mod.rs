@@ -4,16 +4,19 @@
 
 mod contour;
 mod crossing;
-pub(in crate::program) mod crossings;
+mod crossings;
 mod cut;
 mod passes;
 mod trace;
+mod way;
 
-pub use contour::Writing;
 pub(crate) use contour::tolerance;
-pub(in crate::program) use contour::{HeldWay, Node, Way, closing, gap, is_tab};
+pub(in crate::program) use contour::{closing, gap, goes_round, is_tab};
 pub(in crate::program) use crossing::{crossings as crossings_of, near_each_other};
+pub(in crate::program) use crossings::{Found, Known};
 pub use cut::Cut;
 pub(in crate::program) use cut::{cut_at, cut_of, cuts};
 pub(in crate::program) use passes::{passes, pieces_of};
 pub use trace::{Chain, Kind, Step, Trace};
+pub use way::Writing;
+pub(in crate::program) use way::{Blocks, HeldWay, Node, Part, PartedWay, Way, mixed};

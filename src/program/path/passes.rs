@@ -123,13 +123,26 @@ mod tests {
 
     #[track_caller]
     fn crossings(way: &[[f64; 2]]) -> usize {
-        let lines = |at: &[f64; 2]| format!("G01 X{:.3} Y{:.3}\n", at[0], at[1]);
+        let way: Vec<Option<[f64; 2]>> = way.iter().copied().map(Some).collect();
+        with_stops(&way)
+    }
+
+    /// Crossings that are told of a way in each language, mm; `None` is a stop.
+    #[track_caller]
+    fn with_stops(way: &[Option<[f64; 2]>]) -> usize {
+        let line = |step: &Option<[f64; 2]>| match step {
+            Some([x, y]) => format!("G01 X{x:.3} Y{y:.3}\n"),
+            None => "M00\n".to_owned(),
+        };
         let iso = format!(
             "G92 X0. Y0.\nG90\n{}M02\n",
-            way.iter().map(lines).collect::<String>()
+            way.iter().map(line).collect::<String>()
         );
         let mut at = [0_i64, 0];
-        let block = |to: &[f64; 2]| {
+        let block = |step: &Option<[f64; 2]>| {
+            let Some(to) = step else {
+                return "D\n".to_owned();
+            };
             let to = to.map(|mm| (mm * 1e3).round() as i64);
             let (dx, dy) = (to[0] - at[0], to[1] - at[1]);
             at = to;
@@ -151,10 +164,14 @@ mod tests {
         let count = |language: Language, text: &str| {
             let document = Document::read(language, text.into(), &Effective::default());
             let (findings, _) = document.findings(&Effective::default(), usize::MAX);
-            findings
-                .iter()
-                .filter(|finding| finding.rule.name() == "path-crosses-itself")
-                .count()
+            let of_rule = |name: &str| {
+                let named = findings
+                    .iter()
+                    .filter(|finding| finding.rule.name() == name);
+                named.count()
+            };
+            assert_eq!(of_rule("not-closed"), 0, "{text}");
+            of_rule("path-crosses-itself")
         };
         let (of_iso, of_three_b) = (
             count(Language::Iso, &iso),
@@ -210,5 +227,95 @@ mod tests {
         // Two contours of which one cuts through the other.
         let aside: Vec<[f64; 2]> = star(0.0).into_iter().map(|[x, y]| [x + 6.0, y]).collect();
         assert!(crossings(&[&star(0.0)[..], &aside, &[[16.0, 9.0]]].concat()) > 0);
+    }
+
+    /// A way with a stop behind so many of its places.
+    fn stopping(way: &[[f64; 2]], before: usize) -> Vec<Option<[f64; 2]>> {
+        let mut way: Vec<_> = way.iter().copied().map(Some).collect();
+        way.insert(before, None);
+        way
+    }
+
+    const SQUARE: [[f64; 2]; 5] = [
+        [2.0, 0.0],
+        [12.0, 0.0],
+        [12.0, 10.0],
+        [2.0, 10.0],
+        [2.0, 3.0],
+    ];
+
+    #[test]
+    fn a_cut_off_that_runs_through_the_part_crosses_its_contour() {
+        let cut_off = |way: &[[f64; 2]]| with_stops(&stopping(&[&SQUARE[..], way].concat(), 5));
+        // Straight back to where the contour began, and out.
+        assert_eq!(cut_off(&[[2.0, 0.0], [0.0, 0.0]]), 0);
+        assert_eq!(cut_off(&[[2.0, 0.0]]), 0);
+        assert_eq!(cut_off(&[[3.0, 1.5], [2.0, 0.0], [0.0, 0.0]]), 0);
+        // Through the wall on the other side, and round to the start.
+        assert_eq!(
+            cut_off(&[
+                [14.0, 3.0],
+                [14.0, -2.0],
+                [2.0, -2.0],
+                [2.0, 0.0],
+                [0.0, 0.0]
+            ]),
+            1
+        );
+        assert_eq!(
+            cut_off(&[[6.0, 3.0], [6.0, -2.0], [2.0, -2.0], [2.0, 0.0], [0.0, 0.0]]),
+            1
+        );
+        assert_eq!(
+            cut_off(&[[6.0, 12.0], [0.0, 12.0], [0.0, 0.0], [2.0, 0.0]]),
+            1
+        );
+    }
+
+    #[test]
+    fn passes_to_and_fro_that_leave_the_tab_cross_nothing() {
+        let beside = |by: f64| {
+            [
+                [2.0 - by, -by],
+                [12.0 + by, -by],
+                [12.0 + by, 10.0 + by],
+                [2.0 - by, 10.0 + by],
+                [2.0 - by, 3.0],
+            ]
+        };
+        let reversed = |mut way: [[f64; 2]; 5]| {
+            way.reverse();
+            way
+        };
+        let out: [[f64; 2]; 2] = [[2.0, 0.0], [0.0, 0.0]];
+        for by in [0.0, -0.03] {
+            let (first, second, third) = (beside(0.0), reversed(beside(by)), beside(1.5 * by));
+            let mut three = [&first[..], &second[..], &third[..]].concat();
+            three.dedup();
+            let cut_off = [[2.0 - 1.5 * by, -1.5 * by], [0.0, 0.0]];
+            assert_eq!(
+                with_stops(&stopping(&[&three[..], &cut_off].concat(), three.len())),
+                0,
+                "three passes, {by} beside"
+            );
+            // The tab in passes of its own, to and fro.
+            let end = [2.0 - 1.5 * by, 3.0];
+            let tab = [cut_off[0], end, cut_off[0], [0.0, 0.0]];
+            assert_eq!(
+                with_stops(&stopping(&[&three[..], &tab].concat(), three.len())),
+                0,
+                "passes of the tab, {by} beside"
+            );
+            // Each pass from the thread hole and back there.
+            let entry = [[0.0, 0.0]];
+            let apart = [&first[..], &second[..], &entry, &third[..]].concat();
+            assert_eq!(
+                with_stops(&stopping(&[&apart[..], &cut_off].concat(), apart.len())),
+                0,
+                "passes by the thread hole, {by} beside"
+            );
+        }
+        let two = [&SQUARE[..], &reversed(SQUARE)[..4], &out].concat();
+        assert_eq!(crossings(&two), 0);
     }
 }

@@ -19,7 +19,7 @@ use super::run::{Entry, Run, Sum};
 use crate::finding::Finding;
 use crate::geometry::Point;
 use crate::program::chunks::{Chunks, Language};
-use crate::program::path::crossings::Known;
+use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
 use std::ops::Range;
@@ -89,6 +89,8 @@ struct View {
     open: Vec<PartAt>,
     /// Where sections begin that go on with the contour before them, behind the stop at its tab.
     tabs: Vec<PartAt>,
+    /// The contours that are held by a tab until that is cut off, while they are looked through for crossings.
+    held: Vec<Section>,
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,

@@ -23,7 +23,6 @@ mod tests;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
-pub(in crate::program) use run::Move as Displacement;
 
 pub use block::{Block, CountingAxis, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};

@@ -2,16 +2,15 @@
 //!
 //! Places count from the run's first byte and line, so that an edit elsewhere changes nothing here.
 
-use super::block::{Block, Motion, Node, PartArc};
+use super::block::{self, Block, Motion, PartArc};
 use super::decode::meant;
 use super::machine::travel;
 use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
-use super::rules::not_closed::is_closed;
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
 use crate::finding::{Detail, ProgramFault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::path::near_each_other;
+use crate::program::path::{HeldWay, Node, Writing, goes_round, mixed, near_each_other};
 use std::ops::Range;
 
 /// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
@@ -44,6 +43,15 @@ impl Move {
         let near =
             |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
         near(self.machine, 1.0) || near(self.meant, 1e-3)
+    }
+
+    /// Where it leads from the origin.
+    pub fn node(&self) -> Node {
+        let ([x, y], [a, b]) = (self.meant_um(), self.machine);
+        Node {
+            stands: Point::new(a as f64, b as f64),
+            meant: Point::new(x, y),
+        }
     }
 
     /// What the blocks mean, µm.
@@ -94,7 +102,7 @@ impl BlockEntry {
 
 /// Where a block leads to.
 pub(super) fn travel_of(block: &Block) -> Move {
-    let machine = travel(block).map_or([0, 0], |Node { x, y }| [x, y]);
+    let machine = travel(block).map_or([0, 0], |block::Node { x, y }| [x, y]);
     let meant = match meant(block, Point::origin()) {
         Some(segment) => [segment.end().x, segment.end().y].map(|um| (um * 1e3).round() as i64),
         None => machine.map(|um| um.saturating_mul(1000)),
@@ -274,11 +282,7 @@ fn mark_of(entry: &BlockEntry) -> u64 {
         j as u64,
         axis as u64 * 16 + kind * 4 + u64::from(quadrant.number()),
     ];
-    fields.into_iter().fold(POLYNOMIAL, |mark, field| {
-        (mark ^ field)
-            .wrapping_mul(0x2545_f491_4f6c_dd1d)
-            .rotate_left(23)
-    })
+    fields.into_iter().fold(POLYNOMIAL, mixed)
 }
 
 /// Blocks up to a word or to the end of the run.
@@ -288,6 +292,8 @@ pub(super) struct Part {
     pub sum: Sum,
     /// The word behind it, at `entries.end`.
     pub word: Option<(Word, bool)>,
+    /// It holds a closed contour that goes round something.
+    pub goes_round: bool,
     /// Of its way, µm from where it begins.
     pub bounds: Bounds,
     /// Blocks of it whose ways come near each other, by their number in the part, neighbours left out.
@@ -297,6 +303,7 @@ pub(super) struct Part {
 /// A part under way.
 struct Open {
     part: Part,
+    way: HeldWay,
     ways: Vec<Segment>,
     boxes: Vec<Bounds>,
 }
@@ -307,11 +314,13 @@ impl Open {
             entries: entry..entry,
             sum: Sum::default(),
             word: None,
+            goes_round: false,
             bounds: Bounds::EMPTY,
             near: Box::default(),
         };
         Open {
             part,
+            way: HeldWay::from(Node::at(Point::origin()), Writing::default()),
             ways: Vec::new(),
             boxes: Vec::new(),
         }
@@ -329,6 +338,8 @@ impl Open {
         self.ways.push(way);
         self.boxes.push(bounds);
         self.part.sum.push(entry, segment.as_ref());
+        self.way
+            .push(way, !entry.is_line(), self.part.sum.travel.node());
     }
 
     fn closed(mut self) -> Part {
@@ -337,6 +348,7 @@ impl Open {
             near.push((first as u32, second as u32))
         });
         self.part.near = near.into();
+        self.part.goes_round = goes_round(&self.way) == Some(true);
         self.part
     }
 }
@@ -361,7 +373,7 @@ pub(super) struct Run {
     pub own_end: Option<usize>,
     pub last_end: Option<usize>,
     pub last_word: Option<usize>,
-    /// Parts between two words of the run that do not come back to where they began, and those that come near themselves, until it is known
+    /// Parts between two words of the run that hold no closed contour, and those that come near themselves, until it is known
     /// that they do not cross.
     pub open: Vec<usize>,
     pub tangled: Vec<usize>,
@@ -538,7 +550,7 @@ impl Run {
             }
             if index > 0 && index < last {
                 self.open
-                    .extend((!is_jump(&part.sum) && !is_closed(&part.sum)).then_some(index));
+                    .extend((!is_jump(&part.sum) && !part.goes_round).then_some(index));
                 let may_cross = !part.near.is_empty() && may_cross_itself(&part.sum);
                 self.tangled.extend(may_cross.then_some(index));
             }

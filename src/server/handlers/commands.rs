@@ -13,19 +13,23 @@ use tower_lsp::jsonrpc::{Error, Result};
 /// The only argument of a command; `misfit` and `shape` say what is wrong with another, and what is expected.
 fn argument<T: DeserializeOwned>(arguments: Vec<Value>, misfit: &str, shape: &str) -> Result<T> {
     let [argument] = <[Value; 1]>::try_from(arguments)
-        .map_err(|_| Error::invalid_params(format!("the command takes one argument {shape}")))?;
+        .map_err(|_| Error::invalid_params(say!(the_command_takes_one_argument, shape)))?;
     serde_json::from_value(argument)
-        .map_err(|error| Error::invalid_params(format!("the argument {misfit}: {error}")))
+        .map_err(|error| Error::invalid_params(say!(the_argument, misfit, error)))
 }
 
 /// The argument of `wedm.applyDrawingEdit`.
 pub(in crate::server) fn drawing_edit(command: &str, arguments: Vec<Value>) -> Result<DrawingEdit> {
     if command != method::APPLY_DRAWING_EDIT_COMMAND {
         let expected = method::APPLY_DRAWING_EDIT_COMMAND;
-        let message = format!("command is \"{command}\", expected \"{expected}\"");
+        let message = say!(command_is_expected, command, expected);
         return Err(Error::invalid_params(message));
     }
-    argument(arguments, "is no drawing edit", "{ uri, version, changes }")
+    argument(
+        arguments,
+        say!(is_no_drawing_edit),
+        "{ uri, version, changes }",
+    )
 }
 
 /// Asks the client to change its drawing; the command is answered when the client has.
@@ -56,25 +60,20 @@ pub(in crate::server) fn apply_drawing_edit(
 fn check(state: &mut State, edit: &DrawingEdit) -> Result<()> {
     let open = state.document(&edit.uri)?;
     if !open.is_drawing {
-        return Err(Error::invalid_params(format!(
-            "{} is a text, expected a drawing",
-            edit.uri
-        )));
+        return Err(Error::invalid_params(say!(is_a_text_expected_a, edit.uri)));
     }
     if open.version != edit.version {
         return Err(moved_on());
     }
     match state.client.abilities.apply_drawing_edit {
         true => Ok(()),
-        false => Err(refused(
-            "the client did not declare experimental.wedm.applyDrawingEdit: apply the argument yourself",
-        )),
+        false => Err(refused(say!(the_client_did_not_declare))),
     }
 }
 
 /// The argument of `wedm.scale`.
 pub(in crate::server) fn scale_program(arguments: Vec<Value>) -> Result<ScaleProgram> {
-    argument(arguments, "does not fit", "{ uri, factor }")
+    argument(arguments, say!(does_not_fit), "{ uri, factor }")
 }
 
 /// The edit that scales a program by a factor that the user has named.
@@ -83,12 +82,10 @@ pub(in crate::server) fn scaled(
     params: ScaleProgram,
 ) -> Result<WorkspaceEdit> {
     if !context.abilities.apply_edit {
-        return Err(refused(
-            "the client did not declare workspace.applyEdit, so it cannot be asked to change its text",
-        ));
+        return Err(refused(say!(the_client_did_not_declare_workspace)));
     }
     let (Some(program), Some(document)) = (context.program(), context.document()) else {
-        return Err(refused(format!("{} is no program", context.uri)));
+        return Err(refused(say!(is_no_program, context.uri)));
     };
     let edits = language::scaled(program, document.settings(), params.factor).map_err(refused)?;
     context.workspace_edit(program.text(), edits)

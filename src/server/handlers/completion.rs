@@ -4,22 +4,10 @@ use crate::dxf::language::{Completion, CompletionKind, completions};
 use crate::program;
 use crate::server::context::RequestContext;
 use ls_types::{
-    CompletionItem, CompletionItemKind, CompletionOptions, CompletionParams, CompletionResponse,
-    CompletionTextEdit, InsertTextFormat, TextEdit,
+    CompletionItem, CompletionItemKind, CompletionParams, CompletionResponse, CompletionTextEdit,
+    InsertTextFormat, TextEdit,
 };
 use tower_lsp::jsonrpc::Result;
-
-pub(in crate::server) fn options() -> CompletionOptions {
-    // A digit is no word: editors ask at these of their own accord.
-    CompletionOptions {
-        trigger_characters: Some(
-            ["B", "G", "M", "I", "J", "D", "H", "P"]
-                .map(Into::into)
-                .to_vec(),
-        ),
-        ..CompletionOptions::default()
-    }
-}
 
 pub(in crate::server) fn completion(
     context: &RequestContext,

@@ -5,18 +5,11 @@ use crate::server::context::RequestContext;
 use crate::server::convert::{bytes_of, lsp_edits};
 use crate::text::SourceText;
 use ls_types::{
-    DocumentFormattingParams, DocumentOnTypeFormattingOptions, DocumentOnTypeFormattingParams,
-    DocumentRangeFormattingParams, TextEdit,
+    DocumentFormattingParams, DocumentOnTypeFormattingParams, DocumentRangeFormattingParams,
+    TextEdit,
 };
 use std::ops::Range;
 use tower_lsp::jsonrpc::Result;
-
-pub(in crate::server) fn on_type() -> DocumentOnTypeFormattingOptions {
-    DocumentOnTypeFormattingOptions {
-        first_trigger_character: "\n".into(),
-        more_trigger_character: None,
-    }
-}
 
 pub(in crate::server) fn whole(
     context: &RequestContext,

@@ -10,17 +10,14 @@ use crate::server::convert;
 use crate::server::errors::{internal, refusal, refused, refused_with};
 use crate::toolpath::{Refusal, entities_of};
 use serde::Deserialize;
-use serde_json::Value;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// Params of the request; the options are read by the settings' own reader, which names a misfit.
+/// Params of the request, beside the document and the options.
 #[derive(Deserialize)]
 pub(in crate::server) struct Params {
-    pub(super) uri: String,
     format: String,
     handles: Option<Vec<String>>,
-    pub(super) options: Option<Value>,
     force: Option<bool>,
 }
 
@@ -55,8 +52,8 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
         .count();
     if errors > 0 && !force {
         let message = match errors {
-            1 => "an error stands in the drawing".to_string(),
-            _ => format!("{errors} errors stand in the drawing"),
+            1 => say!(an_error_stands_in_the).to_string(),
+            _ => say!(errors_stand_in_the_drawing, errors),
         };
         return Err(refused_with(
             message,
@@ -64,17 +61,17 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
         ));
     }
     context.check()?;
-    context.progress.report("laying the wire's path");
+    context.progress.report(say!(laying_the_wire_path));
     let settings = format.settings(&task.settings);
     let paths = task.paths(context, &settings, handles)?;
     if paths.is_empty() {
-        return Err(refused("the drawing holds no contour to cut"));
+        return Err(refused(say!(the_drawing_holds_no_contour)));
     }
     context.check()?;
     let mut go_on = |done: usize, all: usize| {
         context
             .progress
-            .share("writing and proving the program", done, all);
+            .share(say!(writing_and_proving_the_program), done, all);
         !context.is_cancelled()
     };
     let program = format
@@ -89,15 +86,13 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
             ProofError::Cancelled => Error::request_cancelled(),
             // What comes of errors that were passed over is theirs.
             ProofError::Mismatch(reason) if force => {
-                let message = format!("no program could be proved for this drawing: {reason}");
+                let message = say!(no_program_could_be_proved, reason);
                 refused_with(
                     message,
                     diagnostics(&|severity| severity == Severity::Error),
                 )
             }
-            ProofError::Mismatch(reason) => {
-                internal(format!("the program does not hold its proof: {reason}"))
-            }
+            ProofError::Mismatch(reason) => internal(say!(the_program_does_not_hold, reason)),
         })?;
     let one_pass = task
         .settings

@@ -14,6 +14,5 @@ pub(in crate::server) fn inspect(context: &RequestContext, params: Inspect) -> R
     {
         return Err(no_entity(handle));
     }
-    Inspection::of(document, handle)
-        .ok_or_else(|| refused("the document is a program, expected a drawing"))
+    Inspection::of(document, handle).ok_or_else(|| refused(say!(the_document_is_a_program)))
 }

@@ -6,13 +6,6 @@ use ls_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
 use tower_lsp::jsonrpc::Result;
 
-/// Commands of the client, each with the document's URI as its argument.
-const COMMANDS: [(&str, &str); 3] = [
-    ("Simulate", "wedm.simulate"),
-    ("Open picture", "wedm.openPicture"),
-    ("Convert to DXF", "wedm.convertToDxf"),
-];
-
 /// Contours that get a lens of their own.
 const LENSES: usize = 500;
 
@@ -38,7 +31,13 @@ pub(in crate::server) fn code_lens(
             .filter(|symbol| symbol.kind == SymbolKind::Contour)
     };
     let of_program = contours().take(1).flat_map(|first| {
-        COMMANDS.map(|(title, command)| {
+        // Commands of the client, each with the document's URI as its argument.
+        [
+            (say!(simulate), "wedm.simulate"),
+            (say!(open_picture), "wedm.openPicture"),
+            (say!(convert_to_dxf), "wedm.convertToDxf"),
+        ]
+        .map(|(title, command)| {
             let arguments = Some(vec![json!(*context.uri)]);
             lens(first.selection.clone(), title.into(), command, arguments)
         })

@@ -1,165 +1,113 @@
-//! `initialize`, `initialized`, and what the client says of its settings and folders.
+//! `initialize` and `initialized`: what client and server can do.
 
 use super::code_action::FIX_ALL;
-use super::{completion, formatting, signature, tokens};
+use super::tokens;
 use crate::protocol::{self, method};
 use crate::server::client::{Abilities, Weight};
 use crate::server::config::{Level, path_of};
+use crate::server::errors::internal;
 use crate::server::state::State;
 use crate::text::Encoding;
-use ls_types::*;
+use ls_types::{CodeActionKind, InitializeParams, InitializeResult, TextDocumentSyncKind};
 use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::sync::Arc;
+use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn initialize(
     state: &mut State,
     params: InitializeParams,
-) -> InitializeResult {
-    let capabilities = &params.capabilities;
-    let offered = capabilities
-        .general
-        .as_ref()
-        .and_then(|general| general.position_encodings.as_ref());
-    let utf8 = offered.is_some_and(|offered| offered.contains(&PositionEncodingKind::UTF8));
-    state.encoding = if utf8 {
-        Encoding::Utf8
-    } else {
-        Encoding::Utf16
+) -> Result<InitializeResult> {
+    let unsound = |error: serde_json::Error| internal(error.to_string());
+    let able = serde_json::to_value(&params.capabilities).map_err(unsound)?;
+    let offered = able.pointer("/general/positionEncodings");
+    let offered = offered.and_then(Value::as_array);
+    let encoding = match offered.is_some_and(|offered| offered.iter().any(|name| name == "utf-8")) {
+        true => Encoding::Utf8,
+        false => Encoding::Utf16,
     };
-    state.client.abilities = abilities(capabilities).into();
+    state.encoding = encoding;
+    state.client.abilities = Arc::new(abilities(&able));
     state.config.set_folders(folders(&params));
-    set_level(
-        state,
-        Level::Initialization,
-        &params.initialization_options.unwrap_or_default(),
-    );
-    InitializeResult {
-        capabilities: ServerCapabilities {
-            position_encoding: Some(if utf8 {
-                PositionEncodingKind::UTF8
-            } else {
-                PositionEncodingKind::UTF16
-            }),
-            text_document_sync: Some(TextDocumentSyncCapability::Options(
-                TextDocumentSyncOptions {
-                    open_close: Some(true),
-                    change: Some(TextDocumentSyncKind::INCREMENTAL),
-                    save: Some(TextDocumentSyncSaveOptions::Supported(true)),
-                    ..TextDocumentSyncOptions::default()
-                },
-            )),
-            code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
-                code_action_kinds: Some(vec![
-                    CodeActionKind::QUICKFIX,
-                    CodeActionKind::new(FIX_ALL),
-                    CodeActionKind::REFACTOR_REWRITE,
-                ]),
-                work_done_progress_options: WorkDoneProgressOptions {
-                    work_done_progress: Some(true),
-                },
-                resolve_provider: None,
-            })),
-            execute_command_provider: Some(ExecuteCommandOptions {
-                commands: vec![
-                    method::APPLY_DRAWING_EDIT_COMMAND.into(),
-                    method::SCALE_COMMAND.into(),
-                ],
-                ..ExecuteCommandOptions::default()
-            }),
-            completion_provider: Some(completion::options()),
-            definition_provider: Some(OneOf::Left(true)),
-            references_provider: Some(OneOf::Left(true)),
-            document_highlight_provider: Some(OneOf::Left(true)),
-            selection_range_provider: Some(SelectionRangeProviderCapability::Simple(true)),
-            rename_provider: Some(OneOf::Right(RenameOptions {
-                prepare_provider: Some(true),
-                work_done_progress_options: WorkDoneProgressOptions::default(),
-            })),
-            code_lens_provider: state.client.abilities.code_lens.then_some(CodeLensOptions {
-                resolve_provider: Some(false),
-            }),
-            signature_help_provider: Some(signature::options()),
-            inlay_hint_provider: Some(OneOf::Left(true)),
-            semantic_tokens_provider: Some(tokens::capabilities()),
-            hover_provider: Some(HoverProviderCapability::Simple(true)),
-            document_symbol_provider: Some(OneOf::Left(true)),
-            document_formatting_provider: Some(OneOf::Left(true)),
-            document_range_formatting_provider: Some(OneOf::Left(true)),
-            document_on_type_formatting_provider: Some(formatting::on_type()),
-            folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
-            workspace: Some(WorkspaceServerCapabilities {
-                workspace_folders: Some(WorkspaceFoldersServerCapabilities {
-                    supported: Some(true),
-                    change_notifications: Some(OneOf::Left(true)),
-                }),
-                ..WorkspaceServerCapabilities::default()
-            }),
-            experimental: Some(json!({ "wedm": { "protocol": protocol::PROTOCOL } })),
-            ..ServerCapabilities::default()
-        },
-        server_info: Some(ServerInfo {
-            name: "wedm".into(),
-            version: Some(env!("CARGO_PKG_VERSION").into()),
-        }),
-        ..InitializeResult::default()
-    }
+    let options = params.initialization_options.unwrap_or_default();
+    state.set_level(Level::Initialization, &options);
+    let result = json!({
+        "capabilities": offers(encoding, &state.client.abilities),
+        "serverInfo": { "name": "wedm", "version": env!("CARGO_PKG_VERSION") },
+    });
+    serde_json::from_value(result).map_err(unsound)
 }
 
-fn abilities(capabilities: &ClientCapabilities) -> Abilities {
-    let ours = |key: &str| {
-        capabilities
-            .experimental
-            .as_ref()
-            .and_then(|ours| ours.pointer(key))
-            .and_then(Value::as_bool)
-            == Some(true)
-    };
-    let workspace = capabilities.workspace.as_ref();
-    let text = capabilities.text_document.as_ref();
-    let related = text.and_then(|text| text.publish_diagnostics.as_ref()?.related_information);
-    let registers = |dynamic: Option<bool>| dynamic == Some(true);
-    let text = capabilities.text_document.as_ref();
-    let folding = text.and_then(|text| text.folding_range.as_ref());
+/// What the server can do.
+fn offers(encoding: Encoding, abilities: &Abilities) -> Value {
+    json!({
+        "positionEncoding": match encoding {
+            Encoding::Utf8 => "utf-8",
+            Encoding::Utf16 => "utf-16",
+        },
+        "textDocumentSync": {
+            "openClose": true,
+            "change": TextDocumentSyncKind::INCREMENTAL,
+            "save": true,
+        },
+        "codeActionProvider": {
+            "codeActionKinds": [CodeActionKind::QUICKFIX, FIX_ALL, CodeActionKind::REFACTOR_REWRITE],
+            "workDoneProgress": true,
+        },
+        "executeCommandProvider": {
+            "commands": [method::APPLY_DRAWING_EDIT_COMMAND, method::SCALE_COMMAND],
+        },
+        // A digit is no word: editors ask at these of their own accord.
+        "completionProvider": { "triggerCharacters": ["B", "G", "M", "I", "J", "D", "H", "P"] },
+        "signatureHelpProvider": {
+            "triggerCharacters": ["B", "b", "X", "x", "I", "i", "D", "P"],
+            "retriggerCharacters": ["G", "g", "Y", "y", "J", "j", "R", " "],
+        },
+        "definitionProvider": true,
+        "referencesProvider": true,
+        "documentHighlightProvider": true,
+        "selectionRangeProvider": true,
+        "renameProvider": { "prepareProvider": true },
+        "codeLensProvider": abilities.code_lens.then(|| json!({ "resolveProvider": false })),
+        "inlayHintProvider": true,
+        "semanticTokensProvider": {
+            "legend": { "tokenTypes": tokens::types(), "tokenModifiers": [] },
+            "range": true,
+            "full": { "delta": true },
+        },
+        "hoverProvider": true,
+        "documentSymbolProvider": true,
+        "documentFormattingProvider": true,
+        "documentRangeFormattingProvider": true,
+        "documentOnTypeFormattingProvider": { "firstTriggerCharacter": "\n" },
+        "foldingRangeProvider": true,
+        "workspace": { "workspaceFolders": { "supported": true, "changeNotifications": true } },
+        "experimental": { "wedm": { "protocol": protocol::PROTOCOL } },
+    })
+}
+
+fn abilities(client: &Value) -> Abilities {
+    let able = |path: &str| client.pointer(path).and_then(Value::as_bool) == Some(true);
+    let folds = client.pointer("/textDocument/foldingRange/rangeLimit");
     Abilities {
-        hierarchical_symbols: text.and_then(|text| {
-            text.document_symbol
-                .as_ref()?
-                .hierarchical_document_symbol_support
-        }) == Some(true),
-        folding_limit: folding.and_then(|folding| usize::try_from(folding.range_limit?).ok()),
-        apply_drawing_edit: ours("/wedm/applyDrawingEdit"),
-        apply_edit: workspace.and_then(|workspace| workspace.apply_edit) == Some(true),
-        disabled_actions: text.and_then(|text| text.code_action.as_ref()?.disabled_support)
-            == Some(true),
-        code_lens: ours("/wedm/codeLens"),
-        snippets: text.and_then(|text| {
-            text.completion
-                .as_ref()?
-                .completion_item
-                .as_ref()?
-                .snippet_support
-        }) == Some(true),
-        resend_drawing: ours("/wedm/resendDrawing"),
-        document_changes: workspace
-            .and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes)
-            == Some(true),
-        configuration: workspace.and_then(|workspace| workspace.configuration) == Some(true),
-        register_configuration: registers(workspace.and_then(|workspace| {
-            workspace
-                .did_change_configuration
-                .as_ref()?
-                .dynamic_registration
-        })),
-        register_watched_files: registers(workspace.and_then(|workspace| {
-            workspace
-                .did_change_watched_files
-                .as_ref()?
-                .dynamic_registration
-        })),
-        related_information: related == Some(true),
-        token_deltas: matches!(
-            text.and_then(|text| text.semantic_tokens.as_ref()?.requests.full.as_ref()),
-            Some(SemanticTokensFullOptions::Delta { delta: Some(true) })
+        apply_drawing_edit: able("/experimental/wedm/applyDrawingEdit"),
+        resend_drawing: able("/experimental/wedm/resendDrawing"),
+        code_lens: able("/experimental/wedm/codeLens"),
+        apply_edit: able("/workspace/applyEdit"),
+        document_changes: able("/workspace/workspaceEdit/documentChanges"),
+        configuration: able("/workspace/configuration"),
+        register_configuration: able("/workspace/didChangeConfiguration/dynamicRegistration"),
+        register_watched_files: able("/workspace/didChangeWatchedFiles/dynamicRegistration"),
+        related_information: able("/textDocument/publishDiagnostics/relatedInformation"),
+        disabled_actions: able("/textDocument/codeAction/disabledSupport"),
+        snippets: able("/textDocument/completion/completionItem/snippetSupport"),
+        hierarchical_symbols: able(
+            "/textDocument/documentSymbol/hierarchicalDocumentSymbolSupport",
         ),
+        token_deltas: able("/textDocument/semanticTokens/requests/full/delta"),
+        folding_limit: folds
+            .and_then(Value::as_u64)
+            .and_then(|limit| usize::try_from(limit).ok()),
     }
 }
 
@@ -167,7 +115,7 @@ fn abilities(capabilities: &ClientCapabilities) -> Abilities {
     deprecated,
     reason = "clients that know no workspace folders send the root"
 )]
-fn folders(params: &InitializeParams) -> Vec<std::path::PathBuf> {
+fn folders(params: &InitializeParams) -> Vec<PathBuf> {
     match &params.workspace_folders {
         Some(folders) if !folders.is_empty() => folders
             .iter()
@@ -208,50 +156,5 @@ pub(in crate::server) fn initialized(state: &mut State) {
             },
         );
     }
-    pull_configuration(state);
-}
-
-/// Asks for the section `wedm`, where the client can be asked.
-fn pull_configuration(state: &mut State) {
-    if !state.client.abilities.configuration {
-        return;
-    }
-    state.client.ask(
-        "workspace/configuration",
-        json!({ "items": [{ "section": "wedm" }] }),
-        |state, answer| match answer {
-            Ok(answer) => {
-                set_level(state, Level::Pulled, answer.get(0).unwrap_or(&Value::Null));
-                state.settings_changed();
-            }
-            Err(reason) => state.client.log(Weight::Warning, reason),
-        },
-    );
-}
-
-fn set_level(state: &mut State, level: Level, json: &Value) {
-    for misfit in state.config.set_level(level, json) {
-        state.client.show(Weight::Warning, misfit);
-    }
-}
-
-pub(in crate::server) fn configuration_changed(state: &mut State, settings: &Value) {
-    if !settings.is_null() {
-        set_level(state, Level::Pushed, settings);
-        state.settings_changed();
-    }
-    pull_configuration(state);
-}
-
-pub(in crate::server) fn folders_changed(state: &mut State, event: &WorkspaceFoldersChangeEvent) {
-    let paths = |folders: &[WorkspaceFolder]| -> Vec<std::path::PathBuf> {
-        folders
-            .iter()
-            .filter_map(|folder| path_of(folder.uri.as_str()))
-            .collect()
-    };
-    state
-        .config
-        .change_folders(&paths(&event.removed), paths(&event.added));
-    state.settings_changed();
+    state.pull_configuration();
 }

@@ -16,16 +16,15 @@ pub(in crate::server) fn locate(
     params: Locate,
 ) -> Result<Option<Located>> {
     let encoding = context.encoding;
-    let text = context.dxf().ok_or_else(|| {
-        refused(format!(
-            "{} is no DXF text, expected a document in which segments are written",
-            context.uri
-        ))
-    })?;
+    let text = context
+        .dxf()
+        .ok_or_else(|| refused(say!(is_no_dxf_text_expected, context.uri)))?;
     match (params.position, &params.handle) {
         (Some(position), None) => Ok(at_position(text, position, encoding)),
         (None, Some(handle)) => at_segment(text, handle, params.segment, encoding).map(Some),
-        _ => Err(Error::invalid_params("expected either position or handle")),
+        _ => Err(Error::invalid_params(say!(
+            expected_either_position_or_handle
+        ))),
     }
 }
 
@@ -53,8 +52,10 @@ fn at_segment(
         .get(entity)
         .map_or(0, |entity| entity.geometry.segment_count());
     if let Some(segment) = segment.filter(|&segment| segment >= count) {
-        return Err(Error::invalid_params(format!(
-            "there is no segment {segment} in {handle}, expected 0 to {}",
+        return Err(Error::invalid_params(say!(
+            there_is_no_segment_in,
+            segment,
+            handle,
             count.saturating_sub(1)
         )));
     }

@@ -27,8 +27,6 @@ pub(super) mod symbols;
 pub(super) mod tokens;
 pub(super) mod toolpath;
 
-pub(super) use params::WithOptions;
-
 use super::context::RequestContext;
 use super::errors::{refusal, refused};
 use crate::document::{Document, Snapshot, Source};
@@ -67,7 +65,7 @@ impl Task {
             settings,
         } = document
             .snapshot()
-            .ok_or_else(|| refused("the document is a program, expected a drawing"))?;
+            .ok_or_else(|| refused(say!(the_document_is_a_program)))?;
         Ok(Task {
             subject,
             document,
@@ -101,5 +99,5 @@ impl Task {
 }
 
 fn no_entity(handle: &str) -> Error {
-    Error::invalid_params(format!("there is no entity {handle}"))
+    Error::invalid_params(say!(there_is_no_entity, handle))
 }

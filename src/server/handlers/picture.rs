@@ -1,14 +1,14 @@
 //! `wedm/picture`: contours, faults and wire path of a drawing, or the path of a program, as SVG.
 
-use super::{Task, WithOptions};
+use super::Task;
 use crate::document::Document;
 use crate::finding::{self, Finding, Severity};
 use crate::picture::{program_svg, svg};
-use crate::protocol::Picture;
+use crate::protocol::{DrawingName, Picture};
 use crate::server::context::RequestContext;
 use tower_lsp::jsonrpc::Result;
 
-pub(in crate::server) fn picture(context: &RequestContext, _: WithOptions) -> Result<Picture> {
+pub(in crate::server) fn picture(context: &RequestContext, _: DrawingName) -> Result<Picture> {
     if let (Some(document), Some(program)) = (context.document(), context.program()) {
         return Ok(Picture {
             svg: program_svg(&program.trace(), &faults(document)),

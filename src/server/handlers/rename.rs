@@ -28,10 +28,7 @@ pub(in crate::server) fn rename(
     params: RenameParams,
 ) -> Result<Option<WorkspaceEdit>> {
     let Some(program) = context.program() else {
-        return Err(refused(format!(
-            "{} is no program, expected one with block numbers",
-            context.uri
-        )));
+        return Err(refused(say!(is_no_program_expected_one, context.uri)));
     };
     let text = program.text();
     let offset = context.offset(text, params.text_document_position.position);

@@ -16,9 +16,10 @@ pub(in crate::server) fn selection_range(
 ) -> Result<Option<Vec<SelectionRange>>> {
     let SelectionRangeParams { positions, .. } = params;
     if positions.len() > PLACES {
-        return Err(Error::invalid_params(format!(
-            "{} positions are asked for, expected at most {PLACES}",
-            positions.len()
+        return Err(Error::invalid_params(say!(
+            positions_are_asked_for_expected,
+            positions.len(),
+            PLACES
         )));
     }
     type Ranges = Vec<std::ops::Range<usize>>;

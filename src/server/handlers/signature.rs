@@ -4,25 +4,9 @@ use crate::program::language::signature;
 use crate::server::context::RequestContext;
 use ls_types::{
     Documentation, MarkupContent, MarkupKind, ParameterInformation, ParameterLabel, SignatureHelp,
-    SignatureHelpOptions, SignatureHelpParams, SignatureInformation, WorkDoneProgressOptions,
+    SignatureHelpParams, SignatureInformation,
 };
 use tower_lsp::jsonrpc::Result;
-
-pub(in crate::server) fn options() -> SignatureHelpOptions {
-    SignatureHelpOptions {
-        trigger_characters: Some(
-            ["B", "b", "X", "x", "I", "i", "D", "P"]
-                .map(Into::into)
-                .to_vec(),
-        ),
-        retrigger_characters: Some(
-            ["G", "g", "Y", "y", "J", "j", "R", " "]
-                .map(Into::into)
-                .to_vec(),
-        ),
-        work_done_progress_options: WorkDoneProgressOptions::default(),
-    }
-}
 
 pub(in crate::server) fn signature_help(
     context: &RequestContext,

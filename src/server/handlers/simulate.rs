@@ -10,14 +10,14 @@ pub(in crate::server) fn simulate(
     params: Simulate,
 ) -> Result<Simulation> {
     if let Some(feed) = params.feed.filter(|feed| *feed <= 0.0) {
-        let message = format!("feed is {feed}, expected mm/min above 0");
+        let message = say!(feed_is_expected_mm_min, feed);
         return Err(Error::invalid_params(message));
     }
     let document = context
         .document()
-        .ok_or_else(|| refused(format!("{} holds no program", context.uri)))?;
+        .ok_or_else(|| refused(say!(holds_no_program, context.uri)))?;
     let program = document
         .program()
-        .ok_or_else(|| refused(format!("{} is a drawing, expected a program", context.uri)))?;
+        .ok_or_else(|| refused(say!(is_a_drawing_expected_a, context.uri)))?;
     Ok(Simulation::of(&program.trace(), params.feed))
 }

@@ -9,9 +9,8 @@ use crate::text::{Encoding, SourceText};
 use ls_types::{
     Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
     SemanticTokensDeltaParams, SemanticTokensEdit, SemanticTokensFullDeltaResult,
-    SemanticTokensFullOptions, SemanticTokensLegend, SemanticTokensOptions, SemanticTokensParams,
-    SemanticTokensRangeParams, SemanticTokensRangeResult, SemanticTokensResult,
-    SemanticTokensServerCapabilities,
+    SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
+    SemanticTokensResult,
 };
 use rayon::prelude::*;
 use tower_lsp::jsonrpc::Result;
@@ -21,16 +20,9 @@ const LIMIT: usize = 1_000_000;
 /// Lines of one answer about a range.
 const LINES: usize = 10_000;
 
-pub(in crate::server) fn capabilities() -> SemanticTokensServerCapabilities {
-    SemanticTokensServerCapabilities::SemanticTokensOptions(SemanticTokensOptions {
-        legend: SemanticTokensLegend {
-            token_types: TokenKind::ALL.map(type_of).to_vec(),
-            token_modifiers: Vec::new(),
-        },
-        range: Some(true),
-        full: Some(SemanticTokensFullOptions::Delta { delta: Some(true) }),
-        ..SemanticTokensOptions::default()
-    })
+/// The names of the types, in the order of their numbers.
+pub(in crate::server) fn types() -> [SemanticTokenType; TokenKind::ALL.len()] {
+    TokenKind::ALL.map(type_of)
 }
 
 /// The types that themes have a colour for.

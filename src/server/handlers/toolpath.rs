@@ -1,11 +1,11 @@
 //! `wedm/toolpath`: the path of the wire's centre.
 
-use super::{Task, WithOptions};
-use crate::protocol::Toolpath;
+use super::Task;
+use crate::protocol::{DrawingName, Toolpath};
 use crate::server::context::RequestContext;
 use tower_lsp::jsonrpc::Result;
 
-pub(in crate::server) fn toolpath(context: &RequestContext, _: WithOptions) -> Result<Toolpath> {
+pub(in crate::server) fn toolpath(context: &RequestContext, _: DrawingName) -> Result<Toolpath> {
     let task = Task::of(context)?;
     let paths = task.paths(context, &task.settings, None)?;
     Ok(Toolpath::new(&task.drawing, &paths, task.unit_mm()))

@@ -62,9 +62,7 @@ impl<R: Read> Frames<R> {
             Ok(None) => Frame::End,
             Ok(Some(length)) if length > BODY_CAP => {
                 self.skip_body(length);
-                Frame::Broken(format!(
-                    "a body of {length} bytes is over the limit of {BODY_CAP}"
-                ))
+                Frame::Broken(say!(a_body_of_bytes_is, length, BODY_CAP))
             }
             Ok(Some(length)) => self.body(length as usize),
             Err(reason) => Frame::Broken(reason),
@@ -127,16 +125,14 @@ impl<R: Read> Frames<R> {
             else {
                 if self.rest().len() > HEADER_CAP {
                     self.skip_to_header(at + 1);
-                    return Err(format!(
-                        "no whole header within {HEADER_CAP} bytes, expected Content-Length and a blank line"
-                    ));
+                    return Err(say!(no_whole_header_within_bytes, HEADER_CAP));
                 }
                 if !self.fill() {
                     return match self.rest().iter().all(u8::is_ascii_whitespace) {
                         true => Ok(None),
                         false => {
                             self.start = self.buffer.len();
-                            Err("the stream ends within a header".into())
+                            Err(say!(the_stream_ends_within_a).into())
                         }
                     };
                 }
@@ -151,7 +147,7 @@ impl<R: Read> Frames<R> {
                     _ if is_between_frames => continue,
                     None => {
                         self.skip_to_header(0);
-                        return Err("a header without Content-Length".into());
+                        return Err(say!(a_header_without_content_length).into());
                     }
                     length => return Ok(length),
                 }
@@ -167,10 +163,7 @@ impl<R: Read> Frames<R> {
                 }
                 // Something was printed right before the next header.
                 Some(_) if marker(&self.rest()[at..=end]).is_none() => None,
-                _ => Some(format!(
-                    "\"{}\" is no header line, expected Content-Length and a blank line",
-                    shown(line)
-                )),
+                _ => Some(say!(is_no_header_line_expected, shown(line))),
             };
             if let Some(fault) = fault {
                 self.skip_to_header(at + 1);
@@ -188,9 +181,7 @@ impl<R: Read> Frames<R> {
             let from = searched.saturating_sub(MARKER_CAP);
             if let Some(at) = marker(&self.rest()[from..have]) {
                 self.start += from + at;
-                return Frame::Broken(format!(
-                    "the next frame begins before {length} bytes of body came"
-                ));
+                return Frame::Broken(say!(the_next_frame_begins_before, length));
             }
             searched = have;
             if have == length {
@@ -198,7 +189,7 @@ impl<R: Read> Frames<R> {
             }
             if !self.fill() {
                 self.start = self.buffer.len();
-                return Frame::Broken(format!("the stream ends within a body of {length} bytes"));
+                return Frame::Broken(say!(the_stream_ends_within_a_body, length));
             }
         }
         let end = self.start + length;

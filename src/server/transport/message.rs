@@ -24,10 +24,7 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
     if is_too_heavy(body) {
         return Ok(invalid(
             Id::Null,
-            format!(
-                "a message of {} bytes holds more than {LIMIT} lists, objects and values",
-                body.len()
-            ),
+            say!(a_message_of_bytes_holds, body.len(), LIMIT),
         ));
     }
     let value = parse_json(body).map_err(|reason| Error {
@@ -36,10 +33,7 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
         data: None,
     })?;
     let Value::Object(mut message) = value else {
-        return Ok(invalid(
-            Id::Null,
-            "a message is an object, expected no list and no bare value",
-        ));
+        return Ok(invalid(Id::Null, say!(a_message_is_an_object)));
     };
     let id = match message.remove("id") {
         None => None,
@@ -47,24 +41,18 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
         Some(Value::Number(number)) if number.as_i64().is_some() => number.as_i64().map(Id::Number),
         Some(Value::Null) => Some(Id::Null),
         Some(_) => {
-            return Ok(invalid(
-                Id::Null,
-                "the id is neither a whole number nor a string",
-            ));
+            return Ok(invalid(Id::Null, say!(the_id_is_neither_a)));
         }
     };
     let method = match message.remove("method") {
         Some(Value::String(method)) => method,
         Some(_) => {
-            return Ok(invalid(
-                id.unwrap_or_default(),
-                "the method is not a string",
-            ));
+            return Ok(invalid(id.unwrap_or_default(), say!(the_method_is_not_a)));
         }
         None => return Ok(reply(id, message)),
     };
     if message.get("jsonrpc").and_then(Value::as_str) != Some("2.0") {
-        return Ok(invalid(id.unwrap_or_default(), "jsonrpc is not \"2.0\""));
+        return Ok(invalid(id.unwrap_or_default(), say!(jsonrpc_is_not_2_0)));
     }
     let mut request = Request::build(method);
     if let Some(params) = message.remove("params") {
@@ -88,10 +76,7 @@ fn reply(id: Option<Id>, mut message: serde_json::Map<String, Value>) -> Incomin
             result: Ok(message.remove("result").unwrap_or_default()),
         },
         // An id of the client's own could stand for a request that still waits: it is not echoed.
-        _ => invalid(
-            Id::Null,
-            "a message without a method that answers no request",
-        ),
+        _ => invalid(Id::Null, say!(a_message_without_a_method)),
     }
 }
 

@@ -140,7 +140,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         let (id, method) = (request.id().cloned(), request.method().to_owned());
         // None of the framework's own is a request, and it leaves such requests without an answer.
         if let Some(id) = id.clone().filter(|_| method.starts_with("$/")) {
-            let message = format!("there is no request {method}").into();
+            let message = say!(there_is_no_request, method).into();
             return self.send(Response::from_error(
                 id,
                 Error {
@@ -181,7 +181,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                     && is_ours(&method)
                     && matches!(outcome, Ok(Ok(None)));
                 if unread {
-                    self.inbox.note(format!("{method} was ignored: its params are malformed, or it came before initialize"));
+                    self.inbox.note(say!(was_ignored_its_params_are, method));
                 }
                 self.finish(&reply, id, outcome);
             }
@@ -215,10 +215,8 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     }
 
     fn answer_broken(&self, error: Error, position: i64) {
-        self.inbox.note(format!(
-            "a broken message before byte {position} was skipped: {}",
-            error.message
-        ));
+        self.inbox
+            .note(say!(a_broken_message_before_byte, position, error.message));
         self.send(Response::from_error(Id::Null, error));
     }
 
@@ -237,7 +235,7 @@ fn finish(writer: &Writer, reply: &Reply, id: Option<Id>, outcome: Outcome) {
         Err(panic) => {
             let text = panic_text(&*panic);
             tracing::error!("a handler panicked: {text}");
-            let message = format!("internal error: {text}").into();
+            let message = say!(internal_error, text).into();
             id.map(|id| {
                 Response::from_error(
                     id,
@@ -262,7 +260,7 @@ pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     match (panic.downcast_ref::<&str>(), panic.downcast_ref::<String>()) {
         (Some(text), _) => text,
         (_, Some(text)) => text,
-        _ => "no reason given",
+        _ => say!(no_reason_given),
     }
 }
 

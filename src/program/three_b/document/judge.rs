@@ -4,13 +4,11 @@ use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::rules::block_number::{Numbered, Sequence};
 use super::super::rules::{self, block_number, culprit, not_closed, position_mismatch};
-use super::super::run::{BlockEntry, Entry, Move, Numbering, Part, What, may_cross_itself};
+use super::super::run::{BlockEntry, Entry, Numbering, What, may_cross_itself};
 use super::sections::joined;
-use super::way::{SectionWay, pieces_of};
 use super::{At, Document, PartAt, Section, View};
-use crate::finding::{Axis, Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
-use crate::program::path::crossings::{Found, Known, Stretch, crossings_of_passes, search};
-use crate::program::path::{closing, gap, is_tab, passes, pieces_of as pieces_of_way, tolerance};
+use crate::finding::{Axis, Detail, Finding, Place, ProgramFault, Rule, Severity};
+use crate::program::path::{Known, closing, gap, goes_round, is_tab, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -19,6 +17,16 @@ const PAUSES_WITHIN: usize = 16;
 
 /// Those of them behind which a tab is looked for.
 const TABS_WITHIN: usize = 4;
+
+/// Sections that belong to one contour.
+struct GoesOn {
+    /// Where those behind the first begin.
+    begins: Vec<PartAt>,
+    /// What comes behind them.
+    behind: PartAt,
+    /// All of them, where the last one cuts off the tab.
+    held: Option<Section>,
+}
 
 impl Document {
     /// `calm` takes the contours within one run of which is known now that they do not cross themselves, in their order.
@@ -41,7 +49,7 @@ impl Document {
 
     /// `not-closed`, and the block that is to blame where it is plain. A contour that stops before its tab goes on behind the stop.
     fn judge_contours(&self, view: &mut View) {
-        let is_open = |section: &Section| !section.is_jump && !self.is_closed(section);
+        let is_open = |section: &Section| !section.is_jump && !self.goes_round(section);
         let mut candidates: Vec<Section> = self
             .inner_sections(view.end, |run| &run.open)
             .filter(is_open)
@@ -75,10 +83,13 @@ impl Document {
                 continue;
             }
             match self.goes_on(view, &section) {
-                Some((stops, next)) => {
-                    view.tabs.extend(stops);
-                    behind = next;
+                Some(goes_on) => {
+                    view.tabs.extend(goes_on.begins);
+                    view.held.extend(goes_on.held);
+                    behind = goes_on.behind;
                 }
+                // To and fro on one way.
+                None if self.is_closed(&section) => {}
                 None => {
                     view.open.push(section.parts[0]);
                     self.judge_open(view, &section);
@@ -88,13 +99,22 @@ impl Document {
     }
 
     fn is_closed(&self, section: &Section) -> bool {
-        not_closed::is_closed(&section.sum)
-            || closing(&SectionWay::of(self, section)).is_some_and(|closing| closing.closed)
+        closing(&self.way(section)).is_some_and(|closing| closing.closed)
     }
 
-    /// Where the sections begin that go on with an open one behind a stop, and what comes behind them: a tab, or blocks that come back
-    /// to the start together, in whatever order they are cut. `None` where there are none.
-    fn goes_on(&self, view: &View, section: &Section) -> Option<(Vec<PartAt>, PartAt)> {
+    fn goes_round(&self, section: &Section) -> bool {
+        match section.parts {
+            [(run, part), last] if (run, part) == last => {
+                let of = self.runs.get(run).and_then(|run| run.parts.get(part));
+                of.is_some_and(|part| part.goes_round)
+            }
+            _ => goes_round(&self.way(section)) == Some(true),
+        }
+    }
+
+    /// What goes on with an open section behind a stop: a tab, or blocks that come back to the start together, in whatever order they
+    /// are cut. `None` where there is nothing.
+    fn goes_on(&self, view: &View, section: &Section) -> Option<GoesOn> {
         let mut whole = section.clone();
         let mut begins = Vec::new();
         let mut may_be_tab = true;
@@ -103,14 +123,17 @@ impl Document {
             let more = self.section_from(next, view.end)?;
             let longer = joined(whole.clone(), &more);
             begins.push(next);
-            let way = |section: &Section| SectionWay::of(self, section);
             may_be_tab &= pause < TABS_WITHIN;
             let is_tab = may_be_tab
                 && more.sum.blocks > 0
                 && longer.sum.blocks > 2
-                && is_tab(&way(&whole), &way(&more), &way(&longer)) == Some(true);
+                && is_tab(&self.way(&whole), &self.way(&more), &self.way(&longer)) == Some(true);
             if is_tab || not_closed::is_closed(&longer.sum) {
-                return Some((begins, self.part_behind(more.parts[1])));
+                return Some(GoesOn {
+                    begins,
+                    behind: self.part_behind(more.parts[1]),
+                    held: is_tab.then_some(longer),
+                });
             }
             // What closes by itself is a contour of its own, and what leads to it no tab.
             may_be_tab =
@@ -143,7 +166,7 @@ impl Document {
         if is_fragment && self.leads_out(view, section) {
             return;
         }
-        let Some(gap) = gap(&SectionWay::of(self, section)) else {
+        let Some(gap) = gap(&self.way(section)) else {
             return;
         };
         let fault = not_closed::fault(gap, &section.sum);
@@ -204,128 +227,36 @@ impl Document {
             .is_some_and(|usual| steps().any(|step| step > usual))
     }
 
+    /// `path-crosses-itself`. What stands before and behind the stop at a tab is one contour.
     fn judge_crossings(&self, view: &mut View, known: &mut Known, calm: &mut Vec<PartAt>) {
+        let held = std::mem::take(&mut view.held);
+        let is_held = |section: &Section| {
+            let behind = held.partition_point(|whole| whole.parts[0] <= section.parts[0]);
+            let whole = behind.checked_sub(1).and_then(|index| held.get(index));
+            whole.is_some_and(|whole| section.parts[1] <= whole.parts[1])
+        };
+        known.begin();
         let mut findings = Vec::new();
-        let (mut pairs, mut contours) = (0, 0);
-        let tangled = self
-            .inner_sections(view.end, |run| &run.tangled)
-            .map(Cow::Owned);
-        for section in tangled.chain(view.outer.iter().map(Cow::Borrowed)) {
-            contours += 1;
+        let tangled = self.inner_sections(view.end, |run| &run.tangled);
+        let tangled = tangled
+            .filter(|section| !is_held(section))
+            .map(|section| (Cow::Owned(section), true));
+        let outer = view.outer.iter().filter(|section| !is_held(section));
+        let whole = outer.chain(&held);
+        for (section, is_inner) in tangled.chain(whole.map(|whole| (Cow::Borrowed(whole), false))) {
             if section.is_jump || !may_cross_itself(&section.sum) {
                 continue;
             }
-            let mark = section.sum.mark;
-            let found = known.of(mark).unwrap_or_else(|| {
-                let found = std::sync::Arc::new(self.crossings_in(&section, known));
-                known.note(mark, &found);
-                found
-            });
-            pairs += found.pairs;
-            if found.crossings.is_empty() && !found.is_crowded {
-                calm.extend(matches!(section, Cow::Owned(_)).then_some(section.parts[0]));
-                continue;
-            }
-            for crossing in &found.crossings {
-                let mut blocks = self.blocks_of(&section);
-                let first = blocks.nth(crossing.first);
-                let second = blocks.nth(crossing.second - crossing.first - 1);
-                if let (Some(first), Some(second)) = (first, second) {
-                    let from = self.range_of(first);
-                    let fault = ProgramFault::PathCrossesItself {
-                        at: [crossing.at.x / 1000.0, crossing.at.y / 1000.0],
-                        other: self.text.line_of(from.start),
-                    };
-                    let related = vec![Place::Text { range: from }];
-                    findings.push(Finding {
-                        related,
-                        ..finding(self.range_of(second), fault)
-                    });
-                }
-            }
-            if let Some(last) = self.last_block_of(&section).filter(|_| found.is_crowded) {
-                findings.push(Finding {
-                    rule: Rule::NotJudged,
-                    severity: Severity::Information,
-                    place: Place::Text {
-                        range: self.range_of(last),
-                    },
-                    detail: Detail::NotJudged(NotJudged::Crossings {
-                        blocks: section.sum.blocks,
-                    }),
-                    related: Vec::new(),
-                });
-            }
-        }
-        let whole_pairs: usize = view
-            .outer
-            .iter()
-            .map(|section| section.parts[1].0 - section.parts[0].0)
-            .sum();
-        known.tidy(pairs.max(whole_pairs), contours);
-        view.findings.extend(findings);
-    }
-
-    fn crossings_in(&self, section: &Section, known: &mut Known) -> Found {
-        let way = SectionWay::of(self, section);
-        let passes = passes(&way);
-        if !passes.is_empty() {
-            return crossings_of_passes(&pieces_of_way(&way).unwrap_or_default(), &passes);
-        }
-        let mut stretches: Vec<Stretch<'_>> = Vec::new();
-        let mut places: Vec<(usize, Range<usize>)> = Vec::new();
-        let mut start = Move::default();
-        let [(first_run, first_part), (last_run, last_part)] = section.parts;
-        for (run, of) in self
-            .runs
-            .iter()
-            .enumerate()
-            .take(last_run + 1)
-            .skip(first_run)
-        {
-            let from = if run == first_run { first_part } else { 0 };
-            let to = if run == last_run {
-                last_part + 1
+            let way = self.way(&section);
+            let found = known.crossings(&way);
+            if found.is_clean() {
+                calm.extend(is_inner.then_some(section.parts[0]));
             } else {
-                of.parts.len()
-            };
-            for part in of
-                .parts
-                .get(from..to)
-                .unwrap_or_default()
-                .iter()
-                .filter(|part| part.sum.blocks > 0)
-            {
-                let Part {
-                    bounds,
-                    near,
-                    sum,
-                    entries,
-                    ..
-                } = part;
-                stretches.push(Stretch {
-                    mark: sum.mark,
-                    blocks: sum.blocks,
-                    start,
-                    bounds: *bounds,
-                    near,
-                });
-                places.push((run, entries.clone()));
-                start = start.plus(sum.travel);
+                findings.extend(found.findings(&way, &self.text));
             }
         }
-        if let [one] = &stretches[..]
-            && one.near.is_empty()
-        {
-            return Found::default();
-        }
-        let pieces = |stretch: usize| {
-            let entries = places
-                .get(stretch)
-                .and_then(|(run, entries)| self.runs.get(*run)?.entries.get(entries.clone()));
-            pieces_of(entries.unwrap_or_default().iter().filter_map(Entry::block))
-        };
-        search(&stretches, section.sum.arcs, known, &pieces)
+        known.tidy();
+        view.findings.extend(findings);
     }
 
     /// `missing-end` and `text-after-end`.

@@ -1,198 +1,109 @@
-//! The blocks of a section as a way, for the one answer on where contours close.
+//! The blocks of a section as a way.
 
 use super::super::decode::meant;
-use super::super::run::{BlockEntry, Entry, Move, Part};
-use super::{Document, Section};
-use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::path::{Node, Way, Writing};
-use std::cell::OnceCell;
+use super::super::run::{BlockEntry, Entry, Move};
+use super::{At, Document, Section};
+use crate::geometry::{Point, Segment};
+use crate::program::path::{Blocks, Node, Part, PartedWay, Writing};
 use std::ops::Range;
 
-/// A section block by block. Costs its runs, and the blocks of those that are asked for.
-pub(super) struct SectionWay<'a> {
+/// The blocks of a section as its runs hold them.
+struct Held<'a> {
     document: &'a Document,
-    parts: Vec<WayPart>,
-    count: usize,
-    arcs: usize,
-    travel: Move,
-    stop: Option<usize>,
+    parts: Vec<HeldPart>,
 }
 
 /// The blocks of a section in one part of a run.
-struct WayPart {
+struct HeldPart {
     run: usize,
     entries: Range<usize>,
-    /// Blocks of the section before it.
-    first: usize,
     start: Move,
-    bounds: Bounds,
-    pieces: OnceCell<Vec<Segment>>,
 }
 
-/// What boxes are grown by, µm: places are rounded to nm.
-const SLACK: f64 = 1.0;
-
-impl<'a> SectionWay<'a> {
-    pub fn of(document: &'a Document, section: &Section) -> SectionWay<'a> {
-        let mut way = SectionWay {
-            document,
-            parts: Vec::new(),
-            count: 0,
-            arcs: 0,
-            travel: Move::default(),
-            stop: None,
-        };
+impl Document {
+    pub(super) fn way(&self, section: &Section) -> PartedWay<'_> {
+        let (mut held, mut parts) = (Vec::new(), Vec::new());
+        let (mut at, mut count, mut stop) = (Move::default(), 0, None);
         let [(first_run, first_part), (last_run, last_part)] = section.parts;
-        for (run, of) in document
-            .runs
-            .iter()
-            .enumerate()
-            .take(last_run + 1)
-            .skip(first_run)
-        {
-            let from = if run == first_run { first_part } else { 0 };
-            let to = if run == last_run {
-                last_part + 1
-            } else {
-                of.parts.len()
-            };
-            for (index, part) in of
-                .parts
-                .get(from..to)
-                .unwrap_or_default()
-                .iter()
-                .enumerate()
-            {
-                if part.sum.blocks > 0 {
-                    way.push(run, part);
+        let runs = self.runs.iter().enumerate();
+        for (run, of) in runs.take(last_run + 1).skip(first_run) {
+            let first = if run == first_run { first_part } else { 0 };
+            for (index, part) in of.parts.iter().enumerate().skip(first) {
+                if run == last_run && index > last_part {
+                    break;
                 }
-                let is_last = (run, from + index) == section.parts[1];
-                way.stop = way
-                    .stop
-                    .or((part.word.is_some() && !is_last).then_some(way.count));
+                if part.sum.blocks > 0 {
+                    held.push(HeldPart {
+                        run,
+                        entries: part.entries.clone(),
+                        start: at,
+                    });
+                    parts.push(Part {
+                        mark: part.sum.mark,
+                        blocks: part.sum.blocks,
+                        arcs: part.sum.arcs,
+                        start: at.meant,
+                        bounds: part.bounds,
+                        near: &part.near,
+                    });
+                    at = at.plus(part.sum.travel);
+                    count += part.sum.blocks;
+                }
+                let is_within = part.word.is_some() && (run, index) != section.parts[1];
+                stop = stop.or(is_within.then_some(count));
             }
         }
-        way
-    }
-
-    fn push(&mut self, run: usize, part: &Part) {
-        let (first, start) = (self.count, self.travel);
-        self.parts.push(WayPart {
-            run,
-            entries: part.entries.clone(),
-            first,
-            start,
-            bounds: part.bounds,
-            pieces: OnceCell::new(),
-        });
-        self.count += part.sum.blocks;
-        self.arcs += part.sum.arcs;
-        self.travel = self.travel.plus(part.sum.travel);
-    }
-
-    fn entries(&self, part: &WayPart) -> impl Iterator<Item = &'a BlockEntry> {
-        let entries = self
-            .document
-            .runs
-            .get(part.run)
-            .and_then(|run| run.entries.get(part.entries.clone()));
-        entries.unwrap_or_default().iter().filter_map(Entry::block)
-    }
-
-    fn part_of(&self, index: usize) -> Option<&WayPart> {
-        self.parts.get(
-            self.parts
-                .partition_point(|part| part.first <= index)
-                .checked_sub(1)?,
-        )
-    }
-
-    fn pieces<'b>(&self, part: &'b WayPart) -> &'b [Segment] {
-        part.pieces.get_or_init(|| {
-            let [x, y] = part.start.meant_um();
-            pieces_of(self.entries(part))
-                .into_iter()
-                .map(|piece| piece.moved(Vector::new(x, y)))
-                .collect()
-        })
+        let blocks = Held {
+            document: self,
+            parts: held,
+        };
+        PartedWay::new(Box::new(blocks), parts, stop, None)
     }
 }
 
-impl Way for SectionWay<'_> {
-    fn count(&self) -> usize {
-        self.count
+impl Held<'_> {
+    fn entries(&self, part: usize) -> impl Iterator<Item = &BlockEntry> {
+        let part = self.parts.get(part);
+        let entries = part.and_then(|part| {
+            let run = self.document.runs.get(part.run)?;
+            run.entries.get(part.entries.clone())
+        });
+        entries.unwrap_or_default().iter().filter_map(Entry::block)
+    }
+}
+
+impl Blocks for Held<'_> {
+    /// A block that leads nowhere is a piece of no length.
+    fn pieces(&self, part: usize) -> Vec<Segment> {
+        let mut at = Move::default();
+        let piece = |entry: &BlockEntry| {
+            let [x, y] = at.meant_um();
+            at = at.plus(entry.travel);
+            let start = Point::new(x, y);
+            meant(&entry.block, start).unwrap_or(Segment::line(start, start))
+        };
+        self.entries(part).map(piece).collect()
     }
 
-    fn arcs(&self) -> usize {
-        self.arcs
+    fn node(&self, part: usize, nth: usize) -> Option<Node> {
+        let start = self.parts.get(part)?.start;
+        let before = self.entries(part).take(nth);
+        let at = before.fold(start, |at, entry| at.plus(entry.travel));
+        Some(at.node())
+    }
+
+    fn range(&self, part: usize, nth: usize) -> Option<Range<usize>> {
+        let HeldPart { run, entries, .. } = self.parts.get(part)?;
+        let places = entries.clone().map(|entry| At { run: *run, entry });
+        let is_block = |at: &At| {
+            self.document
+                .entry(*at)
+                .is_some_and(|entry| entry.block().is_some())
+        };
+        Some(self.document.range_of(places.filter(is_block).nth(nth)?))
     }
 
     fn writing(&self) -> Writing {
         Writing::default()
     }
-
-    fn stop(&self) -> Option<usize> {
-        self.stop
-    }
-
-    fn node(&self, index: usize) -> Option<Node> {
-        let at = if index == self.count {
-            self.travel
-        } else {
-            let part = self.part_of(index)?;
-            self.entries(part)
-                .take(index - part.first)
-                .fold(part.start, |at, entry| at.plus(entry.travel))
-        };
-        let ([x, y], [a, b]) = (at.meant_um(), at.machine);
-        Some(Node {
-            stands: Point::new(a as f64, b as f64),
-            meant: Point::new(x, y),
-        })
-    }
-
-    fn piece(&self, index: usize) -> Option<Segment> {
-        let part = self.part_of(index).filter(|_| index < self.count)?;
-        self.pieces(part).get(index - part.first).copied()
-    }
-
-    fn pieces_about(
-        &self,
-        at: Point,
-        reach: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()> {
-        let place = Bounds::of_disc(at, reach + SLACK);
-        for part in &self.parts {
-            let [x, y] = part.start.meant_um();
-            let by = Vector::new(x, y);
-            let bounds = Bounds {
-                min: part.bounds.min + by,
-                max: part.bounds.max + by,
-            };
-            if bounds.touches(&place)
-                && self
-                    .pieces(part)
-                    .iter()
-                    .zip(part.first..)
-                    .any(|(piece, index)| each(index, piece))
-            {
-                break;
-            }
-        }
-        Some(())
-    }
-}
-
-/// The pieces of blocks from the origin on; a block that leads nowhere is a piece of no length.
-pub(super) fn pieces_of<'a>(blocks: impl Iterator<Item = &'a BlockEntry>) -> Vec<Segment> {
-    let mut at = Move::default();
-    blocks
-        .map(|entry| {
-            let [x, y] = at.meant_um();
-            at = at.plus(entry.travel);
-            let start = Point::new(x, y);
-            meant(&entry.block, start).unwrap_or(Segment::line(start, start))
-        })
-        .collect()
 }

@@ -1,0 +1,200 @@
+//! The sheet as SVG: where things lie on it, geometry as path data, and how elements, numbers and texts are written.
+
+use crate::geometry::{Bounds, Point, Segment};
+use std::f64::consts::PI;
+use std::fmt::{Arguments, Write};
+
+/// Width of the sheet and of the margin round it, in the picture's own units.
+pub(super) const SHEET_WIDTH: f64 = 960.0;
+pub(super) const MARGIN: f64 = 40.0;
+/// The drawing keeps room at its sides for the numbers beside its faults.
+const FIGURE_WIDTH: f64 = SHEET_WIDTH - 5.5 * MARGIN;
+const FIGURE_HEIGHT: f64 = 560.0;
+pub(super) const FIGURE_TOP: f64 = 96.0;
+
+/// The SVG as far as it is written.
+#[derive(Default)]
+pub(super) struct Sheet(pub String);
+
+impl Sheet {
+    /// A line of SVG.
+    pub fn line(&mut self, svg: Arguments) {
+        let _ = writeln!(self.0, "{svg}");
+    }
+
+    /// A path, with a tooltip where `title` is not empty.
+    pub fn path(&mut self, attributes: &str, data: &str, title: &str) {
+        match title {
+            "" => self.line(format_args!(r#"<path {attributes} d="{data}"/>"#)),
+            title => self.line(format_args!(
+                r#"<path {attributes} d="{data}"><title>{}</title></path>"#,
+                escaped(title)
+            )),
+        }
+    }
+
+    pub fn circle(&mut self, attributes: &str, middle: (f64, f64), radius: f64, title: &str) {
+        let [x, y, r] = [middle.0, middle.1, radius].map(number);
+        match title {
+            "" => self.line(format_args!(
+                r#"<circle {attributes} cx="{x}" cy="{y}" r="{r}"/>"#
+            )),
+            title => self.line(format_args!(
+                r#"<circle {attributes} cx="{x}" cy="{y}" r="{r}"><title>{}</title></circle>"#,
+                escaped(title)
+            )),
+        }
+    }
+
+    /// What stands at the head of the picture.
+    pub fn heading(&mut self, title: &str, facts: &str) {
+        self.line(format_args!(
+            r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
+            escaped(title)
+        ));
+        self.line(format_args!(
+            r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#,
+            escaped(facts)
+        ));
+    }
+}
+
+/// Where on the sheet a part of the drawing is shown, and how large.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    /// The point of the drawing at (`left`, `bottom`) of the sheet.
+    pub origin: Point,
+    /// Sheet units in one drawing unit.
+    pub scale: f64,
+    pub left: f64,
+    pub bottom: f64,
+}
+
+impl Frame {
+    /// What lies in `bounds` in the middle of the sheet, as large as there is room for.
+    pub fn fitting(bounds: &Bounds) -> Frame {
+        let scale = (FIGURE_WIDTH / bounds.width()).min(FIGURE_HEIGHT / bounds.height());
+        // A single point has no extent to fit.
+        let scale = if scale.is_finite() && scale > 0.0 {
+            scale
+        } else {
+            1.0
+        };
+        Frame {
+            origin: bounds.min,
+            scale,
+            left: (SHEET_WIDTH - bounds.width() * scale) / 2.0,
+            bottom: FIGURE_TOP + (bounds.height() * scale).max(24.0),
+        }
+    }
+
+    /// Opens the group in which y points up and [`Frame::local`] coordinates hold.
+    pub fn opening(&self) -> String {
+        let [left, bottom] = [self.left, self.bottom].map(number);
+        format!(r#"<g transform="matrix(1 0 0 -1 {left} {bottom})">"#)
+    }
+
+    /// The same for the drawing itself, with what turns coordinates within the group into the drawing's:
+    /// `data-origin` + local / `data-scale`, of which one is `data-unit-mm` millimetres.
+    pub fn opening_of_drawing(&self, unit_mm: f64) -> String {
+        let [left, bottom] = [self.left, self.bottom].map(number);
+        let (origin, scale) = (self.origin, self.scale);
+        format!(
+            r#"<g class="drawing" transform="matrix(1 0 0 -1 {left} {bottom})" data-origin="{:?} {:?}" data-scale="{scale:?}" data-unit-mm="{unit_mm:?}">"#,
+            origin.x, origin.y
+        )
+    }
+
+    /// Coordinates within the group, y up.
+    pub fn local(&self, point: Point) -> (f64, f64) {
+        let shifted = (point - self.origin) * self.scale;
+        (shifted.x, shifted.y)
+    }
+
+    /// Coordinates on the sheet, y down, where text is written.
+    pub fn on_sheet(&self, point: Point) -> (f64, f64) {
+        let (x, y) = self.local(point);
+        (self.left + x, self.bottom - y)
+    }
+}
+
+/// The segments as one path, in the frame's local coordinates; `close` joins its end to its start.
+///
+/// An arc is split into pieces of less than a half turn, so that a full circle is drawn, and so that no viewer has
+/// to guess which of two arcs is meant.
+pub(super) fn path_data(
+    frame: &Frame,
+    segments: impl IntoIterator<Item = Segment>,
+    close: bool,
+) -> String {
+    let mut data = String::new();
+    let mut pen = String::new();
+    for segment in segments {
+        let start = pair(frame, segment.start());
+        if pen.is_empty() {
+            let _ = write!(data, "M{start}");
+        } else if pen != start {
+            let _ = write!(data, "L{start}");
+        }
+        pen = match segment {
+            Segment::Line(line) => {
+                let end = pair(frame, line.end);
+                let _ = write!(data, "L{end}");
+                end
+            }
+            Segment::Arc(arc) => {
+                let pieces = (arc.sweep.abs() / (0.9 * PI)).ceil().max(1.0);
+                let radius = number(arc.radius * frame.scale);
+                let direction = u8::from(arc.sweep > 0.0);
+                for piece in 1..=pieces as u32 {
+                    let end = pair(frame, arc.point_at(f64::from(piece) / pieces));
+                    let _ = write!(data, "A{radius} {radius} 0 0 {direction} {end}");
+                }
+                pair(frame, arc.end)
+            }
+        };
+    }
+    if close && !data.is_empty() {
+        data.push('Z');
+    }
+    data
+}
+
+fn pair(frame: &Frame, point: Point) -> String {
+    let (x, y) = frame.local(point);
+    format!("{} {}", number(x), number(y))
+}
+
+/// The attributes by which an element of a class is found that stands for a segment.
+pub(super) fn named(class: &str, handle: &str, segment: usize) -> String {
+    let handle = escaped(handle);
+    format!(r#"class="{class}" data-handle="{handle}" data-segment="{segment}""#)
+}
+
+/// At most three decimals, without trailing zeros and without a minus before zero.
+pub(super) fn number(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" {
+        "0".into()
+    } else {
+        short.into()
+    }
+}
+
+/// Text for XML: markup characters replaced, characters that XML forbids left out.
+pub(super) fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\t' | '\n' => safe.push(' '),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
+            c => safe.push(c),
+        }
+    }
+    safe
+}

@@ -1,0 +1,147 @@
+//! What a picture is of: the drawing with its contours, its faults and the paths of the wire.
+
+use crate::drawing::{Drawing, EntityId, Outline};
+use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
+use crate::geometry::{Arc, Bounds, Point};
+use crate::toolpath::WirePath;
+use rustc_hash::FxHashSet;
+
+/// All that is shown.
+pub(super) struct Subject<'a> {
+    pub drawing: &'a Drawing,
+    /// The box of all of it, drawing units.
+    pub bounds: Bounds,
+    pub outlines: &'a [Outline],
+    /// The entities of the outlines.
+    pub cut: FxHashSet<EntityId>,
+    pub findings: &'a [Finding],
+    pub faults: Vec<Fault<'a>>,
+    pub paths: &'a [WirePath],
+    pub unit_mm: f64,
+}
+
+/// An arc that is too tight, and what its segment is called.
+pub(super) struct Fault<'a> {
+    pub detail: &'a SmallRadius,
+    pub handle: String,
+    pub segment: usize,
+    pub entity: Option<EntityId>,
+}
+
+impl<'a> Subject<'a> {
+    /// `None` where nothing finite is drawn.
+    pub fn new(
+        drawing: &'a Drawing,
+        outlines: &'a [Outline],
+        findings: &'a [Finding],
+        paths: &'a [WirePath],
+        unit_mm: f64,
+    ) -> Option<Subject<'a>> {
+        let pieces = outlines.iter().flat_map(|outline| &outline.contour.pieces);
+        Some(Subject {
+            drawing,
+            bounds: extents(drawing, paths)?,
+            outlines,
+            cut: pieces.map(|piece| piece.entity).collect(),
+            findings,
+            faults: tight_arcs(drawing, findings),
+            paths,
+            unit_mm,
+        })
+    }
+
+    pub fn mm(&self, length: f64) -> f64 {
+        length * self.unit_mm
+    }
+}
+
+impl Fault<'_> {
+    /// The arc as it was found, which may differ from the drawing's present one.
+    pub fn arc(&self) -> Arc {
+        let detail = self.detail;
+        let from = detail.start - detail.center;
+        Arc {
+            center: detail.center,
+            radius: detail.radius,
+            start_angle: from.y.atan2(from.x),
+            sweep: detail.sweep,
+            start: detail.start,
+            end: detail.end,
+        }
+    }
+
+    /// Centre of the circle of the correction as it would have to lie: touching both neighbours of a fillet.
+    ///
+    /// From a half turn on no circle touches both; it is then shown about the arc's own centre.
+    pub fn correction_disc(&self) -> Point {
+        let arc = self.arc();
+        let opening = (arc.sweep.abs() / 2.0).cos();
+        let inward = (arc.center - arc.point_at(0.5)).try_normalize(0.0);
+        match inward {
+            Some(inward) if arc.sweep.abs() < 2.8 => {
+                arc.center + inward * ((self.detail.required - arc.radius) / opening)
+            }
+            _ => arc.center,
+        }
+    }
+}
+
+fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> {
+    let faults = findings.iter().filter_map(|finding| {
+        let Detail::SmallRadius(detail) = &finding.detail else {
+            return None;
+        };
+        let (entity, segment) = match finding.place {
+            Place::Segment { entity, segment } => (Some(entity), segment),
+            Place::Entity { entity } => (Some(entity), 0),
+            _ => (None, 0),
+        };
+        let handle = entity
+            .and_then(|id| drawing.get(id))
+            .map_or_else(String::new, |entity| entity.handle.to_string());
+        Some(Fault {
+            detail,
+            handle,
+            segment,
+            entity,
+        })
+    });
+    faults.collect()
+}
+
+/// The box of all that is drawn; `None` where nothing finite is.
+fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
+    let mut bounds = Bounds::EMPTY;
+    for (_, entity) in drawing.entities() {
+        bounds.merge(&entity.geometry.bounds(drawing.flat()));
+    }
+    for path in paths {
+        bounds.include(path.thread_hole);
+        path.segments
+            .iter()
+            .for_each(|segment| bounds.merge(&segment.geometry.bounds()));
+    }
+    // Nothing gives an endless box, and so do coordinates whose difference is beyond all numbers.
+    let lengths = [
+        bounds.min.x,
+        bounds.min.y,
+        bounds.max.x - bounds.min.x,
+        bounds.max.y - bounds.min.y,
+    ];
+    lengths
+        .iter()
+        .all(|length| length.is_finite())
+        .then_some(bounds)
+}
+
+/// An error or a warning on a segment, of any rule but `small-radius`; and the hints that are of one place.
+pub(super) fn is_other(finding: &Finding) -> bool {
+    let is_of_segment = matches!(finding.place, Place::Segment { .. });
+    let is_of_one_place = matches!(
+        finding.detail,
+        Detail::NearTangent { .. } | Detail::ArcAsChords { .. }
+    );
+    is_of_segment
+        && (finding.severity <= Severity::Warning || is_of_one_place)
+        && !matches!(finding.detail, Detail::SmallRadius(_))
+}

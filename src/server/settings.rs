@@ -1,0 +1,178 @@
+//! What holds for each open document: the client's levels of settings, the projects' files, and what follows where they change.
+
+use super::client::Weight;
+use super::config::{self, Level, ProjectFile, Search};
+use super::content::Content;
+use super::convert::settings_diagnostics;
+use super::judge::Task;
+use super::state::State;
+use super::transport::Publish;
+use crate::finding::Rule;
+use crate::protocol::Diagnostic;
+use crate::settings::Effective;
+use crate::text::SourceText;
+use ls_types::{WorkspaceFolder, WorkspaceFoldersChangeEvent};
+use rustc_hash::FxHashMap;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+impl State {
+    /// The settings that hold for a document, its project's file read anew.
+    pub fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
+        let file = self.file_for(uri);
+        self.config.effective_for(file.as_deref())
+    }
+
+    pub fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
+        let file = self
+            .config
+            .file_for(uri, &mut Search::default(), &|file| self.opened_text(file))?;
+        self.show_file(&file.path, Some(&file));
+        Some(file)
+    }
+
+    /// The text of a project's file that the client holds open.
+    fn opened_text(&self, file: &Path) -> Option<SourceText> {
+        self.documents
+            .get(self.settings_texts.get(file)?)?
+            .content
+            .source_text()
+            .cloned()
+    }
+
+    /// Shows the errors of a file that the client does not hold open itself.
+    fn show_file(&mut self, file: &Path, project: Option<&ProjectFile>) {
+        if self.settings_texts.contains_key(file) {
+            self.shown_files.remove(file);
+            return;
+        }
+        let errors = match project {
+            Some(project) => {
+                let own = project
+                    .errors
+                    .iter()
+                    .filter(|error| error.rule == Rule::Settings)
+                    .cloned();
+                let beside = self
+                    .config
+                    .errors_in(&project.text.as_str_lossy())
+                    .into_iter()
+                    .filter(|error| error.rule != Rule::Settings);
+                settings_diagnostics(
+                    &project.text,
+                    &own.chain(beside).collect::<Vec<_>>(),
+                    self.encoding,
+                )
+            }
+            None => Vec::new(),
+        };
+        let was_shown = self.shown_files.contains(file);
+        if errors.is_empty() && !was_shown {
+            return;
+        }
+        if errors.is_empty() {
+            self.shown_files.remove(file);
+        } else {
+            self.shown_files.insert(file.to_path_buf());
+        }
+        self.publish_file(file, errors);
+    }
+
+    fn publish_file(&self, file: &Path, diagnostics: Vec<Diagnostic>) {
+        if let Some(uri) = config::uri_of(file) {
+            self.client.writer().publish(Publish {
+                uri: uri.into(),
+                version: None,
+                diagnostics,
+                owed: false,
+            });
+        }
+    }
+
+    /// Settings of any level may have changed: every open document is looked at under what holds for it now. Each folder is looked at
+    /// and each file read once, however many documents there are.
+    pub fn settings_changed(&mut self) {
+        for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
+            let project = config::read(&file, &|file| self.opened_text(file));
+            self.show_file(&file, project.as_ref());
+        }
+        let mut search = Search::default();
+        let mut effective: FxHashMap<Option<PathBuf>, Arc<Effective>> = FxHashMap::default();
+        let mut uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
+        uris.sort_unstable();
+        for uri in uris {
+            let file = self
+                .config
+                .file_for(&uri, &mut search, &|file| self.opened_text(file));
+            let key = file.as_ref().map(|file| file.path.clone());
+            let settings = match effective.get(&key) {
+                Some(settings) => settings.clone(),
+                None => {
+                    if let Some(file) = &file {
+                        self.show_file(&file.path, Some(file));
+                    }
+                    let settings = self.config.effective_for(file.as_deref());
+                    effective.insert(key, settings.clone());
+                    settings
+                }
+            };
+            let stamp = self.next_stamp();
+            if let Some(open) = self
+                .documents
+                .get_mut(&uri)
+                .filter(|open| open.settings != settings)
+            {
+                open.settings = settings;
+                if !matches!(open.content, Content::Settings(_)) {
+                    open.tasks.push(Task::Settings);
+                    open.set_stamp(stamp);
+                    self.unsettled.push_back(uri);
+                }
+            }
+        }
+    }
+
+    /// Takes one level of the client's settings anew.
+    pub fn set_level(&mut self, level: Level, json: &Value) {
+        for misfit in self.config.set_level(level, json) {
+            self.client.show(Weight::Warning, misfit);
+        }
+    }
+
+    pub fn configuration_changed(&mut self, settings: &Value) {
+        if !settings.is_null() {
+            self.set_level(Level::Pushed, settings);
+            self.settings_changed();
+        }
+        self.pull_configuration();
+    }
+
+    /// Asks for the section `wedm`, where the client can be asked.
+    pub fn pull_configuration(&mut self) {
+        if !self.client.abilities.configuration {
+            return;
+        }
+        let params = json!({ "items": [{ "section": "wedm" }] });
+        let take = |state: &mut State, answer: Result<Value, String>| match answer {
+            Ok(answer) => {
+                state.set_level(Level::Pulled, answer.get(0).unwrap_or(&Value::Null));
+                state.settings_changed();
+            }
+            Err(reason) => state.client.log(Weight::Warning, reason),
+        };
+        self.client.ask("workspace/configuration", params, take);
+    }
+
+    pub fn folders_changed(&mut self, event: &WorkspaceFoldersChangeEvent) {
+        let paths = |folders: &[WorkspaceFolder]| -> Vec<PathBuf> {
+            folders
+                .iter()
+                .filter_map(|folder| config::path_of(folder.uri.as_str()))
+                .collect()
+        };
+        self.config
+            .change_folders(&paths(&event.removed), paths(&event.added));
+        self.settings_changed();
+    }
+}
