@@ -2,13 +2,13 @@
 //!
 //! [`sentence`] makes of it what a person reads, the server its form in the protocol.
 
+mod fault;
 mod not_judged;
-mod program_fault;
 mod sentence;
 mod unwritable;
 
+pub use fault::{Axis, Fault};
 pub use not_judged::NotJudged;
-pub use program_fault::{Axis, ProgramFault};
 pub use sentence::{related, sentence, title};
 pub use unwritable::Unwritable;
 
@@ -180,9 +180,8 @@ pub enum Detail {
         radius: f64,
         deviation: f64,
     },
-    Iso(IsoFault),
-    /// A fault in a block or contour of 3B.
-    Program(Box<ProgramFault>),
+    /// A fault in a block or contour of a program.
+    Program(Box<Fault>),
     LeadIn(String),
     /// A program holds one of `passes`, that of `correction` mm.
     OnePass {
@@ -214,118 +213,6 @@ pub enum Detail {
     },
 }
 
-/// What is wrong in an ISO program. Lengths in µm.
-#[derive(Clone, Debug, PartialEq)]
-pub enum IsoFault {
-    /// The start of an arc is `start` from its centre, its end `end`.
-    OffRadius {
-        start: f64,
-        end: f64,
-    },
-    /// An arc without I, J and R, or whose centre is one of its ends.
-    NoRadius,
-    /// Compensation goes on or off with a move that is an arc, or else a rapid.
-    Switch {
-        on: bool,
-        arc: bool,
-    },
-    /// The wire runs on `side` of a contour, which makes it a punch (or an opening) where the settings say the other.
-    RoleSide {
-        side: Side,
-        punch: bool,
-    },
-    /// The wire runs on `side` of a contour and comes to it from the other one.
-    EntrySide {
-        side: Side,
-    },
-    /// The ends of a cut are `distance` apart.
-    NotClosed {
-        distance: f64,
-    },
-    /// The program ends without `word`.
-    NoEnd {
-        word: String,
-    },
-    BehindEnd,
-    /// A block number stands twice.
-    NumberTwice {
-        number: u32,
-    },
-    /// The other blocks count past this one, which has no number.
-    Unnumbered {
-        expected: u32,
-    },
-    /// `word` stands `count` times.
-    Foreign {
-        word: String,
-        count: usize,
-    },
-    /// A subprogram that is not in the text.
-    NoSubprogram {
-        number: u32,
-    },
-    EndlessCalls,
-    /// Full circles only: I and J are taken as leading from start to centre.
-    OpenCenters,
-    CenterOnLine,
-    WordTwice {
-        letter: char,
-    },
-    /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
-    ReversedArc {
-        is_sure: bool,
-    },
-    /// So far out and back.
-    Spur {
-        length: f64,
-    },
-    /// An arc that goes round once more, or a line that leads nowhere.
-    DoubledBlock {
-        arc: bool,
-    },
-    NoOffset {
-        side: Side,
-    },
-    /// The wire goes to `side` from the other one.
-    SideChange {
-        side: Side,
-    },
-    StillOn,
-    /// Subprogram `number` goes on into what stands behind it.
-    NoReturn {
-        number: u32,
-    },
-    NoCorner,
-    /// `word` stands for the first of `count`.
-    Bare {
-        word: String,
-        count: usize,
-    },
-    /// A number with a decimal point among numbers without one.
-    Pointed {
-        word: String,
-    },
-    /// A number with other decimals than all others, which have `usual`.
-    Places {
-        word: String,
-        usual: u8,
-    },
-    /// mm, of a program that does not say its unit.
-    LooksLikeInches {
-        size: f64,
-    },
-    /// A place of the table that hangs on one which the program does not fill.
-    UnknownValue {
-        word: String,
-    },
-    /// With `meant` in the place of `found` the program is sound.
-    Suspect {
-        found: String,
-        meant: String,
-        closes: bool,
-    },
-}
-
 /// How the centre was found to which an arc's ends fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CenterFix {
@@ -347,6 +234,19 @@ pub struct Finding {
     pub detail: Detail,
     /// The other places that are concerned, where there are two.
     pub related: Vec<Place>,
+}
+
+impl Finding {
+    /// A fault of a program, at some bytes of its text.
+    pub(crate) fn of(fault: Fault, range: Range<usize>) -> Finding {
+        Finding {
+            rule: fault.rule(),
+            severity: fault.severity(),
+            place: Place::Text { range },
+            detail: Detail::Program(Box::new(fault)),
+            related: Vec::new(),
+        }
+    }
 }
 
 /// A repair that a user may choose. Rules on drawings make edits of the drawing, rules on programs edits of the text.

@@ -1,8 +1,7 @@
 //! What a finding says to a person: its numbers in the units that people read, handed to the sentences of [`crate::message`].
 
 use super::{
-    CenterFix, Detail, Finding, FixKind, IsoFault, NoFix, NotJudged, ProgramFault, Side,
-    SmallRadius, Unwritable,
+    CenterFix, Detail, Fault, Finding, FixKind, NoFix, NotJudged, Side, SmallRadius, Unwritable,
 };
 use crate::drawing::Visibility;
 use crate::message::readable;
@@ -146,7 +145,6 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
                 what
             )
         }
-        Detail::Iso(fault) => iso(fault),
         Detail::Program(fault) => program(fault),
         Detail::More { count } => say!(more_findings_are_not_shown, count),
         Detail::OnePass { passes, correction } => {
@@ -334,14 +332,18 @@ fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
     say!(may_be_wrong_the_contour_does, found, meant)
 }
 
-/// What is wrong in a 3B program, in µm as its blocks count, and what comes of it at the machine.
-fn program(fault: &ProgramFault) -> String {
+/// What is wrong in a program, and what comes of it at the machine.
+fn program(fault: &Fault) -> String {
+    let side_word = |side: &Side| match side {
+        Side::Left => say!(g41_lets_the_wire_run_on_the_left),
+        Side::Right => say!(g42_lets_the_wire_run_on_the_right),
+    };
     match fault {
-        ProgramFault::MissingB => say!(a_b_of_the_block_is_missing_the_controller).into(),
-        ProgramFault::BlockNumberAsB { number } => {
+        Fault::MissingB => say!(a_b_of_the_block_is_missing_the_controller).into(),
+        Fault::BlockNumberAsB { number } => {
             say!(b_stands_where_the_block_number, number)
         }
-        ProgramFault::LengthInJ {
+        Fault::LengthInJ {
             j,
             projection,
             axis,
@@ -351,7 +353,7 @@ fn program(fault: &ProgramFault) -> String {
             axis.letter(),
             projection
         ),
-        ProgramFault::WrongJ {
+        Fault::WrongJ {
             j: 0,
             projection,
             axis,
@@ -362,7 +364,7 @@ fn program(fault: &ProgramFault) -> String {
                 projection
             )
         }
-        ProgramFault::WrongJ {
+        Fault::WrongJ {
             j,
             projection,
             axis,
@@ -378,13 +380,13 @@ fn program(fault: &ProgramFault) -> String {
                 say!(too_early)
             }
         ),
-        ProgramFault::JKeepsOpen { j, meant, is_sure } => {
+        Fault::JKeepsOpen { j, meant, is_sure } => {
             keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure)
         }
-        ProgramFault::JOverTurn { j, turn } => {
+        Fault::JOverTurn { j, turn } => {
             say!(j_is_more_than_one_turn_counts_um, j, turn)
         }
-        ProgramFault::SmallerProjection {
+        Fault::SmallerProjection {
             axis,
             counted,
             larger,
@@ -397,19 +399,19 @@ fn program(fault: &ProgramFault) -> String {
                 axis.other().letter()
             )
         }
-        ProgramFault::ArcEndAxis { axis, x, y } => say!(
+        Fault::ArcEndAxis { axis, x, y } => say!(
             g_does_not_fit_the_arc_end_at,
             axis.letter(),
             x,
             y,
             axis.other().letter()
         ),
-        ProgramFault::AxisKeepsOpen { axis, is_sure } => keeps_open(
+        Fault::AxisKeepsOpen { axis, is_sure } => keeps_open(
             &format!("G{}", axis.letter()),
             &format!("G{}", axis.other().letter()),
             *is_sure,
         ),
-        ProgramFault::UnusualQuadrant {
+        Fault::UnusualQuadrant {
             found,
             expected: [one, other],
             axis,
@@ -420,7 +422,7 @@ fn program(fault: &ProgramFault) -> String {
             one,
             other
         ),
-        ProgramFault::AxisQuadrant {
+        Fault::AxisQuadrant {
             found,
             expected: [one, other],
             axis,
@@ -433,12 +435,12 @@ fn program(fault: &ProgramFault) -> String {
                 other
             )
         }
-        ProgramFault::QuadrantKeepsOpen {
+        Fault::QuadrantKeepsOpen {
             found,
             meant,
             is_sure,
         } => keeps_open(found, meant, *is_sure),
-        ProgramFault::NumberKeepsOpen { axis, value, meant } => {
+        Fault::NumberKeepsOpen { axis, value, meant } => {
             let letter = axis.letter();
             keeps_open(
                 &format!("{letter} {value}"),
@@ -446,11 +448,11 @@ fn program(fault: &ProgramFault) -> String {
                 true,
             )
         }
-        ProgramFault::ExchangedKeepsOpen => say!(x_and_y_stand_for_each_other).into(),
-        ProgramFault::TwinKeepsOpen => say!(the_block_stands_twice_without).into(),
-        ProgramFault::ZeroBlock => say!(the_block_moves_nothing_its_j).into(),
-        ProgramFault::ArcWithoutRadius => say!(the_arc_has_no_radius).into(),
-        ProgramFault::TooManyDigits {
+        Fault::ExchangedKeepsOpen => say!(x_and_y_stand_for_each_other).into(),
+        Fault::TwinKeepsOpen => say!(the_block_stands_twice_without).into(),
+        Fault::ZeroBlock => say!(the_block_moves_nothing_its_j).into(),
+        Fault::ArcWithoutRadius => say!(the_arc_has_no_radius).into(),
+        Fault::TooManyDigits {
             field,
             value,
             digits,
@@ -462,37 +464,136 @@ fn program(fault: &ProgramFault) -> String {
                 digits
             )
         }
-        ProgramFault::NotClosed { x, y, .. } => say!(
+        Fault::NotClosed { x, y, .. } => say!(
             the_contour_does_not_close,
             mm(x.hypot(*y) / 1000.0),
             x / 1000.0,
             y / 1000.0
         ),
-        ProgramFault::MissingEnd { word } => {
+        Fault::MissingEnd { word } => {
             say!(the_program_has_no_end_expected, word)
         }
-        ProgramFault::TextAfterEnd { word } => {
+        Fault::TextAfterEnd { word } => {
             say!(text_behind_which_ends_the_program, word)
         }
-        ProgramFault::DoubledNumber { number } => say!(block_number_n_stands_twice, number),
-        ProgramFault::NumberOutOfOrder { expected, number } => {
+        Fault::DoubledNumber { number } => say!(block_number_n_stands_twice, number),
+        Fault::NumberOutOfOrder { expected, number } => {
             say!(block_number_n_is_out_of_turn_expected_n, number, expected)
         }
-        ProgramFault::Unnumbered { expected } => {
+        Fault::Unnumbered { expected } => {
             say!(the_block_has_no_number_expected_n, expected)
         }
-        ProgramFault::PositionMismatch { x, y } => say!(
+        Fault::PositionMismatch { x, y } => say!(
             the_coordinates_behind_the_block_are_mm_from,
             mm(x.hypot(*y) / 1000.0),
             x / 1000.0,
             y / 1000.0
         ),
-        ProgramFault::PathCrossesItself { at: [x, y], other } => say!(
+        Fault::PathCrossesItself { at: [x, y], other } => say!(
             the_wire_crosses_its_own_path_of_line_here_at,
             other + 1,
             x,
             y
         ),
+        Fault::OffRadius { start, end } => {
+            let (near, far) = told_apart(start / 1e3, end / 1e3);
+            say!(the_ends_of_the_arc_are_not_on_one_circle, near, far)
+        }
+        Fault::NoRadius => say!(arc_without_a_radius_i).into(),
+        Fault::Switch {
+            on: true,
+            arc: true,
+        } => say!(the_correction_is_switched_on_by_an_arc).into(),
+        Fault::Switch {
+            on: false,
+            arc: true,
+        } => say!(the_correction_is_switched_off_by_an_arc).into(),
+        Fault::Switch { .. } => say!(the_correction_is_switched_on_by_a_rapid).into(),
+        Fault::RoleSide { side, punch } => {
+            let (is, wanted) = if *punch {
+                (say!(outside), say!(opening))
+            } else {
+                (say!(inside), say!(punch))
+            };
+            say!(
+                which_is_this_contour_the_settings,
+                side_word(side),
+                is,
+                wanted
+            )
+        }
+        Fault::EntrySide { side } => {
+            say!(
+                of_this_contour_but_it_comes_to_it_from_the_other_side,
+                side_word(side)
+            )
+        }
+        Fault::CutOpen { distance } => {
+            say!(the_cut_does_not_close, mm(distance / 1e3))
+        }
+        Fault::BehindEnd => say!(text_behind_the_end_of_the_program).into(),
+        Fault::Foreign { word, count: 1 } => {
+            say!(is_a_matter_of_the_machine_it_is_kept_not, word)
+        }
+        Fault::Foreign { word, count } => {
+            say!(times_is_a_matter_of_the_machine_it_is_kept, word, count)
+        }
+        Fault::NoSubprogram { number } => say!(subprogram_does_not_stand_in_this_text, number),
+        Fault::EndlessCalls => say!(the_subprograms_call_each_other_without_end_or).into(),
+        Fault::CenterOnLine => say!(i_and_j_stand_beside_a_straight_cut).into(),
+        Fault::WordTwice { letter } => say!(stands_twice_in_this_line, letter),
+        Fault::ReversedArc { is_sure: true } => say!(the_arc_runs_the_wrong_way_round).into(),
+        Fault::ReversedArc { is_sure: false } => say!(the_arc_may_run_the_wrong_way_round).into(),
+        Fault::Spur { length } => {
+            say!(the_wire_goes_out_mm_and_back_on_the_same, mm(length / 1e3))
+        }
+        Fault::DoubledBlock { arc: true } => say!(the_block_stands_twice_the_wire).into(),
+        Fault::DoubledBlock { arc: false } => say!(the_block_stands_twice_the_wire_is_there).into(),
+        Fault::NoOffset { side } => {
+            say!(and_nothing_says_by_how_much, side_word(side))
+        }
+        Fault::SideChange { side } => {
+            say!(from_here_on_in_the_middle_of_the_cut, side_word(side))
+        }
+        Fault::StillOn => say!(the_program_ends_with_the_correction_on).into(),
+        Fault::NoReturn { number } => {
+            say!(subprogram_has_no_m99, number)
+        }
+        Fault::NoCorner => say!(the_word_for_a_corner_finds_none_here_or).into(),
+        Fault::Bare { word, count: 1 } => {
+            say!(has_no_decimal_point_the_other_numbers_have, word)
+        }
+        Fault::Bare { word, count } => say!(and_others_in_all_have_no_decimal, word, count),
+        Fault::Pointed { word } => {
+            say!(has_a_decimal_point_the_other_numbers_have_none, word)
+        }
+        Fault::Places { word, usual } => {
+            say!(has_not_decimals_as_all_other_numbers, word, usual)
+        }
+        Fault::LooksLikeInches { size } => say!(the_program_does_not_say_its_unit, mm(*size)),
+        Fault::UnknownValue { word } => {
+            say!(
+                hangs_on_a_place_of_the_control_table_that_the_program_does,
+                word
+            )
+        }
+        Fault::Suspect {
+            found,
+            meant,
+            closes,
+        } => {
+            let comes_of_it = if *closes {
+                say!(the_cut_does_not_close_and_it_would)
+            } else {
+                say!(the_cut_would_be_sound)
+            };
+            match (found.is_empty(), meant.is_empty()) {
+                (true, _) => say!(may_be_missing_here_with, meant, comes_of_it),
+                (_, true) => say!(may_be_one_too_many, found, comes_of_it),
+                _ => say!(may_be_wrong_with_here, found, comes_of_it, meant),
+            }
+        }
+        Fault::OpenCenters => say!(full_circles_alone_do_not_tell_how).into(),
     }
 }
 
@@ -521,122 +622,6 @@ fn not_judged(what: &NotJudged) -> String {
                 calls
             )
         }
-    }
-}
-
-/// What is wrong in an ISO program. Its lengths are µm.
-fn iso(fault: &IsoFault) -> String {
-    let side_word = |side: &Side| match side {
-        Side::Left => say!(g41_lets_the_wire_run_on_the_left),
-        Side::Right => say!(g42_lets_the_wire_run_on_the_right),
-    };
-    match fault {
-        IsoFault::OffRadius { start, end } => {
-            let (near, far) = told_apart(start / 1e3, end / 1e3);
-            say!(the_ends_of_the_arc_are_not_on_one_circle, near, far)
-        }
-        IsoFault::NoRadius => say!(arc_without_a_radius_i).into(),
-        IsoFault::Switch {
-            on: true,
-            arc: true,
-        } => say!(the_correction_is_switched_on_by_an_arc).into(),
-        IsoFault::Switch {
-            on: false,
-            arc: true,
-        } => say!(the_correction_is_switched_off_by_an_arc).into(),
-        IsoFault::Switch { .. } => say!(the_correction_is_switched_on_by_a_rapid).into(),
-        IsoFault::RoleSide { side, punch } => {
-            let (is, wanted) = if *punch {
-                (say!(outside), say!(opening))
-            } else {
-                (say!(inside), say!(punch))
-            };
-            say!(
-                which_is_this_contour_the_settings,
-                side_word(side),
-                is,
-                wanted
-            )
-        }
-        IsoFault::EntrySide { side } => {
-            say!(
-                of_this_contour_but_it_comes_to_it_from_the_other_side,
-                side_word(side)
-            )
-        }
-        IsoFault::NotClosed { distance } => {
-            say!(the_cut_does_not_close, mm(distance / 1e3))
-        }
-        IsoFault::NoEnd { word } => say!(the_program_has_no_end_expected_the_machine, word),
-        IsoFault::BehindEnd => say!(text_behind_the_end_of_the_program).into(),
-        IsoFault::NumberTwice { number } => say!(block_number_n_stands_twice, number),
-        IsoFault::Unnumbered { expected } => say!(the_block_has_no_number_expected_n, expected),
-        IsoFault::Foreign { word, count: 1 } => {
-            say!(is_a_matter_of_the_machine_it_is_kept_not, word)
-        }
-        IsoFault::Foreign { word, count } => {
-            say!(times_is_a_matter_of_the_machine_it_is_kept, word, count)
-        }
-        IsoFault::NoSubprogram { number } => say!(subprogram_does_not_stand_in_this_text, number),
-        IsoFault::EndlessCalls => say!(the_subprograms_call_each_other_without_end_or).into(),
-        IsoFault::CenterOnLine => say!(i_and_j_stand_beside_a_straight_cut).into(),
-        IsoFault::WordTwice { letter } => say!(stands_twice_in_this_line, letter),
-        IsoFault::ReversedArc { is_sure: true } => say!(the_arc_runs_the_wrong_way_round).into(),
-        IsoFault::ReversedArc { is_sure: false } => {
-            say!(the_arc_may_run_the_wrong_way_round).into()
-        }
-        IsoFault::Spur { length } => {
-            say!(the_wire_goes_out_mm_and_back_on_the_same, mm(length / 1e3))
-        }
-        IsoFault::DoubledBlock { arc: true } => say!(the_block_stands_twice_the_wire).into(),
-        IsoFault::DoubledBlock { arc: false } => {
-            say!(the_block_stands_twice_the_wire_is_there).into()
-        }
-        IsoFault::NoOffset { side } => {
-            say!(and_nothing_says_by_how_much, side_word(side))
-        }
-        IsoFault::SideChange { side } => {
-            say!(from_here_on_in_the_middle_of_the_cut, side_word(side))
-        }
-        IsoFault::StillOn => say!(the_program_ends_with_the_correction_on).into(),
-        IsoFault::NoReturn { number } => {
-            say!(subprogram_has_no_m99, number)
-        }
-        IsoFault::NoCorner => say!(the_word_for_a_corner_finds_none_here_or).into(),
-        IsoFault::Bare { word, count: 1 } => {
-            say!(has_no_decimal_point_the_other_numbers_have, word)
-        }
-        IsoFault::Bare { word, count } => say!(and_others_in_all_have_no_decimal, word, count),
-        IsoFault::Pointed { word } => {
-            say!(has_a_decimal_point_the_other_numbers_have_none, word)
-        }
-        IsoFault::Places { word, usual } => {
-            say!(has_not_decimals_as_all_other_numbers, word, usual)
-        }
-        IsoFault::LooksLikeInches { size } => say!(the_program_does_not_say_its_unit, mm(*size)),
-        IsoFault::UnknownValue { word } => {
-            say!(
-                hangs_on_a_place_of_the_control_table_that_the_program_does,
-                word
-            )
-        }
-        IsoFault::Suspect {
-            found,
-            meant,
-            closes,
-        } => {
-            let comes_of_it = if *closes {
-                say!(the_cut_does_not_close_and_it_would)
-            } else {
-                say!(the_cut_would_be_sound)
-            };
-            match (found.is_empty(), meant.is_empty()) {
-                (true, _) => say!(may_be_missing_here_with, meant, comes_of_it),
-                (_, true) => say!(may_be_one_too_many, found, comes_of_it),
-                _ => say!(may_be_wrong_with_here, found, comes_of_it, meant),
-            }
-        }
-        IsoFault::OpenCenters => say!(full_circles_alone_do_not_tell_how).into(),
     }
 }
 

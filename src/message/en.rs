@@ -172,6 +172,15 @@ declare! {
     the_arc_has_no_radius => "the arc has no radius: X and Y are 0, its start is its centre";
     has_more_than_the_digits_that_the_controller_takes(field, value, digits) => "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops";
     the_contour_does_not_close(hypot, x, y) => "the contour does not close: it ends {hypot} mm beside its beginning (X {x:+.3}, Y {y:+.3})";
+    // words of ISO that cannot be read
+    word_without_number(column, letter) => "column {column}: {letter} has no number";
+    word_is_no_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, expected a number with one decimal point";
+    number_of_too_many_digits(column, digits) => "column {column}: found a number of {digits} digits, expected at most 9";
+    comment_is_not_closed(column) => "column {column}: the comment is not closed, expected `)`";
+    letter_o_in_a_number(column) => "column {column}: found the letter O in a number, expected a zero";
+    comma_in_a_number(column) => "column {column}: found a comma in a number, expected a decimal point";
+    only_looks_like_ascii(column, shown) => "column {column}: found `{shown}`, which only looks like what a control reads: expected letters, digits and spaces of ASCII";
+    no_word(column, shown) => "column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment";
     the_program_has_no_end_expected(word) => "the program has no end, expected {word}: the machine waits, or runs what it held before";
     text_behind_which_ends_the_program(word) => "text behind {word}, which ends the program: the machine does not run it";
     block_number_n_stands_twice(number) => "block number N{number} stands twice";
@@ -198,7 +207,6 @@ declare! {
     which_is_this_contour_the_settings(side, is, wanted) => "{side}, which is {is} this contour: the settings say {wanted}, the wire cuts into the part";
     of_this_contour_but_it_comes_to_it_from_the_other_side(side) => "{side} of this contour, but it comes to it from the other side: it crosses the part's edge";
     the_cut_does_not_close(distance) => "the cut does not close: it ends {distance} mm from where it began";
-    the_program_has_no_end_expected_the_machine(word) => "the program has no end, expected {word}: the machine waits for more";
     text_behind_the_end_of_the_program => "text behind the end of the program: the machine does not run it";
     is_a_matter_of_the_machine_it_is_kept_not(word) => "{word} is a matter of the machine: it is kept, not followed";
     times_is_a_matter_of_the_machine_it_is_kept(word, count) => "{word} ({count} times) is a matter of the machine: it is kept, not followed";

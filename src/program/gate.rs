@@ -6,7 +6,7 @@
 
 use super::Document;
 use super::path::Kind;
-use crate::finding::{Detail, Finding, Fix, FixKind, IsoFault, ProgramFault, Rule, Severity};
+use crate::finding::{Detail, Fault, Finding, Fix, FixKind, Rule, Severity};
 use crate::geometry::{Arc, Segment};
 use crate::text::TextEdit;
 use std::collections::BTreeMap;
@@ -146,10 +146,10 @@ fn alike(findings: &[Finding], finding: &Finding) -> [usize; 2] {
 fn gap_of(finding: &Finding) -> Option<f64> {
     match &finding.detail {
         Detail::Program(fault) => match **fault {
-            ProgramFault::NotClosed { x, y, .. } => Some(x.hypot(y)),
+            Fault::NotClosed { x, y, .. } => Some(x.hypot(y)),
+            Fault::CutOpen { distance } => Some(distance),
             _ => None,
         },
-        Detail::Iso(IsoFault::NotClosed { distance }) => Some(*distance),
         _ => None,
     }
 }

@@ -2,9 +2,7 @@
 
 use super::drawing::Point;
 use crate::drawing::Drawing;
-use crate::finding::{
-    Detail, Finding, IsoFault, NoFix, NotJudged, Place, ProgramFault, Side, SmallRadius,
-};
+use crate::finding::{Detail, Fault, Finding, NoFix, NotJudged, Place, Side, SmallRadius};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -170,7 +168,6 @@ impl FindingData {
                 data.radius = Some(*radius);
                 data.distance = Some(*deviation);
             }
-            Detail::Iso(fault) => data.iso(fault),
             Detail::Program(fault) => data.program(fault),
             Detail::OnePass { passes, .. } => data.count = Some(*passes),
             Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
@@ -179,37 +176,45 @@ impl FindingData {
     }
 
     /// Lengths in mm, as in every text.
-    fn program(&mut self, fault: &ProgramFault) {
+    fn program(&mut self, fault: &Fault) {
         let mm = |um: i64| um as f64 / 1000.0;
         match *fault {
-            ProgramFault::LengthInJ { j, projection, .. }
-            | ProgramFault::WrongJ { j, projection, .. } => {
+            Fault::LengthInJ { j, projection, .. } | Fault::WrongJ { j, projection, .. } => {
                 self.length = Some(mm(j));
                 self.required = Some(mm(projection));
             }
-            ProgramFault::JKeepsOpen {
+            Fault::JKeepsOpen {
                 j, meant: required, ..
             }
-            | ProgramFault::JOverTurn { j, turn: required } => {
+            | Fault::JOverTurn { j, turn: required } => {
                 self.length = Some(mm(j));
                 self.required = Some(mm(required));
             }
-            ProgramFault::NumberKeepsOpen { value, meant, .. } => {
+            Fault::NumberKeepsOpen { value, meant, .. } => {
                 self.length = Some(mm(value));
                 self.required = Some(mm(meant));
             }
-            ProgramFault::SmallerProjection {
+            Fault::SmallerProjection {
                 counted, larger, ..
             } => {
                 self.length = Some(mm(counted));
                 self.required = Some(mm(larger));
             }
-            ProgramFault::TooManyDigits { value, .. } => self.length = Some(mm(value)),
-            ProgramFault::NotClosed { x, y, .. } | ProgramFault::PositionMismatch { x, y } => {
+            Fault::TooManyDigits { value, .. } => self.length = Some(mm(value)),
+            Fault::NotClosed { x, y, .. } | Fault::PositionMismatch { x, y } => {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
-            ProgramFault::PathCrossesItself { at, .. } => {
+            Fault::PathCrossesItself { at, .. } => {
                 self.at = Some(crate::geometry::Point::from(at).into())
+            }
+            Fault::OffRadius { start, end } => {
+                self.radius = Some(start / 1e3);
+                self.distance = Some((start - end).abs() / 1e3);
+            }
+            Fault::CutOpen { distance } => self.distance = Some(distance / 1e3),
+            Fault::Foreign { ref word, count } => {
+                self.kind = Some(word.clone());
+                self.count = Some(count);
             }
             _ => {}
         }
@@ -230,22 +235,6 @@ impl FindingData {
         self.stock_left = Some(detail.stock_left).filter(|stock| stock.is_finite());
         self.pass = detail.pass;
         self.no_fix = detail.no_fix.map(|reason| no_fix_name(reason).into());
-    }
-
-    /// Lengths of a program's findings are mm, as those of a drawing in mm.
-    fn iso(&mut self, fault: &IsoFault) {
-        match fault {
-            IsoFault::OffRadius { start, end } => {
-                self.radius = Some(start / 1e3);
-                self.distance = Some((start - end).abs() / 1e3);
-            }
-            IsoFault::NotClosed { distance } => self.distance = Some(distance / 1e3),
-            IsoFault::Foreign { word, count } => {
-                self.kind = Some(word.clone());
-                self.count = Some(*count);
-            }
-            _ => {}
-        }
     }
 
     pub fn is_empty(&self) -> bool {

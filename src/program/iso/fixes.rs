@@ -10,7 +10,7 @@ use super::order::labels;
 use super::repair::{Repair, is_trouble, line_of};
 use super::style::Style;
 use super::word::plain;
-use crate::finding::{CenterFix, Detail, Finding, Fix, FixKind, IsoFault, Place as Where, Rule};
+use crate::finding::{CenterFix, Detail, Fault, Finding, Fix, FixKind, Place as Where, Rule};
 use crate::geometry::Arc;
 use crate::program::grid::{best_center, snap};
 use crate::text::TextEdit;
@@ -76,7 +76,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
         return Vec::new();
     };
     let fault = match &finding.detail {
-        Detail::Iso(fault) => fault,
+        Detail::Program(fault) => &**fault,
         Detail::Syntax(_) => return character_fixes(document, range),
         _ => return Vec::new(),
     };
@@ -88,20 +88,20 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
     };
     let line = document.text().line_of(range.start);
     match fault {
-        IsoFault::ReversedArc { is_sure } => {
+        Fault::ReversedArc { is_sure } => {
             let before = document.machine_before(line).map(|machine| machine.motion);
             let Some((found, meant, edit)) = exchanged_word(document, line, before) else {
                 return Vec::new();
             };
             vec![fix(FixKind::Rewrite { found, meant }, *is_sure, vec![edit])]
         }
-        IsoFault::DoubledBlock { .. } => vec![fix(
+        Fault::DoubledBlock { .. } => vec![fix(
             FixKind::DeleteBlock,
             true,
             vec![whole_line(document, line)],
         )],
-        IsoFault::Spur { .. } => spur_fix(document, line).into_iter().collect(),
-        IsoFault::NoOffset { .. } => {
+        Fault::Spur { .. } => spur_fix(document, line).into_iter().collect(),
+        Fault::NoOffset { .. } => {
             let Some(offset) = document.only_offset() else {
                 return Vec::new();
             };
@@ -124,7 +124,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 vec![edit],
             )]
         }
-        IsoFault::SideChange { .. } => {
+        Fault::SideChange { .. } => {
             let other = match document.text().bytes().get(range.clone()) {
                 Some(word) if word.ends_with(b"41") => "G42",
                 Some(word) if word.ends_with(b"42") => "G41",
@@ -139,7 +139,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 }],
             )]
         }
-        IsoFault::StillOn => {
+        Fault::StillOn => {
             let Some(at) = way_out(document, line) else {
                 return Vec::new();
             };
@@ -156,7 +156,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 }],
             )]
         }
-        IsoFault::NoReturn { .. } => {
+        Fault::NoReturn { .. } => {
             let end = document.text().line_range(line).end;
             let text = format!("{}M99", line_end(document, range.end));
             vec![fix(
@@ -170,8 +170,8 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 }],
             )]
         }
-        IsoFault::Bare { .. } => bare_fixes(document, range),
-        IsoFault::NoEnd { word } => {
+        Fault::Bare { .. } => bare_fixes(document, range),
+        Fault::MissingEnd { word } => {
             let end = document
                 .text()
                 .line_range(document.text().line_of(range.end))
@@ -186,7 +186,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 }],
             )]
         }
-        IsoFault::Switch {
+        Fault::Switch {
             on: true,
             arc: false,
         } => {
@@ -203,7 +203,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 }],
             )]
         }
-        IsoFault::RoleSide { .. } | IsoFault::EntrySide { .. } => {
+        Fault::RoleSide { .. } | Fault::EntrySide { .. } => {
             let bytes = document
                 .text()
                 .bytes()
@@ -223,12 +223,12 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 }],
             )]
         }
-        IsoFault::OffRadius { .. } => center_fixes(document, range),
-        IsoFault::NotClosed { .. } => closing_fix(document, range).into_iter().collect(),
-        IsoFault::NumberTwice { .. } | IsoFault::Unnumbered { .. } => {
+        Fault::OffRadius { .. } => center_fixes(document, range),
+        Fault::CutOpen { .. } => closing_fix(document, range).into_iter().collect(),
+        Fault::DoubledNumber { .. } | Fault::Unnumbered { .. } => {
             number_fixes(document, fault, range)
         }
-        IsoFault::BehindEnd => {
+        Fault::BehindEnd => {
             let end = document.text().len();
             vec![fix(
                 FixKind::DeleteBehindEnd,
@@ -597,7 +597,7 @@ fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
 /// The number of the block's turn where there is room for it; all blocks numbered anew.
 fn number_fixes(
     document: &Document,
-    fault: &IsoFault,
+    fault: &Fault,
     range: &Range<usize>,
 ) -> Vec<Fix<Vec<TextEdit>>> {
     let text = document.text();
@@ -605,7 +605,7 @@ fn number_fixes(
     let mut fixes = Vec::new();
     let free = |number: u32| !labels(text).contains_key(&number);
     match *fault {
-        IsoFault::Unnumbered { expected } if free(expected) => {
+        Fault::Unnumbered { expected } if free(expected) => {
             let own = text.line_range(line);
             let new = with_word(
                 text.bytes().get(own.clone()).unwrap_or_default(),
@@ -625,7 +625,7 @@ fn number_fixes(
                 });
             }
         }
-        IsoFault::NumberTwice { number } if !document.calls(number) => {
+        Fault::DoubledNumber { number } if !document.calls(number) => {
             let turn = document
                 .numbers_before(line)
                 .map(|(last, step)| last.saturating_add(step));

@@ -8,7 +8,7 @@ mod scan;
 
 use super::document::Document;
 use super::machine::Machine;
-use crate::finding::{Detail, Finding, FixKind, IsoFault, Place, Rule, Severity};
+use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
 use crate::text::TextEdit;
 use change::{Change, Pool};
 use scan::{Line, Scan, Way};
@@ -132,8 +132,8 @@ pub fn is_trouble(finding: &Finding) -> bool {
         | Rule::WordTwice
         | Rule::Spur => true,
         Rule::DoubledBlock => !matches!(
-            finding.detail,
-            Detail::Iso(IsoFault::DoubledBlock { arc: false })
+            &finding.detail,
+            Detail::Program(fault) if matches!(**fault, Fault::DoubledBlock { arc: false })
         ),
         _ => false,
     }

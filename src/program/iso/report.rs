@@ -8,10 +8,10 @@ use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
 use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
-use super::stretch::{Definition, Fault, Run, RunSide, Stretch, Tight};
-use super::word::{Token, Value, WordFault, words};
+use super::stretch::{Definition, Run, RunSide, Stretch, Tight};
+use super::word::{Token, Value, words};
 use crate::finding::{
-    Detail, Finding, IsoFault, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
+    Detail, Fault, Finding, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
 };
 use crate::geometry::{Arc, cross};
 use crate::program::path::tolerance;
@@ -65,7 +65,7 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
         let range = document.text().line_range(repair.line);
         let words =
             super::stretch::words_of(document.text().bytes().get(range.clone())?, range.start);
-        let fault = IsoFault::Suspect {
+        let fault = Fault::Suspect {
             found: repair.found,
             meant: repair.meant,
             closes: repair.closes,
@@ -75,15 +75,9 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
         } else {
             Severity::Information
         };
-        let place = Place::Text {
-            range: words.0 as usize..words.1 as usize,
-        };
         Some(Finding {
-            rule: Rule::SuspectBlock,
             severity,
-            place,
-            detail: Detail::Iso(fault),
-            related: Vec::new(),
+            ..Finding::of(fault, words.0 as usize..words.1 as usize)
         })
     };
     repairs
@@ -118,7 +112,7 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
         if let Some(behind) = stretch.behind_end
             && !std::mem::replace(&mut report.is_behind_end_said, true)
         {
-            report.add(Rule::TextAfterEnd, at(offset, behind), IsoFault::BehindEnd);
+            report.add(at(offset, behind), Fault::BehindEnd);
         }
     }
     contours(document, &mut |cut| report.judge(&cut));
@@ -137,12 +131,12 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
         && report.is_whole()
     {
         let word = document.limits.end.clone();
-        report.add(Rule::MissingEnd, words, IsoFault::NoEnd { word });
+        report.add(words, Fault::MissingEnd { word });
     }
     if document.evidence().leaves_centers_open()
         && let Some(range) = report.first_center()
     {
-        report.add(Rule::AmbiguousCenter, range, IsoFault::OpenCenters);
+        report.add(range, Fault::OpenCenters);
     }
     report.finish()
 }
@@ -227,8 +221,16 @@ impl<'a> Report<'a> {
         report
     }
 
-    fn add(&mut self, rule: Rule, range: Range<usize>, fault: IsoFault) {
-        self.push(rule, rule.default_severity(), range, Detail::Iso(fault));
+    fn add(&mut self, range: Range<usize>, fault: Fault) {
+        self.findings.push(Finding::of(fault, range));
+    }
+
+    fn add_as(&mut self, severity: Severity, range: Range<usize>, fault: Fault) {
+        let finding = Finding::of(fault, range);
+        self.findings.push(Finding {
+            severity,
+            ..finding
+        });
     }
 
     fn push(&mut self, rule: Rule, severity: Severity, range: Range<usize>, detail: Detail) {
@@ -243,79 +245,17 @@ impl<'a> Report<'a> {
 
     fn line_faults(&mut self, stretch: &Stretch, offset: usize) {
         for found in &stretch.faults {
-            let range = at(offset, (found.range.start, found.range.end));
-            match found.fault {
-                Fault::Word(WordFault::TooManyDigits { .. }) | Fault::Word(_) => {
-                    let Fault::Word(fault) = found.fault else {
-                        continue;
-                    };
-                    let sentence = word_sentence(self.text, fault, &range);
-                    let rule = Rule::Syntax;
-                    let mild = matches!(fault, WordFault::OpenComment);
-                    let severity = if mild {
-                        Severity::Warning
-                    } else {
-                        rule.default_severity()
-                    };
-                    self.push(rule, severity, range, Detail::Syntax(sentence));
-                }
-                Fault::OffRadius { start, end } => self.add(
-                    Rule::ArcOffRadius,
-                    range,
-                    IsoFault::OffRadius { start, end },
-                ),
-                Fault::NoRadius => self.add(Rule::ArcWithoutRadius, range, IsoFault::NoRadius),
-                Fault::Switch { on, arc } => self.add(
-                    Rule::CompensationSwitch,
-                    range,
-                    IsoFault::Switch { on, arc },
-                ),
-                Fault::CenterOnLine => self.add(Rule::CenterOnLine, range, IsoFault::CenterOnLine),
-                Fault::WordTwice { letter } => self.add(
-                    Rule::WordTwice,
-                    range,
-                    IsoFault::WordTwice {
-                        letter: letter as char,
-                    },
-                ),
-                Fault::NoOffset => {
-                    let range = self.switch_range(range.start);
-                    let side = match self.text.bytes().get(range.clone()) {
-                        Some(word) if word.ends_with(b"42") => Side::Right,
-                        _ => Side::Left,
-                    };
-                    self.add(Rule::MissingOffset, range, IsoFault::NoOffset { side });
-                }
-                Fault::StillOn => self.add(Rule::MissingCancel, range, IsoFault::StillOn),
-                Fault::ReversedArc { is_sure } => {
-                    let severity = if is_sure {
-                        Rule::ReversedArc.default_severity()
-                    } else {
-                        Severity::Warning
-                    };
-                    self.push(
-                        Rule::ReversedArc,
-                        severity,
-                        range,
-                        Detail::Iso(IsoFault::ReversedArc { is_sure }),
-                    );
-                }
-                Fault::Spur { length } => self.add(Rule::Spur, range, IsoFault::Spur { length }),
-                Fault::DoubledBlock { arc } => {
-                    let severity = if arc {
-                        Severity::Error
-                    } else {
-                        Rule::DoubledBlock.default_severity()
-                    };
-                    self.push(
-                        Rule::DoubledBlock,
-                        severity,
-                        range,
-                        Detail::Iso(IsoFault::DoubledBlock { arc }),
-                    );
-                }
-                Fault::NoCorner => self.add(Rule::CornerWord, range, IsoFault::NoCorner),
+            let Place::Text { range } = &found.place else {
+                continue;
+            };
+            let mut range = range.start + offset..range.end + offset;
+            if found.rule == Rule::MissingOffset {
+                range = self.switch_range(range.start);
             }
+            self.findings.push(Finding {
+                place: Place::Text { range },
+                ..found.clone()
+            });
         }
     }
 
@@ -403,11 +343,10 @@ impl<'a> Report<'a> {
             } else {
                 Rule::NotClosed.default_severity()
             };
-            self.push(
-                Rule::NotClosed,
+            self.add_as(
                 severity,
                 cut.last_range.clone(),
-                Detail::Iso(IsoFault::NotClosed { distance }),
+                Fault::CutOpen { distance },
             );
         }
         // Contours that are only a line there and back have no inside.
@@ -430,20 +369,14 @@ impl<'a> Report<'a> {
             let range = || self.switch_range(cut.range.start);
             if is_wrong {
                 self.add(
-                    Rule::WrongSide,
                     range(),
-                    IsoFault::RoleSide {
+                    Fault::RoleSide {
                         side,
                         punch: !inside,
                     },
                 );
             } else if self.side_of_entry(run).is_some_and(|entry| entry != side) {
-                self.push(
-                    Rule::WrongSide,
-                    Severity::Warning,
-                    range(),
-                    Detail::Iso(IsoFault::EntrySide { side }),
-                );
+                self.add(range(), Fault::EntrySide { side });
             }
         }
         if let Some((place, range)) = &cut.flip {
@@ -472,7 +405,7 @@ impl<'a> Report<'a> {
         } else {
             Side::Left
         };
-        self.add(Rule::SideChange, range, IsoFault::SideChange { side });
+        self.add(range, Fault::SideChange { side });
     }
 
     /// Whether a cut closes; else by how much it misses, µm.
@@ -599,11 +532,7 @@ impl<'a> Report<'a> {
         words.sort_by_key(|(range, _)| range.start);
         for (range, count) in words {
             let word: String = self.shown(&range);
-            self.add(
-                Rule::MachineDependent,
-                range,
-                IsoFault::Foreign { word, count },
-            );
+            self.add(range, Fault::Foreign { word, count });
         }
     }
 
@@ -650,9 +579,8 @@ impl<'a> Report<'a> {
                     let words =
                         super::stretch::words_of(&self.text.bytes()[range.clone()], range.start);
                     self.add(
-                        Rule::BlockNumber,
                         words.0 as usize..words.1 as usize,
-                        IsoFault::Unnumbered { expected },
+                        Fault::Unnumbered { expected },
                     );
                 }
             }
@@ -681,7 +609,7 @@ impl<'a> Report<'a> {
                         |letter, _| letter == b'N',
                     )
                     .unwrap_or(range);
-                    self.add(Rule::BlockNumber, word, IsoFault::NumberTwice { number });
+                    self.add(word, Fault::DoubledNumber { number });
                 }
             }
             if programs.next().is_some() {
@@ -695,24 +623,15 @@ impl<'a> Report<'a> {
             return;
         };
         for &(line, number) in &order.missing {
-            self.add(
-                Rule::MachineDependent,
-                self.text.line_range(line),
-                IsoFault::NoSubprogram { number },
-            );
+            self.add(self.text.line_range(line), Fault::NoSubprogram { number });
         }
         for &(line, number) in &order.unreturned {
             let range = self.words_of(line);
-            self.add(Rule::MissingReturn, range, IsoFault::NoReturn { number });
+            self.add(range, Fault::NoReturn { number });
         }
         if let Some(line) = order.endless {
             let range = self.text.line_range(line);
-            self.push(
-                Rule::MachineDependent,
-                Severity::Warning,
-                range,
-                Detail::Iso(IsoFault::EndlessCalls),
-            );
+            self.add(range, Fault::EndlessCalls);
         }
         if let Some(line) = order.left_out {
             let what = NotJudged::Calls {
@@ -748,11 +667,7 @@ impl<'a> Report<'a> {
                         table.remove(&definition.offset);
                         let range = at(placed.offset, definition.range);
                         let word = self.shown(&range);
-                        self.add(
-                            Rule::MachineDependent,
-                            range,
-                            IsoFault::UnknownValue { word },
-                        );
+                        self.add(range, Fault::UnknownValue { word });
                     }
                 }
             }
@@ -783,9 +698,9 @@ impl<'a> Report<'a> {
         for range in places {
             let word = self.shown(&range);
             let fault = match usual {
-                Some(false) => IsoFault::Pointed { word },
-                Some(true) => IsoFault::Bare { word, count: 1 },
-                None => IsoFault::Bare {
+                Some(false) => Fault::Pointed { word },
+                Some(true) => Fault::Bare { word, count: 1 },
+                None => Fault::Bare {
                     word,
                     count: count as usize,
                 },
@@ -795,7 +710,7 @@ impl<'a> Report<'a> {
             } else {
                 Severity::Information
             };
-            self.push(Rule::MixedNumbers, severity, range, Detail::Iso(fault));
+            self.add_as(severity, range, fault);
         }
     }
 
@@ -833,7 +748,7 @@ impl<'a> Report<'a> {
         }
         for range in found.into_iter().take(odd as usize) {
             let word = self.shown(&range);
-            self.add(Rule::MixedNumbers, range, IsoFault::Places { word, usual });
+            self.add(range, Fault::Places { word, usual });
         }
     }
 
@@ -864,12 +779,7 @@ impl<'a> Report<'a> {
             && (is_small || (has_thin_wire && size < LARGE_PART))
             && let Some(range) = self.first_length()
         {
-            self.push(
-                Rule::Units,
-                Severity::Hint,
-                range,
-                Detail::Iso(IsoFault::LooksLikeInches { size }),
-            );
+            self.add(range, Fault::LooksLikeInches { size });
         }
     }
 
@@ -948,46 +858,5 @@ fn small_radius(arc: &Arc, required: f64, side: Side) -> SmallRadius {
         stock_left,
         pass: None,
         no_fix: Some(NoFix::Program),
-    }
-}
-
-fn word_sentence(text: &SourceText, fault: WordFault, range: &Range<usize>) -> String {
-    let column = range.start - text.line_start(text.line_of(range.start)) + 1;
-    let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-    let shown: String = String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
-        .chars()
-        .take(12)
-        .collect();
-    match fault {
-        WordFault::NoNumber { letter } => {
-            format!("column {column}: {} has no number", letter as char)
-        }
-        WordFault::NotANumber { letter } => {
-            format!(
-                "column {column}: {} is `{}`, expected a number with one decimal point",
-                letter as char,
-                shown.get(1..).unwrap_or_default()
-            )
-        }
-        WordFault::TooManyDigits { digits } => {
-            format!("column {column}: found a number of {digits} digits, expected at most 9")
-        }
-        WordFault::OpenComment => {
-            format!("column {column}: the comment is not closed, expected `)`")
-        }
-        WordFault::LetterO => {
-            format!("column {column}: found the letter O in a number, expected a zero")
-        }
-        WordFault::DecimalComma => {
-            format!("column {column}: found a comma in a number, expected a decimal point")
-        }
-        WordFault::Lookalike => {
-            format!(
-                "column {column}: found `{shown}`, which only looks like what a control reads: expected letters, digits and spaces of ASCII"
-            )
-        }
-        WordFault::NoWord => format!(
-            "column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment"
-        ),
     }
 }

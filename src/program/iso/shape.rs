@@ -2,7 +2,7 @@
 
 use super::block::Motion;
 use super::machine::{Bend, Course, Move, Reading, Trail, distance, micrometres};
-use super::stretch::Fault;
+use crate::finding::Fault;
 use crate::geometry::{Segment, Vector, cross};
 
 /// Two cuts that turn by less are tangent, radians; for a small arc rounding adds to it.

@@ -9,58 +9,12 @@ use super::corner::{self, Turned, turned};
 use super::evidence::Evidence;
 use super::machine::{Bend, Course, Machine, Move, Place, Reading, Trail, added};
 use super::shape;
-use super::word::{Term, WordFault};
-use crate::finding::Side;
+use super::word::Term;
+use crate::finding::{Fault, Finding, Side};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::path::{HeldWay, Node, closing, goes_round, mixed, near_each_other};
 use crate::program::steps::Sum;
 use std::ops::Range;
-
-/// A fault of one line. Places are bytes from the start of the stretch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LineFault {
-    pub fault: Fault,
-    pub range: Range<u32>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fault {
-    Word(WordFault),
-    /// The ends of an arc are unlike far from its centre, µm.
-    OffRadius {
-        start: f64,
-        end: f64,
-    },
-    NoRadius,
-    /// Compensation is switched on (or off) by an arc, or on by a rapid.
-    Switch {
-        on: bool,
-        arc: bool,
-    },
-    /// I or J beside a straight cut.
-    CenterOnLine,
-    WordTwice {
-        letter: u8,
-    },
-    /// Compensation goes on without a place of the control's table.
-    NoOffset,
-    /// The program ends with the compensation on.
-    StillOn,
-    /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
-    ReversedArc {
-        is_sure: bool,
-    },
-    /// So far out and back on the same way, µm.
-    Spur {
-        length: f64,
-    },
-    /// The line says what the one before said, which has led to where it leads; an arc goes round once more.
-    DoubledBlock {
-        arc: bool,
-    },
-    /// A corner's word that finds no corner, or no room.
-    NoCorner,
-}
 
 /// An arc that may be tighter than a correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -384,7 +338,8 @@ pub struct Stretch {
     /// How the numbers were read.
     pub reading: Reading,
     pub evidence: Evidence,
-    pub faults: Vec<LineFault>,
+    /// What is wrong in single lines; places are bytes from the start of the stretch.
+    pub faults: Vec<Finding>,
     /// In the order of their runs, where they lay before the stretch was moved, as `runs`.
     tight: Vec<Tight>,
     pub tightest: Tightest,
@@ -535,10 +490,7 @@ impl Stretch {
             Note::Fault { fault, range } => {
                 // One fault a line is enough: the others may come of it.
                 if faults.len() == known_faults {
-                    faults.push(LineFault {
-                        fault: Fault::Word(fault),
-                        range: narrow(range),
-                    });
+                    faults.push(fault.finding(line, range.start - offset, range));
                 }
             }
             Note::Foreign { code, range } => {
@@ -569,10 +521,8 @@ impl Stretch {
             }
             Note::Twice { letter, range } => {
                 if faults.len() == known_faults {
-                    faults.push(LineFault {
-                        fault: Fault::WordTwice { letter },
-                        range: narrow(range),
-                    });
+                    let letter = letter as char;
+                    faults.push(Finding::of(Fault::WordTwice { letter }, range));
                 }
             }
         });
@@ -648,10 +598,8 @@ impl Stretch {
     }
 
     fn fault(&mut self, fault: Fault, range: (u32, u32)) {
-        self.faults.push(LineFault {
-            fault,
-            range: range.0..range.1,
-        });
+        let range = range.0 as usize..range.1 as usize;
+        self.faults.push(Finding::of(fault, range));
     }
 
     /// I or J in a line that makes no arc of them.
@@ -738,18 +686,19 @@ impl Stretch {
             *along = along.wrapping_add(made.to[axis].wrapping_sub(made.from[axis]));
         }
         if made.switches == Some(true) && made.offset.is_none() {
-            self.fault(Fault::NoOffset, range);
+            let side = made.side.unwrap_or(Side::Left);
+            self.fault(Fault::NoOffset { side }, range);
         }
         if let Some(on) = made.switches
             && (made.is_arc() || (on && !made.is_cut()))
         {
-            self.faults.push(LineFault {
-                fault: Fault::Switch {
+            self.fault(
+                Fault::Switch {
                     on,
                     arc: made.is_arc(),
                 },
-                range: range.0..range.1,
-            });
+                range,
+            );
         }
         let mut cap = 0.0;
         if made.is_arc() {
@@ -776,15 +725,9 @@ impl Stretch {
                     }
                 }
                 Course::OffRadius { start, end, .. } => {
-                    self.faults.push(LineFault {
-                        fault: Fault::OffRadius { start, end },
-                        range: range.0..range.1,
-                    });
+                    self.fault(Fault::OffRadius { start, end }, range);
                 }
-                Course::NoRadius => self.faults.push(LineFault {
-                    fault: Fault::NoRadius,
-                    range: range.0..range.1,
-                }),
+                Course::NoRadius => self.fault(Fault::NoRadius, range),
                 Course::Line => {}
             }
         }
@@ -944,8 +887,4 @@ pub fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
 
 fn pair(range: Range<usize>) -> (u32, u32) {
     (range.start as u32, range.end as u32)
-}
-
-fn narrow(range: Range<usize>) -> Range<u32> {
-    range.start as u32..range.end as u32
 }

@@ -2,6 +2,7 @@
 //!
 //! Nothing here knows what a word means, and nothing that one line says hangs on another.
 
+use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use std::ops::Range;
 
 /// The digits that a number may have before its decimal point, and those that are read behind it; more than any control takes.
@@ -108,6 +109,44 @@ pub enum WordFault {
     OpenComment,
     /// A character that begins no word.
     NoWord,
+}
+
+impl WordFault {
+    /// What is told of it: it stands at `start` of its line, and at `range` of the text.
+    pub fn finding(self, line: &[u8], start: usize, range: Range<usize>) -> Finding {
+        let column = start + 1;
+        let bytes = line.get(start..start + range.len()).unwrap_or_default();
+        let shown: String = String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
+            .chars()
+            .take(12)
+            .collect();
+        let sentence = match self {
+            WordFault::NoNumber { letter } => say!(word_without_number, column, letter as char),
+            WordFault::NotANumber { letter } => say!(
+                word_is_no_number,
+                column,
+                letter as char,
+                shown.get(1..).unwrap_or_default()
+            ),
+            WordFault::TooManyDigits { digits } => say!(number_of_too_many_digits, column, digits),
+            WordFault::OpenComment => say!(comment_is_not_closed, column),
+            WordFault::LetterO => say!(letter_o_in_a_number, column),
+            WordFault::DecimalComma => say!(comma_in_a_number, column),
+            WordFault::Lookalike => say!(only_looks_like_ascii, column, shown),
+            WordFault::NoWord => say!(no_word, column, shown),
+        };
+        let severity = match self {
+            WordFault::OpenComment => Severity::Warning,
+            _ => Rule::Syntax.default_severity(),
+        };
+        Finding {
+            rule: Rule::Syntax,
+            severity,
+            place: Place::Text { range },
+            detail: Detail::Syntax(sentence),
+            related: Vec::new(),
+        }
+    }
 }
 
 impl WordFault {

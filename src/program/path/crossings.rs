@@ -7,7 +7,7 @@
 use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings, margin};
 use super::way::micrometres;
 use super::{Part, PartedWay, Way, passes, pieces_of};
-use crate::finding::{Detail, Finding, NotJudged, Place, ProgramFault, Rule, Severity};
+use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
 use crate::text::SourceText;
 use rayon::prelude::*;
@@ -102,16 +102,13 @@ impl Found {
             else {
                 continue;
             };
-            let fault = ProgramFault::PathCrossesItself {
+            let fault = Fault::PathCrossesItself {
                 at: [crossing.at.x / 1000.0, crossing.at.y / 1000.0],
                 other: text.line_of(from.start),
             };
             findings.push(Finding {
-                rule: fault.rule(),
-                severity: fault.rule().default_severity(),
-                place: Place::Text { range: own },
-                detail: Detail::Program(Box::new(fault)),
                 related: vec![Place::Text { range: from }],
+                ..Finding::of(fault, own)
             });
         }
         let last = way.count().checked_sub(1).and_then(|last| way.range(last));

@@ -8,7 +8,7 @@ use super::machine::travel;
 use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
-use crate::finding::{Detail, ProgramFault, Rule};
+use crate::finding::{Detail, Fault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::path::{HeldWay, Node, Writing, goes_round, mixed, near_each_other};
 use std::ops::Range;
@@ -635,10 +635,10 @@ impl Run {
                     | Flaw::LetterO
                     | Flaw::NotPlain(_)
                     | Flaw::DecimalCommas => (Rule::Syntax, sentence()),
-                    Flaw::MissingB { .. } => (Rule::MissingB, program(ProgramFault::MissingB)),
+                    Flaw::MissingB { .. } => (Rule::MissingB, program(Fault::MissingB)),
                     Flaw::BlockNumberAsB { number } => (
                         Rule::BlockNumberAsB,
-                        program(ProgramFault::BlockNumberAsB { number }),
+                        program(Fault::BlockNumberAsB { number }),
                     ),
                 };
                 let part = self.parts.len();

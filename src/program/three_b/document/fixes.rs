@@ -13,7 +13,7 @@ use super::super::rules::{
 };
 use super::super::run::{BlockEntry, Entry, Move, Sum, What, travel_of};
 use super::{At, Document};
-use crate::finding::{Detail, Finding, FixKind, Place, ProgramFault};
+use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::settings::Layout;
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
@@ -46,16 +46,16 @@ impl Document {
             _ => return Vec::new(),
         };
         match &**fault {
-            ProgramFault::MissingEnd { word } => missing_end::fixes(&self.text, range.end, word),
-            ProgramFault::TextAfterEnd { .. } => match self.view.end {
+            Fault::MissingEnd { word } => missing_end::fixes(&self.text, range.end, word),
+            Fault::TextAfterEnd { .. } => match self.view.end {
                 Some(end) => text_after_end::fixes(&self.text, self.range_of(end).start),
                 None => Vec::new(),
             },
-            ProgramFault::NotClosed { .. } => self.closing_fixes(range),
-            ProgramFault::DoubledNumber { .. }
-            | ProgramFault::NumberOutOfOrder { .. }
-            | ProgramFault::Unnumbered { .. } => self.number_fixes(range),
-            ProgramFault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
+            Fault::NotClosed { .. } => self.closing_fixes(range),
+            Fault::DoubledNumber { .. }
+            | Fault::NumberOutOfOrder { .. }
+            | Fault::Unnumbered { .. } => self.number_fixes(range),
+            Fault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
             fault => self.block_fixes(range, fault),
         }
     }
@@ -128,13 +128,13 @@ impl Document {
         Some((At { run, entry }, of.entries.get(entry)?.block()?))
     }
 
-    fn block_fixes(&self, range: &Range<usize>, fault: &ProgramFault) -> Vec<TextFix> {
+    fn block_fixes(&self, range: &Range<usize>, fault: &Fault) -> Vec<TextFix> {
         let Some((at, entry)) = self.block_at(range) else {
             return Vec::new();
         };
         let own = self.range_of(at);
         // A number that stands before the block belongs to it.
-        let block = if matches!(fault, ProgramFault::BlockNumberAsB { .. }) {
+        let block = if matches!(fault, Fault::BlockNumberAsB { .. }) {
             range.clone()
         } else {
             own.clone()
@@ -145,7 +145,7 @@ impl Document {
         let line = self.text.line_of(block.start);
         let site = Site {
             text: self.text.bytes(),
-            range: if matches!(fault, ProgramFault::MissingB) {
+            range: if matches!(fault, Fault::MissingB) {
                 range.clone()
             } else {
                 block

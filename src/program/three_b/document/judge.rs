@@ -7,7 +7,7 @@ use super::super::rules::{self, block_number, culprit, not_closed, position_mism
 use super::super::run::{BlockEntry, Entry, Numbering, What, may_cross_itself};
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
-use crate::finding::{Axis, Detail, Finding, Place, ProgramFault, Rule, Severity};
+use crate::finding::{Axis, Detail, Fault, Finding, Place, Rule, Severity};
 use crate::program::path::{Known, closing, gap, goes_round, is_tab, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -177,7 +177,7 @@ impl Document {
         };
         let mut findings = vec![Finding {
             severity,
-            ..finding(self.range_of(last), fault)
+            ..Finding::of(fault, self.range_of(last))
         }];
         let may_be_one_field = section.sum.errors == 0
             && culprit::BLOCKS.contains(&section.sum.blocks)
@@ -194,17 +194,17 @@ impl Document {
                 && let Some(at) = self.blocks_of(section).nth(nth)
             {
                 let spot = match &fault {
-                    ProgramFault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
-                    ProgramFault::AxisKeepsOpen { .. } => rules::Spot::Axis,
-                    ProgramFault::JKeepsOpen { .. } => rules::Spot::J,
-                    ProgramFault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
-                    ProgramFault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
+                    Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
+                    Fault::AxisKeepsOpen { .. } => rules::Spot::Axis,
+                    Fault::JKeepsOpen { .. } => rules::Spot::J,
+                    Fault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
+                    Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
                     _ => rules::Spot::Block,
                 };
                 let block = self.range_of(at);
                 let range = fields_of(self.text.bytes(), block.clone())
                     .map_or(block.clone(), |fields| spot.range(&fields, block));
-                findings.push(finding(range, fault));
+                findings.push(Finding::of(fault, range));
             }
         }
         view.findings.extend(findings);
@@ -266,7 +266,7 @@ impl Document {
         };
         let Some(end) = view.end else {
             let blocks: usize = self.runs.iter().map(|run| run.blocks).sum();
-            let fault = ProgramFault::MissingEnd {
+            let fault = Fault::MissingEnd {
                 word: self.words.end.clone(),
             };
             let severity = if blocks == 1 {
@@ -276,7 +276,7 @@ impl Document {
             };
             view.findings.push(Finding {
                 severity,
-                ..finding(self.range_of(last_block), fault)
+                ..Finding::of(fault, self.range_of(last_block))
             });
             return;
         };
@@ -296,8 +296,8 @@ impl Document {
             let word = self.range_of(end);
             let word = String::from_utf8_lossy(self.text.bytes().get(word).unwrap_or_default())
                 .into_owned();
-            let fault = ProgramFault::TextAfterEnd { word };
-            view.findings.push(finding(self.range_of(first), fault));
+            let fault = Fault::TextAfterEnd { word };
+            view.findings.push(Finding::of(fault, self.range_of(first)));
         }
     }
 
@@ -425,7 +425,7 @@ impl Document {
             }
         }
         for (at, fault, _) in sequence.found() {
-            view.findings.push(finding(self.range_of(at), fault));
+            view.findings.push(Finding::of(fault, self.range_of(at)));
         }
     }
 
@@ -503,22 +503,12 @@ impl Document {
             });
             before = (!goes_back).then_some((ordinal, [x, y]));
             if !goes_back {
-                view.findings.push(finding(
+                view.findings.push(Finding::of(
+                    Fault::PositionMismatch { x, y },
                     self.range_of(at),
-                    ProgramFault::PositionMismatch { x, y },
                 ));
             }
         }
-    }
-}
-
-fn finding(range: Range<usize>, fault: ProgramFault) -> Finding {
-    Finding {
-        rule: fault.rule(),
-        severity: fault.rule().default_severity(),
-        place: Place::Text { range },
-        detail: Detail::Program(Box::new(fault)),
-        related: Vec::new(),
     }
 }
 

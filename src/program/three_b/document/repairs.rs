@@ -10,7 +10,7 @@ use super::super::repair::{
 use super::super::rules::{TextFix, axis_of, block_number, motion_name};
 use super::super::run::{Entry, Move, What};
 use super::{At, Document, Section};
-use crate::finding::{Axis, Finding, Fix, FixKind, Place, ProgramFault, Rule};
+use crate::finding::{Axis, Fault, Finding, Fix, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::three_b::block::Block;
 use crate::settings::Layout;
@@ -67,7 +67,7 @@ impl Document {
     }
 
     /// The block that keeps a contour open, by its number in the section, where no other repair is as likely.
-    pub(super) fn blamed(&self, section: &Section) -> Option<(usize, ProgramFault)> {
+    pub(super) fn blamed(&self, section: &Section) -> Option<(usize, Fault)> {
         let (places, pieces) = self.pieces_of(section)?;
         let path = self.path_of(section, &places, &pieces, false);
         let best = repairs(&path, Scope::Blocks)
@@ -75,34 +75,34 @@ impl Document {
             .next()
             .filter(|repair| repair.is_sure && repair.is_whole)?;
         match best.change {
-            Change::Delete { index } => Some((index, ProgramFault::TwinKeepsOpen)),
+            Change::Delete { index } => Some((index, Fault::TwinKeepsOpen)),
             Change::Replace { index, block, slip } => {
                 let old = pieces.get(index)?.block?;
                 let fault = match slip {
                     Slip::Motion => {
                         let [found, meant] = [old.motion, block.motion].map(motion_name);
-                        ProgramFault::QuadrantKeepsOpen {
+                        Fault::QuadrantKeepsOpen {
                             found,
                             meant,
                             is_sure: true,
                         }
                     }
-                    Slip::Axis => ProgramFault::AxisKeepsOpen {
+                    Slip::Axis => Fault::AxisKeepsOpen {
                         axis: axis_of(old.axis),
                         is_sure: true,
                     },
-                    Slip::Exchanged => ProgramFault::ExchangedKeepsOpen,
-                    Slip::Number(Number::X, _) => ProgramFault::NumberKeepsOpen {
+                    Slip::Exchanged => Fault::ExchangedKeepsOpen,
+                    Slip::Number(Number::X, _) => Fault::NumberKeepsOpen {
                         axis: Axis::X,
                         value: old.x,
                         meant: block.x,
                     },
-                    Slip::Number(Number::Y, _) => ProgramFault::NumberKeepsOpen {
+                    Slip::Number(Number::Y, _) => Fault::NumberKeepsOpen {
                         axis: Axis::Y,
                         value: old.y,
                         meant: block.y,
                     },
-                    Slip::Number(Number::J, _) => ProgramFault::JKeepsOpen {
+                    Slip::Number(Number::J, _) => Fault::JKeepsOpen {
                         j: old.j,
                         meant: block.j,
                         is_sure: true,

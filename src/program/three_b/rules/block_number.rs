@@ -1,6 +1,6 @@
 //! `block-number`: a number stands twice, is out of its turn, or is missing where the others have one.
 
-use crate::finding::ProgramFault;
+use crate::finding::Fault;
 
 /// A block's place in its program and its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub(in super::super) const FIRST: usize = 16;
 ///
 /// The step is the one that most of the first numbers have. Where fewer than three of four blocks have a number, or more than half of
 /// them are out of turn, the numbers follow another rule, and nothing is said.
-pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, ProgramFault, Option<u32>)> {
+pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<u32>)> {
     let first = blocks.iter().find_map(|block| block.number);
     let Some(mut sequence) = Sequence::of(&blocks[..blocks.len().min(FIRST)], first) else {
         return Vec::new();
@@ -38,7 +38,7 @@ pub(in super::super) struct Sequence<P> {
     blocks: usize,
     numbered: usize,
     without: usize,
-    found: Vec<(P, ProgramFault, Option<u32>)>,
+    found: Vec<(P, Fault, Option<u32>)>,
 }
 
 impl<P> Sequence<P> {
@@ -76,7 +76,7 @@ impl<P> Sequence<P> {
                 let takes_one = follows(expected.saturating_add(step));
                 self.found.push((
                     place,
-                    ProgramFault::Unnumbered { expected },
+                    Fault::Unnumbered { expected },
                     takes_one.then_some(expected),
                 ));
                 if takes_one {
@@ -92,9 +92,9 @@ impl<P> Sequence<P> {
                 });
                 let meant = follows(expected.saturating_add(step)).then_some(expected);
                 let fault = if is_seen {
-                    ProgramFault::DoubledNumber { number }
+                    Fault::DoubledNumber { number }
                 } else {
-                    ProgramFault::NumberOutOfOrder { expected, number }
+                    Fault::NumberOutOfOrder { expected, number }
                 };
                 self.found.push((place, fault, meant));
                 self.before = match (meant, is_seen) {
@@ -121,18 +121,18 @@ impl<P> Sequence<P> {
         is_next
     }
 
-    pub fn found(mut self) -> Vec<(P, ProgramFault, Option<u32>)> {
+    pub fn found(mut self) -> Vec<(P, Fault, Option<u32>)> {
         let out_of_turn = self
             .found
             .iter()
-            .filter(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }))
+            .filter(|(_, fault, _)| !matches!(fault, Fault::Unnumbered { .. }))
             .count();
         if 2 * out_of_turn > self.numbered {
             return Vec::new();
         }
         if 4 * self.without > self.blocks {
             self.found
-                .retain(|(_, fault, _)| !matches!(fault, ProgramFault::Unnumbered { .. }));
+                .retain(|(_, fault, _)| !matches!(fault, Fault::Unnumbered { .. }));
         }
         self.found
     }
@@ -172,8 +172,8 @@ mod tests {
             .into_iter()
             .map(|(index, fault, meant)| {
                 let kind = match fault {
-                    ProgramFault::DoubledNumber { number } => format!("{number} twice"),
-                    ProgramFault::NumberOutOfOrder { expected, number } => {
+                    Fault::DoubledNumber { number } => format!("{number} twice"),
+                    Fault::NumberOutOfOrder { expected, number } => {
                         format!("{number} for {expected}")
                     }
                     _ => "none".into(),

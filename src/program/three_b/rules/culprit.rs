@@ -12,7 +12,7 @@ use super::super::encode::counted;
 use super::super::run::{BlockEntry, Move, Sum, travel_of};
 use super::position_mismatch::mismatch;
 use super::{axis_of, motion_name};
-use crate::finding::ProgramFault;
+use crate::finding::Fault;
 use crate::geometry::{Arc, Point, Segment, Vector, turn};
 use crate::program::path::crossings_of;
 use crate::program::path::tolerance;
@@ -27,7 +27,7 @@ const SMOOTH: f64 = 0.035;
 struct Change {
     index: usize,
     block: Block,
-    fault: ProgramFault,
+    fault: Fault,
     /// Smooth joints of the block that the change makes, less those that it breaks.
     smoother: i32,
     /// The coordinates behind the block say so.
@@ -36,10 +36,7 @@ struct Change {
 
 /// The block whose one change closes the way, by its index, and what is wrong with it. `None` where there is none, or where several
 /// are as likely.
-pub(in super::super) fn culprit(
-    sum: &Sum,
-    blocks: &[&BlockEntry],
-) -> Option<(usize, ProgramFault)> {
+pub(in super::super) fn culprit(sum: &Sum, blocks: &[&BlockEntry]) -> Option<(usize, Fault)> {
     let mut changes: Vec<Change> = (0..blocks.len())
         .filter_map(|index| change_of(index, sum, blocks))
         .collect();
@@ -61,15 +58,15 @@ pub(in super::super) fn culprit(
     Some((change.index, with_certainty(change.fault, is_sure)))
 }
 
-fn with_certainty(fault: ProgramFault, is_sure: bool) -> ProgramFault {
+fn with_certainty(fault: Fault, is_sure: bool) -> Fault {
     match fault {
-        ProgramFault::QuadrantKeepsOpen { found, meant, .. } => ProgramFault::QuadrantKeepsOpen {
+        Fault::QuadrantKeepsOpen { found, meant, .. } => Fault::QuadrantKeepsOpen {
             found,
             meant,
             is_sure,
         },
-        ProgramFault::AxisKeepsOpen { axis, .. } => ProgramFault::AxisKeepsOpen { axis, is_sure },
-        ProgramFault::JKeepsOpen { j, meant, .. } => ProgramFault::JKeepsOpen { j, meant, is_sure },
+        Fault::AxisKeepsOpen { axis, .. } => Fault::AxisKeepsOpen { axis, is_sure },
+        Fault::JKeepsOpen { j, meant, .. } => Fault::JKeepsOpen { j, meant, is_sure },
         other => other,
     }
 }
@@ -172,7 +169,7 @@ fn crosses(blocks: &[&BlockEntry], index: usize, changed: Option<Block>, arcs: u
 }
 
 /// Every change of one field that closes the way, the plainest first.
-fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, ProgramFault)> {
+fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, Fault)> {
     let (block, travel) = (&entry.block, entry.travel);
     let closes = |changed: &Block| {
         let new = travel_of(changed);
@@ -203,7 +200,7 @@ fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, Prog
                 let (name, meant) = (motion_name(block.motion), motion_name(motion));
                 found.push((
                     changed,
-                    ProgramFault::QuadrantKeepsOpen {
+                    Fault::QuadrantKeepsOpen {
                         found: name,
                         meant,
                         is_sure: false,
@@ -220,7 +217,7 @@ fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, Prog
     if !matches!(block.motion, Motion::Line(_)) && closes(&changed) {
         found.push((
             changed,
-            ProgramFault::AxisKeepsOpen {
+            Fault::AxisKeepsOpen {
                 axis: axis_of(block.axis),
                 is_sure: false,
             },
@@ -231,7 +228,7 @@ fn candidates(entry: &BlockEntry, sum: &Sum, is_first: bool) -> Vec<(Block, Prog
         if closes(&changed) {
             found.push((
                 changed,
-                ProgramFault::JKeepsOpen {
+                Fault::JKeepsOpen {
                     j: block.j,
                     meant,
                     is_sure: false,

@@ -1,7 +1,7 @@
 //! `j-over-turn`: J of an arc counts more than once round, 4R.
 
 use super::{J_TOLERANCE, Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{FixKind, ProgramFault};
+use crate::finding::{Fault, FixKind};
 
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let turn = 4.0 * seen.radius();
@@ -9,7 +9,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     is_over.then(|| {
         Sight::at(
             Spot::J,
-            ProgramFault::JOverTurn {
+            Fault::JOverTurn {
                 j: seen.block.j,
                 turn: turn.round() as i64,
             },

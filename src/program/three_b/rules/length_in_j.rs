@@ -2,7 +2,7 @@
 
 use super::projection::{Length, length};
 use super::{Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{FixKind, ProgramFault};
+use crate::finding::{Fault, FixKind};
 
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
     if !seen.is_line() || length(seen) != Length::Euclid {
@@ -11,7 +11,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let projection = seen.block.x.max(seen.block.y);
     Some(Sight::at(
         Spot::J,
-        ProgramFault::LengthInJ {
+        Fault::LengthInJ {
             j: seen.block.j,
             projection,
             axis: larger_axis(seen),

@@ -25,7 +25,7 @@ pub(super) mod text_after_end;
 
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
 use super::fields::Fields;
-use crate::finding::{Axis, Detail, Fix, FixKind, ProgramFault, Rule};
+use crate::finding::{Axis, Detail, Fault, Fix, FixKind, Rule};
 use crate::settings::{Compensation, Effective, SideSetting};
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -124,7 +124,7 @@ pub(super) struct Sight {
 }
 
 impl Sight {
-    fn at(spot: Spot, fault: ProgramFault) -> Sight {
+    fn at(spot: Spot, fault: Fault) -> Sight {
         Sight {
             rule: fault.rule(),
             spot,
@@ -270,7 +270,7 @@ impl Site<'_> {
 }
 
 /// The fixes of a fault in a block, the preferred one first.
-pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     match fault.rule() {
         Rule::MissingB => missing_b::fixes(site),
         Rule::BlockNumberAsB => block_number_as_b::fixes(site),

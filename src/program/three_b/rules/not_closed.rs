@@ -3,7 +3,7 @@
 //! Where a contour closes is said by [`crate::program::closing`]; its sums alone tell that for nearly all of them.
 
 use super::super::run::{Move, Sum};
-use crate::finding::ProgramFault;
+use crate::finding::Fault;
 use crate::program::path::tolerance;
 
 /// Up to this many blocks are a fragment: they may well be all that was meant.
@@ -58,8 +58,8 @@ pub(in super::super) fn gap(sum: &Sum) -> [f64; 2] {
 }
 
 /// `gap` leads from the end of the way to where it should be.
-pub(in super::super) fn fault([x, y]: [f64; 2], sum: &Sum) -> ProgramFault {
-    ProgramFault::NotClosed {
+pub(in super::super) fn fault([x, y]: [f64; 2], sum: &Sum) -> Fault {
+    Fault::NotClosed {
         x: -x,
         y: -y,
         blocks: sum.blocks,

@@ -2,7 +2,7 @@
 
 use super::projection::is_misfit;
 use super::{Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{FixKind, ProgramFault};
+use crate::finding::{Fault, FixKind};
 use crate::geometry::Point;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::decode::{DecodeFault, decode, meant};
@@ -22,7 +22,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
         .find(|(_, _, value)| *value > seen.limits.largest())?;
     Some(Sight::at(
         spot,
-        ProgramFault::TooManyDigits {
+        Fault::TooManyDigits {
             field,
             value,
             digits: seen.limits.digits,

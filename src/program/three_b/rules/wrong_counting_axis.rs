@@ -4,7 +4,7 @@
 //! axis of its centre, Y where it lies nearer to the X axis. Counted on the other axis, one µm of J is many µm of the way.
 
 use super::{ARC_TIE, Counts, Seen, Sight, Site, Spot, TIE, TextFix, axis_of, one_edit};
-use crate::finding::{Axis, FixKind, ProgramFault};
+use crate::finding::{Axis, Fault, FixKind};
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::three_b::block::{Block, CountingAxis, Motion};
 use crate::program::three_b::decode::decode;
@@ -21,7 +21,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
         return contradicts.then(|| {
             Sight::at(
                 Spot::Axis,
-                ProgramFault::SmallerProjection {
+                Fault::SmallerProjection {
                     axis,
                     counted,
                     larger: other,
@@ -41,7 +41,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let sight = || {
         Sight::at(
             Spot::Axis,
-            ProgramFault::ArcEndAxis {
+            Fault::ArcEndAxis {
                 axis,
                 x: out.x,
                 y: out.y,
@@ -61,7 +61,7 @@ fn other(axis: CountingAxis) -> CountingAxis {
     }
 }
 
-pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let axis = other(site.block.axis);
     let name = axis_of(axis);
     let only_axis = |in_fix_all| {
@@ -75,7 +75,7 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
             in_fix_all,
         )
     };
-    if let ProgramFault::AxisKeepsOpen { is_sure, .. } = fault {
+    if let Fault::AxisKeepsOpen { is_sure, .. } = fault {
         return vec![only_axis(*is_sure)];
     }
     let flipped = Block { axis, ..site.block };

@@ -5,7 +5,7 @@
 
 use super::projection::{Length, length};
 use super::{Counts, Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{Axis, FixKind, ProgramFault};
+use crate::finding::{Axis, Fault, FixKind};
 use crate::program::three_b::block::Block;
 
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
@@ -19,7 +19,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let axis = if x >= y { Axis::X } else { Axis::Y };
     let sight = Sight::at(
         Spot::J,
-        ProgramFault::WrongJ {
+        Fault::WrongJ {
             j,
             projection: x.max(y),
             axis,
@@ -35,8 +35,8 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     })
 }
 
-pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
-    if let ProgramFault::JKeepsOpen { meant, is_sure, .. } = *fault {
+pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+    if let Fault::JKeepsOpen { meant, is_sure, .. } = *fault {
         return vec![one_edit(
             FixKind::SetJ { j: meant },
             vec![site.set_j(meant)],

@@ -4,7 +4,7 @@
 //! it is an error only where nothing but Z tells the direction, or where the contour does not close.
 
 use super::{Counts, Seen, Sight, Site, Spot, TextFix, motion_name, one_edit};
-use crate::finding::{Axis, FixKind, ProgramFault};
+use crate::finding::{Axis, Fault, FixKind};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
@@ -33,7 +33,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     };
     let sight = Sight::at(
         Spot::Motion,
-        ProgramFault::AxisQuadrant {
+        Fault::AxisQuadrant {
             found: motion_name(seen.block.motion),
             expected,
             axis: along,
@@ -49,9 +49,9 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     })
 }
 
-pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     match fault {
-        ProgramFault::QuadrantKeepsOpen { meant, is_sure, .. } => {
+        Fault::QuadrantKeepsOpen { meant, is_sure, .. } => {
             vec![one_edit(
                 FixKind::SetMotion { name: meant },
                 vec![site.set_motion(meant)],
@@ -59,9 +59,8 @@ pub(super) fn fixes(site: &Site, fault: &ProgramFault) -> Vec<TextFix> {
                 *is_sure,
             )]
         }
-        ProgramFault::AxisQuadrant { expected, .. }
-        | ProgramFault::UnusualQuadrant { expected, .. } => {
-            let is_fault = matches!(fault, ProgramFault::AxisQuadrant { .. });
+        Fault::AxisQuadrant { expected, .. } | Fault::UnusualQuadrant { expected, .. } => {
+            let is_fault = matches!(fault, Fault::AxisQuadrant { .. });
             let motion = |name: &str| match name {
                 "L1" => Motion::Line(Quadrant::First),
                 "L2" => Motion::Line(Quadrant::Second),

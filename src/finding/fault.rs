@@ -1,0 +1,327 @@
+//! What is wrong in a program of any language, as numbers.
+
+use super::{Rule, Severity, Side};
+
+/// An axis of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    X,
+    Y,
+}
+
+impl Axis {
+    pub fn letter(self) -> char {
+        match self {
+            Axis::X => 'X',
+            Axis::Y => 'Y',
+        }
+    }
+
+    pub fn other(self) -> Axis {
+        match self {
+            Axis::X => Axis::Y,
+            Axis::Y => Axis::X,
+        }
+    }
+}
+
+/// The numbers of a fault in a program. Lengths in µm unless they say otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// One of a block's three `B` is not there.
+    MissingB,
+    BlockNumberAsB {
+        number: u32,
+    },
+    /// J is the length of the line, `projection` is what is counted.
+    LengthInJ {
+        j: i64,
+        projection: i64,
+        axis: Axis,
+    },
+    /// J is not the line's projection.
+    WrongJ {
+        j: i64,
+        projection: i64,
+        axis: Axis,
+    },
+    /// J is not what leads to the contour's end: with `meant` in its place it closes.
+    JKeepsOpen {
+        j: i64,
+        meant: i64,
+        /// Something beside the closing speaks for it.
+        is_sure: bool,
+    },
+    /// J is more than one turn counts.
+    JOverTurn {
+        j: i64,
+        turn: i64,
+    },
+    /// A line counts its smaller projection.
+    SmallerProjection {
+        axis: Axis,
+        counted: i64,
+        larger: i64,
+    },
+    /// An arc ends at (`x`, `y`) from its centre, where `axis` hardly moves.
+    ArcEndAxis {
+        axis: Axis,
+        x: f64,
+        y: f64,
+    },
+    /// With the other axis the contour closes.
+    AxisKeepsOpen {
+        axis: Axis,
+        /// Something beside the closing speaks for it.
+        is_sure: bool,
+    },
+    /// `found` is not the quadrant of a line along an axis.
+    AxisQuadrant {
+        found: &'static str,
+        expected: [&'static str; 2],
+        axis: Axis,
+    },
+    /// The same where the contour closes with it: a zero has no sign.
+    UnusualQuadrant {
+        found: &'static str,
+        expected: [&'static str; 2],
+        axis: Axis,
+    },
+    /// With `meant` in the place of `found` the contour closes.
+    QuadrantKeepsOpen {
+        found: &'static str,
+        meant: &'static str,
+        /// Something beside the closing speaks for it.
+        is_sure: bool,
+    },
+    /// With `meant` in the place of `value` the contour closes.
+    NumberKeepsOpen {
+        axis: Axis,
+        value: i64,
+        meant: i64,
+    },
+    /// With X and Y exchanged the contour closes.
+    ExchangedKeepsOpen,
+    /// The block stands twice: without it the contour closes.
+    TwinKeepsOpen,
+    ZeroBlock,
+    ArcWithoutRadius,
+    /// `field` holds more than `digits` digits.
+    TooManyDigits {
+        field: &'static str,
+        value: i64,
+        digits: u32,
+    },
+    /// The contour ends beside its beginning.
+    NotClosed {
+        x: f64,
+        y: f64,
+        blocks: usize,
+    },
+    MissingEnd {
+        word: String,
+    },
+    TextAfterEnd {
+        word: String,
+    },
+    DoubledNumber {
+        number: u32,
+    },
+    /// `expected` would follow, `number` does.
+    NumberOutOfOrder {
+        expected: u32,
+        number: u32,
+    },
+    Unnumbered {
+        expected: u32,
+    },
+    /// The coordinates behind the block are off from where it leads.
+    PositionMismatch {
+        x: f64,
+        y: f64,
+    },
+    /// The way meets the block on line `other` (from 0) at a point, mm from the program's start.
+    PathCrossesItself {
+        at: [f64; 2],
+        other: usize,
+    },
+    /// The start of an arc is `start` from its centre, its end `end`.
+    OffRadius {
+        start: f64,
+        end: f64,
+    },
+    /// An arc without I, J and R, or whose centre is one of its ends.
+    NoRadius,
+    /// Compensation goes on or off with a move that is an arc, or else a rapid.
+    Switch {
+        on: bool,
+        arc: bool,
+    },
+    /// The wire runs on `side` of a contour, which makes it a punch (or an opening) where the settings say the other.
+    RoleSide {
+        side: Side,
+        punch: bool,
+    },
+    /// The wire runs on `side` of a contour and comes to it from the other one.
+    EntrySide {
+        side: Side,
+    },
+    /// The ends of a cut are `distance` apart.
+    CutOpen {
+        distance: f64,
+    },
+    BehindEnd,
+    /// `word` stands `count` times.
+    Foreign {
+        word: String,
+        count: usize,
+    },
+    /// A subprogram that is not in the text.
+    NoSubprogram {
+        number: u32,
+    },
+    EndlessCalls,
+    /// Full circles only: I and J are taken as leading from start to centre.
+    OpenCenters,
+    CenterOnLine,
+    WordTwice {
+        letter: char,
+    },
+    /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
+    ReversedArc {
+        is_sure: bool,
+    },
+    /// So far out and back.
+    Spur {
+        length: f64,
+    },
+    /// An arc that goes round once more, or a line that leads nowhere.
+    DoubledBlock {
+        arc: bool,
+    },
+    NoOffset {
+        side: Side,
+    },
+    /// The wire goes to `side` from the other one.
+    SideChange {
+        side: Side,
+    },
+    StillOn,
+    /// Subprogram `number` goes on into what stands behind it.
+    NoReturn {
+        number: u32,
+    },
+    NoCorner,
+    /// `word` stands for the first of `count`.
+    Bare {
+        word: String,
+        count: usize,
+    },
+    /// A number with a decimal point among numbers without one.
+    Pointed {
+        word: String,
+    },
+    /// A number with other decimals than all others, which have `usual`.
+    Places {
+        word: String,
+        usual: u8,
+    },
+    /// mm, of a program that does not say its unit.
+    LooksLikeInches {
+        size: f64,
+    },
+    /// A place of the table that hangs on one which the program does not fill.
+    UnknownValue {
+        word: String,
+    },
+    /// With `meant` in the place of `found` the program is sound.
+    Suspect {
+        found: String,
+        meant: String,
+        closes: bool,
+    },
+}
+
+impl Fault {
+    /// The same where what it says is only unusual.
+    pub fn as_unusual(&self) -> Fault {
+        match *self {
+            Fault::AxisQuadrant {
+                found,
+                expected,
+                axis,
+            } => Fault::UnusualQuadrant {
+                found,
+                expected,
+                axis,
+            },
+            ref other => other.clone(),
+        }
+    }
+
+    pub fn rule(&self) -> Rule {
+        match self {
+            Fault::MissingB => Rule::MissingB,
+            Fault::BlockNumberAsB { .. } => Rule::BlockNumberAsB,
+            Fault::LengthInJ { .. } => Rule::LengthInJ,
+            Fault::WrongJ { .. } | Fault::JKeepsOpen { .. } => Rule::WrongJ,
+            Fault::JOverTurn { .. } => Rule::JOverTurn,
+            Fault::SmallerProjection { .. }
+            | Fault::ArcEndAxis { .. }
+            | Fault::AxisKeepsOpen { .. } => Rule::WrongCountingAxis,
+            Fault::AxisQuadrant { .. }
+            | Fault::UnusualQuadrant { .. }
+            | Fault::QuadrantKeepsOpen { .. } => Rule::WrongQuadrant,
+            Fault::ZeroBlock => Rule::ZeroBlock,
+            Fault::ArcWithoutRadius => Rule::ArcWithoutRadius,
+            Fault::TooManyDigits { .. } => Rule::TooManyDigits,
+            Fault::NotClosed { .. }
+            | Fault::NumberKeepsOpen { .. }
+            | Fault::ExchangedKeepsOpen
+            | Fault::TwinKeepsOpen => Rule::NotClosed,
+            Fault::MissingEnd { .. } => Rule::MissingEnd,
+            Fault::TextAfterEnd { .. } => Rule::TextAfterEnd,
+            Fault::DoubledNumber { .. }
+            | Fault::NumberOutOfOrder { .. }
+            | Fault::Unnumbered { .. } => Rule::BlockNumber,
+            Fault::PositionMismatch { .. } => Rule::PositionMismatch,
+            Fault::PathCrossesItself { .. } => Rule::PathCrossesItself,
+            Fault::OffRadius { .. } => Rule::ArcOffRadius,
+            Fault::NoRadius => Rule::ArcWithoutRadius,
+            Fault::Switch { .. } => Rule::CompensationSwitch,
+            Fault::RoleSide { .. } | Fault::EntrySide { .. } => Rule::WrongSide,
+            Fault::CutOpen { .. } => Rule::NotClosed,
+            Fault::BehindEnd => Rule::TextAfterEnd,
+            Fault::Foreign { .. }
+            | Fault::NoSubprogram { .. }
+            | Fault::EndlessCalls
+            | Fault::UnknownValue { .. } => Rule::MachineDependent,
+            Fault::OpenCenters => Rule::AmbiguousCenter,
+            Fault::CenterOnLine => Rule::CenterOnLine,
+            Fault::WordTwice { .. } => Rule::WordTwice,
+            Fault::ReversedArc { .. } => Rule::ReversedArc,
+            Fault::Spur { .. } => Rule::Spur,
+            Fault::DoubledBlock { .. } => Rule::DoubledBlock,
+            Fault::NoOffset { .. } => Rule::MissingOffset,
+            Fault::SideChange { .. } => Rule::SideChange,
+            Fault::StillOn => Rule::MissingCancel,
+            Fault::NoReturn { .. } => Rule::MissingReturn,
+            Fault::NoCorner => Rule::CornerWord,
+            Fault::Bare { .. } | Fault::Pointed { .. } | Fault::Places { .. } => Rule::MixedNumbers,
+            Fault::LooksLikeInches { .. } => Rule::Units,
+            Fault::Suspect { .. } => Rule::SuspectBlock,
+        }
+    }
+
+    /// That of its rule, but where it is more or less than usual.
+    pub fn severity(&self) -> Severity {
+        match self {
+            Fault::DoubledBlock { arc: true } => Severity::Error,
+            Fault::ReversedArc { is_sure: false }
+            | Fault::EntrySide { .. }
+            | Fault::EndlessCalls => Severity::Warning,
+            Fault::LooksLikeInches { .. } => Severity::Hint,
+            _ => self.rule().default_severity(),
+        }
+    }
+}
