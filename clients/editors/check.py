@@ -135,7 +135,7 @@ def neovim_by_path(program: str) -> None:
     server.rename(place.folder / "my-wedm")
     script = place.folder / "start.lua"
     script.write_text(
-        f"dofile('{HERE}/neovim/wedm.lua').setup {{ cmd = {{ '{place.folder}/my-wedm' }} }}\n"
+        f"vim.opt.runtimepath:append('{HERE}/neovim') require('wedm').setup {{ cmd = {{ '{place.folder}/my-wedm' }} }}\n"
         "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\n"
         "vim.wait(20000, function() return #vim.diagnostic.get(0) > 0 end, 20)\n"
         "for _, found in ipairs(vim.diagnostic.get(0)) do io.stdout:write(found.message .. '\\n') end\nvim.cmd('qall!')\n"
@@ -160,7 +160,7 @@ def neovim_installed(program: str, native: bool, editor: str) -> None:
 
 
 def neovim_that_dies(program: str, native: bool, editor: str) -> None:
-    """A server that dies at every start is given up, and that is said."""
+    """A server that dies at every start is given up, and that is said; opening the drawing again begins anew."""
     place = Place(editor + "-dies")
     server = place.folder / "programs/wedm"
     server.unlink()
@@ -169,18 +169,57 @@ def neovim_that_dies(program: str, native: bool, editor: str) -> None:
     if native:
         start = f"vim.opt.runtimepath:append('{HERE}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
     else:
-        start = f"dofile('{HERE}/neovim/wedm.lua').setup {{}}"
+        start = f"vim.opt.runtimepath:append('{HERE}/neovim') require('wedm').setup()"
     script = place.folder / "start.lua"
     script.write_text(
         f"{start}\nlocal notify, said = vim.notify, ''\nvim.notify = function(text, ...) said = said .. text notify(text, ...) end\n"
         "vim.api.nvim_create_autocmd('VimEnter', { nested = true, callback = function()\n"
         "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\n"
-        "vim.wait(30000, function() return said:find('not started again') ~= nil end, 20)\nvim.wait(1000)\nvim.cmd('qall!')\nend })\n"
+        "vim.wait(30000, function() return said:find('not started again') ~= nil end, 20)\nvim.wait(1000)\n"
+        "io.stdout:write('starts: ' .. #vim.fn.readfile(vim.env.WEDM_DRAWING .. '.starts') .. '\\n')\nvim.cmd('edit')\n"
+        "vim.wait(20000, function() return #vim.fn.readfile(vim.env.WEDM_DRAWING .. '.starts') > 6 end, 20)\nvim.cmd('qall!')\nend })\n"
     )
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)])
-    saw(said, "wedm has ended 6 times within two minutes and is not started again")
+    saw(said, "wedm has ended with code 3 and is started again in 0.5 s", "wedm has ended 6 times in a row, the last time with code 3", "starts: 6")
     starts = Path(f"{place.drawing}.starts").read_text().count("\n")
-    expect(starts == 6, f"it was started {starts} times, expected 6")
+    expect(starts > 6, "opening the drawing again has not started it again")
+
+
+def neovim_pauses(program: str) -> None:
+    """The pauses between two starts are those of every client."""
+    place = Place("neovim-pauses")
+    script = place.folder / "pauses.lua"
+    script.write_text(
+        f"vim.opt.runtimepath:append('{HERE}/neovim')\n"
+        f"local cases = vim.fn.json_decode(vim.fn.readfile('{HERE.parent}/restarts.json')).cases\n"
+        "for _, case in ipairs(cases) do\n"
+        "local after_life_of = require('wedm.restarts').row()\n"
+        "for index, life in ipairs(case.lives) do\n"
+        "local pause, expected = after_life_of(life * 1000), case.pauses[index]\n"
+        "io.stdout:write((pause == (expected ~= vim.NIL and expected * 1000 or nil) and 'as expected' or 'WRONG') .. '\\n')\n"
+        "end end vim.cmd('qall!')\n"
+    )
+    said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)])
+    saw(said, "as expected")
+    expect("WRONG" not in said, said)
+
+
+def neovim_package(program: str, native: bool, editor: str) -> None:
+    """The folder as a plugin manager puts it on the runtime path, with a user's init.lua, and no word more."""
+    place = Place(editor + "-package")
+    package = place.folder / "home/.local/share/nvim/site/pack/manager/start/wedm"
+    package.parent.mkdir(parents=True)
+    package.symlink_to(HERE / "neovim")
+    (place.folder / "home/.config/nvim").mkdir(parents=True)
+    (place.folder / "home/.config/nvim/init.lua").write_text("vim.lsp.enable('wedm')\n" if native else "require('wedm').setup()\n")
+    script = place.folder / "seen.lua"
+    script.write_text(
+        "vim.wait(20000, function() return #vim.diagnostic.get(0) > 0 end, 20)\n"
+        "io.stdout:write('type: ' .. vim.bo.filetype .. '\\n')\n"
+        "for _, found in ipairs(vim.diagnostic.get(0)) do io.stdout:write(found.message .. '\\n') end\nvim.cmd('qall!')\n"
+    )
+    said = place.run([program, "--headless", "-i", "NONE", "-n", str(place.drawing), "-S", str(script)])
+    saw(said, "type: dxf", FAULT)
 
 
 def neovim_without_server(program: str, native: bool, editor: str) -> None:
@@ -189,7 +228,7 @@ def neovim_without_server(program: str, native: bool, editor: str) -> None:
     if native:
         start = f"vim.opt.runtimepath:append('{HERE}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
     else:
-        start = f"dofile('{HERE}/neovim/wedm.lua').setup {{}}"
+        start = f"vim.opt.runtimepath:append('{HERE}/neovim') require('wedm').setup()"
     script = place.folder / "start.lua"
     script.write_text(start + "\nvim.cmd('edit ' .. vim.env.WEDM_DRAWING)\nvim.wait(300)\nvim.cmd('qall!')\n")
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=place.path_without_server())
@@ -433,14 +472,18 @@ def tool(name: str) -> str | None:
 def checks() -> list[tuple[str, str, Callable[[str], None]]]:
     """What is checked: a name, the program that it needs, and the session."""
     return [
-        ("Neovim 0.7, wedm.lua: repair, death of the server", "nvim", lambda program: neovim(program, False, "neovim-0.7")),
-        ("Neovim 0.7, wedm.lua: the server by its path", "nvim", neovim_by_path),
-        ("Neovim 0.7, wedm.lua: no server", "nvim", lambda program: neovim_without_server(program, False, "neovim-0.7")),
+        ("Neovim 0.7, require('wedm'): repair, death of the server", "nvim", lambda program: neovim(program, False, "neovim-0.7")),
+        ("Neovim 0.7, require('wedm'): the server by its path", "nvim", neovim_by_path),
+        ("Neovim 0.7, require('wedm'): no server", "nvim", lambda program: neovim_without_server(program, False, "neovim-0.7")),
         ("Neovim 0.11, vim.lsp.config: repair, death of the server", "nvim-0.11", lambda program: neovim(program, True, "neovim-0.11")),
-        ("Neovim 0.7, wedm.lua: the server where cargo installs it", "nvim", lambda program: neovim_installed(program, False, "neovim-0.7")),
+        ("Neovim 0.7, require('wedm'): the server where cargo installs it", "nvim", lambda program: neovim_installed(program, False, "neovim-0.7")),
         ("Neovim 0.11, vim.lsp.config: the server where cargo installs it", "nvim-0.11", lambda program: neovim_installed(program, True, "neovim-0.11")),
-        ("Neovim 0.7, wedm.lua: a server that dies at every start", "nvim", lambda program: neovim_that_dies(program, False, "neovim-0.7")),
+        ("Neovim 0.7, require('wedm'): a server that dies at every start", "nvim", lambda program: neovim_that_dies(program, False, "neovim-0.7")),
         ("Neovim 0.11, vim.lsp.config: a server that dies at every start", "nvim-0.11", lambda program: neovim_that_dies(program, True, "neovim-0.11")),
+        ("Neovim 0.7, require('wedm'): the pauses between two starts", "nvim", neovim_pauses),
+        ("Neovim 0.7, require('wedm'): as a package", "nvim", lambda program: neovim_package(program, False, "neovim-0.7")),
+        ("Neovim 0.11, require('wedm'): as a package", "nvim-0.11", lambda program: neovim_package(program, False, "neovim-0.11-setup")),
+        ("Neovim 0.11, vim.lsp.config: as a package", "nvim-0.11", lambda program: neovim_package(program, True, "neovim-0.11")),
         ("Neovim 0.11, vim.lsp.config: no server", "nvim-0.11", lambda program: neovim_without_server(program, True, "neovim-0.11")),
         ("Emacs, eglot: repair, death of the server", "emacs", lambda program: emacs(program, "emacs")),
         ("Emacs, eglot: the server where cargo installs it", "emacs", emacs_installed),

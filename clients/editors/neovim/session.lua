@@ -25,7 +25,8 @@ if native then
     vim.cmd('filetype on')
     vim.cmd('runtime! ftdetect/wedm.lua')
 else
-    dofile(folder .. '/wedm.lua').setup { settings = { correction = 0.1 } }
+    vim.opt.runtimepath:append(folder)
+    require('wedm').setup { settings = { correction = 0.1 } }
 end
 
 local function faults()

@@ -1,15 +1,7 @@
--- wedm for the client that Neovim has built in since 0.11. In init.lua:
---
---   vim.opt.runtimepath:append('/path/to/wedm/clients/editors/neovim')
---   vim.lsp.config('wedm', { settings = { wedm = { correction = 0.12 } } })
---   vim.lsp.enable('wedm')
+-- wedm for the client that Neovim has built in since 0.11: `vim.lsp.enable('wedm')`, with this folder on the runtime path.
 
--- Deaths within this many seconds count together; after as many as there are delays the server stays down.
-local forgiven_after = 120
-local delays = { 0, 500, 1000, 2000, 4000 }
--- Neovim reads this file again each time that the server is enabled: what is to be remembered stands outside.
-local memory = package.loaded['wedm.deaths'] or { deaths = {} }
-package.loaded['wedm.deaths'] = memory
+local program = require('wedm.program')
+local restarts = require('wedm.restarts')
 
 -- Neovim stops to follow a buffer that is edited while it has no client, and does not start again when it gets one. Until the server is
 -- back, buffers have this one, which knows nothing.
@@ -37,20 +29,15 @@ local function placeholder(dispatchers)
     }
 end
 
--- Starts a server again that has died, for the buffers that it had.
-local function again(client_id)
+-- Starts a server again that has ended, for the buffers that it had.
+local function again(client_id, code, signal)
     local client = vim.lsp.get_client_by_id(client_id)
     local buffers = vim.tbl_filter(vim.api.nvim_buf_is_loaded, vim.tbl_keys(client and client.attached_buffers or {}))
     if vim.v.exiting ~= vim.NIL or #buffers == 0 then
         return
     end
-    local now = vim.uv.now() / 1000
-    local deaths = vim.tbl_filter(function(death) return now - death < forgiven_after end, memory.deaths)
-    deaths[#deaths + 1] = now
-    memory.deaths = deaths
-    local delay = delays[#deaths]
-    if not delay then
-        vim.notify('wedm has ended ' .. #deaths .. ' times within two minutes and is not started again; see :LspLog', vim.log.levels.ERROR)
+    local pause = restarts.after(client_id, code, signal)
+    if not pause then
         return
     end
     for _, buffer in ipairs(buffers) do
@@ -64,25 +51,19 @@ local function again(client_id)
         for _, waiting in ipairs(vim.lsp.get_clients { name = 'wedm-waits' }) do
             waiting:stop()
         end
-    end, delay)
-end
-
--- The program: on the PATH, or where `cargo install` puts it. A desktop often starts programs with another PATH than a shell has.
-local function program()
-    local own = vim.fn.expand('~/.cargo/bin/wedm')
-    return vim.fn.executable('wedm') == 0 and vim.fn.executable(own) == 1 and own or 'wedm'
+    end, pause)
 end
 
 -- Said once, when the first drawing is opened; the command may be set behind this file.
 vim.schedule(function()
     local command = vim.lsp.config.wedm.cmd
-    if type(command) == 'table' and vim.fn.executable(command[1]) == 0 then
-        vim.notify('wedm: ' .. command[1] .. ' is neither on the PATH nor in ~/.cargo/bin; build it in a checkout of wedm with: cargo install --path .', vim.log.levels.WARN)
+    if type(command) == 'table' then
+        program.is_there(command[1])
     end
 end)
 
 return {
-    cmd = { program() },
+    cmd = { program.find() },
     filetypes = { 'dxf', '3b', 'wire-iso' },
     -- Neovim heeds the version that an edit was made for, and does not say so: without it a fix would be made in a text that has changed meanwhile.
     capabilities = { workspace = { workspaceEdit = { documentChanges = true } } },
@@ -91,9 +72,11 @@ return {
         -- The settings hold from the first document on.
         params.initializationOptions = config.settings and config.settings.wedm or vim.empty_dict()
     end,
+    on_init = function(client) restarts.answered(client.id) end,
     on_exit = function(code, signal, client_id)
+        -- The server ends with 0 where it was asked to, and only there.
         if code ~= 0 or signal ~= 0 then
-            vim.schedule(function() again(client_id) end)
+            vim.schedule(function() again(client_id, code, signal) end)
         end
     end,
 }

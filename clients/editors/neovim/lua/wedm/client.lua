@@ -1,25 +1,12 @@
--- wedm for Neovim 0.7 to 0.10. No plugin is needed. For 0.11 and later see lsp/wedm.lua.
---
---   :luafile /path/to/wedm.lua            or, in init.lua:
---   dofile('/path/to/wedm.lua').setup { settings = { correction = 0.12 } }
---
--- Options: cmd (default { 'wedm' }, of the PATH or ~/.cargo/bin), settings (see the README), on_attach(client, buffer).
+-- The client of Neovim 0.7 to 0.10. For 0.11 and later see lsp/wedm.lua.
+
+local program = require('wedm.program')
+local restarts = require('wedm.restarts')
 
 local M = {}
 
 local languages = { dxf = 'dxf', ['3b'] = '3b', ['4b'] = '3b', iso = 'wire-iso', nc = 'wire-iso' }
 local clients = {} -- root folder -> client id
-
--- Deaths within this many seconds count together; after as many as there are delays (ms) the server stays down.
-local forgiven_after = 120
-local delays = { 0, 500, 1000, 2000, 4000 }
-local deaths = {}
-
--- The program: on the PATH, or where `cargo install` puts it. A desktop often starts programs with another PATH than a shell has.
-local function program()
-    local own = vim.fn.expand('~/.cargo/bin/wedm')
-    return vim.fn.executable('wedm') == 0 and vim.fn.executable(own) == 1 and own or 'wedm'
-end
 
 -- The folder of the nearest wedm.toml or .git above the file, else the file's own folder.
 local function root_of(path)
@@ -52,17 +39,19 @@ local function start(options, root)
         init_options = options.settings or {},
         settings = { wedm = options.settings or {} },
         on_attach = options.on_attach,
-        on_exit = function(code, signal)
+        on_init = function(client) restarts.answered(client.id) end,
+        on_exit = function(code, signal, client_id)
             clients[root] = nil
+            -- The server ends with 0 where it was asked to, and only there.
             if code ~= 0 or signal ~= 0 then
-                vim.schedule(function() M.again(options, root) end)
+                vim.schedule(function() M.again(options, root, client_id, code, signal) end)
             end
         end,
     }
 end
 
--- Starts a server that has died again. What is in its buffers now is opened in the new one.
-function M.again(options, root)
+-- Starts a server again that has ended. What is in its buffers now is opened in the new one.
+function M.again(options, root, client_id, code, signal)
     local buffers = vim.tbl_filter(function(buffer)
         return vim.api.nvim_buf_is_loaded(buffer) and vim.tbl_contains(vim.tbl_values(languages), vim.bo[buffer].filetype)
             and root_of(vim.api.nvim_buf_get_name(buffer)) == root
@@ -70,12 +59,8 @@ function M.again(options, root)
     if #buffers == 0 or vim.v.exiting ~= vim.NIL then
         return
     end
-    local now = vim.loop.now() / 1000
-    deaths = vim.tbl_filter(function(death) return now - death < forgiven_after end, deaths)
-    deaths[#deaths + 1] = now
-    if not delays[#deaths] then
-        vim.notify('wedm has ended ' .. #deaths .. ' times within two minutes and is not started again; its log: ' .. vim.lsp.get_log_path(),
-            vim.log.levels.ERROR)
+    local pause = restarts.after(client_id, code, signal)
+    if not pause then
         return
     end
     vim.defer_fn(function()
@@ -84,7 +69,7 @@ function M.again(options, root)
                 M.attach(options, buffer)
             end
         end
-    end, delays[#deaths])
+    end, pause)
 end
 
 function M.attach(options, buffer)
@@ -107,10 +92,8 @@ function M.attach(options, buffer)
 end
 
 function M.setup(options)
-    options = vim.tbl_extend('keep', options or {}, { cmd = { program() } })
-    if vim.fn.executable(options.cmd[1]) == 0 then
-        vim.notify('wedm: ' .. options.cmd[1] .. ' is neither on the PATH nor in ~/.cargo/bin; build it in a checkout of wedm with: cargo install --path .',
-            vim.log.levels.WARN)
+    options = vim.tbl_extend('keep', options, { cmd = { program.find() } })
+    if not program.is_there(options.cmd[1]) then
         return
     end
     local group = vim.api.nvim_create_augroup('wedm', { clear = true })
