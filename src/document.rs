@@ -7,9 +7,8 @@ use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline};
 use crate::finding::{Detail, Edit, Finding, Fix, Place};
 use crate::program;
 use crate::settings::Effective;
-use crate::text::{Patch, SourceText, TextEdit, edited};
+use crate::text::{SourceText, TextEdit};
 use crate::{dxf, finding::Severity};
-use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -36,18 +35,6 @@ pub struct Document {
 struct Asked {
     findings: OnceLock<Arc<[Finding]>>,
     fix_all: OnceLock<Option<Edit>>,
-}
-
-/// A repair may make room for another one; past this many rounds nothing new comes of it.
-pub const ROUNDS: usize = 12;
-
-/// Repairs that are made one after another.
-#[derive(Clone, Debug)]
-pub enum Rounds {
-    /// As one edit of the text as it stands.
-    OfText(Vec<TextEdit>),
-    /// Each with the drawing that it is made in.
-    OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
 }
 
 /// What long work looks at while the document goes on changing.
@@ -114,6 +101,12 @@ impl Document {
             Source::Cad(drawing) => Some(drawing),
             Source::Program(_) => None,
         }
+    }
+
+    /// mm of the unit in which findings have their lengths: the drawing's; a program's own are in mm.
+    pub fn unit_mm(&self) -> f64 {
+        self.drawing()
+            .map_or(1.0, |drawing| self.settings().unit_of(drawing).mm)
     }
 
     /// The program, where the document is one.
@@ -226,46 +219,18 @@ impl Document {
         self.asked.fix_all.get_or_init(edit).clone()
     }
 
-    /// What [`Document::fix_all`] comes to when it is asked again and again: one repair makes room for another. The edits are made one
-    /// after another, each in the drawing before it; those of a text are one.
-    pub fn fix_all_to_the_end(&self) -> Option<Rounds> {
-        match &self.source {
-            Source::Dxf(text) => {
-                let mut patch = Patch::of(text.text().len());
-                let mut present = Cow::Borrowed(self);
-                let mut rounds = 0;
-                while rounds < ROUNDS
-                    && let Some(edits) = present.fix_all_in_text()
-                    && let Some(longer) = patch.then(&edits)
-                    && let Some(bytes) =
-                        present.text().and_then(|text| edited(text.bytes(), &edits))
-                {
-                    rounds += 1;
-                    patch = longer;
-                    present = Cow::Owned(Document::new(
-                        Source::Dxf(dxf::Document::read(bytes)),
-                        self.settings().clone(),
-                    ));
-                }
-                (rounds > 0).then(|| Rounds::OfText(patch.edits()))
+    /// Other bytes in place of these, such as a repair has made them: a document of the same kind under the same settings. A drawing
+    /// without text is none.
+    pub fn reread(&self, bytes: Vec<u8>) -> Document {
+        let settings = self.settings().clone();
+        let source = match &self.source {
+            Source::Program(program) => {
+                let language = program.language();
+                Source::Program(program::Document::read(language, bytes, &settings))
             }
-            Source::Cad(_) => {
-                let mut present = self.clone();
-                let mut rounds = Vec::new();
-                while rounds.len() < ROUNDS
-                    && let Some(Edit::Drawing(edit)) = present.fix_all()
-                    && let Some(before) = present.drawing().cloned()
-                    && let Some(Ok(())) = present.edit_drawing(|drawing| drawing.apply(&edit))
-                {
-                    rounds.push((before, edit));
-                }
-                (!rounds.is_empty()).then_some(Rounds::OfDrawing(rounds))
-            }
-            Source::Program(_) => match self.fix_all()? {
-                Edit::Text(edits) => Some(Rounds::OfText(edits)),
-                Edit::Drawing(_) => None,
-            },
-        }
+            Source::Dxf(_) | Source::Cad(_) => Source::Dxf(dxf::Document::read(bytes)),
+        };
+        Document::new(source, settings)
     }
 
     /// One round of [`Document::fix_all`] as edits of the text; `None` where there is none, or the text cannot take it.

@@ -29,26 +29,12 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let opened = files::open_drawing(
-        &arguments.path,
-        &arguments.common,
-        &arguments.common.settings(),
-    )?;
-    files::refuse_faulty_settings(&opened)?;
-    let Some(snapshot) = opened.document.snapshot() else {
-        return Err(Failure(format!(
-            "{}: there is no drawing in it",
-            arguments.path.display()
-        )));
-    };
+    let common = &arguments.common;
+    let snapshot = files::open_to_use(&arguments.path, common, &common.settings())?.snapshot()?;
     let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
     match arguments.output {
         Format::Text => output::print(list(&contours))?,
-        Format::Json => {
-            let json =
-                serde_json::to_string(&contours).map_err(|error| Failure(error.to_string()))?;
-            output::print_json(&format!("{json}\n"))?;
-        }
+        Format::Json => output::print_json(&contours)?,
     }
     Ok(Verdict::Clean)
 }

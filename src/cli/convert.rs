@@ -3,11 +3,7 @@
 use super::options::{Common, Program};
 use super::output::{self, counted, styled};
 use super::{Failure, Verdict, files, report};
-use crate::document::Document;
-use crate::dxf;
-use crate::finding::Severity;
-use crate::program::{Format, ProofError, convert};
-use crate::settings::Settings;
+use crate::job::{self, Converted, Target};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -41,63 +37,26 @@ pub struct Arguments {
     common: Common,
 }
 
-/// What a program becomes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Target {
-    Drawing,
-    Program(Format),
-}
-
-impl Target {
-    fn of(name: &str) -> Result<Target, String> {
-        if name.eq_ignore_ascii_case("dxf") {
-            return Ok(Target::Drawing);
-        }
-        if name.eq_ignore_ascii_case("nc") {
-            return Ok(Target::Program(Format::Iso));
-        }
-        Format::of(name).map(Target::Program).map_err(|_| {
-            let names = Format::ALL.map(Format::name).join(", ");
-            format!("{name:?} is not written, expected dxf, {names}")
-        })
-    }
-}
-
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     let target = target(arguments)?;
     if let Some(out) = &arguments.output {
         output::refuse_input(out, path)?;
     }
-    let last = Settings {
-        program: Some(arguments.program.settings()),
-        ..arguments.common.settings()
-    };
-    let opened = files::open(path, &arguments.common, &last)?;
-    files::refuse_faulty_settings(&opened)?;
-    let mut document = opened.document;
+    let last = arguments.common.settings_with(&arguments.program);
+    let document = files::open_to_use(path, &arguments.common, &last)?.document;
     if document.program().is_none() {
-        return Err(Failure(format!(
-            "{}: it is a drawing, expected a program: wedm generate makes one of it",
-            path.display()
-        )));
+        return Err(Failure::of(path, say!(a_drawing_is_generated_from)));
     }
-    if !arguments.force && refused_for_errors(path, &mut document) {
-        return Ok(Verdict::Errors);
-    }
-    let Some(program) = document.program() else {
-        return Ok(Verdict::Errors);
+    let made = match job::convert(&document, target, arguments.force) {
+        Ok(made) => made,
+        Err(refusal) => {
+            let advice = |errors| say!(nothing_of_a_program_with, path.display(), errors);
+            return report::refuse(path, &document, &refusal, advice);
+        }
     };
-    let cuts = convert::cuts(program);
-    if cuts.cuts.is_empty() {
-        output::complain(&format!("{}: it cuts nothing", path.display()));
-        return Ok(Verdict::Errors);
-    }
-    let Some((bytes, what)) = converted(arguments, target, &document, &cuts)? else {
-        return Ok(Verdict::Errors);
-    };
-    output::write(arguments.output.as_deref(), &bytes)?;
-    summarise(arguments, target, &cuts, &what);
+    output::write(arguments.output.as_deref(), &made.bytes)?;
+    summarise(arguments, target, &made);
     Ok(Verdict::Clean)
 }
 
@@ -109,90 +68,27 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
         .map(|ending| ending.to_string_lossy().into_owned());
     match (&arguments.format, &arguments.output, ending) {
         (Some(format), ..) => Ok(*format),
-        (None, Some(out), Some(ending)) => Target::of(&ending.to_ascii_lowercase())
-            .map_err(|reason| Failure(format!("{}: {reason}", out.display()))),
-        (None, Some(out), None) => Err(Failure(format!(
-            "{}: its name has no ending, expected .dxf, .3b, .4b, .iso or .nc",
-            out.display()
-        ))),
+        (None, Some(out), Some(ending)) => {
+            Target::of(&ending).map_err(|reason| Failure::of(out, reason))
+        }
+        (None, Some(out), None) => Err(Failure::of(
+            out,
+            say!(its_name_has_no_ending, ".dxf, .3b, .4b, .iso", ".nc"),
+        )),
         (None, None, _) => Err(Failure(
             "nothing says what the program becomes, expected -o OUT or --format".into(),
         )),
     }
 }
 
-/// True when errors stand in the program; they are listed then.
-fn refused_for_errors(path: &Path, document: &mut Document) -> bool {
-    let mut rows = report::rows(path, document);
-    // A radius that the wire cannot follow does not change where it goes.
-    rows.retain(|row| {
-        row.severity == Severity::Error && row.rule != crate::finding::Rule::SmallRadius
-    });
-    rows.iter()
-        .for_each(|row| output::say(&format!("{}\n", row.rendered())));
-    if !rows.is_empty() {
-        let errors = counted(rows.len(), "error");
-        output::complain(&format!(
-            "{}: nothing is written, the program has {errors}; repair them, or insist with --force",
-            path.display()
-        ));
-    }
-    !rows.is_empty()
-}
-
-/// The bytes, and what they are; `None` after the reason has been said.
-fn converted(
-    arguments: &Arguments,
-    target: Target,
-    document: &Document,
-    cuts: &convert::Cuts,
-) -> Result<Option<(Vec<u8>, String)>, Failure> {
-    let format = match target {
-        Target::Drawing => {
-            let bytes = dxf::write(&cuts.drawing()).map_err(Failure)?;
-            return Ok(Some((bytes, counted(cuts.cuts.len(), "contour"))));
-        }
-        Target::Program(format) => format,
+fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
+    let cuts = &made.cuts;
+    let contours = counted(cuts.cuts.len(), "contour");
+    let what = match made.blocks {
+        Some(blocks) => format!("{}, {contours}", counted(blocks, "block")),
+        None => contours,
     };
-    let settings = document.settings();
-    if let Some(reason) = cuts.refusal(format, settings) {
-        output::complain(&format!("{}: {reason}", arguments.path.display()));
-        return Ok(None);
-    }
-    // µm are the unit of the cuts.
-    match format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true) {
-        Ok(written) => Ok(Some((
-            written.text.into_bytes(),
-            format!(
-                "{}, {}",
-                counted(written.blocks, "block"),
-                counted(cuts.cuts.len(), "contour")
-            ),
-        ))),
-        Err(refused @ (ProofError::Refused(_) | ProofError::Unwritable(_))) => {
-            output::complain(&format!("{}: {refused}", arguments.path.display()));
-            Ok(None)
-        }
-        // What comes of errors that were passed over is theirs.
-        Err(error) if arguments.force || report::has_errors(document) => {
-            let path = arguments.path.display();
-            output::complain(&format!(
-                "{path}: no other program could be proved for this one, and none is written: {error}"
-            ));
-            Ok(None)
-        }
-        Err(error) => Err(Failure(format!(
-            "{}: internal error, nothing is written: {error}",
-            arguments.path.display()
-        ))),
-    }
-}
-
-fn summarise(arguments: &Arguments, target: Target, cuts: &convert::Cuts, what: &str) {
-    let written = arguments
-        .output
-        .as_ref()
-        .map_or_else(|| "stdout".into(), |path| output::name(path));
+    let written = output::target_name(arguments.output.as_deref());
     output::say(&format!(
         "{} {written}: {what}",
         styled(output::GOOD, "written")

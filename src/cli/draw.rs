@@ -5,12 +5,11 @@ use super::output::{self, styled};
 use super::{Failure, Verdict, files};
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
-use crate::finding;
-use crate::finding::{Finding, Severity};
+use crate::finding::{self, Finding, Severity};
 use crate::geometry::Segment;
+use crate::job;
 use crate::message::readable;
-use crate::settings::Settings;
-use crate::toolpath::{self, Refusal, WirePath};
+use crate::toolpath::WirePath;
 use crate::{dxf, picture};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -41,43 +40,18 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         refuse_other_formats(target)?;
         output::refuse_input(target, &arguments.path)?;
     }
-    let last = Settings {
-        program: Some(arguments.program.settings()),
-        ..arguments.common.settings()
-    };
-    let opened = files::open(&arguments.path, &arguments.common, &last)?;
-    files::refuse_faulty_settings(&opened)?;
-    let mut document = opened.document;
-    if document.program().is_some() {
-        return draw_program(arguments, &document);
+    let last = arguments.common.settings_with(&arguments.program);
+    let opened = files::open_to_use(&arguments.path, &arguments.common, &last)?;
+    if opened.document.program().is_some() {
+        return draw_program(arguments, &opened.document);
     }
-    let (findings, _) = document.findings(usize::MAX);
-    let Some(snapshot) = document.snapshot() else {
-        return Err(Failure(format!(
-            "{}: there is no drawing in it",
-            arguments.path.display()
-        )));
-    };
-    let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
-    let paths = toolpath::plan(
-        &snapshot.drawing,
-        &snapshot.outlines,
-        &snapshot.settings,
-        None,
-    )
-    .unwrap_or_else(|refusal| {
-        let reason = match &refusal {
-            Refusal::Sentence(sentence) => sentence.clone(),
-            Refusal::Cancelled => "the path was given up".into(),
-            Refusal::Findings(findings) => findings
-                .first()
-                .map_or_else(String::new, |finding| finding::sentence(finding, unit_mm)),
-        };
-        let reason = readable(&reason);
-        output::say(&format!(
-            "{} drawn without the path of the wire: {reason}",
-            styled(output::NOTE, "note:")
-        ));
+    let snapshot = opened.snapshot()?;
+    let findings = opened.document.all_findings();
+    let unit_mm = opened.document.unit_mm();
+    let paths = job::paths(&snapshot, &snapshot.settings, None, &()).unwrap_or_else(|refusal| {
+        let note = styled(output::NOTE, say!(note));
+        let reason = refusal.sentence(unit_mm);
+        output::say(&say!(drawn_without_the_path, note, readable(&reason)));
         Vec::new()
     });
     let picture = match arguments.output.as_deref().and_then(ending_of).as_deref() {
@@ -99,9 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, Failure> {
     if arguments.output.as_deref().and_then(ending_of).as_deref() == Some("dxf") {
         let path = arguments.path.display();
-        return Err(Failure(format!(
-            "{path}: a program is drawn as .svg; as a drawing: wedm convert {path} -o OUT.dxf"
-        )));
+        return Err(Failure(say!(a_program_is_drawn_as_svg, path)));
     }
     let trace = document
         .program()
@@ -187,13 +159,13 @@ fn refuse_other_formats(target: &Path) -> Result<(), Failure> {
     match ending_of(target).as_deref() {
         Some("svg" | "dxf") => Ok(()),
         _ if target == Path::new("-") => Ok(()),
-        Some(ending) => Err(Failure(format!(
-            "{}: .{ending} is not written, expected .svg or .dxf",
-            target.display()
-        ))),
-        None => Err(Failure(format!(
-            "{}: its name has no ending, expected .svg or .dxf",
-            target.display()
-        ))),
+        Some(ending) => Err(Failure::of(
+            target,
+            say!(a_picture_that_is_not_written, ending),
+        )),
+        None => Err(Failure::of(
+            target,
+            say!(its_name_has_no_ending, ".svg", ".dxf"),
+        )),
     }
 }

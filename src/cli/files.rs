@@ -4,7 +4,7 @@ use super::options::Common;
 use super::report::Row;
 use super::{Failure, output};
 use crate::disk::{self, Seen, plain};
-use crate::document::{Document, Source};
+use crate::document::{Document, Snapshot, Source};
 use crate::drawing::Unit;
 use crate::finding;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
@@ -38,8 +38,7 @@ enum Kind {
 pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let kind = kind_of(path)?;
     let (settings, settings_rows) = settings_for(path, common, last)?;
-    let (bytes, seen) =
-        read(path).map_err(|reason| Failure(format!("{}: {reason}", path.display())))?;
+    let (bytes, seen) = read(path).map_err(|reason| Failure::of(path, reason))?;
     Ok(Opened {
         path: path.to_path_buf(),
         document: document(&kind, bytes, Arc::new(settings)),
@@ -61,34 +60,29 @@ fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
     Ok((bytes, seen))
 }
 
-/// The same for a command that needs a drawing, and settings without a fault: it makes something of them.
-pub fn open_drawing(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
+/// The same for a command that makes something of the file. Nothing is made with settings that may not be those that were meant.
+pub fn open_to_use(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let opened = open(path, common, last)?;
-    if opened.document.drawing().is_none() {
-        return Err(Failure(format!(
-            "{}: it is a program, expected a drawing (.dxf)",
-            path.display()
-        )));
+    let faults = &opened.settings_rows;
+    faults.iter().for_each(|row| output::say(&row.rendered()));
+    if faults.iter().any(|row| row.severity == Severity::Error) {
+        return Err(Failure(say!(nothing_is_made_with_such_settings).into()));
     }
     Ok(opened)
 }
 
-/// An error where a settings file has a fault: nothing is made with settings that may not be those that were meant.
-pub fn refuse_faulty_settings(opened: &Opened) -> Result<(), Failure> {
-    opened
-        .settings_rows
-        .iter()
-        .for_each(|row| output::say(&row.rendered()));
-    if opened
-        .settings_rows
-        .iter()
-        .all(|row| row.severity != Severity::Error)
-    {
-        return Ok(());
+impl Opened {
+    /// What is drawn; an error where the file is a program.
+    pub fn snapshot(&self) -> Result<Snapshot, Failure> {
+        let snapshot = self.document.snapshot();
+        snapshot.ok_or_else(|| Failure::of(&self.path, say!(a_program_is_no_drawing)))
     }
-    Err(Failure(
-        "nothing is made with settings that do not fit, see above".into(),
-    ))
+
+    /// The program; an error where the file is a drawing.
+    pub fn program(&self) -> Result<&program::Document, Failure> {
+        let program = self.document.program();
+        program.ok_or_else(|| Failure::of(&self.path, say!(a_drawing_is_no_program)))
+    }
 }
 
 fn kind_of(path: &Path) -> Result<Kind, Failure> {
@@ -99,14 +93,14 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
     if let Some(language) = Language::of_ending(&ending) {
         return Ok(Kind::Program(language));
     }
-    let refusal = match ending.as_str() {
+    let refusal: String = match ending.as_str() {
         // What is in the file decides between text and binary DXF.
         "dxf" | "dxb" | "dxfb" => return Ok(Kind::Dxf),
-        "dwg" => "DWG is not read, expected .dxf: save the drawing as DXF".into(),
-        "" => "its name has no ending, expected .dxf, .3b, .iso or .nc".into(),
-        ending => format!("its name ends with .{ending}, expected .dxf, .3b, .iso or .nc"),
+        "dwg" => say!(dwg_is_not_read).into(),
+        "" => say!(its_name_has_no_ending, ".dxf, .3b, .iso", ".nc"),
+        ending => say!(its_name_ends_otherwise, ending),
     };
-    Err(Failure(format!("{}: {refusal}", path.display())))
+    Err(Failure::of(path, refusal))
 }
 
 fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
@@ -119,14 +113,6 @@ fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
     Document::new(source, settings)
 }
 
-/// Other bytes of the same kind under given settings, such as a fix has made them.
-pub fn reread(before: &Document, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
-    let kind = before
-        .program()
-        .map_or(Kind::Dxf, |program| Kind::Program(program.language()));
-    document(&kind, bytes, settings)
-}
-
 /// The settings for an input, and the faults found in settings files.
 fn settings_for(
     path: &Path,
@@ -137,10 +123,9 @@ fn settings_for(
     let (mut rows, mut sources) = (Vec::new(), Vec::new());
     let project = project_file(path);
     for file in project.iter().chain(&common.config) {
-        let bytes = settings::read_file(file)
-            .map_err(|reason| Failure(format!("{}: {reason}", file.display())))?;
-        let text = String::from_utf8(bytes)
-            .map_err(|_| Failure(format!("{}: it is not UTF-8 text", file.display())))?;
+        let bytes = settings::read_file(file).map_err(|reason| Failure::of(file, reason))?;
+        let text =
+            String::from_utf8(bytes).map_err(|_| Failure::of(file, say!(it_is_not_utf_8_text)))?;
         let (level, errors) = settings::from_toml(&text);
         settings = settings.overlaid(&level);
         let source = SourceText::new(text.clone().into_bytes());

@@ -6,10 +6,10 @@ use super::output::{self, counted, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, files};
 use crate::disk::Seen;
-use crate::document::{Document, ROUNDS, Source};
+use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Rule, Severity};
+use crate::job::{self, Repairs};
 use crate::message::readable;
-use crate::text::edited;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -69,8 +69,8 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if arguments.target.in_place {
         output::refuse_irregular(path)?;
     }
-    let opened = files::open(path, &arguments.common, &arguments.common.settings())?;
-    files::refuse_faulty_settings(&opened)?;
+    let common = &arguments.common;
+    let opened = files::open_to_use(path, common, &common.settings())?;
     let repair = repair(path, opened.document)?;
     deliver(arguments, &repair, &opened.seen)?;
     summarise(path, &repair);
@@ -78,11 +78,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         .after
         .iter()
         .any(|row| row.severity == Severity::Error);
-    Ok(if errors_left || !repair.refused.is_empty() {
-        Verdict::Errors
-    } else {
-        Verdict::Clean
-    })
+    Ok(Verdict::of_errors(
+        errors_left || !repair.refused.is_empty(),
+    ))
 }
 
 /// A drawing or program before and after.
@@ -111,25 +109,20 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     if let Source::Dxf(text) = document.source()
         && text.is_binary()
     {
-        return Err(Failure(format!(
-            "{}: it is binary DXF, which is read but not edited: save it as ASCII DXF",
-            path.display()
-        )));
+        return Err(Failure::of(path, say!(binary_dxf_is_not_edited)));
     }
     let before = report::rows(path, &mut document);
     let bytes_before = document
         .text()
         .map_or_else(Vec::new, |text| text.bytes().to_vec());
     let mut rounds = 0;
-    while rounds < ROUNDS
-        && let Some(edits) = document.fix_all_in_text()
+    if let Some(Repairs::OfText {
+        repaired,
+        rounds: of_all,
+        ..
+    }) = job::fix_all(&document)
     {
-        let settings = document.settings().clone();
-        let present = document.text().map_or(&[][..], |text| text.bytes());
-        let edited = edited(present, &edits)
-            .ok_or_else(|| Failure(format!("{}: the edits of a fix overlap", path.display())))?;
-        document = files::reread(&document, edited, settings);
-        rounds += 1;
+        (document, rounds) = (*repaired, of_all);
     }
     let after = report::rows(path, &mut document);
     let refused = refused(path, &document);
@@ -147,11 +140,10 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
             .count()
     };
     if errors(&repair.after) > errors(&repair.before) {
-        let sentence = "what was repaired has more errors than before; nothing is written";
-        return Err(Failure(format!(
-            "{}: internal error: {sentence}",
-            path.display()
-        )));
+        return Err(Failure::of(
+            path,
+            say!(internal_error, say!(more_errors_than_before)),
+        ));
     }
     Ok(repair)
 }

@@ -111,11 +111,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         ));
     }
     let differs = changed > 0 && (target.check || target.diff);
-    Ok(verdict.max(if differs {
-        Verdict::Errors
-    } else {
-        Verdict::Clean
-    }))
+    Ok(verdict.max(Verdict::of_errors(differs)))
 }
 
 fn is_program(path: &Path) -> bool {
@@ -139,31 +135,18 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     if arguments.target.in_place {
         output::refuse_irregular(path)?;
     }
-    let mut opened = files::open(
-        path,
-        &common,
-        &Settings {
-            program: Some(program),
-            ..Settings::default()
-        },
-    )?;
-    files::refuse_faulty_settings(&opened)?;
-    let settings = opened.document.settings().clone();
-    let Some(program) = opened.document.program() else {
-        return Err(Failure(format!(
-            "{}: it is a drawing, expected a program",
-            path.display()
-        )));
+    let last = Settings {
+        program: Some(program),
+        ..Settings::default()
     };
+    let opened = files::open_to_use(path, &common, &last)?;
+    let settings = opened.document.settings().clone();
+    let program = opened.program()?;
     let text = program.text();
     let edits = language::format(program, &settings, 0..text.line_count());
     let before = text.bytes();
-    let after = edited(before, &edits).ok_or_else(|| {
-        Failure(format!(
-            "{}: internal error: the edits overlap",
-            path.display()
-        ))
-    })?;
+    let after = edited(before, &edits)
+        .ok_or_else(|| Failure::of(path, say!(internal_error, say!(the_edits_overlap))))?;
     let is_changed = after != before;
     let target = &arguments.target;
     if target.diff {
@@ -181,7 +164,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     } else if is_changed {
         output::write_over(path, &opened.seen, &after)?;
     }
-    let (findings, _) = opened.document.findings(usize::MAX);
+    let findings = opened.document.all_findings();
     // What was meant may be plain and the block read: its text is damaged all the same.
     let is_of_text =
         |rule: Rule| matches!(rule, Rule::Syntax | Rule::MissingB | Rule::BlockNumberAsB);

@@ -3,11 +3,9 @@
 use super::options::{Common, Program};
 use super::output::{self, counted, styled};
 use super::{Failure, Verdict, files, report};
-use crate::document::Document;
-use crate::finding::{Detail, Finding, Severity};
-use crate::program::{Format, ProofError, ProvedProgram};
-use crate::settings::Settings;
-use crate::toolpath::{self, Refusal, WirePath};
+use crate::finding::{Detail, Finding};
+use crate::job::{self, Wanted};
+use crate::program::{Format, ProvedProgram};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -49,153 +47,40 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.output {
         output::refuse_input(target, path)?;
     }
-    let last = Settings {
-        program: Some(arguments.program.settings()),
-        ..arguments.common.settings()
+    let last = arguments.common.settings_with(&arguments.program);
+    let opened = files::open_to_use(path, &arguments.common, &last)?;
+    let snapshot = opened.snapshot()?;
+    let document = &opened.document;
+    let wanted = Wanted {
+        format: arguments.format,
+        handles: (!arguments.handle.is_empty()).then_some(&arguments.handle),
+        force: arguments.force,
     };
-    let opened = files::open_drawing(path, &arguments.common, &last)?;
-    files::refuse_faulty_settings(&opened)?;
-    let document = opened.document;
-    let concerned = concerned(arguments, &document);
-    if !arguments.force && refused_for_errors(arguments, &document, &concerned) {
-        return Ok(Verdict::Errors);
-    }
-    let Some(paths) = planned(arguments, &document)? else {
-        return Ok(Verdict::Errors);
-    };
-    let unit_mm = document
-        .drawing()
-        .map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
-    let program = match arguments
-        .format
-        .write(&paths, unit_mm, document.settings(), &mut |_, _| true)
-    {
-        Ok(program) => program,
-        Err(ProofError::Unwritable(finding)) => {
-            list(arguments, &document, &[*finding]);
-            return Ok(Verdict::Errors);
-        }
-        Err(ProofError::Refused(sentence)) => {
-            output::complain(&format!("{}: {sentence}", path.display()));
-            return Ok(Verdict::Errors);
-        }
-        // What comes of errors that were passed over is theirs.
-        Err(error) if arguments.force || report::has_errors(&document) => {
-            output::complain(&format!(
-                "{}: no program could be proved for this drawing, and none is written: {error}",
-                path.display()
-            ));
-            return Ok(Verdict::Errors);
-        }
-        Err(error) => {
-            return Err(Failure(format!(
-                "{}: internal error, no program is written: {error}",
-                path.display()
-            )));
+    let findings = document.all_findings().to_vec();
+    let made = match job::generate(&snapshot, findings, &wanted, &()) {
+        Ok(made) => made,
+        Err(refusal) => {
+            let advice = |errors| say!(no_program_of_a_drawing_with, path.display(), errors);
+            return report::refuse(path, document, &refusal, advice);
         }
     };
-    output::write(arguments.output.as_deref(), program.text.as_bytes())?;
-    let stands =
-        |finding: &&Finding| matches!(finding.detail, Detail::OffsetCollapse { point: true, .. });
-    concerned.iter().filter(stands).for_each(|finding| {
-        output::say(&format!(
-            "{}\n",
-            report::row(path, &document, finding).rendered()
-        ))
-    });
-    if let Some(finding) = document.settings().one_pass() {
-        output::say(&format!(
-            "{}\n",
-            report::row(path, &document, &finding).rendered()
-        ));
-    }
-    summarise(arguments, &program, paths.len());
+    output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
+    // What is wrong with the drawing says `wedm check`; these are of the program.
+    let of_program = |finding: &&Finding| {
+        let detail = &finding.detail;
+        matches!(
+            detail,
+            Detail::OffsetCollapse { point: true, .. } | Detail::OnePass { .. }
+        )
+    };
+    let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
+    report::say(path, document, &said);
+    summarise(arguments, &made.program, made.contours);
     Ok(Verdict::Clean)
 }
 
-/// What is said of the contours that are cut.
-fn concerned(arguments: &Arguments, document: &Document) -> Vec<Finding> {
-    let handles = (!arguments.handle.is_empty()).then_some(arguments.handle.as_slice());
-    let entities = document
-        .snapshot()
-        .and_then(|snapshot| toolpath::entities_of(&snapshot.drawing, &snapshot.outlines, handles));
-    document
-        .all_findings()
-        .iter()
-        .filter(|finding| finding.concerns(entities.as_ref()))
-        .cloned()
-        .collect()
-}
-
-/// True when errors stand in the contours that are cut; they are listed then.
-fn refused_for_errors(arguments: &Arguments, document: &Document, concerned: &[Finding]) -> bool {
-    let errors = concerned
-        .iter()
-        .filter(|finding| finding.severity == Severity::Error)
-        .take(report::MOST);
-    let rows: Vec<report::Row> = errors
-        .map(|finding| report::row(&arguments.path, document, finding))
-        .collect();
-    if rows.is_empty() {
-        return false;
-    }
-    rows.iter()
-        .for_each(|row| output::say(&format!("{}\n", row.rendered())));
-    let path = arguments.path.display();
-    let errors = counted(rows.len(), "error");
-    output::complain(&format!(
-        "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {path}), or insist with --force"
-    ));
-    true
-}
-
-/// The paths of the wire; `None` after the reason has been said.
-fn planned(arguments: &Arguments, document: &Document) -> Result<Option<Vec<WirePath>>, Failure> {
-    let path = &arguments.path;
-    let Some(snapshot) = document.snapshot() else {
-        return Err(Failure(format!(
-            "{}: there is no drawing in it",
-            path.display()
-        )));
-    };
-    let handles = (!arguments.handle.is_empty()).then_some(arguments.handle.as_slice());
-    let settings = arguments.format.settings(&snapshot.settings);
-    match toolpath::plan(&snapshot.drawing, &snapshot.outlines, &settings, handles) {
-        Ok(paths) if paths.is_empty() => {
-            output::complain(&format!("{}: it has no contour to cut", path.display()));
-            Ok(None)
-        }
-        Ok(paths) => Ok(Some(paths)),
-        Err(Refusal::Sentence(sentence)) => {
-            output::complain(&format!("{}: {sentence}", path.display()));
-            Ok(None)
-        }
-        Err(Refusal::Cancelled) => Ok(None),
-        Err(Refusal::Findings(findings)) => {
-            list(arguments, document, &findings);
-            Ok(None)
-        }
-    }
-}
-
-fn list(arguments: &Arguments, document: &Document, findings: &[Finding]) {
-    for finding in findings {
-        output::say(&format!(
-            "{}\n",
-            report::row(&arguments.path, document, finding).rendered()
-        ));
-    }
-    output::complain(&format!(
-        "{}: no program is written",
-        arguments.path.display()
-    ));
-}
-
 fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
-    let target = arguments
-        .output
-        .as_ref()
-        .map_or_else(|| "stdout".into(), |path| output::name(path));
+    let target = output::target_name(arguments.output.as_deref());
     // A drift that rounds to zero has no sign.
     let [x, y] = program
         .closure

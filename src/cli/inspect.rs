@@ -49,35 +49,32 @@ struct Printed {
     diagnostics: Vec<Row>,
 }
 
+impl Printed {
+    fn of(inspection: Option<Inspection>, diagnostics: Vec<Row>) -> Printed {
+        let nothing = Inspection {
+            units_to_mm: 1.0,
+            entities: Vec::new(),
+        };
+        Printed {
+            inspection: inspection.unwrap_or(nothing),
+            diagnostics,
+        }
+    }
+}
+
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let opened = files::open_drawing(
-        &arguments.path,
-        &arguments.common,
-        &arguments.common.settings(),
-    );
+    let common = &arguments.common;
+    let opened = files::open(&arguments.path, common, &common.settings())
+        .and_then(|opened| opened.snapshot().map(|_| opened));
     let (printed, failure) = match opened.map(|opened| inspected(arguments, opened)) {
         Ok(printed) => (printed, None),
-        Err(failure) => {
-            let nothing = Inspection {
-                units_to_mm: 1.0,
-                entities: Vec::new(),
-            };
-            (
-                Printed {
-                    inspection: nothing,
-                    diagnostics: Vec::new(),
-                },
-                Some(failure),
-            )
-        }
+        Err(failure) => (Printed::of(None, Vec::new()), Some(failure)),
     };
     match (arguments.output, failure) {
         (Format::Text, Some(failure)) => return Err(failure),
         (Format::Text, None) => output::print(table(&printed))?,
         (Format::Json, failure) => {
-            let json =
-                serde_json::to_string(&printed).map_err(|error| Failure(error.to_string()))?;
-            output::print_json(&format!("{json}\n"))?;
+            output::print_json(&printed)?;
             failure.map_or(Ok(()), Err)?;
         }
     }
@@ -85,25 +82,16 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         .diagnostics
         .iter()
         .any(|row| row.severity == Severity::Error);
-    Ok(if errors {
-        Verdict::Errors
-    } else {
-        Verdict::Clean
-    })
+    Ok(Verdict::of_errors(errors))
 }
 
 fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let mut diagnostics = opened.settings_rows;
     diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
-    let inspection = Inspection::of(&opened.document, arguments.handle.as_deref());
-    let inspection = inspection.unwrap_or(Inspection {
-        units_to_mm: 1.0,
-        entities: Vec::new(),
-    });
-    Printed {
-        inspection,
+    Printed::of(
+        Inspection::of(&opened.document, arguments.handle.as_deref()),
         diagnostics,
-    }
+    )
 }
 
 fn table(printed: &Printed) -> String {

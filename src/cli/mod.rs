@@ -23,6 +23,8 @@ mod simulate;
 
 use crate::message::{is_hidden, readable};
 use clap::{CommandFactory, Parser, Subcommand};
+use std::fmt::Display;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Language server and command line for wire EDM
@@ -78,6 +80,14 @@ enum Verdict {
 }
 
 impl Verdict {
+    fn of_errors(are_there: bool) -> Verdict {
+        if are_there {
+            Verdict::Errors
+        } else {
+            Verdict::Clean
+        }
+    }
+
     fn code(self) -> u8 {
         match self {
             Verdict::Clean => 0,
@@ -90,6 +100,13 @@ impl Verdict {
 /// Why a command could not do what it was asked: one sentence, lower-case, no final dot.
 #[derive(Debug, PartialEq)]
 struct Failure(String);
+
+impl Failure {
+    /// What is wrong with a file.
+    fn of(path: &Path, reason: impl Display) -> Failure {
+        Failure(format!("{}: {reason}", path.display()))
+    }
+}
 
 /// Does what the process was called for.
 pub fn run() -> ExitCode {

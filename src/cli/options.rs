@@ -77,8 +77,18 @@ impl Common {
     }
 }
 
+impl Common {
+    /// The same with what the command line says of the program.
+    pub fn settings_with(&self, program: &Program) -> Settings {
+        Settings {
+            program: Some(program.settings()),
+            ..self.settings()
+        }
+    }
+}
+
 impl Program {
-    pub fn settings(&self) -> ProgramSettings {
+    fn settings(&self) -> ProgramSettings {
         ProgramSettings {
             layout: self.layout,
             direction: self.direction,

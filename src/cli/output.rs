@@ -4,6 +4,7 @@ use super::Failure;
 use crate::disk;
 use crate::message::{is_hidden, readable};
 use anstyle::{AnsiColor, Style};
+use serde::Serialize;
 use std::borrow::Cow;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -37,8 +38,19 @@ pub fn print(text: impl AsRef<str>) -> Result<(), Failure> {
 }
 
 /// JSON to stdout: what a terminal would obey is escaped, which changes nothing that is said.
-pub fn print_json(json: &str) -> Result<(), Failure> {
+pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    let json = serde_json::to_string(value).map_err(|error| Failure(error.to_string()))?;
+    print_json_text(&(json + "\n"))
+}
+
+/// The same of JSON that is text already.
+pub fn print_json_text(json: &str) -> Result<(), Failure> {
     print(escaped(json))
+}
+
+/// What `-o` names, or stdout, for people.
+pub fn target_name(target: Option<&Path>) -> String {
+    target.map_or_else(|| "stdout".into(), name)
 }
 
 /// Bytes to stdout: to a pipe or a file as they are, to a terminal as a person may read them.

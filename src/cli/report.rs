@@ -1,9 +1,11 @@
 //! Findings as rows: a file, a place in it, a rule, a sentence; and each row as text with its excerpt, or as JSON.
 
+use super::output::{complain, counted};
+use super::{Failure, Verdict, output};
 use crate::document::Document;
-use crate::drawing::Unit;
 use crate::finding;
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::finding::{Finding, Place, Rule, Severity};
+use crate::job::{self, Refusal};
 use crate::message::{is_hidden, readable};
 use crate::protocol::FindingData;
 use crate::text::SourceText;
@@ -65,43 +67,53 @@ pub const MOST: usize = 100_000;
 
 /// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
 pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
-    let (mut findings, count) = document.findings(MOST);
-    if count > findings.len()
-        && let Some(severity) = document.settings().severity(Rule::More)
-    {
-        let detail = Detail::More {
-            count: count - findings.len(),
-        };
-        findings.push(Finding {
-            rule: Rule::More,
-            severity,
-            place: Place::Document,
-            detail,
-            related: Vec::new(),
-        });
-    }
-    findings
-        .iter()
-        .map(|finding| row(path, document, finding))
-        .collect()
+    let (findings, _) = job::check(document, MOST);
+    let rows = findings.iter();
+    rows.map(|finding| row(path, document, finding)).collect()
 }
 
-pub fn has_errors(document: &Document) -> bool {
-    document
-        .all_findings()
-        .iter()
-        .any(|finding| finding.severity == Severity::Error)
+/// Findings to stderr.
+pub fn say(path: &Path, document: &Document, findings: &[Finding]) {
+    for finding in findings.iter().take(MOST) {
+        let row = row(path, document, finding).rendered();
+        output::say(&format!("{row}\n"));
+    }
+}
+
+/// Why nothing is made, to stderr, with what is wrong; `advice` says what can be done where that is errors, of which it gets the number.
+pub fn refuse(
+    path: &Path,
+    document: &Document,
+    refusal: &Refusal,
+    advice: impl Fn(String) -> String,
+) -> Result<Verdict, Failure> {
+    match refusal {
+        Refusal::Cancelled => return Ok(Verdict::Errors),
+        Refusal::Fault(sentence) => {
+            return Err(Failure::of(path, say!(internal_error, sentence)));
+        }
+        Refusal::Errors(errors) => {
+            say(path, document, errors);
+            let errors = counted(errors.len().min(MOST), "error");
+            complain(&advice(errors));
+        }
+        Refusal::Findings(findings) => {
+            say(path, document, findings);
+            complain(&Failure::of(path, say!(no_program_is_written)).0);
+        }
+        Refusal::Sentence(sentence) | Refusal::Unproved(sentence, _) => {
+            complain(&Failure::of(path, sentence).0);
+        }
+    }
+    Ok(Verdict::Errors)
 }
 
 /// One finding of a document.
 pub fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     let drawing = document.drawing();
-    let unit = drawing.map_or(Unit::MILLIMETRE, |drawing| {
-        document.settings().unit_of(drawing)
-    });
     let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
     let range = document.range_of(&finding.place).unwrap_or(0..0);
-    let message = finding::sentence(finding, unit.mm);
+    let message = finding::sentence(finding, document.unit_mm());
     let mut row = Row::new(
         path,
         document.text(),

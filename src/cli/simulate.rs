@@ -42,24 +42,11 @@ fn feed(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let opened = files::open(
-        &arguments.path,
-        &arguments.common,
-        &arguments.common.settings(),
-    )?;
-    let Some(program) = opened.document.program() else {
-        return Err(Failure(format!(
-            "{}: it is a drawing, expected a program (.3b, .iso)",
-            arguments.path.display()
-        )));
-    };
-    let simulation = Simulation::of(&program.trace(), arguments.feed);
+    let common = &arguments.common;
+    let opened = files::open(&arguments.path, common, &common.settings())?;
+    let simulation = Simulation::of(&opened.program()?.trace(), arguments.feed);
     match arguments.output {
-        Format::Json => {
-            let json =
-                serde_json::to_string(&simulation).map_err(|error| Failure(error.to_string()))?;
-            output::print_json(&format!("{json}\n"))?;
-        }
+        Format::Json => output::print_json(&simulation)?,
         Format::Text => output::print(table(&simulation))?,
     }
     Ok(Verdict::Clean)

@@ -331,13 +331,7 @@ declare! {
     feed_is_expected_mm_min(feed) => "feed is {feed}, expected mm/min above 0";
     holds_no_program(uri) => "{uri} holds no program";
     is_a_drawing_expected_a(uri) => "{uri} is a drawing, expected a program";
-    an_error_stands_in_the => "an error stands in the drawing";
     errors_stand_in_the_drawing(errors) => "{errors} errors stand in the drawing";
-    laying_the_wire_path => "laying the wire's path";
-    the_drawing_holds_no_contour => "the drawing holds no contour to cut";
-    writing_and_proving_the_program => "writing and proving the program";
-    no_program_could_be_proved(reason) => "no program could be proved for this drawing: {reason}";
-    the_program_does_not_hold(reason) => "the program does not hold its proof: {reason}";
     positions_are_asked_for_expected(positions, places) => "{positions} positions are asked for, expected at most {places}";
     a_message_of_bytes_holds(body, limit) => "a message of {body} bytes holds more than {limit} lists, objects and values";
     a_message_is_an_object => "a message is an object, expected no list and no bare value";
@@ -390,4 +384,35 @@ declare! {
     convert_to_dxf => "Convert to DXF";
     and_more_marked_in_the_drawing(count) => "and {count} more, marked in the drawing";
     thread_hole_at_mm(x, y) => "thread hole at {x:.3}, {y:.3} mm";
+
+    // what is made of a document, and why it is not
+    an_error_stands_in_the_drawing => "an error stands in the drawing";
+    the_path_was_given_up => "the path was given up";
+    laying_the_path => "laying the wire's path";
+    writing_and_proving => "writing and proving the program";
+    the_program_does_not_hold_its_proof(reason) => "the program does not hold its proof: {reason}";
+    no_program_of_this_drawing(reason) => "no program could be proved for this drawing: {reason}";
+    no_other_program(reason) => "no other program could be proved for this one, and none is written: {reason}";
+    a_target_that_is_not_written(name, names) => "{name:?} is not written, expected dxf, {names}";
+    it_cuts_nothing => "it cuts nothing";
+    a_drawing_is_no_program => "it is a drawing, expected a program (.3b, .iso)";
+    a_program_is_no_drawing => "it is a program, expected a drawing (.dxf)";
+
+    // the command line
+    the_edits_overlap => "the edits overlap";
+    more_errors_than_before => "what was repaired has more errors than before; nothing is written";
+    no_program_is_written => "no program is written";
+    no_program_of_a_drawing_with(path, errors) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {path}), or insist with --force";
+    nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair them, or insist with --force";
+    a_drawing_is_generated_from => "it is a drawing, expected a program: wedm generate makes one of it";
+    nothing_is_made_with_such_settings => "nothing is made with settings that do not fit, see above";
+    it_is_not_utf_8_text => "it is not UTF-8 text";
+    dwg_is_not_read => "DWG is not read, expected .dxf: save the drawing as DXF";
+    its_name_has_no_ending(endings, last) => "its name has no ending, expected {endings} or {last}";
+    its_name_ends_otherwise(ending) => "its name ends with .{ending}, expected .dxf, .3b, .iso or .nc";
+    note => "note:";
+    drawn_without_the_path(note, reason) => "{note} drawn without the path of the wire: {reason}";
+    a_program_is_drawn_as_svg(path) => "{path}: a program is drawn as .svg; as a drawing: wedm convert {path} -o OUT.dxf";
+    a_picture_that_is_not_written(ending) => ".{ending} is not written, expected .svg or .dxf";
+    binary_dxf_is_not_edited => "it is binary DXF, which is read but not edited: save it as ASCII DXF";
 }

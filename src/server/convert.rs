@@ -2,7 +2,8 @@
 
 use crate::document::Document;
 use crate::finding;
-use crate::finding::{Detail, Finding, Place, Rule};
+use crate::finding::{Finding, Place, Rule};
+use crate::job;
 use crate::protocol::{
     CodeDescription, Diagnostic, FindingData, Location, Position, Range, RelatedInformation,
     severity_number,
@@ -26,30 +27,11 @@ pub(super) fn publish_of(
     encoding: Encoding,
     uri: Option<&str>,
 ) -> (Vec<Diagnostic>, usize) {
-    let (findings, count) = document.findings(PUBLISH_LIMIT);
-    let mut diagnostics: Vec<Diagnostic> = findings
+    let (findings, count) = job::check(document, PUBLISH_LIMIT);
+    let diagnostics = findings
         .iter()
         .map(|finding| diagnostic(document, finding, encoding, uri))
         .collect();
-    if count > findings.len()
-        && let Some(severity) = document.settings().severity(Rule::More)
-    {
-        let detail = Detail::More {
-            count: count - findings.len(),
-        };
-        diagnostics.push(diagnostic(
-            document,
-            &Finding {
-                rule: Rule::More,
-                severity,
-                place: Place::Document,
-                detail,
-                related: Vec::new(),
-            },
-            encoding,
-            None,
-        ));
-    }
     (diagnostics, count)
 }
 
@@ -114,7 +96,6 @@ fn related_information(
 /// A finding at its place, without the other places.
 fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
     let drawing = document.drawing().map(|drawing| &**drawing);
-    let unit_mm = drawing.map_or(1.0, |drawing| document.settings().unit_of(drawing).mm);
     let range = match (document.text(), document.range_of(&finding.place)) {
         _ if finding.rule == Rule::More => Range::default(),
         (Some(text), Some(bytes)) => range_of(text, bytes, encoding),
@@ -130,7 +111,7 @@ fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> 
         code: finding.rule.name().into(),
         code_description: code_description(finding.rule),
         source: "wedm".into(),
-        message: finding::sentence(finding, unit_mm),
+        message: finding::sentence(finding, document.unit_mm()),
         related_information: None,
         data: (!data.is_empty()).then_some(data),
     }

@@ -2,10 +2,10 @@
 
 use super::convert;
 use crate::document::Document;
+use crate::job::Refusal;
 use crate::message::readable;
 use crate::protocol::{Diagnostic, Refused};
 use crate::text::Encoding;
-use crate::toolpath::Refusal;
 use tower_lsp::jsonrpc::{Error, ErrorCode};
 
 /// −32803: refused for what the document is.
@@ -40,18 +40,17 @@ pub(super) fn moved_on() -> Error {
     }
 }
 
-/// What `toolpath` refused; `document` is the one in which findings have their places.
-pub(super) fn refusal(document: &Document, refusal: Refusal, encoding: Encoding) -> Error {
+/// Why nothing is made; `document` is the one in which findings have their places.
+pub(super) fn refusal(document: &Document, refusal: &Refusal, encoding: Encoding) -> Error {
+    let findings = refusal.findings();
+    let findings = &findings[..findings.len().min(convert::PUBLISH_LIMIT)];
     match refusal {
-        Refusal::Sentence(sentence) => refused(sentence),
         Refusal::Cancelled => Error::request_cancelled(),
-        Refusal::Findings(findings) => {
-            let diagnostics = convert::diagnostics(document, &findings, encoding);
-            let first = diagnostics.first().map_or_else(
-                || say!(no_path_can_be_made).into(),
-                |first| first.message.clone(),
-            );
-            refused_with(first, diagnostics)
-        }
+        Refusal::Fault(sentence) => internal(sentence),
+        Refusal::Sentence(sentence) => refused(sentence),
+        Refusal::Errors(_) | Refusal::Findings(_) | Refusal::Unproved(..) => refused_with(
+            refusal.sentence(document.unit_mm()),
+            convert::diagnostics(document, findings, encoding),
+        ),
     }
 }

@@ -3,9 +3,10 @@
 use super::contours::Group;
 use super::inject::Faulty;
 use std::sync::Arc;
-use wedm::document::{Document, ROUNDS, Source};
+use wedm::document::{Document, Source};
 use wedm::finding::{Edit, Finding, Place, Severity, Side};
 use wedm::geometry::{Segment, Vector};
+use wedm::job::ROUNDS;
 use wedm::program::{self, path::Kind};
 use wedm::settings::Effective;
 use wedm::text::{TextEdit, edited};

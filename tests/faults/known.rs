@@ -2,8 +2,9 @@
 
 use super::contours::Group;
 use super::judge::{findings, read};
-use wedm::document::{Document, ROUNDS};
+use wedm::document::Document;
 use wedm::finding::{Edit, Fix, FixKind};
+use wedm::job::ROUNDS;
 use wedm::text::edited;
 
 /// A plate with a rounded corner, entered at another one.

@@ -71,8 +71,8 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let survey = survey(arguments);
     match arguments.output {
         Format::Text => output::print(text::render(&survey))?,
-        Format::Json => output::print_json(&json(&survey.rows))?,
-        Format::Sarif => output::print_json(&sarif::render(&survey))?,
+        Format::Json => output::print_json(&serde_json::json!({ "diagnostics": survey.rows }))?,
+        Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(&survey)))?,
     }
     survey
         .failures
@@ -166,8 +166,4 @@ fn progress(files: usize) -> ProgressBar {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }
-}
-
-fn json(rows: &[Row]) -> String {
-    format!("{}\n", serde_json::json!({ "diagnostics": rows }))
 }

@@ -6,13 +6,13 @@ use crate::cli::report::{RelatedRow, Row};
 use crate::finding::{Rule, Severity};
 use serde_json::{Value, json};
 
-pub(super) fn render(survey: &Survey) -> String {
+pub(super) fn log(survey: &Survey) -> Value {
     let notifications: Vec<Value> = survey
         .failures
         .iter()
         .map(|Failure(sentence)| json!({ "level": "error", "message": { "text": sentence } }))
         .collect();
-    let log = json!({
+    json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
         "runs": [{
@@ -28,8 +28,7 @@ pub(super) fn render(survey: &Survey) -> String {
             }],
             "results": survey.rows.iter().map(result).collect::<Vec<_>>(),
         }],
-    });
-    format!("{log:#}\n")
+    })
 }
 
 fn described(rule: Rule) -> Value {

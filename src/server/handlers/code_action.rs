@@ -1,7 +1,8 @@
 //! `textDocument/codeAction`: the fixes of findings, one action that makes every safe fix, and the refactorings of programs.
 
-use crate::document::{Document, Rounds, Source};
+use crate::document::{Document, Source};
 use crate::finding::{self, Edit, Finding, Place};
+use crate::job::{self, Repairs};
 use crate::program::language;
 use crate::protocol::{self, FindingData, method};
 use crate::server::context::RequestContext;
@@ -103,9 +104,9 @@ fn fix_all(
     if is_long && !is_meant {
         return with_edit(context, document, action, &document.fix_all()?);
     }
-    match document.fix_all_to_the_end()? {
-        Rounds::OfText(edits) => with_edit(context, document, action, &Edit::Text(edits)),
-        Rounds::OfDrawing(rounds) => {
+    match job::fix_all(document)? {
+        Repairs::OfText { edits, .. } => with_edit(context, document, action, &Edit::Text(edits)),
+        Repairs::OfDrawing(rounds) => {
             let changes = rounds
                 .iter()
                 .flat_map(|(drawing, edit)| protocol::changes_of(drawing, edit))

@@ -7,5 +7,9 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn contours(context: &RequestContext, _: DrawingName) -> Result<Contours> {
     let task = Task::of(context)?;
-    Ok(Contours::new(&task.drawing, &task.outlines, &task.settings))
+    Ok(Contours::new(
+        &task.snapshot.drawing,
+        &task.snapshot.outlines,
+        &task.snapshot.settings,
+    ))
 }

@@ -28,12 +28,11 @@ pub(super) mod tokens;
 pub(super) mod toolpath;
 
 use super::context::RequestContext;
-use super::errors::{refusal, refused};
+use super::errors::{self, refused};
 use crate::document::{Document, Snapshot, Source};
-use crate::drawing::{Drawing, Outline};
 use crate::finding::Finding;
-use crate::settings::Effective;
-use crate::toolpath::{WirePath, plan_while};
+use crate::job::{self, Refusal, Watch};
+use crate::toolpath::WirePath;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
@@ -43,9 +42,7 @@ struct Task {
     subject: Arc<Document>,
     /// Under the options.
     document: Arc<Document>,
-    drawing: Arc<Drawing>,
-    outlines: Arc<Vec<Outline>>,
-    settings: Arc<Effective>,
+    snapshot: Snapshot,
 }
 
 impl Task {
@@ -59,24 +56,18 @@ impl Task {
                 Some(Arc::new(Document::new(Source::Cad(drawing), options)))
             });
         let document = under_options.unwrap_or_else(|| subject.clone());
-        let Snapshot {
-            drawing,
-            outlines,
-            settings,
-        } = document
+        let snapshot = document
             .snapshot()
             .ok_or_else(|| refused(say!(the_document_is_a_program)))?;
         Ok(Task {
             subject,
             document,
-            drawing,
-            outlines,
-            settings,
+            snapshot,
         })
     }
 
     fn unit_mm(&self) -> f64 {
-        self.settings.unit_of(&self.drawing).mm
+        self.document.unit_mm()
     }
 
     /// All findings under the task's settings; of the rules alone where the options made a document without its text.
@@ -84,17 +75,27 @@ impl Task {
         self.document.all_findings().to_vec()
     }
 
-    /// The wire's path, of the contours with `handles` or of all.
-    fn paths(
-        &self,
-        context: &RequestContext,
-        settings: &Effective,
-        handles: Option<&[String]>,
-    ) -> Result<Vec<WirePath>> {
-        plan_while(&self.drawing, &self.outlines, settings, handles, &|| {
-            !context.is_cancelled()
-        })
-        .map_err(|reason| refusal(&self.subject, reason, context.encoding))
+    /// The wire's path of all contours.
+    fn paths(&self, context: &RequestContext) -> Result<Vec<WirePath>> {
+        job::paths(&self.snapshot, &self.snapshot.settings, None, context)
+            .map_err(|refusal| self.refused(context, &refusal))
+    }
+
+    fn refused(&self, context: &RequestContext, refusal: &Refusal) -> Error {
+        errors::refusal(&self.subject, refusal, context.encoding)
+    }
+}
+
+impl Watch for RequestContext {
+    fn is_wanted(&self) -> bool {
+        !self.is_cancelled()
+    }
+
+    fn at(&self, step: &'static str, share: Option<(usize, usize)>) {
+        match share {
+            Some((done, all)) => self.progress.share(step, done, all),
+            None => self.progress.report(step),
+        }
     }
 }
 

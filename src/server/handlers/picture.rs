@@ -16,13 +16,11 @@ pub(in crate::server) fn picture(context: &RequestContext, _: DrawingName) -> Re
     }
     let task = Task::of(context)?;
     // Where no path can be made the picture shows the contours, and the findings say why.
-    let paths = task
-        .paths(context, &task.settings, None)
-        .unwrap_or_default();
+    let paths = task.paths(context).unwrap_or_default();
     Ok(Picture {
         svg: svg(
-            &task.drawing,
-            &task.outlines,
+            &task.snapshot.drawing,
+            &task.snapshot.outlines,
             &task.findings(),
             &paths,
             task.unit_mm(),

@@ -7,6 +7,10 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn toolpath(context: &RequestContext, _: DrawingName) -> Result<Toolpath> {
     let task = Task::of(context)?;
-    let paths = task.paths(context, &task.settings, None)?;
-    Ok(Toolpath::new(&task.drawing, &paths, task.unit_mm()))
+    let paths = task.paths(context)?;
+    Ok(Toolpath::new(
+        &task.snapshot.drawing,
+        &paths,
+        task.unit_mm(),
+    ))
 }

@@ -1,0 +1,326 @@
+//! What is made of a document: the repaired document, the program of a drawing, what a program becomes in another language.
+//!
+//! One pipeline for both faces, which bring a document under its settings and show what comes of it; why nothing is made is decided and worded
+//! here. Nothing here reads or writes a file, or knows who asked.
+
+use crate::document::{Document, Snapshot, Source};
+use crate::drawing::{Drawing, DrawingEdit};
+use crate::dxf;
+use crate::finding::{Detail, Edit, Finding, Place, Severity};
+use crate::program::convert::{self, Cuts};
+use crate::program::{Format, ProofError, ProvedProgram};
+use crate::rule::Rule;
+use crate::settings::Effective;
+use crate::text::{Patch, TextEdit, edited};
+use crate::toolpath::{self, WirePath, entities_of, plan_while};
+use std::sync::Arc;
+
+/// Whoever waits: whether it still does, and what it is told on the way.
+pub trait Watch {
+    fn is_wanted(&self) -> bool {
+        true
+    }
+
+    /// A step of the work; how much of it is done of how much, where that is known.
+    fn at(&self, _step: &'static str, _share: Option<(usize, usize)>) {}
+}
+
+/// Nobody who could change his mind.
+impl Watch for () {}
+
+/// Why nothing is made.
+#[derive(Debug)]
+pub enum Refusal {
+    Sentence(String),
+    /// Errors stand in what would be cut.
+    Errors(Vec<Finding>),
+    /// What the geometry refuses, at its places.
+    Findings(Vec<Finding>),
+    /// Nothing could be proved, which may come of the errors that were passed over.
+    Unproved(String, Vec<Finding>),
+    /// Nothing could be proved although nothing is wrong: a fault of ours.
+    Fault(String),
+    /// Nobody wants it any more.
+    Cancelled,
+}
+
+impl Refusal {
+    /// The refusal for a person; `unit_mm` is that of the lengths in findings.
+    pub fn sentence(&self, unit_mm: f64) -> String {
+        match self {
+            Refusal::Sentence(sentence)
+            | Refusal::Unproved(sentence, _)
+            | Refusal::Fault(sentence) => sentence.clone(),
+            Refusal::Errors(errors) if errors.len() == 1 => {
+                say!(an_error_stands_in_the_drawing).into()
+            }
+            Refusal::Errors(errors) => say!(errors_stand_in_the_drawing, errors.len()),
+            Refusal::Findings(findings) => findings.first().map_or_else(
+                || say!(no_path_can_be_made).into(),
+                |finding| crate::finding::sentence(finding, unit_mm),
+            ),
+            Refusal::Cancelled => say!(the_path_was_given_up).into(),
+        }
+    }
+
+    /// What is wrong at its places.
+    pub fn findings(&self) -> &[Finding] {
+        match self {
+            Refusal::Errors(findings)
+            | Refusal::Findings(findings)
+            | Refusal::Unproved(_, findings) => findings,
+            Refusal::Sentence(_) | Refusal::Fault(_) | Refusal::Cancelled => &[],
+        }
+    }
+
+    /// What did not hold its proof. Where errors were passed over that is theirs.
+    fn of_proof(
+        error: ProofError,
+        errors: Option<Vec<Finding>>,
+        unproved: fn(&str) -> String,
+    ) -> Refusal {
+        match (error, errors) {
+            (ProofError::Refused(sentence), _) => Refusal::Sentence(sentence),
+            (ProofError::Unwritable(finding), _) => Refusal::Findings(vec![*finding]),
+            (ProofError::Cancelled, _) => Refusal::Cancelled,
+            (ProofError::Mismatch(reason), Some(errors)) => {
+                Refusal::Unproved(unproved(&reason), errors)
+            }
+            (ProofError::Mismatch(reason), None) => {
+                Refusal::Fault(say!(the_program_does_not_hold_its_proof, reason))
+            }
+        }
+    }
+}
+
+impl From<toolpath::Refusal> for Refusal {
+    fn from(refusal: toolpath::Refusal) -> Refusal {
+        match refusal {
+            toolpath::Refusal::Sentence(sentence) => Refusal::Sentence(sentence),
+            toolpath::Refusal::Findings(findings) => Refusal::Findings(findings),
+            toolpath::Refusal::Cancelled => Refusal::Cancelled,
+        }
+    }
+}
+
+/// At most `limit` findings, errors first, then one that says how many more there are; and how many there are in all.
+pub fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usize) {
+    let (mut findings, count) = document.findings(limit);
+    let more = count - findings.len();
+    if more > 0
+        && let Some(severity) = document.settings().severity(Rule::More)
+    {
+        findings.push(Finding {
+            rule: Rule::More,
+            severity,
+            place: Place::Document,
+            detail: Detail::More { count: more },
+            related: Vec::new(),
+        });
+    }
+    (findings, count)
+}
+
+/// Repairs that are made one after another, since one makes room for another.
+#[derive(Debug)]
+pub enum Repairs {
+    /// Of a text, as one edit of it as it stands; and the document behind them.
+    OfText {
+        edits: Vec<TextEdit>,
+        rounds: usize,
+        repaired: Box<Document>,
+    },
+    /// Of a drawing without text, each with the drawing that it is made in.
+    OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
+}
+
+/// Past this many rounds nothing new comes of it.
+pub const ROUNDS: usize = 12;
+
+/// Every safe fix, asked for again until none is left.
+pub fn fix_all(document: &Document) -> Option<Repairs> {
+    if let Source::Cad(_) = document.source() {
+        let mut present = document.clone();
+        let mut rounds = Vec::new();
+        while rounds.len() < ROUNDS
+            && let Some(Edit::Drawing(edit)) = present.fix_all()
+            && let Some(before) = present.drawing().cloned()
+            && let Some(Ok(())) = present.edit_drawing(|drawing| drawing.apply(&edit))
+        {
+            rounds.push((before, edit));
+        }
+        return (!rounds.is_empty()).then_some(Repairs::OfDrawing(rounds));
+    }
+    let mut patch = Patch::of(document.text()?.len());
+    let mut repaired = None;
+    let mut rounds = 0;
+    while rounds < ROUNDS
+        && let present = repaired.as_ref().unwrap_or(document)
+        && let Some(edits) = present.fix_all_in_text()
+        && let Some(longer) = patch.then(&edits)
+        && let Some(bytes) = present.text().and_then(|text| edited(text.bytes(), &edits))
+    {
+        rounds += 1;
+        patch = longer;
+        repaired = Some(present.reread(bytes));
+    }
+    Some(Repairs::OfText {
+        edits: patch.edits(),
+        rounds,
+        repaired: Box::new(repaired?),
+    })
+}
+
+/// The wire's path of the contours that hold one of `handles`, or of all.
+pub fn paths(
+    snapshot: &Snapshot,
+    settings: &Effective,
+    handles: Option<&[String]>,
+    watch: &dyn Watch,
+) -> Result<Vec<WirePath>, Refusal> {
+    let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
+    Ok(plan_while(drawing, outlines, settings, handles, &|| {
+        watch.is_wanted()
+    })?)
+}
+
+/// What a program is asked for.
+pub struct Wanted<'a> {
+    pub format: Format,
+    /// Only the contours that hold one of these entities.
+    pub handles: Option<&'a [String]>,
+    /// Although errors stand in the drawing.
+    pub force: bool,
+}
+
+/// The program of a drawing.
+pub struct Generated {
+    pub program: ProvedProgram,
+    pub contours: usize,
+    /// What is to be said beside it.
+    pub warnings: Vec<Finding>,
+}
+
+/// Writes and proves the program of a drawing, of which `findings` are all that there are.
+pub fn generate(
+    snapshot: &Snapshot,
+    mut findings: Vec<Finding>,
+    wanted: &Wanted,
+    watch: &dyn Watch,
+) -> Result<Generated, Refusal> {
+    let settings = &snapshot.settings;
+    if let Some(sentence) = settings.pass_error() {
+        return Err(Refusal::Sentence(sentence));
+    }
+    let is_error = |finding: &Finding| finding.severity == Severity::Error;
+    let any_errors = findings.iter().any(is_error);
+    let entities = entities_of(&snapshot.drawing, &snapshot.outlines, wanted.handles);
+    findings.retain(|finding| finding.concerns(entities.as_ref()));
+    let errors: Vec<Finding> = findings
+        .iter()
+        .filter(|one| is_error(one))
+        .cloned()
+        .collect();
+    if !errors.is_empty() && !wanted.force {
+        return Err(Refusal::Errors(errors));
+    }
+    watch.at(say!(laying_the_path), None);
+    let of_format = wanted.format.settings(settings);
+    let paths = paths(snapshot, &of_format, wanted.handles, watch)?;
+    let mut go_on = |done, all| {
+        watch.at(say!(writing_and_proving), Some((done, all)));
+        watch.is_wanted()
+    };
+    let unit_mm = settings.unit_of(&snapshot.drawing).mm;
+    let program = wanted
+        .format
+        .write(&paths, unit_mm, settings, &mut go_on)
+        .map_err(|error| {
+            let errors = (wanted.force || any_errors).then_some(errors);
+            Refusal::of_proof(error, errors, |reason| {
+                say!(no_program_of_this_drawing, reason)
+            })
+        })?;
+    let warnings = findings
+        .into_iter()
+        .filter(|finding| finding.severity <= Severity::Warning);
+    Ok(Generated {
+        program,
+        contours: paths.len(),
+        warnings: settings.one_pass().into_iter().chain(warnings).collect(),
+    })
+}
+
+/// What a program becomes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    Drawing,
+    Program(Format),
+}
+
+impl Target {
+    /// What a name, or the ending of a file's name, stands for. The error says which there are.
+    pub fn of(name: &str) -> Result<Target, String> {
+        match name.to_ascii_lowercase().as_str() {
+            "dxf" => Ok(Target::Drawing),
+            "nc" => Ok(Target::Program(Format::Iso)),
+            lower => Format::of(lower).map(Target::Program).map_err(|_| {
+                let names = Format::ALL.map(Format::name).join(", ");
+                say!(a_target_that_is_not_written, name, names)
+            }),
+        }
+    }
+}
+
+/// A program as a drawing, or in another language.
+pub struct Converted {
+    pub bytes: Vec<u8>,
+    /// Blocks of the program that was written.
+    pub blocks: Option<usize>,
+    pub cuts: Cuts,
+}
+
+/// Turns a program into a drawing, or into one of another language, which is proved.
+pub fn convert(document: &Document, target: Target, force: bool) -> Result<Converted, Refusal> {
+    let Some(program) = document.program() else {
+        return Err(Refusal::Sentence(say!(a_drawing_is_no_program).into()));
+    };
+    let mut errors = document.all_findings().to_vec();
+    errors.retain(|finding| finding.severity == Severity::Error);
+    let any_errors = !errors.is_empty();
+    // A radius that the wire cannot follow does not change where it goes.
+    errors.retain(|finding| finding.rule != Rule::SmallRadius);
+    if !force && !errors.is_empty() {
+        return Err(Refusal::Errors(errors));
+    }
+    let cuts = convert::cuts(program);
+    if cuts.cuts.is_empty() {
+        return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
+    }
+    let format = match target {
+        Target::Drawing => {
+            let bytes = dxf::write(&cuts.drawing()).map_err(Refusal::Fault)?;
+            return Ok(Converted {
+                bytes,
+                blocks: None,
+                cuts,
+            });
+        }
+        Target::Program(format) => format,
+    };
+    let settings = document.settings();
+    if let Some(reason) = cuts.refusal(format, settings) {
+        return Err(Refusal::Sentence(reason));
+    }
+    // µm are the unit of the cuts.
+    let written = format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true);
+    let written = written.map_err(|error| {
+        let errors = (force || any_errors).then_some(errors);
+        Refusal::of_proof(error, errors, |reason| say!(no_other_program, reason))
+    })?;
+    Ok(Converted {
+        bytes: written.text.into_bytes(),
+        blocks: Some(written.blocks),
+        cuts,
+    })
+}
