@@ -3,7 +3,7 @@
 
 use super::document::{Document, Placed};
 use super::machine::{Move, Place, apart, micrometres};
-use super::stretch::{Path, Run, SEVERAL, changes_side};
+use super::run::{Path, Run, SEVERAL, changes_side};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
     self, Blocks, HeldWay, Node, PartedWay, Writing, closing, goes_round, is_tab, pieces_of,

@@ -9,7 +9,8 @@ use super::limits::Limits;
 use super::machine::{Machine, Reading};
 use super::order::{Order, order};
 use super::repair::{Repairs, repairs};
-use super::stretch::{Hears, Stretch};
+use super::run::Hears;
+use super::stretch::Stretch;
 use crate::finding::{Finding, Fix};
 use crate::program::chunks::{Chunks, Language};
 use crate::settings::Effective;
@@ -298,7 +299,7 @@ impl Document {
     /// What a cut within one stretch comes to hangs on its own lines, on the settings and on the control's table: one with which nothing is
     /// wrong is not judged again.
     fn find_quiet(&mut self) {
-        let table = super::report::table(self);
+        let table = self.stated_table();
         if table != *self.table {
             *self.table = table;
             self.stretches

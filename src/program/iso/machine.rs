@@ -18,7 +18,7 @@ pub const MICROMETRE: i64 = 1_000;
 pub type Place = [i64; 2];
 
 /// How the numbers of a program are to be read: found from the program as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// A number without decimal point is in µm (tenths of a thousandth of an inch); else it is in mm (inches) like the others.
     pub whole_numbers_are_fine: bool,

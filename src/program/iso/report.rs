@@ -1,6 +1,6 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
-use super::block::{Code, Motion, Offset, read_line, word_range};
+use super::block::{Code, Motion, read_line, word_range};
 use super::cuts::{Cut, contours};
 use super::document::{Document, Placed, Table};
 use super::evidence::FEW_BARE;
@@ -8,8 +8,10 @@ use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
 use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
-use super::stretch::{Definition, Run, RunSide, Stretch, Tight};
-use super::word::{Token, Value, words};
+use super::run::{Run, RunSide, Tight};
+use super::stretch::Stretch;
+use super::table::value;
+use super::word::{Token, words};
 use crate::finding::{
     Detail, Fault, Finding, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
 };
@@ -63,8 +65,7 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
     let repairs: Vec<Repair> = document.repairs().iter().filter_map(first).collect();
     let suspect = |repair: Repair| {
         let range = document.text().line_range(repair.line);
-        let words =
-            super::stretch::words_of(document.text().bytes().get(range.clone())?, range.start);
+        let words = super::read::words_of(document.text().bytes().get(range.clone())?, range.start);
         let fault = Fault::Suspect {
             found: repair.found,
             meant: repair.meant,
@@ -139,37 +140,6 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
         report.add(range, Fault::OpenCenters);
     }
     report.finish()
-}
-
-/// What a program puts into the control's table.
-pub(super) fn table(document: &Document) -> Table {
-    let mut table = Table::default();
-    for definition in document
-        .stretches()
-        .iter()
-        .flat_map(|stretch| &stretch.definitions)
-    {
-        match value(&table, definition, document.reading()) {
-            Some(value) => _ = table.insert(definition.offset, value),
-            None => _ = table.remove(&definition.offset),
-        }
-    }
-    table
-}
-
-/// What is put into the table, nm; `None` where it hangs on a place that is not filled.
-fn value(table: &Table, definition: &Definition, reading: &Reading) -> Option<i64> {
-    definition.terms.iter().try_fold(0_i64, |sum, term| {
-        let value = match term.value {
-            Value::Number(number) => reading.length(number, definition.inch),
-            Value::Place { letter, index } => *table.get(&Offset { letter, index })?,
-        };
-        Some(if term.is_negative {
-            sum.wrapping_sub(value)
-        } else {
-            sum.wrapping_add(value)
-        })
-    })
 }
 
 /// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
@@ -577,7 +547,7 @@ impl<'a> Report<'a> {
                 for (line, expected) in self.document.lacking_numbers(&placed) {
                     let range = self.text.line_range(line);
                     let words =
-                        super::stretch::words_of(&self.text.bytes()[range.clone()], range.start);
+                        super::read::words_of(&self.text.bytes()[range.clone()], range.start);
                     self.add(
                         words.0 as usize..words.1 as usize,
                         Fault::Unnumbered { expected },
@@ -649,7 +619,7 @@ impl<'a> Report<'a> {
 
     fn words_of(&self, line: usize) -> Range<usize> {
         let range = self.text.line_range(line);
-        let words = super::stretch::words_of(
+        let words = super::read::words_of(
             self.text.bytes().get(range.clone()).unwrap_or_default(),
             range.start,
         );

@@ -1,13 +1,29 @@
 //! The control's table of corrections, as far as a program says something of it.
 
 use super::block::Offset;
-use super::document::Document;
+use super::document::{Document, Table};
+use super::machine::Reading;
+use super::stretch::Definition;
+use super::word::Value;
 use std::collections::BTreeMap;
 
 /// Lines that are looked through for the places of the table that a program uses.
 const LOOKED_AT: usize = 2_000;
 
 impl Document {
+    /// What the program puts into the table.
+    pub(super) fn stated_table(&self) -> Table {
+        let mut table = Table::default();
+        let stretches = self.stretches().iter();
+        for definition in stretches.flat_map(|stretch| &stretch.definitions) {
+            match value(&table, definition, self.reading()) {
+                Some(value) => _ = table.insert(definition.offset, value),
+                None => _ = table.remove(&definition.offset),
+            }
+        }
+        table
+    }
+
     /// The correction in nm that the program itself puts into a place of the control's table.
     pub(super) fn table_value(&self, offset: Offset) -> Option<i64> {
         self.table.get(&offset).copied()
@@ -77,4 +93,19 @@ impl Document {
         let lines = 0..self.text().line_count().min(LOOKED_AT);
         lines.filter_map(|line| self.block(line).offset)
     }
+}
+
+/// What is put into the table, nm; `None` where it hangs on a place that is not filled.
+pub(super) fn value(table: &Table, definition: &Definition, reading: &Reading) -> Option<i64> {
+    definition.terms.iter().try_fold(0_i64, |sum, term| {
+        let value = match term.value {
+            Value::Number(number) => reading.length(number, definition.inch),
+            Value::Place { letter, index } => *table.get(&Offset { letter, index })?,
+        };
+        Some(if term.is_negative {
+            sum.wrapping_sub(value)
+        } else {
+            sum.wrapping_add(value)
+        })
+    })
 }

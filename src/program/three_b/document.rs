@@ -13,9 +13,10 @@ mod way;
 
 pub use walk::PlacedBlock;
 
+use super::entry::Entry;
 use super::parse::Words;
 use super::rules::Limits;
-use super::run::{Entry, Run, Sum};
+use super::run::{Run, Sum};
 use crate::finding::Finding;
 use crate::geometry::Point;
 use crate::program::chunks::{Chunks, Language};

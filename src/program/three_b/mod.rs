@@ -6,6 +6,7 @@ mod block;
 mod decode;
 mod document;
 mod encode;
+mod entry;
 mod fields;
 pub(in crate::program) mod language;
 mod layout;

@@ -2,9 +2,9 @@
 //!
 //! Places count from the run's first byte and line, so that an edit elsewhere changes nothing here.
 
-use super::block::{self, Block, Motion, PartArc};
+use super::block::{Block, Motion};
 use super::decode::meant;
-use super::machine::travel;
+use super::entry::{BlockEntry, Entry, Move, NO_NUMBER, What};
 use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
@@ -12,152 +12,6 @@ use crate::finding::{Detail, Fault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::path::{HeldWay, Node, Writing, goes_round, mixed, near_each_other};
 use std::ops::Range;
-
-/// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::program) struct Move {
-    pub machine: [i64; 2],
-    pub meant: [i64; 2],
-}
-
-impl Move {
-    pub fn plus(self, other: Move) -> Move {
-        let sum = |a: [i64; 2], b: [i64; 2]| [a[0].saturating_add(b[0]), a[1].saturating_add(b[1])];
-        Move {
-            machine: sum(self.machine, other.machine),
-            meant: sum(self.meant, other.meant),
-        }
-    }
-
-    pub fn minus(self, other: Move) -> Move {
-        let difference =
-            |a: [i64; 2], b: [i64; 2]| [a[0].saturating_sub(b[0]), a[1].saturating_sub(b[1])];
-        Move {
-            machine: difference(self.machine, other.machine),
-            meant: difference(self.meant, other.meant),
-        }
-    }
-
-    /// True where machine or meaning come back within `tolerance` µm.
-    pub fn is_within(&self, tolerance: f64) -> bool {
-        let near =
-            |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
-        near(self.machine, 1.0) || near(self.meant, 1e-3)
-    }
-
-    /// Where it leads from the origin.
-    pub fn node(&self) -> Node {
-        let ([x, y], [a, b]) = (self.meant_um(), self.machine);
-        Node {
-            stands: Point::new(a as f64, b as f64),
-            meant: Point::new(x, y),
-        }
-    }
-
-    /// What the blocks mean, µm.
-    pub fn meant_um(&self) -> [f64; 2] {
-        self.meant.map(|nm| nm as f64 * 1e-3)
-    }
-}
-
-/// A block as it stands in the text, and where it leads to.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct BlockEntry {
-    pub block: Block,
-    pub travel: Move,
-    /// What only some blocks have.
-    pub extra: Option<Box<Extra>>,
-}
-
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Extra {
-    pub part: Option<PartArc>,
-    pub stated_end: Option<StatedPoint>,
-}
-
-impl BlockEntry {
-    pub fn new(block: Block, part: Option<PartArc>, stated_end: Option<StatedPoint>) -> BlockEntry {
-        let extra =
-            (part.is_some() || stated_end.is_some()).then(|| Box::new(Extra { part, stated_end }));
-        BlockEntry {
-            block,
-            travel: travel_of(&block),
-            extra,
-        }
-    }
-
-    /// What a 4B block says beside a 3B block.
-    pub fn part(&self) -> Option<PartArc> {
-        self.extra.as_ref().and_then(|extra| extra.part)
-    }
-
-    pub fn stated_end(&self) -> Option<StatedPoint> {
-        self.extra.as_ref().and_then(|extra| extra.stated_end)
-    }
-
-    pub fn is_line(&self) -> bool {
-        matches!(self.block.motion, Motion::Line(_))
-    }
-}
-
-/// Where a block leads to.
-pub(super) fn travel_of(block: &Block) -> Move {
-    let machine = travel(block).map_or([0, 0], |block::Node { x, y }| [x, y]);
-    let meant = match meant(block, Point::origin()) {
-        Some(segment) => [segment.end().x, segment.end().y].map(|um| (um * 1e3).round() as i64),
-        None => machine.map(|um| um.saturating_mul(1000)),
-    };
-    Move { machine, meant }
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum What {
-    Block(BlockEntry),
-    Word {
-        word: Word,
-        is_own: bool,
-    },
-    /// mm.
-    StartPoint([f64; 2]),
-    Text {
-        column: usize,
-    },
-    /// A comment that holds a block.
-    CommentedBlock {
-        column: usize,
-    },
-    /// A block that cannot be read.
-    Unread,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
-    start: u32,
-    length: u32,
-    pub line: u32,
-    number: u32,
-    pub what: What,
-}
-
-const NO_NUMBER: u32 = u32::MAX;
-
-impl Entry {
-    /// Bytes from the run's first byte.
-    pub fn range(&self) -> Range<usize> {
-        self.start as usize..(self.start + self.length) as usize
-    }
-
-    pub fn number(&self) -> Option<u32> {
-        (self.number != NO_NUMBER).then_some(self.number)
-    }
-
-    pub fn block(&self) -> Option<&BlockEntry> {
-        match &self.what {
-            What::Block(block) => Some(block),
-            _ => None,
-        }
-    }
-}
 
 /// Something found at bytes of the run.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,7 +26,7 @@ pub(super) struct Local {
 }
 
 /// What a stretch of blocks without a word between them comes to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sum {
     pub blocks: usize,
     pub arcs: usize,
@@ -188,23 +42,6 @@ pub(super) struct Sum {
     pub first: Option<Move>,
     pub second: Option<Move>,
     pub last: Option<Move>,
-}
-
-impl Default for Sum {
-    fn default() -> Self {
-        Sum {
-            blocks: 0,
-            arcs: 0,
-            travel: Move::default(),
-            twice_area: 0.0,
-            errors: 0,
-            unread: 0,
-            mark: 0,
-            first: None,
-            second: None,
-            last: None,
-        }
-    }
 }
 
 impl Sum {
@@ -354,7 +191,7 @@ impl Open {
 }
 
 /// Consecutive lines of a program.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Run {
     pub entries: Vec<Entry>,
     pub faults: Vec<Local>,
@@ -503,25 +340,7 @@ impl Run {
         words: &Words<'_>,
         limits: &Limits,
     ) -> Run {
-        let mut run = Run {
-            entries: Vec::new(),
-            faults: Vec::new(),
-            parts: Vec::new(),
-            blocks: 0,
-            arcs: 0,
-            texts: 0,
-            numbered: 0,
-            stated: 0,
-            numbering: Numbering::Empty,
-            positions: Positions::default(),
-            travel: Move::default(),
-            words: 0,
-            own_end: None,
-            last_end: None,
-            last_word: None,
-            open: Vec::new(),
-            tangled: Vec::new(),
-        };
+        let mut run = Run::default();
         let mut open = Open::at(0);
         for (line, range) in lines.enumerate() {
             let start = range.start;

@@ -2,6 +2,7 @@
 
 use super::super::block::{Block, Node};
 use super::super::encode::line_block;
+use super::super::entry::{BlockEntry, Entry, Move, What, travel_of};
 use super::super::fields::fields_of;
 use super::super::language::{Field, Piece, pieces};
 use super::super::layout::push_fields;
@@ -11,7 +12,7 @@ use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{
     self, Site, TextFix, block_number, missing_end, not_closed, position_mismatch, text_after_end,
 };
-use super::super::run::{BlockEntry, Entry, Move, Sum, What, travel_of};
+use super::super::run::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::settings::Layout;

@@ -1,10 +1,11 @@
 //! What is wrong with a program as a whole: contours that do not close or cross themselves, its end, texts, numbers, places.
 
+use super::super::entry::{BlockEntry, Entry, What};
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::rules::block_number::{Numbered, Sequence};
 use super::super::rules::{self, block_number, culprit, not_closed, position_mismatch};
-use super::super::run::{BlockEntry, Entry, Numbering, What, may_cross_itself};
+use super::super::run::{Numbering, may_cross_itself};
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Place, Rule, Severity};

@@ -1,6 +1,7 @@
 //! Repairs of a contour as edits of the text.
 
 use super::super::block::Motion;
+use super::super::entry::{Entry, Move, What};
 use super::super::fields::{Fields, fields_of};
 use super::super::layout::{push_end_point, push_fields, push_to_comment_column};
 use super::super::parse::{StatedPoint, before_comment, two_numbers};
@@ -8,7 +9,6 @@ use super::super::repair::{
     BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
 use super::super::rules::{TextFix, axis_of, block_number, motion_name};
-use super::super::run::{Entry, Move, What};
 use super::{At, Document, Section};
 use crate::finding::{Axis, Fault, Finding, Fix, FixKind, Place, Rule};
 use crate::program::grid::Node;
@@ -403,7 +403,7 @@ impl Document {
             .get(model)
             .is_some_and(|piece| piece.stated.is_some());
         if let Some(before) = before.filter(|_| is_stated) {
-            let [x, y] = super::super::run::travel_of(block).meant_um();
+            let [x, y] = super::super::entry::travel_of(block).meant_um();
             let um = |mm: f64, by: f64| (mm * 1000.0 + by).round() as i64;
             push_to_comment_column(&mut made, block);
             push_end_point(
@@ -437,7 +437,7 @@ impl Document {
                 text: format!("{line_end}{made}"),
             },
         };
-        let [x, y] = super::super::run::travel_of(block).meant_um();
+        let [x, y] = super::super::entry::travel_of(block).meant_um();
         let is_arc = !matches!(block.motion, Motion::Line(_));
         Some((
             FixKind::InsertBlock {

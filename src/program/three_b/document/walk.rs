@@ -2,7 +2,8 @@
 
 use super::super::block::{Block, PartArc};
 use super::super::decode::meant;
-use super::super::run::{What, is_jump};
+use super::super::entry::What;
+use super::super::run::is_jump;
 use super::{At, Document};
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};

@@ -1,7 +1,7 @@
 //! The blocks of a section as a way.
 
 use super::super::decode::meant;
-use super::super::run::{BlockEntry, Entry, Move};
+use super::super::entry::{BlockEntry, Entry, Move};
 use super::{At, Document, Section};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{Blocks, Node, Part, PartedWay, Writing};

@@ -3,8 +3,8 @@
 use super::super::block::{Block, CountingAxis, Motion, Quadrant};
 use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
+use super::super::entry::{Move, travel_of};
 use super::super::rules::{self, Counts, Limits};
-use super::super::run::{Move, travel_of};
 use crate::finding::Rule;
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::gate::is_slip;

@@ -9,7 +9,8 @@
 use super::super::block::{Block, CountingAxis, Motion, Quadrant};
 use super::super::decode::meant;
 use super::super::encode::counted;
-use super::super::run::{BlockEntry, Move, Sum, travel_of};
+use super::super::entry::{BlockEntry, Move, travel_of};
+use super::super::run::Sum;
 use super::position_mismatch::mismatch;
 use super::{axis_of, motion_name};
 use crate::finding::Fault;

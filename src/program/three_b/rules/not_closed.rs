@@ -2,7 +2,8 @@
 //!
 //! Where a contour closes is said by [`crate::program::closing`]; its sums alone tell that for nearly all of them.
 
-use super::super::run::{Move, Sum};
+use super::super::entry::Move;
+use super::super::run::Sum;
 use crate::finding::Fault;
 use crate::program::path::tolerance;
 

@@ -5,8 +5,8 @@
 use super::super::block::{Block, CountingAxis, Motion, Node};
 use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
+use super::super::entry::{Move, travel_of};
 use super::super::parse::StatedPoint;
-use super::super::run::{Move, travel_of};
 use super::{TextFix, motion_name, one_edit};
 use crate::finding::FixKind;
 use crate::geometry::{Arc, Point, Segment, Vector};

@@ -1,0 +1,435 @@
+//! Lines are run: what each says, what it leaves in force, and what is wrong in it.
+
+use super::block::{Block, Motion, Note, Stop, read_line};
+use super::corner::{self, Turned, turned};
+use super::machine::{Course, Machine, Move, Reading, Trail};
+use super::run::{Hears, Run, SEVERAL, Tight, Ways};
+use super::shape;
+use super::stretch::{Definition, Foreign, Pathless, Stretch};
+use crate::finding::{Fault, Finding};
+use crate::geometry::Side;
+use crate::program::path::mixed;
+use std::ops::Range;
+
+/// Arcs of a larger radius than this are not kept: no correction comes near, nm.
+const LARGEST_CORRECTION: f64 = 5e6;
+
+/// Of so many lengths of a stretch, with a point and without, their places are kept.
+const MOST_LENGTHS: usize = 4;
+
+impl Stretch {
+    /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; those behind say how the last of
+    /// them run.
+    pub fn run<'a>(
+        lines: impl Lines<'a>,
+        count: usize,
+        start: usize,
+        before: Machine,
+        reading: Reading,
+    ) -> Pathless {
+        let mut ways: Vec<Ways> = Vec::new();
+        let stretch =
+            Stretch::run_with(lines, count, start, before, reading, &mut |run, step, _| {
+                if ways.len() <= run {
+                    ways.resize_with(run + 1, Ways::default);
+                }
+                ways[run].push(*step);
+            });
+        Pathless { stretch, ways }
+    }
+
+    /// The same without paths; `each` hears of every move of a run.
+    pub fn run_with<'a>(
+        mut lines: impl Lines<'a>,
+        count: usize,
+        start: usize,
+        before: Machine,
+        reading: Reading,
+        each: &mut Hears<'_>,
+    ) -> Stretch {
+        let mut stretch = Stretch {
+            before,
+            after: before,
+            reading,
+            numbers_rise: true,
+            ..Stretch::default()
+        };
+        for left in (0..count).rev() {
+            let Some((offset, line)) = lines.next() else {
+                break;
+            };
+            let known = stretch.faults.len();
+            stretch.line(
+                line,
+                offset - start,
+                &Ahead {
+                    lines: &lines,
+                    left,
+                },
+                each,
+            );
+            if stretch.faults.len() > known {
+                stretch.mark_fault();
+            }
+        }
+        stretch
+    }
+
+    fn line<'a>(
+        &mut self,
+        line: &[u8],
+        offset: usize,
+        ahead: &Ahead<'_, impl Lines<'a>>,
+        each: &mut Hears<'_>,
+    ) {
+        let Stretch {
+            faults,
+            foreign,
+            definitions,
+            lengths,
+            after,
+            ..
+        } = &mut *self;
+        let (inch, known_faults) = (after.inch, faults.len());
+        let block = read_line(line, offset, |note| match note {
+            Note::Fault { fault, range } => {
+                // One fault a line is enough: the others may come of it.
+                if faults.len() == known_faults {
+                    faults.push(fault.finding(line, range.start - offset, range));
+                }
+            }
+            Note::Foreign { code, range } => {
+                match foreign.iter_mut().find(|word| word.code == code) {
+                    Some(word) => word.count += 1,
+                    None => foreign.push(Foreign {
+                        code,
+                        range: pair(range),
+                        count: 1,
+                    }),
+                }
+            }
+            Note::Definition {
+                offset,
+                terms,
+                range,
+            } => definitions.push(Definition {
+                offset,
+                terms,
+                inch,
+                range: pair(range),
+            }),
+            Note::Length { pointed, range } => {
+                let kept = &mut lengths[usize::from(pointed)];
+                if kept.len() < MOST_LENGTHS {
+                    kept.push(pair(range));
+                }
+            }
+            Note::Twice { letter, range } => {
+                if faults.len() == known_faults {
+                    let letter = letter as char;
+                    faults.push(Finding::of(Fault::WordTwice { letter }, range));
+                }
+            }
+        });
+        if block.empty {
+            return;
+        }
+        let range = words_of(line, offset);
+        self.last_words = Some(range);
+        if block.program.is_some() {
+            self.programs.push(self.numbers.len() as u32);
+        }
+        self.blocks += u32::from(block.program.is_none());
+        if let Some(number) = block.number {
+            self.numbers_rise &= self
+                .numbers
+                .last()
+                .is_none_or(|(before, _)| number > *before);
+            self.numbers.push((number, range.0));
+        }
+        self.calls |= block.call.is_some();
+        if self.after.ended {
+            self.behind_end.get_or_insert(range);
+            return;
+        }
+        self.evidence.numbers(&block);
+        self.fixed |= block.sets_position;
+        let torn = self.after.torn;
+        let cut_short = self.after.cut_short;
+        let made = self.after.run(&block, &self.reading);
+        let is_free = self.faults.len() == known_faults;
+        if is_free && self.has_stray_center(&block) {
+            self.fault(Fault::CenterOnLine, range);
+        }
+        match made {
+            Some(made) => {
+                if made.is_arc() && cut_short.is_none() {
+                    self.evidence.arc(&made, self.reading.tolerance);
+                }
+                self.moves += 1;
+                if is_free {
+                    self.said(&block, &made, range);
+                }
+                let Turned {
+                    made,
+                    corner,
+                    is_fixed,
+                    ..
+                } = self.turned(made, range, ahead);
+                self.fixed |= is_fixed;
+                self.made(made, range, torn, ahead, each);
+                if let Some(corner) = corner {
+                    self.made(corner, range, torn, ahead, each);
+                }
+            }
+            None if self.after.torn => self.interrupt(false),
+            None => {}
+        }
+        if let Some(stop) = block.stop {
+            self.sum.stops += 1;
+            self.interrupt(true);
+            if stop == Stop::Pause {
+                self.pauses += 1;
+                let known = self
+                    .runs
+                    .last_mut()
+                    .map_or(&mut self.stop_before, |run| &mut run.stop);
+                *known = Some(known.map_or(range.0, |_| SEVERAL));
+            }
+            if stop == Stop::End && self.after.side.is_some() && self.after.switches.is_none() {
+                self.fault(Fault::StillOn, range);
+            }
+        }
+    }
+
+    fn fault(&mut self, fault: Fault, range: (u32, u32)) {
+        let range = range.0 as usize..range.1 as usize;
+        self.faults.push(Finding::of(fault, range));
+    }
+
+    /// I or J in a line that makes no arc of them.
+    fn has_stray_center(&self, block: &Block) -> bool {
+        (block.i.is_some() || block.j.is_some())
+            && !matches!(
+                self.after.motion,
+                Motion::Clockwise | Motion::CounterClockwise
+            )
+            && !block.takes_coordinates
+            && !block.sets_position
+            && !block.broken
+    }
+
+    /// Makes the corner at the end of a move.
+    fn turned<'a>(
+        &mut self,
+        made: Move,
+        range: (u32, u32),
+        ahead: &Ahead<'_, impl Lines<'a>>,
+    ) -> Turned {
+        if made.corner.is_none() {
+            return Turned {
+                made,
+                corner: None,
+                looked_at: 0,
+                is_fixed: false,
+            };
+        }
+        self.has_corners = true;
+        let turned = turned(made, &mut self.after, ahead.lines(), &self.reading);
+        self.ahead = self.ahead.max(ahead.beyond(turned.looked_at));
+        if turned.corner.is_none() {
+            self.fault(Fault::NoCorner, range);
+        }
+        turned
+    }
+
+    /// Whether a line says once more what the last one with a move said.
+    fn said(&mut self, block: &Block, made: &Move, range: (u32, u32)) {
+        let said = mark_of(block, made);
+        let is_again = std::mem::replace(&mut self.after.trail.said, said) == said;
+        if is_again
+            && !made.incremental
+            && made.is_cut()
+            && made.from == made.to
+            && made.switches.is_none()
+        {
+            self.fault(Fault::DoubledBlock { arc: made.is_arc() }, range);
+        }
+    }
+
+    /// Notes that something is wrong in a line of the cut that is going on.
+    fn mark_fault(&mut self) {
+        match self.runs.last_mut() {
+            Some(run) => run.faulty |= run.open,
+            None => self.faulty_before |= self.ends_run_before.is_none(),
+        }
+    }
+
+    /// What comes next is a cut of its own; `whole` is false where lines between cannot be read.
+    fn interrupt(&mut self, whole: bool) {
+        self.after.trail = Trail::default();
+        match self.runs.last_mut() {
+            Some(run) if run.open => (run.open, run.whole) = (false, run.whole && whole),
+            Some(_) => {}
+            None => _ = self.ends_run_before.get_or_insert(whole),
+        }
+    }
+
+    fn made<'a>(
+        &mut self,
+        made: Move,
+        range: (u32, u32),
+        torn: bool,
+        ahead: &Ahead<'_, impl Lines<'a>>,
+        each: &mut Hears<'_>,
+    ) {
+        self.fixed |= !made.incremental;
+        self.sum.moves += 1;
+        self.sum.arcs += usize::from(made.is_arc());
+        self.sum.rapids += usize::from(!made.is_cut());
+        for (axis, along) in self.sum.travel.iter_mut().enumerate() {
+            *along = along.wrapping_add(made.to[axis].wrapping_sub(made.from[axis]));
+        }
+        if made.switches == Some(true) && made.offset.is_none() {
+            let side = made.side.unwrap_or(Side::Left);
+            self.fault(Fault::NoOffset { side }, range);
+        }
+        if let Some(on) = made.switches
+            && (made.is_arc() || (on && !made.is_cut()))
+        {
+            self.fault(
+                Fault::Switch {
+                    on,
+                    arc: made.is_arc(),
+                },
+                range,
+            );
+        }
+        let mut cap = 0.0;
+        if made.is_arc() {
+            // About its own start, so that it comes to the same to the last bit wherever it lies.
+            match made.at_origin().course(&self.reading) {
+                Course::Arc(arc) => {
+                    // µm² to nm².
+                    cap = (arc.twice_cap_area() * 1e6).round();
+                    if arc.radius * 1e3 < LARGEST_CORRECTION {
+                        let goes_on = self.runs.last().is_some_and(|run| run.open);
+                        let run = (self.runs.len() - usize::from(goes_on)) as u32;
+                        let tightest = if made.side.is_some() {
+                            &mut self.tightest.offset
+                        } else {
+                            &mut self.tightest.plain
+                        };
+                        *tightest = tightest.min(arc.radius);
+                        self.tight.push(Tight {
+                            arc: made,
+                            radius: arc.radius,
+                            range,
+                            run,
+                        });
+                    }
+                }
+                Course::OffRadius { start, end, .. } => {
+                    self.fault(Fault::OffRadius { start, end }, range);
+                }
+                Course::NoRadius => self.fault(Fault::NoRadius, range),
+                Course::Line => {}
+            }
+        }
+        if !made.is_cut() {
+            return self.interrupt(true);
+        }
+        if made.from == made.to && !made.is_arc() {
+            return;
+        }
+        self.examine(&made, range, ahead);
+        self.after.trail.push(&made);
+        match self.runs.last_mut() {
+            Some(run) if run.open => run.push(made, cap, range),
+            last => {
+                let continues = last.is_none() && self.ends_run_before.is_none();
+                self.runs
+                    .push(Run::begin(made, cap, range, continues, !torn));
+            }
+        }
+        each(self.runs.len() - 1, &made, range);
+    }
+
+    /// Whether the way turns back on itself at the beginning of a move.
+    fn examine<'a>(&mut self, made: &Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) {
+        let Some(joint) = shape::joint(&self.after.trail, made, &self.reading) else {
+            return;
+        };
+        let (next, looked_at) = corner::next_move(self.after, ahead.lines(), &self.reading);
+        self.ahead = self.ahead.max(ahead.beyond(looked_at));
+        self.fixed |= next.is_some_and(|next| !next.incremental);
+        if let Some(fault) = joint.fault(next.as_ref(), &self.reading) {
+            self.fault(fault, range);
+        }
+    }
+}
+
+/// Lines, each with the byte at which it begins, that can be gone through more than once.
+pub trait Lines<'a>: Iterator<Item = (usize, &'a [u8])> + Clone {}
+
+impl<'a, I: Iterator<Item = (usize, &'a [u8])> + Clone> Lines<'a> for I {}
+
+/// What stands behind a line.
+struct Ahead<'l, L> {
+    lines: &'l L,
+    /// How many lines of the stretch.
+    left: usize,
+}
+
+impl<'a, L: Lines<'a>> Ahead<'_, L> {
+    fn lines(&self) -> impl Iterator<Item = &'a [u8]> {
+        self.lines.clone().map(|(_, line)| line)
+    }
+
+    /// How many of the lines looked at stand behind the stretch.
+    fn beyond(&self, looked_at: usize) -> u32 {
+        looked_at.saturating_sub(self.left) as u32
+    }
+}
+
+/// Lines with a move that say the same have the same mark, whatever their number.
+fn mark_of(block: &Block, made: &Move) -> u64 {
+    let numbers = [
+        block.x,
+        block.y,
+        block.i,
+        block.j,
+        block.r,
+        block.corner.map(|corner| corner.size),
+    ];
+    numbers
+        .into_iter()
+        .fold(1 + made.motion as u64, |mark, number| match number {
+            Some(number) => mixed(
+                mark,
+                number.mantissa as u64 ^ u64::from(number.decimals) << 56,
+            ),
+            None => mixed(mark, 1 << 55),
+        })
+}
+
+/// From the first to the last byte of a line that is no space.
+pub fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
+    let leading = line
+        .iter()
+        .take_while(|byte| byte.is_ascii_whitespace())
+        .count();
+    let trailing = line[leading..]
+        .iter()
+        .rev()
+        .take_while(|byte| byte.is_ascii_whitespace())
+        .count();
+    (
+        (offset + leading) as u32,
+        (offset + line.len() - trailing) as u32,
+    )
+}
+
+fn pair(range: Range<usize>) -> (u32, u32) {
+    (range.start as u32, range.end as u32)
+}

@@ -1,0 +1,278 @@
+//! Consecutive cuts of an ISO program without rapid or stop between, as far as they lie in one stretch, how they lie on themselves, and
+//! their arcs that may be too tight.
+
+use super::machine::{Bend, Move, Place, Reading, added};
+use crate::geometry::{Bounds, Point, Segment, Side};
+use crate::program::path::{HeldWay, Node, closing, goes_round, mixed, near_each_other};
+
+/// Consecutive cuts without rapid or stop between, or the part of them that lies in one stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// The first two and the last two moves that lead anywhere; the same one may be several of them.
+    pub first: [Move; 2],
+    pub last: [Move; 2],
+    pub moves: u32,
+    pub arcs: u32,
+    /// Twice the signed area in nm², about the place where the run begins.
+    pub twice_area: i128,
+    /// The line that begins it, bytes from the start of the stretch.
+    pub range: (u32, u32),
+    /// The line that ends it.
+    pub last_range: (u32, u32),
+    /// Nothing of it was lost to lines that could not be read.
+    pub whole: bool,
+    /// In one of its lines, or between them, something is wrong.
+    pub faulty: bool,
+    /// It goes on in the next stretch.
+    pub open: bool,
+    /// It is the continuation of the one before.
+    pub continues: bool,
+    /// The stop behind it, before anything else moves, bytes from the start of the stretch; [`SEVERAL`] for more than one.
+    pub stop: Option<u32>,
+    /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
+    pub side: RunSide,
+    /// Where the wire was sent to the other side first, and the line that did so.
+    pub flip: Option<(Place, (u32, u32))>,
+}
+
+/// Stands for more than one stop.
+pub const SEVERAL: u32 = u32::MAX;
+
+/// On which side of a run the wire was sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunSide {
+    None,
+    One(Side),
+    Both,
+}
+
+impl Run {
+    pub fn begin(first: Move, cap: f64, range: (u32, u32), continues: bool, whole: bool) -> Run {
+        let side = first.side.map_or(RunSide::None, RunSide::One);
+        let twice_area = cap as i128;
+        Run {
+            first: [first; 2],
+            last: [first; 2],
+            moves: 1,
+            arcs: u32::from(first.is_arc()),
+            twice_area,
+            range,
+            last_range: range,
+            whole,
+            faulty: false,
+            open: true,
+            continues,
+            stop: None,
+            side,
+            flip: None,
+        }
+    }
+
+    pub fn start(&self) -> Place {
+        self.first[0].from
+    }
+
+    /// What a move adds to the area.
+    fn term(&self, step: &Move, cap: f64) -> i128 {
+        let origin = self.start();
+        let from = [
+            step.from[0].wrapping_sub(origin[0]),
+            step.from[1].wrapping_sub(origin[1]),
+        ];
+        let to = [
+            step.to[0].wrapping_sub(origin[0]),
+            step.to[1].wrapping_sub(origin[1]),
+        ];
+        (i128::from(from[0]) * i128::from(to[1]))
+            .wrapping_sub(i128::from(from[1]) * i128::from(to[0]))
+            .wrapping_add(cap as i128)
+    }
+
+    pub fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
+        self.twice_area = self.twice_area.wrapping_add(self.term(&step, cap));
+        if self.moves == 1 {
+            self.first[1] = step;
+        }
+        if changes_side(&self.last[1], &step) {
+            self.flip.get_or_insert((step.from, range));
+        }
+        self.last = [self.last[1], step];
+        self.moves += 1;
+        self.arcs += u32::from(step.is_arc());
+        self.last_range = range;
+        self.side = joined(self.side, step.side.map_or(RunSide::None, RunSide::One));
+    }
+
+    /// Appends the continuation of a run; the ranges stay those of the beginning.
+    pub fn append(&mut self, next: &Run) {
+        // The area of the continuation was taken about its own beginning.
+        let (origin, its) = (self.start(), next.start());
+        let shift = [
+            its[0].wrapping_sub(origin[0]),
+            its[1].wrapping_sub(origin[1]),
+        ];
+        let along = [
+            next.last[1].to[0].wrapping_sub(its[0]),
+            next.last[1].to[1].wrapping_sub(its[1]),
+        ];
+        let between = (i128::from(shift[0]) * i128::from(along[1]))
+            .wrapping_sub(i128::from(shift[1]) * i128::from(along[0]));
+        self.twice_area = self
+            .twice_area
+            .wrapping_add(next.twice_area)
+            .wrapping_add(between);
+        if self.moves == 1 {
+            self.first[1] = next.first[0];
+        }
+        self.last = if next.moves == 1 {
+            [self.last[1], next.last[1]]
+        } else {
+            next.last
+        };
+        self.moves += next.moves;
+        self.arcs += next.arcs;
+        self.whole &= next.whole;
+        self.faulty |= next.faulty;
+        self.open = next.open;
+        self.stop = next.stop;
+        self.side = joined(self.side, next.side);
+    }
+
+    pub fn shift(&mut self, by: Place) {
+        for step in self.first.iter_mut().chain(&mut self.last) {
+            *step = step.shifted(by);
+        }
+        if let Some((at, _)) = &mut self.flip {
+            *at = added(*at, by);
+        }
+    }
+}
+
+/// The second move has the wire on the other side than the first.
+pub fn changes_side(one: &Move, other: &Move) -> bool {
+    matches!((one.side, other.side), (Some(one), Some(other)) if one != other)
+}
+
+fn joined(a: RunSide, b: RunSide) -> RunSide {
+    match (a, b) {
+        (RunSide::None, other) | (other, RunSide::None) => other,
+        (one, other) if one == other => one,
+        _ => RunSide::Both,
+    }
+}
+
+/// How a run lies on itself: what tells where the way crosses itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Tells two runs apart: equal ways have equal marks.
+    pub mark: u64,
+    /// µm, seen from where the run begins.
+    pub bounds: Bounds,
+    /// Moves of it that come near each other, by their number in the run.
+    pub near: Box<[(u32, u32)]>,
+    /// It holds a closed contour, and one that goes round something.
+    pub closes: bool,
+    pub goes_round: bool,
+}
+
+/// Hears of every move of a run: the run's index, the move, the place of its words.
+pub type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
+
+/// The moves of a run as they are made.
+#[derive(Default)]
+pub struct Ways(Vec<Move>);
+
+impl Ways {
+    pub fn push(&mut self, step: Move) {
+        self.0.push(step);
+    }
+
+    pub fn path(self, reading: &Reading) -> Path {
+        let start = self.0.first().map_or([0, 0], |step| step.from);
+        let ways: Vec<Segment> = self
+            .0
+            .iter()
+            .map(|step| step.seen_from(start).segment(reading))
+            .collect();
+        let boxes: Vec<Bounds> = ways.iter().map(Segment::bounds).collect();
+        let mut near = Vec::new();
+        near_each_other(&ways, &boxes, &mut |first, second| {
+            near.push((first as u32, second as u32))
+        });
+        let bounds = boxes
+            .iter()
+            .fold(Bounds::EMPTY, |whole, part| whole.merged(part));
+        let way = self.held(&ways, reading);
+        let closes = closing(&way).is_some_and(|closing| closing.closed);
+        Path {
+            mark: self.mark(reading),
+            bounds,
+            near: near.into(),
+            closes,
+            goes_round: closes && goes_round(&way) == Some(true),
+        }
+    }
+
+    fn held(&self, ways: &[Segment], reading: &Reading) -> HeldWay {
+        let mut held = HeldWay::from(Node::at(Point::origin()), reading.writing());
+        for (step, piece) in self.0.iter().zip(ways) {
+            held.push(*piece, step.is_arc(), Node::at(piece.end()));
+        }
+        held
+    }
+
+    fn mark(&self, reading: &Reading) -> u64 {
+        let mix = |mark: u64, field: i64| mixed(mark, field as u64);
+        let with = |mark: u64, step: &Move| {
+            let along = step.at_origin();
+            let bend = match along.bend {
+                Bend::Center { .. } => along
+                    .center(reading.rule(along.incremental))
+                    .unwrap_or_default(),
+                Bend::Radius(radius) => [radius, i64::MIN],
+                Bend::Nothing => [0, i64::MAX],
+            };
+            let fields = [
+                along.to[0],
+                along.to[1],
+                bend[0],
+                bend[1],
+                along.motion as i64,
+            ];
+            fields.into_iter().fold(
+                mark.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1),
+                mix,
+            )
+        };
+        self.0.iter().fold(0, with)
+    }
+}
+
+/// An arc that may be tighter than a correction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tight {
+    pub arc: Move,
+    /// µm, taken about its own start: the same wherever it lies.
+    pub radius: f64,
+    /// Bytes from the start of the stretch; the whole line's words.
+    pub range: (u32, u32),
+    /// The run that it is part of, by its index in the stretch.
+    pub run: u32,
+}
+
+/// The smallest radii among some arcs, µm; infinite where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tightest {
+    /// Of those beside which the control lets the wire run on a side, and of the others.
+    pub offset: f64,
+    pub plain: f64,
+}
+
+impl Default for Tightest {
+    fn default() -> Self {
+        Tightest {
+            offset: f64::INFINITY,
+            plain: f64::INFINITY,
+        }
+    }
+}

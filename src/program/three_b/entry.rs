@@ -1,0 +1,155 @@
+//! What stands in a line of a 3B program, and where a block leads.
+
+use super::block::{self, Block, Motion, PartArc};
+use super::decode::meant;
+use super::machine::travel;
+use super::parse::{StatedPoint, Word};
+use crate::geometry::Point;
+use crate::program::path::Node;
+use std::ops::Range;
+
+/// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::program) struct Move {
+    pub machine: [i64; 2],
+    pub meant: [i64; 2],
+}
+
+impl Move {
+    pub fn plus(self, other: Move) -> Move {
+        let sum = |a: [i64; 2], b: [i64; 2]| [a[0].saturating_add(b[0]), a[1].saturating_add(b[1])];
+        Move {
+            machine: sum(self.machine, other.machine),
+            meant: sum(self.meant, other.meant),
+        }
+    }
+
+    pub fn minus(self, other: Move) -> Move {
+        let difference =
+            |a: [i64; 2], b: [i64; 2]| [a[0].saturating_sub(b[0]), a[1].saturating_sub(b[1])];
+        Move {
+            machine: difference(self.machine, other.machine),
+            meant: difference(self.meant, other.meant),
+        }
+    }
+
+    /// True where machine or meaning come back within `tolerance` µm.
+    pub fn is_within(&self, tolerance: f64) -> bool {
+        let near =
+            |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
+        near(self.machine, 1.0) || near(self.meant, 1e-3)
+    }
+
+    /// Where it leads from the origin.
+    pub fn node(&self) -> Node {
+        let ([x, y], [a, b]) = (self.meant_um(), self.machine);
+        Node {
+            stands: Point::new(a as f64, b as f64),
+            meant: Point::new(x, y),
+        }
+    }
+
+    /// What the blocks mean, µm.
+    pub fn meant_um(&self) -> [f64; 2] {
+        self.meant.map(|nm| nm as f64 * 1e-3)
+    }
+}
+
+/// A block as it stands in the text, and where it leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct BlockEntry {
+    pub block: Block,
+    pub travel: Move,
+    /// What only some blocks have.
+    pub extra: Option<Box<Extra>>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Extra {
+    pub part: Option<PartArc>,
+    pub stated_end: Option<StatedPoint>,
+}
+
+impl BlockEntry {
+    pub fn new(block: Block, part: Option<PartArc>, stated_end: Option<StatedPoint>) -> BlockEntry {
+        let extra =
+            (part.is_some() || stated_end.is_some()).then(|| Box::new(Extra { part, stated_end }));
+        BlockEntry {
+            block,
+            travel: travel_of(&block),
+            extra,
+        }
+    }
+
+    /// What a 4B block says beside a 3B block.
+    pub fn part(&self) -> Option<PartArc> {
+        self.extra.as_ref().and_then(|extra| extra.part)
+    }
+
+    pub fn stated_end(&self) -> Option<StatedPoint> {
+        self.extra.as_ref().and_then(|extra| extra.stated_end)
+    }
+
+    pub fn is_line(&self) -> bool {
+        matches!(self.block.motion, Motion::Line(_))
+    }
+}
+
+/// Where a block leads to.
+pub(super) fn travel_of(block: &Block) -> Move {
+    let machine = travel(block).map_or([0, 0], |block::Node { x, y }| [x, y]);
+    let meant = match meant(block, Point::origin()) {
+        Some(segment) => [segment.end().x, segment.end().y].map(|um| (um * 1e3).round() as i64),
+        None => machine.map(|um| um.saturating_mul(1000)),
+    };
+    Move { machine, meant }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum What {
+    Block(BlockEntry),
+    Word {
+        word: Word,
+        is_own: bool,
+    },
+    /// mm.
+    StartPoint([f64; 2]),
+    Text {
+        column: usize,
+    },
+    /// A comment that holds a block.
+    CommentedBlock {
+        column: usize,
+    },
+    /// A block that cannot be read.
+    Unread,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    pub start: u32,
+    pub length: u32,
+    pub line: u32,
+    pub number: u32,
+    pub what: What,
+}
+
+pub(super) const NO_NUMBER: u32 = u32::MAX;
+
+impl Entry {
+    /// Bytes from the run's first byte.
+    pub fn range(&self) -> Range<usize> {
+        self.start as usize..(self.start + self.length) as usize
+    }
+
+    pub fn number(&self) -> Option<u32> {
+        (self.number != NO_NUMBER).then_some(self.number)
+    }
+
+    pub fn block(&self) -> Option<&BlockEntry> {
+        match &self.what {
+            What::Block(block) => Some(block),
+            _ => None,
+        }
+    }
+}
