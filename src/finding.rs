@@ -16,9 +16,10 @@ pub use crate::geometry::Side;
 pub use crate::rule::{Rule, Severity};
 
 use crate::drawing::{Change, ContourSegment, DrawingEdit, EntityId, Visibility};
-use crate::geometry::Point;
+use crate::geometry::{Arc, Point};
 use crate::text::TextEdit;
 use rustc_hash::FxHashSet;
+use std::f64::consts::PI;
 use std::ops::Range;
 
 impl From<&ContourSegment> for Place {
@@ -106,6 +107,35 @@ pub struct SmallRadius {
     pub pass: Option<usize>,
     /// Why no fix is offered; `None` where one is.
     pub no_fix: Option<NoFix>,
+}
+
+impl SmallRadius {
+    /// The numbers of an arc whose radius counts as `radius`; of a length in them there are `unit` in one of theirs.
+    pub(crate) fn of(arc: &Arc, radius: f64, required: f64, unit: f64) -> SmallRadius {
+        let (short, turn) = ((required - radius).max(0.0) / unit, arc.sweep.abs().min(PI));
+        let stock_left = if turn < PI {
+            short * (1.0 / (turn / 2.0).cos() - 1.0)
+        } else {
+            f64::INFINITY
+        };
+        SmallRadius {
+            radius: radius / unit,
+            required: required / unit,
+            center: arc.center / unit,
+            start: arc.start / unit,
+            end: arc.end / unit,
+            sweep: arc.sweep,
+            side: if arc.sweep > 0.0 {
+                Side::Left
+            } else {
+                Side::Right
+            },
+            overcut: short * (1.0 - turn.cos()),
+            stock_left,
+            pass: None,
+            no_fix: None,
+        }
+    }
 }
 
 /// The numbers of a finding. One variant for each kind of sentence.

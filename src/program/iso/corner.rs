@@ -2,7 +2,7 @@
 //! next one begins where that ends.
 
 use super::block::{Corner, Motion, read_line};
-use super::machine::{Bend, CenterRule, Course, Machine, Move, Place, Reading, added, micrometres};
+use super::machine::{Bend, Course, Machine, Move, Reading, added, bend_about, micrometres};
 use crate::geometry::{Point, Segment, Vector, cross, left_normal};
 
 /// Lines behind a corner's in which the move that it leads to is looked for.
@@ -154,23 +154,6 @@ fn way(made: &Move, reading: &Reading) -> Option<Segment> {
             Some(Segment::line(micrometres(made.from), micrometres(made.to)))
         }
         _ => None,
-    }
-}
-
-/// I and J for a centre, as the program's arcs have them.
-pub fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
-    let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(from[axis]));
-    match reading.rule(incremental) {
-        CenterRule::CenterToStart => Bend::Center {
-            i: i.wrapping_neg(),
-            j: j.wrapping_neg(),
-            absolute: center,
-        },
-        CenterRule::StartToCenter | CenterRule::Absolute => Bend::Center {
-            i,
-            j,
-            absolute: center,
-        },
     }
 }
 

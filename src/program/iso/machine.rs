@@ -4,7 +4,6 @@
 //! depend on the order in which they are made.
 
 use super::block::{Block, Compensation, Corner, Motion, Offset, Stop};
-use super::corner::bend_about;
 use super::word::Number;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
@@ -232,6 +231,23 @@ impl Move {
         self.from = added(self.from, by);
         self.to = added(self.to, by);
         self
+    }
+}
+
+/// I and J for a centre, as the program's arcs have them.
+pub fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
+    let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(from[axis]));
+    match reading.rule(incremental) {
+        CenterRule::CenterToStart => Bend::Center {
+            i: i.wrapping_neg(),
+            j: j.wrapping_neg(),
+            absolute: center,
+        },
+        CenterRule::StartToCenter | CenterRule::Absolute => Bend::Center {
+            i,
+            j,
+            absolute: center,
+        },
     }
 }
 

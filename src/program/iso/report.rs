@@ -15,15 +15,12 @@ use super::word::{Token, words};
 use crate::finding::{
     Detail, Fault, Finding, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
 };
-use crate::geometry::{Arc, cross};
-use crate::program::path::tolerance;
+use crate::geometry::cross;
+use crate::program::path::{UM_IN_MM, is_tight, tolerance};
 use crate::settings::{Compensation, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
-
-/// Radii within half a µm of the correction are as large as it, µm: as in programs of every language.
-const RADIUS_TOLERANCE: f64 = 0.5;
 
 /// A run with fewer moves is no contour that could be closed.
 const FEWEST_MOVES: u32 = 3;
@@ -163,8 +160,8 @@ struct Report<'a> {
     findings: Vec<Finding>,
     foreign: FxHashMap<Code, (Range<usize>, usize)>,
     definitions: &'a Table,
-    /// An arc of at least this radius is no tighter than any correction, µm.
-    tight_below: f64,
+    /// µm; an arc of at least this radius is no tighter than any correction.
+    largest_correction: f64,
     moves: u32,
     is_behind_end_said: bool,
 }
@@ -183,11 +180,11 @@ impl<'a> Report<'a> {
             findings: Vec::new(),
             foreign: FxHashMap::default(),
             definitions: &document.table,
-            tight_below: 0.0,
+            largest_correction: 0.0,
             moves: 0,
             is_behind_end_said: false,
         };
-        report.tight_below = report.largest_correction() - RADIUS_TOLERANCE;
+        report.largest_correction = report.largest_correction();
         report
     }
 
@@ -263,9 +260,10 @@ impl<'a> Report<'a> {
                 stretch.tightest.plain
             });
             let may_be_tight = |tight: &Tight| {
-                tight.radius < self.tight_below && (tight.arc.side.is_some() || !is_offset_only)
+                is_tight(tight.radius, self.largest_correction)
+                    && (tight.arc.side.is_some() || !is_offset_only)
             };
-            let tight = (tightest < self.tight_below)
+            let tight = is_tight(tightest, self.largest_correction)
                 .then(|| stretch.tight_of(part.run).filter(may_be_tight));
             found.extend(
                 tight
@@ -465,14 +463,18 @@ impl<'a> Report<'a> {
             };
             let required = self.correction(step);
             if wire_side == side_of_center
-                && *radius < required - RADIUS_TOLERANCE
+                && is_tight(*radius, required)
                 && let Course::Arc(arc) = step.course(self.reading)
             {
+                let detail = SmallRadius {
+                    no_fix: Some(NoFix::Program),
+                    ..SmallRadius::of(&arc, arc.radius, required, UM_IN_MM)
+                };
                 self.push(
                     Rule::SmallRadius,
                     Rule::SmallRadius.default_severity(),
                     range.clone(),
-                    Detail::SmallRadius(Box::new(small_radius(&arc, required, wire_side))),
+                    Detail::SmallRadius(Box::new(detail)),
                 );
             }
         }
@@ -799,34 +801,5 @@ impl<'a> Report<'a> {
                 .retain(|finding| said.insert((start(finding), finding.rule)));
         }
         self.findings
-    }
-}
-
-/// The numbers of a tight arc for a person, in mm.
-fn small_radius(arc: &Arc, required: f64, side: Side) -> SmallRadius {
-    let half = arc.sweep.abs() / 2.0;
-    let short = (required - arc.radius) / 1e3;
-    let overcut = if half.to_degrees() >= 90.0 {
-        2.0 * short
-    } else {
-        short * (1.0 - (2.0 * half).cos())
-    };
-    let stock_left = if half.to_degrees() >= 90.0 {
-        f64::INFINITY
-    } else {
-        short * (1.0 / half.cos() - 1.0)
-    };
-    SmallRadius {
-        radius: arc.radius / 1e3,
-        required: required / 1e3,
-        center: arc.center / 1e3,
-        start: arc.start / 1e3,
-        end: arc.end / 1e3,
-        sweep: arc.sweep,
-        side,
-        overcut,
-        stock_left,
-        pass: None,
-        no_fix: Some(NoFix::Program),
     }
 }

@@ -7,6 +7,7 @@ mod crossing;
 mod crossings;
 mod cut;
 mod passes;
+mod tight;
 mod trace;
 mod way;
 
@@ -17,6 +18,7 @@ pub(in crate::program) use crossings::{Found, Known};
 pub use cut::Cut;
 pub(in crate::program) use cut::{cut_at, cut_of, cuts};
 pub(in crate::program) use passes::{passes, pieces_of};
+pub(in crate::program) use tight::{UM_IN_MM, is_tight};
 pub use trace::{Chain, Kind, Step, Trace};
 pub use way::Writing;
 pub(in crate::program) use way::{Blocks, HeldWay, Node, Part, PartedWay, Way, mixed};

@@ -19,7 +19,6 @@ pub use travel::Travel;
 use super::Limits;
 use crate::drawing::ContourSegment;
 use crate::finding::{Side, SmallRadius};
-use std::f64::consts::PI;
 
 /// Side of travel on which an arc's centre lies.
 pub fn center_side(sweep: f64) -> Side {
@@ -43,39 +42,17 @@ pub fn check(
     if !is_too_small(arc.radius, limits) || wire_side.is_some_and(|wire| wire != side) {
         return None;
     }
-    let (c, r, turn) = (limits.correction, arc.radius, arc.sweep.abs());
-    // Stock that a later pass takes away is no harm of this one.
-    let later = c - limits.last_correction;
-    let overcut = if turn >= PI {
-        2.0 * (c - r)
-    } else {
-        (c - r) * (1.0 - turn.cos())
-    };
-    let stock_left = if turn >= PI {
-        f64::INFINITY
-    } else {
-        (c - r) * (1.0 / (turn / 2.0).cos() - 1.0)
-    };
     let own = if segment.reversed {
         arc.reversed()
     } else {
         *arc
     };
+    let detail = SmallRadius::of(&own, arc.radius, limits.correction, 1.0);
+    // Stock that a later pass takes away is no harm of this one.
+    let later = limits.correction - limits.last_correction;
     Some(SmallRadius {
-        radius: r,
-        required: c,
-        center: own.center,
-        start: own.start,
-        end: own.end,
-        sweep: own.sweep,
-        side: if segment.reversed {
-            side.reversed()
-        } else {
-            side
-        },
-        overcut: (overcut - later).max(0.0),
-        stock_left,
+        overcut: (detail.overcut - later).max(0.0),
         pass: limits.pass,
-        no_fix: None,
+        ..detail
     })
 }

@@ -4,15 +4,12 @@
 //! settings say so (`compensation = "controller"` or `"none"`); the wire's own path rightly has arcs down to nothing.
 
 use super::{Counts, Seen, Sight, Spot};
-use crate::finding::{Detail, Rule, Side, SmallRadius};
+use crate::finding::{Detail, Rule, SmallRadius};
 use crate::geometry::{Point, Segment};
+use crate::program::path::{UM_IN_MM, is_tight};
 use crate::program::three_b::block::Motion;
 use crate::program::three_b::decode::decode;
 use crate::settings::SideSetting;
-use std::f64::consts::PI;
-
-/// Radii within half a µm of the correction are as large as it: a program counts in µm.
-const ROUNDING: f64 = 0.5;
 
 pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let turns_left = match seen.block.motion {
@@ -34,9 +31,9 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let required = seen.limits.correction * 1000.0;
     // A 4B controller refuses an arc as large as its correction, too.
     let is_tight = if seen.part.is_some() {
-        radius <= required + ROUNDING
+        !is_tight(required, radius)
     } else {
-        radius < required - ROUNDING
+        is_tight(radius, required)
     };
     let Ok(Segment::Arc(arc)) = decode(seen.block, Point::origin()) else {
         return None;
@@ -44,26 +41,9 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     if !is_tight {
         return None;
     }
-    let mm = |point: Point| point / 1000.0;
-    let turn = arc.sweep.abs().min(PI);
-    let short = (required - radius).max(0.0) / 1000.0;
-    let side = if turns_left { Side::Left } else { Side::Right };
     let detail = SmallRadius {
-        radius: radius / 1000.0,
-        required: required / 1000.0,
-        center: mm(arc.center),
-        start: mm(arc.start),
-        end: mm(arc.end),
-        sweep: arc.sweep,
-        side,
-        overcut: short * (1.0 - turn.cos()),
-        stock_left: if turn < PI {
-            short * (1.0 / (turn / 2.0).cos() - 1.0)
-        } else {
-            f64::INFINITY
-        },
         pass: seen.limits.pass,
-        no_fix: None,
+        ..SmallRadius::of(&arc, radius, required, UM_IN_MM)
     };
     Some(Sight {
         rule: Rule::SmallRadius,
