@@ -338,7 +338,30 @@ impl Soak {
             ("textDocument/signatureHelp", there.clone()),
             ("textDocument/definition", there.clone()),
             ("textDocument/documentHighlight", there.clone()),
-            ("textDocument/prepareRename", there),
+            ("textDocument/prepareRename", there.clone()),
+            ("textDocument/rename", with(&there, "newName", json!("N7"))),
+            (
+                "textDocument/references",
+                with(&there, "context", json!({ "includeDeclaration": true })),
+            ),
+            (
+                "textDocument/onTypeFormatting",
+                with(&with(&there, "ch", json!("\n")), "options", options()),
+            ),
+            ("textDocument/codeLens", json!({ "textDocument": document })),
+            (
+                "textDocument/semanticTokens/range",
+                json!({ "textDocument": document, "range": everywhere() }),
+            ),
+            (
+                "textDocument/semanticTokens/full/delta",
+                json!({ "textDocument": document, "previousResultId": "1" }),
+            ),
+            (
+                "textDocument/rangeFormatting",
+                json!({ "textDocument": document, "range": everywhere(), "options": options() }),
+            ),
+            ("wedm/locate", json!({ "uri": uri, "position": position })),
             (
                 "textDocument/documentSymbol",
                 json!({ "textDocument": document }),
@@ -361,7 +384,7 @@ impl Soak {
             ),
             (
                 "textDocument/formatting",
-                json!({ "textDocument": document, "options": { "tabSize": 4, "insertSpaces": true } }),
+                json!({ "textDocument": document, "options": options() }),
             ),
         ];
         let of_all = [
@@ -450,6 +473,16 @@ fn open(client: &mut Client, model: &Model, uri: &str) -> Vec<Value> {
     let (method, params) = model.opening();
     client.notify(method, params);
     client.diagnostics(uri, model.version)
+}
+
+fn options() -> Value {
+    json!({ "tabSize": 4, "insertSpaces": true })
+}
+
+fn with(params: &Value, key: &str, value: Value) -> Value {
+    let mut params = params.clone();
+    params[key] = value;
+    params
 }
 
 fn everywhere() -> Value {

@@ -415,4 +415,17 @@ declare! {
     a_program_is_drawn_as_svg(path) => "{path}: a program is drawn as .svg; as a drawing: wedm convert {path} -o OUT.dxf";
     a_picture_that_is_not_written(ending) => ".{ending} is not written, expected .svg or .dxf";
     binary_dxf_is_not_edited => "it is binary DXF, which is read but not edited: save it as ASCII DXF";
+    the_change_of_holds_neither(handle) => "the change of {handle} holds neither or both of vertices and entity, expected one";
+    entity_is_not_a_polyline(handle) => "entity {handle} is not a polyline and has no vertices";
+    vertices_are_out_of_range(start, delete_count, handle, count) => "vertices {start} + {delete_count} are out of range, polyline {handle} has {count}";
+    vertex_to_insert_in_is(index, handle) => "vertex {index} to insert in {handle} is not of finite numbers";
+    there_is_no_entity_to(before, handle) => "there is no entity {before} to put {handle} before";
+    there_is_no_entity_to_delete(handle) => "there is no entity {handle} to delete";
+    the_entity_handle_is_expected(handle, handle2) => "the entity's handle is {handle}, expected {handle2}";
+    entity_type_is_expected_polyline(name, kind) => "entity {name}: type is \"{kind}\", expected polyline, line, arc, circle or text";
+    handle_stands_twice_expected_a(handle) => "handle {handle} stands twice, expected a handle of its own for each entity";
+    entity_is_not_two_finite(name, key) => "entity {name}: {key} is not two finite numbers";
+    entity_radius_is_expected_a(name, radius) => "entity {name}: radius is {radius}, expected a finite number above 0";
+    entity_is_not_a_finite(name, key) => "entity {name}: {key} is not a finite number";
+    entity_vertex_is_not_of(name, index) => "entity {name}: vertex {index} is not of finite numbers";
 }

@@ -62,9 +62,7 @@ impl<'de> Deserialize<'de> for DrawingChange {
                 entity,
                 before,
             }),
-            _ => Err(D::Error::custom(format!(
-                "the change of {handle} holds neither or both of vertices and entity, expected one"
-            ))),
+            _ => Err(D::Error::custom(say!(the_change_of_holds_neither, handle))),
         }
     }
 }
@@ -117,41 +115,33 @@ fn try_change<'a>(
             .or_insert_with(|| Standing::of(drawing, handle))
     };
     match change {
-        DrawingChange::Vertices {
-            handle,
-            vertices:
-                Splice {
-                    start,
-                    delete_count,
-                    insert,
-                },
-        } => {
+        DrawingChange::Vertices { handle, vertices } => {
+            let (start, delete_count) = (vertices.start, vertices.delete_count);
             let count = match stands(handle) {
                 Standing::Polyline(count) => count,
-                Standing::Nothing => return Err(format!("there is no entity {handle}")),
+                Standing::Nothing => return Err(say!(there_is_no_entity, handle)),
                 Standing::Other => {
-                    return Err(format!(
-                        "entity {handle} is not a polyline and has no vertices"
-                    ));
+                    return Err(say!(entity_is_not_a_polyline, handle));
                 }
             };
             if start
-                .checked_add(*delete_count)
+                .checked_add(delete_count)
                 .is_none_or(|end| end > count)
             {
-                return Err(format!(
-                    "vertices {start} + {delete_count} are out of range, polyline {handle} has {count}"
+                return Err(say!(
+                    vertices_are_out_of_range,
+                    start,
+                    delete_count,
+                    handle,
+                    count
                 ));
             }
+            let insert = &vertices.insert;
             if let Some(index) = insert.iter().position(|vertex| !vertex.is_finite()) {
-                return Err(format!(
-                    "vertex {index} to insert in {handle} is not of finite numbers"
-                ));
+                return Err(say!(vertex_to_insert_in_is, index, handle));
             }
-            standing.insert(
-                handle,
-                Standing::Polyline(count - delete_count + insert.len()),
-            );
+            let count = count - delete_count + insert.len();
+            standing.insert(handle, Standing::Polyline(count));
         }
         DrawingChange::Entity {
             handle,
@@ -161,20 +151,15 @@ fn try_change<'a>(
             if let Some(before) = before
                 && matches!(stands(before), Standing::Nothing)
             {
-                return Err(format!(
-                    "there is no entity {before} to put {handle} before"
-                ));
+                return Err(say!(there_is_no_entity_to, before, handle));
             }
             let becomes = match entity {
                 None if matches!(stands(handle), Standing::Nothing) => {
-                    return Err(format!("there is no entity {handle} to delete"));
+                    return Err(say!(there_is_no_entity_to_delete, handle));
                 }
                 None => Standing::Nothing,
                 Some(entity) if entity.handle != *handle => {
-                    return Err(format!(
-                        "the entity's handle is {}, expected {handle}",
-                        entity.handle
-                    ));
+                    return Err(say!(the_entity_handle_is_expected, entity.handle, handle));
                 }
                 Some(entity) => {
                     entity.check()?;
@@ -195,34 +180,25 @@ fn apply_one(
     change: DrawingChange,
     delta: &mut Delta,
 ) -> Result<(), String> {
+    let found = |drawing: &core::Drawing, handle: &str| {
+        let id = drawing.find(handle);
+        id.ok_or_else(|| say!(there_is_no_entity, handle))
+    };
     match change {
-        DrawingChange::Vertices {
-            handle,
-            vertices:
-                Splice {
-                    start,
-                    delete_count,
-                    insert,
-                },
-        } => {
-            let id = drawing
-                .find(&handle)
-                .ok_or_else(|| format!("there is no entity {handle}"))?;
-            let insert: Vec<core::Vertex> = insert.into_iter().map(core::Vertex::from).collect();
-            delta.touched.push(
-                drawing
-                    .splice(id, start, delete_count, &insert)
-                    .map_err(|error| error.to_string())?,
-            );
+        DrawingChange::Vertices { handle, vertices } => {
+            let id = found(drawing, &handle)?;
+            let insert: Vec<_> = vertices.insert.into_iter().map(Into::into).collect();
+            let touched = drawing.splice(id, vertices.start, vertices.delete_count, &insert);
+            delta
+                .touched
+                .push(touched.map_err(|error| error.to_string())?);
         }
         DrawingChange::Entity {
             handle,
             entity: None,
             ..
         } => {
-            let id = drawing
-                .find(&handle)
-                .ok_or_else(|| format!("there is no entity {handle}"))?;
+            let id = found(drawing, &handle)?;
             drawing.remove(id);
             delta.touched.push(Touched::Removed { entity: id });
         }
@@ -260,33 +236,24 @@ fn apply_one(
 /// A fix as changes that are valid one after another and touch nothing that stays: neighbouring vertices of one polyline
 /// are one splice, lines and arcs are replaced whole.
 pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<DrawingChange> {
-    let mut vertices: BTreeMap<EntityId, BTreeMap<usize, AtVertex>> = BTreeMap::new();
+    let mut vertices = AtVertices::new();
     let mut entities: BTreeMap<EntityId, Option<core::Entity>> = BTreeMap::new();
     let mut added = Vec::new();
     for change in &edit.changes {
         let id = change.entity();
         let Some(old) = drawing.get(id) else { continue };
+        let with = |geometry| {
+            let old = old.clone();
+            Some(core::Entity { geometry, ..old })
+        };
         match *change {
             Change::SetVertex { index, vertex, .. } => {
-                let at = vertices.entry(id).or_default().entry(index).or_default();
+                let at = at(&mut vertices, id, index);
                 at.own = at.own.or(Some(Some(vertex)));
             }
-            Change::RemoveVertex { index, .. } => {
-                vertices
-                    .entry(id)
-                    .or_default()
-                    .entry(index)
-                    .or_default()
-                    .own = Some(None);
-            }
+            Change::RemoveVertex { index, .. } => at(&mut vertices, id, index).own = Some(None),
             Change::InsertVertex { index, vertex, .. } => {
-                vertices
-                    .entry(id)
-                    .or_default()
-                    .entry(index)
-                    .or_default()
-                    .before
-                    .push(vertex);
+                at(&mut vertices, id, index).before.push(vertex)
             }
             Change::SetClosed { closed, .. } => {
                 if let core::Geometry::Polyline { vertices, .. } = &old.geometry {
@@ -294,24 +261,12 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
                         closed,
                         vertices: vertices.clone(),
                     };
-                    entities.insert(
-                        id,
-                        Some(core::Entity {
-                            geometry,
-                            ..old.clone()
-                        }),
-                    );
+                    entities.insert(id, with(geometry));
                 }
             }
             Change::AddEntity { after, .. } => added.push((after, change)),
             Change::SetLine { start, end, .. } => {
-                entities.insert(
-                    id,
-                    Some(core::Entity {
-                        geometry: core::Geometry::Line { start, end },
-                        ..old.clone()
-                    }),
-                );
+                entities.insert(id, with(core::Geometry::Line { start, end }));
             }
             Change::SetArc {
                 center,
@@ -326,13 +281,7 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
                     start_angle,
                     end_angle,
                 };
-                entities.insert(
-                    id,
-                    Some(core::Entity {
-                        geometry,
-                        ..old.clone()
-                    }),
-                );
+                entities.insert(id, with(geometry));
             }
             Change::RemoveEntity { .. } => {
                 entities.insert(id, None);
@@ -344,14 +293,11 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
         let Some(entity) = drawing.get(*id).filter(|_| !entities.contains_key(id)) else {
             continue;
         };
-        changes.extend(
-            splices(by_index)
-                .into_iter()
-                .map(|vertices| DrawingChange::Vertices {
-                    handle: entity.handle.to_string(),
-                    vertices,
-                }),
-        );
+        let change = |vertices| DrawingChange::Vertices {
+            handle: entity.handle.to_string(),
+            vertices,
+        };
+        changes.extend(splices(by_index).into_iter().map(change));
     }
     for (id, entity) in entities {
         let Some(old) = drawing.get(id) else { continue };
@@ -399,6 +345,16 @@ struct AtVertex {
     before: Vec<core::Vertex>,
     /// `Some(None)` removes it, `None` leaves it.
     own: Option<Option<core::Vertex>>,
+}
+
+type AtVertices = BTreeMap<EntityId, BTreeMap<usize, AtVertex>>;
+
+fn at(vertices: &mut AtVertices, entity: EntityId, index: usize) -> &mut AtVertex {
+    vertices
+        .entry(entity)
+        .or_default()
+        .entry(index)
+        .or_default()
 }
 
 /// One splice for each run of neighbouring vertices, from the last run to the first, so that indices stay true.

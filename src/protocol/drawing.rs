@@ -234,9 +234,7 @@ impl<'de> Deserialize<'de> for Entity {
                 text: keys.text.ok_or_else(|| missing("text"))?,
             },
             _ => {
-                let message = format!(
-                    "entity {name}: type is \"{kind}\", expected polyline, line, arc, circle or text"
-                );
+                let message = say!(entity_type_is_expected_polyline, name, kind);
                 return Err(D::Error::custom(message));
             }
         };
@@ -256,10 +254,7 @@ impl Drawing {
         for entity in self.entities {
             let entity = entity.into_core()?;
             if drawing.find(&entity.handle).is_some() {
-                return Err(format!(
-                    "handle {} stands twice, expected a handle of its own for each entity",
-                    entity.handle
-                ));
+                return Err(say!(handle_stands_twice_expected_a, entity.handle));
             }
             drawing.push(entity);
         }
@@ -333,24 +328,20 @@ impl Entity {
         let name = &self.handle;
         let point = |key: &str, point: Point| match point.is_finite() {
             true => Ok(()),
-            false => Err(format!("entity {name}: {key} is not two finite numbers")),
+            false => Err(say!(entity_is_not_two_finite, name, key)),
         };
         let radius_is_sound = |radius: f64| match radius.is_finite() && radius > 0.0 {
             true => Ok(()),
-            false => Err(format!(
-                "entity {name}: radius is {radius}, expected a finite number above 0"
-            )),
+            false => Err(say!(entity_radius_is_expected_a, name, radius)),
         };
         let angle = |key: &str, angle: f64| match angle.is_finite() {
             true => Ok(()),
-            false => Err(format!("entity {name}: {key} is not a finite number")),
+            false => Err(say!(entity_is_not_a_finite, name, key)),
         };
         match &self.geometry {
             Geometry::Polyline { vertices, .. } => {
                 match vertices.iter().position(|vertex| !vertex.is_finite()) {
-                    Some(index) => Err(format!(
-                        "entity {name}: vertex {index} is not of finite numbers"
-                    )),
+                    Some(index) => Err(say!(entity_vertex_is_not_of, name, index)),
                     None => Ok(()),
                 }
             }

@@ -174,6 +174,10 @@ impl<R: Read> Frames<R> {
     }
 
     fn body(&mut self, length: usize) -> Frame {
+        if length > CHUNK {
+            // A long body is handed on as it lies in the buffer: it is held once, and not kept.
+            self.drop_used();
+        }
         let mut searched: usize = 0;
         loop {
             let have = self.rest().len().min(length);
@@ -336,6 +340,17 @@ mod tests {
             assert_eq!(run(step), seen, "{input:?} in steps of {step}");
         }
         seen
+    }
+
+    #[test]
+    fn a_long_body_is_held_once_and_not_kept() {
+        let body = " ".repeat(20 * CHUNK);
+        let input = format!("Content-Length: {}\r\n\r\n{body}", body.len());
+        let mut frames = Frames::new(input.as_bytes());
+        assert_eq!(frames.next(), Frame::Body(body.into_bytes()));
+        assert!(frames.buffer.capacity() <= CHUNK);
+        assert_eq!(frames.position(), input.len() as i64);
+        assert_eq!(frames.next(), Frame::End);
     }
 
     #[test]
