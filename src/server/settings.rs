@@ -5,6 +5,7 @@ use super::config::{self, Level, ProjectFile, Search};
 use super::content::Content;
 use super::convert::settings_diagnostics;
 use super::judge::Task;
+use super::open::Open;
 use super::state::State;
 use super::transport::Publish;
 use crate::finding::Rule;
@@ -117,18 +118,15 @@ impl State {
                     settings
                 }
             };
-            let stamp = self.next_stamp();
-            if let Some(open) = self
-                .documents
-                .get_mut(&uri)
-                .filter(|open| open.settings != settings)
-            {
-                open.settings = settings;
-                if !matches!(open.content, Content::Settings(_)) {
-                    open.tasks.push(Task::Settings);
-                    open.set_stamp(stamp);
-                    self.unsettled.push_back(uri);
-                }
+            let is_other = |open: &&mut Open| open.settings != settings;
+            let Some(open) = self.documents.get_mut(&uri).filter(is_other) else {
+                continue;
+            };
+            open.settings = settings.clone();
+            if !matches!(open.content, Content::Settings(_)) {
+                open.tasks.push(Task::Settings);
+                self.give_stamp(&uri);
+                self.unsettled.push_back(uri);
             }
         }
     }

@@ -260,15 +260,22 @@ impl State {
         }
     }
 
-    /// Something of a document has changed: it is published anew.
-    pub fn mark_dirty(&mut self, uri: &Arc<str>) {
+    /// Something of a document has changed: what was made for it before is out of date.
+    pub fn give_stamp(&mut self, uri: &Arc<str>) {
         let stamp = self.next_stamp();
         if let Some(open) = self.documents.get_mut(uri) {
             open.set_stamp(stamp);
-            if !std::mem::replace(&mut open.is_dirty, true) {
-                // Ours is the document's own copy of the name: one allocation for each document.
-                self.dirty.push(open.uri.clone());
-            }
+        }
+    }
+
+    /// Something of a document has changed: it is published anew.
+    pub fn mark_dirty(&mut self, uri: &Arc<str>) {
+        self.give_stamp(uri);
+        if let Some(open) = self.documents.get_mut(uri)
+            && !std::mem::replace(&mut open.is_dirty, true)
+        {
+            // Ours is the document's own copy of the name: one allocation for each document.
+            self.dirty.push(open.uri.clone());
         }
     }
 
