@@ -620,3 +620,25 @@ fn the_files_that_the_maps_name_are_there() {
         }
     }
 }
+
+/// The pauses before a server is started again are those that the tests of the clients hold theirs against.
+#[test]
+fn the_page_says_the_pauses_of_the_clients() {
+    let table: serde_json::Value =
+        serde_json::from_str(&read(&root().join("clients/restarts.json"))).unwrap();
+    let pauses = table["cases"][0]["pauses"].as_array().unwrap();
+    let [first, .., fifth, last] = pauses.as_slice() else {
+        panic!("{pauses:?}")
+    };
+    assert!(first == 0 && last.is_null(), "{pauses:?}");
+    let between: Vec<String> = pauses[1..pauses.len() - 2]
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    let said = format!("after {} and {fifth} seconds", between.join(", "));
+    let page = read(&root().join("docs/protocol.md"));
+    assert!(
+        page.contains(&said),
+        "docs/protocol.md does not say {said:?}"
+    );
+}
