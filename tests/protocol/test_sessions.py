@@ -26,8 +26,8 @@ CLIENTS = {"vscode", "vscode-picture", "librecad-live", "librecad-generate", "au
 #: How a request ends that the client has cancelled.
 CANCELLED = {"error": {"code": -32800}}
 
-#: Keys whose values are sentences, addresses of pages, versions of programs, or drawn.
-FREE = {"message", "title", "href", "version", "svg", "label", "detail", "documentation", "value", "tooltip", "filterText", "sortText", "contents"}
+#: Keys whose values are sentences, addresses of pages, versions of programs, drawn, or names that the server gives as it likes.
+FREE = {"message", "title", "href", "version", "svg", "label", "detail", "documentation", "value", "tooltip", "filterText", "sortText", "contents", "resultId"}
 
 
 def differs(recorded: Any, found: Any, at: str = "") -> str | None:
@@ -71,6 +71,8 @@ CUT = [pytest.param(part, id=f"{path.stem} {number}") for path in SESSIONS for n
 async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
     waiting: dict[Any, asyncio.Task[Any]] = {}
     numbers: dict[Any, int] = {}
+    # Names of results, as they were and as they are.
+    names: dict[Any, Any] = {}
     asked = {one["message"]["id"]: one["message"]["method"] for one in said if one["from"] == "server" and {"method", "id"} <= set(one["message"])}
     # What the server asks is answered where the client once did: settings hold from there on.
     unanswered: dict[str, list[asyncio.Future[Any]]] = {method: [] for method in asked.values()}
@@ -90,7 +92,10 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
                 stranger.capabilities = default_converter().structure(params["capabilities"], types.ClientCapabilities)
             if method == "$/cancelRequest":
                 stranger.tell(method, {"id": numbers[params["id"]]})
-            elif "id" in message:
+                continue
+            if isinstance(params, dict) and "previousResultId" in params:
+                params = {**params, "previousResultId": names.get(params["previousResultId"], params["previousResultId"])}
+            if "id" in message:
                 waiting[message["id"]] = asyncio.ensure_future(stranger.ask(method, params))
                 # The task sends at its first turn; what comes behind must come behind.
                 await asyncio.sleep(0)
@@ -116,6 +121,8 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
             else:
                 assert "error" not in found, found
                 assert differs(message["result"], found["result"]) is None, differs(message["result"], found["result"])
+                if isinstance(message["result"], dict) and "resultId" in message["result"]:
+                    names[message["result"]["resultId"]] = found["result"].get("resultId")
             compared += 1
         elif message.get("method") == "textDocument/publishDiagnostics":
             params = message["params"]
