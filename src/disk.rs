@@ -22,10 +22,7 @@ pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     if metadata.is_file() {
         if metadata.len() > cap {
-            return Err(format!(
-                "it has {} bytes, expected at most {cap}",
-                metadata.len()
-            ));
+            return Err(say!(it_has_bytes_expected_at_most, metadata.len(), cap));
         }
         bytes.reserve_exact(
             usize::try_from(metadata.len())
@@ -37,9 +34,7 @@ pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
         .read_to_end(&mut bytes)
         .map_err(|error| plain(&error))?;
     if bytes.len() as u64 > cap {
-        return Err(format!(
-            "it holds more than {cap} bytes, expected at most so many"
-        ));
+        return Err(say!(it_holds_more_than_bytes_expected_at_most, cap));
     }
     Ok(bytes)
 }
@@ -103,13 +98,13 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
     let refused = |kind: ErrorKind, reason: &str| Err(io::Error::new(kind, reason));
     let old = match std::fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => {
-            return refused(ErrorKind::IsADirectory, "it is a folder");
+            return refused(ErrorKind::IsADirectory, say!(it_is_a_folder));
         }
         Ok(metadata) if !metadata.is_file() => {
-            return refused(ErrorKind::InvalidInput, "it is no regular file");
+            return refused(ErrorKind::InvalidInput, say!(it_is_no_regular_file));
         }
         Ok(metadata) if metadata.permissions().readonly() => {
-            return refused(ErrorKind::PermissionDenied, "it is read-only");
+            return refused(ErrorKind::PermissionDenied, say!(it_is_read_only));
         }
         Ok(metadata) => Some(metadata),
         Err(error) if error.kind() == ErrorKind::NotFound && read.is_none() => None,
@@ -137,7 +132,7 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
     {
         return refused(
             ErrorKind::InvalidData,
-            "it is not the file any more that was read, nothing is changed",
+            say!(it_is_not_the_file_any_more_that_was_read_nothing),
         );
     }
     beside.persist(&path)?;
@@ -182,8 +177,8 @@ fn give_owner(new: &File, old: &Metadata) -> io::Result<()> {
         return Ok(());
     }
     fchown(new, Some(old.uid()), Some(old.gid())).map_err(|error| {
-        let reason = format!(
-            "its owner (user {}, group {}) cannot be kept: {}",
+        let reason = say!(
+            its_owner_user_group_cannot_be_kept,
             old.uid(),
             old.gid(),
             plain(&error)
@@ -219,7 +214,7 @@ fn sync(folder: &Path) {
 /// The system's reason without its number.
 pub(crate) fn plain(error: &io::Error) -> String {
     let text = error.to_string();
-    let short = text.split(" (os error").next().unwrap_or(&text);
+    let short = text.split(say!(os_error)).next().unwrap_or(&text);
     let mut characters = short.chars();
     characters.next().map_or_else(String::new, |first| {
         first.to_lowercase().chain(characters).collect()

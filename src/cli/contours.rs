@@ -55,7 +55,7 @@ fn list(contours: &Contours) -> String {
                 continue;
             };
             let against = if first.reversed {
-                ", against its own direction"
+                say!(against_its_own_direction)
             } else {
                 ""
             };
@@ -73,7 +73,7 @@ fn list(contours: &Contours) -> String {
                 "  {}",
                 styled(
                     output::WARNING,
-                    format!("gap of {distance:.3} µm closed after segment {}", gap.after)
+                    say!(gap_of_um_closed_after_segment, distance, gap.after)
                 )
             );
         }
@@ -86,15 +86,15 @@ fn list(contours: &Contours) -> String {
 fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
     let shape = match (contour.closed, contour.direction) {
         (false, _) => "open",
-        (true, Some(Direction::Ccw)) => "closed, counter-clockwise",
-        (true, Some(Direction::Cw)) => "closed, clockwise",
-        (true, None) => "closed, without area",
+        (true, Some(Direction::Ccw)) => say!(closed_counter_clockwise),
+        (true, Some(Direction::Cw)) => say!(closed_clockwise),
+        (true, None) => say!(closed_without_area),
     };
     let role = match contour.role {
         Role::Opening => "opening",
         Role::Punch => "punch",
-        Role::Both => "both sides",
-        Role::Ignore => "not cut",
+        Role::Both => say!(both_sides),
+        Role::Ignore => say!(not_cut),
     };
     let length = contour.length * unit_mm;
     let area = contour.area.map_or_else(String::new, |area| {
@@ -102,10 +102,10 @@ fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
     });
     let order = contour
         .order
-        .map_or_else(String::new, |order| format!(", cut number {}", order + 1));
-    let mark = contour.mark.map_or_else(String::new, |[x, y]| {
-        format!(", start mark at {x:.3}, {y:.3}")
-    });
+        .map_or_else(String::new, |order| say!(cut_number, order + 1));
+    let mark = contour
+        .mark
+        .map_or_else(String::new, |[x, y]| say!(start_mark_at, x, y));
     format!(
         "contour {index}: {shape}, {role}, {}, length {length:.3} mm{area}{order}{mark}",
         counted(contour.segments.len(), "segment")

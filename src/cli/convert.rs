@@ -76,7 +76,7 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
             say!(its_name_has_no_ending, ".dxf, .3b, .4b, .iso", ".nc"),
         )),
         (None, None, _) => Err(Failure(
-            "nothing says what the program becomes, expected -o OUT or --format".into(),
+            say!(nothing_says_what_the_program_becomes_expected_o).into(),
         )),
     }
 }
@@ -96,12 +96,12 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
     if target == Target::Drawing
         && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some()))
     {
-        output::say("the contours are those of the part: the correction is not in them");
+        output::say(say!(the_contours_are_those_of_the_part_the_correction));
     }
     cuts.losses().iter().for_each(|loss| output::say(loss));
     if cuts.closure >= 0.005 {
-        output::say(&format!(
-            "the machine misses the begin of a contour by up to {:.2} µm; its ends are made one there",
+        output::say(&say!(
+            the_machine_misses_the_begin_of_a_contour_by_up_to_um,
             cuts.closure
         ));
     }
@@ -113,9 +113,10 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
             .map(|line| (line + 1).to_string())
             .collect();
         let more = if cuts.lost.len() > 5 { ", …" } else { "" };
-        output::say(&format!(
-            "left out, since they lead nowhere: lines {}{more}",
-            lines.join(", ")
+        output::say(&say!(
+            left_out_since_they_lead_nowhere,
+            lines.join(", "),
+            more
         ));
     }
 }

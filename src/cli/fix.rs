@@ -49,14 +49,16 @@ struct Target {
 }
 
 /// The rules whose findings are repaired without asking, and what one of them is called.
-const REPAIRED: [(Rule, &str); 6] = [
-    (Rule::SmallRadius, "arc"),
-    (Rule::DuplicateEntity, "double"),
-    (Rule::Overlap, "overlap"),
-    (Rule::ShortSegment, "short segment"),
-    (Rule::Gap, "gap"),
-    (Rule::ArcAsChords, "chorded arc"),
-];
+fn repaired_rules() -> [(Rule, &'static str); 6] {
+    [
+        (Rule::SmallRadius, "arc"),
+        (Rule::DuplicateEntity, "double"),
+        (Rule::Overlap, "overlap"),
+        (Rule::ShortSegment, say!(short_segment)),
+        (Rule::Gap, "gap"),
+        (Rule::ArcAsChords, say!(chorded_arc)),
+    ]
+}
 
 /// Findings that are asked why they were not repaired: each answer costs a look at the drawing.
 const LISTED: usize = 100;
@@ -154,9 +156,11 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
         return Vec::new();
     };
     let findings = document.all_findings();
-    let repaired = findings
-        .iter()
-        .filter(|finding| REPAIRED.iter().any(|(rule, _)| *rule == finding.rule));
+    let repaired = findings.iter().filter(|finding| {
+        repaired_rules()
+            .iter()
+            .any(|(rule, _)| *rule == finding.rule)
+    });
     let reason = |finding: &Finding| {
         let fix = document
             .fixes(finding)
@@ -188,12 +192,12 @@ fn deliver(arguments: &Arguments, repair: &Repair, seen: &Seen) -> Result<(), Fa
 /// What was repaired, and what is left and why, to stderr: stdout may be the drawing.
 fn summarise(path: &Path, repair: &Repair) {
     let of_rule = |rows: &[Row], rule: Rule| rows.iter().filter(|row| row.rule == rule).count();
-    let repaired = REPAIRED.iter().filter_map(|&(rule, noun)| {
+    let repaired = repaired_rules().into_iter().filter_map(|(rule, noun)| {
         let count = of_rule(&repair.before, rule).saturating_sub(of_rule(&repair.after, rule));
         (count > 0).then(|| counted(count, noun))
     });
     let repaired = repaired.collect::<Vec<_>>().join(", ");
-    let is_sound = REPAIRED
+    let is_sound = repaired_rules()
         .iter()
         .all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
     let name = output::name(path);
@@ -222,16 +226,16 @@ fn summarise(path: &Path, repair: &Repair) {
             )
         ));
     } else if is_sound {
-        output::say(&format!("{name}: nothing to repair"));
+        output::say(&say!(nothing_to_repair, name));
     } else {
-        output::say(&format!("{name}: nothing could be repaired safely"));
+        output::say(&say!(nothing_could_be_repaired_safely, name));
     }
     for (row, reason) in &repair.refused {
         let place = format!("{name}:{}:{}", row.line, row.column);
         let reason = readable(reason);
         output::say(&format!(
             "{} {place}: {}: {reason}",
-            styled(output::WARNING, "not repaired:"),
+            styled(output::WARNING, say!(not_repaired)),
             row.message
         ));
     }
@@ -247,7 +251,7 @@ fn summarise(path: &Path, repair: &Repair) {
     {
         let reason = match &row.data.no_fix {
             None if row.rule == Rule::SmallRadius => {
-                " (its fix moves the contour by more than the correction: choose it in the editor)"
+                say!(its_fix_moves_the_contour_by_more_than_the_correction)
             }
             _ => "",
         };

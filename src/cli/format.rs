@@ -75,8 +75,8 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     // Folders hold drawings, too; a drawing that is named itself is refused.
     files.retain(|path| arguments.paths.contains(path) || is_program(path));
     if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {
-        return Err(Failure(format!(
-            "{} found, expected one, or --in-place, --check or --diff",
+        return Err(Failure(say!(
+            found_expected_one_or_in_place_check_or,
             counted(files.len(), "program")
         )));
     }
@@ -103,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         let verb = if target.in_place {
             "formatted"
         } else {
-            "would be formatted"
+            say!(would_be_formatted)
         };
         output::say(&format!(
             "{} {verb}, {unchanged} unchanged",
@@ -155,7 +155,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         if is_changed {
             output::print(format!(
                 "{} {}\n",
-                styled(STRONG, "would be formatted:"),
+                styled(STRONG, say!(would_be_formatted_heading)),
                 output::name(path)
             ))?;
         }
@@ -173,8 +173,8 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         .filter(|finding| is_of_text(finding.rule))
         .count();
     if damaged > 0 {
-        output::say(&format!(
-            "{}: left as they stand: {} with a syntax error, see wedm check",
+        output::say(&say!(
+            left_as_they_stand,
             output::name(path),
             counted(damaged, "line")
         ));

@@ -85,21 +85,19 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
     let [x, y] = program
         .closure
         .map(|drift| (drift * 100.0).round() / 100.0 + 0.0);
-    output::say(&format!(
-        "{} {target}: {}, {}, wire path {:.3} mm",
+    output::say(&say!(
+        written_program,
         styled(output::GOOD, "written"),
+        target,
         counted(program.blocks, "block"),
         counted(contours, "contour"),
         program.length
     ));
     let drift = match arguments.format {
         Format::ThreeB | Format::FourB => {
-            format!("; a controller that counts J drifts by {x:.2}, {y:.2} µm")
+            say!(a_controller_that_counts_j_drifts_by_um, x, y)
         }
         Format::Iso => String::new(),
     };
-    output::say(&format!(
-        "decoded again: at most {:.2} µm from the path{drift}",
-        program.deviation
-    ));
+    output::say(&say!(decoded_again_at_most_um, program.deviation, drift));
 }

@@ -122,8 +122,8 @@ fn table(printed: &Printed) -> String {
         .flat_map(|entity| &entity.segments)
         .filter(|segment| segment.verdict != "ok");
     let result = match faulty.count() {
-        0 => styled(output::GOOD, "all of them can be cut"),
-        count => styled(output::ERROR, format!("{count} not ok")),
+        0 => styled(output::GOOD, say!(all_of_them_can_be_cut)),
+        count => styled(output::ERROR, say!(not_ok, count)),
     };
     let entities = match printed.inspection.entities.len() {
         1 => "1 entity".into(),
@@ -132,7 +132,7 @@ fn table(printed: &Printed) -> String {
     let units = if unit == 1.0 {
         "mm".into()
     } else {
-        format!("drawing units of {unit} mm; radius in mm")
+        say!(drawing_units_of_mm_radius, unit)
     };
     let _ = writeln!(
         text,
@@ -144,12 +144,14 @@ fn table(printed: &Printed) -> String {
 
 fn heading(entity: &InspectedEntity) -> String {
     let closed = if entity.closed { "closed" } else { "open" };
-    let cut = if entity.cut { "" } else { ", not cut" };
-    format!(
-        "{} {} on layer {}, {closed}{cut}",
+    let cut = if entity.cut { "" } else { say!(and_not_cut) };
+    say!(
+        on_layer,
         entity.r#type,
         readable(&entity.handle),
-        readable(&entity.layer)
+        readable(&entity.layer),
+        closed,
+        cut
     )
 }
 

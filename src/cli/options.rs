@@ -120,7 +120,7 @@ where
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(length) if length.is_finite() && length > 0.0 => Ok(length),
-        _ => Err("expected a length in mm above 0".into()),
+        _ => Err(say!(expected_a_length_in_mm_above_0).into()),
     }
 }
 
@@ -135,7 +135,7 @@ pub fn point(text: &str) -> Result<[f64; 2], String> {
     let both = text
         .split_once(',')
         .and_then(|(x, y)| Some([number(x)?, number(y)?]));
-    both.ok_or_else(|| "expected two numbers with a comma between, such as -115,-10".into())
+    both.ok_or_else(|| say!(expected_two_numbers_with_a_comma_between_such).into())
 }
 
 #[cfg(test)]

@@ -146,7 +146,7 @@ fn escaped(json: &str) -> String {
 fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
     match written {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure(format!("{target} could not be written: {error}")))
+            Err(Failure(say!(could_not_be_written, target, error)))
         }
         _ => Ok(()),
     }
@@ -171,16 +171,17 @@ pub fn write_over(path: &Path, read: &disk::Seen, bytes: &[u8]) -> Result<(), Fa
 fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
     match written {
         Ok(0) => {}
-        Ok(others) => say(&format!(
-            "{} {} had {} besides (hard links): what stands there is the old content",
+        Ok(others) => say(&say!(
+            had_besides_hard_links_what,
             styled(NOTE, "note:"),
             name(path),
             counted(usize::try_from(others).unwrap_or(usize::MAX), "name")
         )),
         Err(reason) => {
-            return Err(Failure(format!(
-                "{} could not be written: {reason}",
-                path.display()
+            return Err(Failure(say!(
+                file_could_not_be_written,
+                path.display(),
+                reason
             )));
         }
     }
@@ -190,8 +191,8 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
 /// An error where `path` is no regular file: nothing else can be changed in its place.
 pub fn refuse_irregular(path: &Path) -> Result<(), Failure> {
     match std::fs::metadata(path) {
-        Ok(metadata) if !metadata.is_file() => Err(Failure(format!(
-            "{}: it is no regular file, expected one to be changed in its place",
+        Ok(metadata) if !metadata.is_file() => Err(Failure(say!(
+            it_is_no_regular_file_expected_one_to_be_changed_in_its_place,
             path.display()
         ))),
         _ => Ok(()),
@@ -205,8 +206,8 @@ pub fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
         _ => false,
     };
     if same {
-        return Err(Failure(format!(
-            "{} is the input, expected another file",
+        return Err(Failure(say!(
+            is_the_input_expected_another_file,
             target.display()
         )));
     }

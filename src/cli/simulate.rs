@@ -38,7 +38,7 @@ fn feed(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
         .filter(|feed: &f64| *feed > 0.0 && feed.is_finite())
-        .ok_or_else(|| "expected a number above 0".into())
+        .ok_or_else(|| say!(expected_a_number_above_0).into())
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
@@ -84,8 +84,13 @@ fn table(simulation: &Simulation) -> String {
     }
     let _ = writeln!(
         text,
-        ", ends {:.0}, {:.0} µm from its start, at most {:.2} µm beside a block's end",
-        closure.x, closure.y, simulation.deviation
+        "{}",
+        say!(
+            ends_um_from_its_start_at_most_um,
+            closure.x,
+            closure.y,
+            simulation.deviation
+        )
     );
     if let Some(bounds) = &simulation.bounds {
         let [width, height] =
@@ -93,8 +98,8 @@ fn table(simulation: &Simulation) -> String {
         let corner = [bounds.min.0, bounds.min.1].map(|um| um / 1000.0);
         let _ = writeln!(
             text,
-            "{width:.3} x {height:.3} mm, from {:.3}, {:.3}",
-            corner[0], corner[1]
+            "{}",
+            say!(x_mm_from, width, height, corner[0], corner[1])
         );
     }
     text

@@ -129,25 +129,33 @@ pub enum ChangeError {
 impl std::fmt::Display for ChangeError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            ChangeError::UnknownEntity => write!(f, "there is no such entity"),
+            ChangeError::UnknownEntity => write!(f, "{}", say!(there_is_no_such_entity)),
             ChangeError::NotEditable => write!(
                 f,
-                "the entity is a part of a block or fitted to a curve, and cannot be edited"
+                "{}",
+                say!(the_entity_is_a_part_of_a_block_or_fitted_to_a_curve_and_cannot)
             ),
             ChangeError::OnlyLines => write!(
                 f,
-                "the entity is a 3D polyline, whose vertices have no bulge"
+                "{}",
+                say!(the_entity_is_a_3d_polyline_whose_vertices_have_no)
             ),
             ChangeError::NotAPolyline => {
-                write!(f, "the entity is not a polyline and has no vertices")
+                write!(
+                    f,
+                    "{}",
+                    say!(the_entity_is_not_a_polyline_and_has_no_vertices)
+                )
             }
             ChangeError::OutOfRange { index, count } => write!(
                 f,
-                "vertex {index} is out of range, the polyline has {count}"
+                "{}",
+                say!(vertex_is_out_of_range_the_polyline_has, index, count)
             ),
             ChangeError::NotFinite => write!(
                 f,
-                "a coordinate, radius or bulge is not a finite number, or a radius is not positive"
+                "{}",
+                say!(a_coordinate_radius_or_bulge_is_not_a_finite_number)
             ),
         }
     }

@@ -37,7 +37,7 @@ pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
             let cut = begins_at < bytes.len();
             return (
                 text,
-                cut.then(|| format!("byte {begins_at}: the file ends inside a group code")),
+                cut.then(|| say!(byte_the_file_ends_inside_a_group, begins_at)),
             );
         };
         let (mark, code_text) = (text.len(), code.to_string());
@@ -81,7 +81,7 @@ impl<'a> Tags<'a> {
 
     /// Writes the value behind `code`; an error says why there is none.
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Result<(), String> {
-        let cut = || format!("the file ends inside the value of group code {code}");
+        let cut = || say!(the_file_ends_inside_the_value_of_group_code, code);
         let written = match code {
             -5..=9
             | 100..=105
@@ -132,8 +132,9 @@ impl<'a> Tags<'a> {
                 .map(|bytes| i64::from_le_bytes(bytes).to_string()),
             290..=299 => self.take::<1>().map(|[byte]| byte.to_string()),
             _ => {
-                return Err(format!(
-                    "group code {code} is not known, so the length of its value is not"
+                return Err(say!(
+                    group_code_is_not_known_so_the_length_of_its_value,
+                    code
                 ));
             }
         };

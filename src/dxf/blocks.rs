@@ -2,7 +2,7 @@
 //!
 //! Work is bounded before it begins: the size of a block is counted once, without drawing it.
 
-use super::entity::{Look, Outcome, PAPER_SPACE, Paint, TILTED};
+use super::entity::{Look, Outcome, Paint};
 use super::insert::{Insert, block_key};
 use super::layer_table::LayerStates;
 use super::lexer::Lexer;
@@ -22,13 +22,7 @@ use std::sync::Arc;
 const MOST_SEGMENTS: u64 = 200_000;
 /// Blocks within blocks.
 const DEEPEST: usize = 64;
-/// Why a part of a block is not drawn where it is put.
-const BEYOND_MEASURE: &str =
-    "as a part of a block it comes to no length, numbers beyond all measure, or too many arcs";
 const REFERS_TO_A_FILE: i64 = 4 | 8;
-/// What the modelspace holds stands in the section ENTITIES.
-const IN_THE_BLOCK_OF_THE_MODELSPACE: &str =
-    "it stands in the block of the modelspace instead of the section ENTITIES";
 
 #[derive(Clone, Debug)]
 enum Content {
@@ -62,8 +56,10 @@ fn layout(name: &[u8]) -> Option<&'static str> {
             .is_some_and(|start| start.eq_ignore_ascii_case(space))
     };
     match sign {
-        b'*' | b'$' if begins_with(b"Paper_Space") => Some(PAPER_SPACE),
-        b'*' | b'$' if begins_with(b"Model_Space") => Some(IN_THE_BLOCK_OF_THE_MODELSPACE),
+        b'*' | b'$' if begins_with(b"Paper_Space") => Some(say!(it_lies_in_paper_space)),
+        b'*' | b'$' if begins_with(b"Model_Space") => Some(say!(
+            it_stands_in_the_block_of_the_modelspace_instead_of_the_section_entities
+        )),
         _ => None,
     }
 }
@@ -207,7 +203,7 @@ impl Blocks {
     ) -> Result<Drawn, Undrawn> {
         let Some(&block) = self.by_name.get(&insert.block) else {
             return Err(Undrawn::Damaged(
-                "the block is not in the file: nothing is drawn for this INSERT".into(),
+                say!(the_block_is_not_in_the_file_nothing).into(),
             ));
         };
         if let Some(why) = self.refused.get(&block) {
@@ -266,8 +262,8 @@ impl Blocks {
             let name = |at: usize| {
                 super::fault::quoted(names.get(at).copied().unwrap_or_default().as_bytes())
             };
-            return Err(format!(
-                "the block {} holds itself: nothing is drawn for this INSERT",
+            return Err(say!(
+                the_block_holds_itself_nothing,
                 name(names.len().saturating_sub(1))
             ));
         }
@@ -281,9 +277,7 @@ impl Blocks {
             });
         };
         if block.is_file {
-            return Err(
-                "the block stands in another file: nothing is drawn for this INSERT".into(),
-            );
+            return Err(say!(the_block_stands_in_another_file).into());
         }
         let mut size = Size {
             segments: 0,
@@ -360,7 +354,10 @@ impl Blocks {
                             ..
                         } => {
                             let Some((shape, map)) = level(&map, shape, lies, *kind) else {
-                                *pen.drawn.left_out.entry((*kind, TILTED)).or_default() += 1;
+                                *pen.drawn
+                                    .left_out
+                                    .entry((*kind, say!(its_plane_is_tilted)))
+                                    .or_default() += 1;
                                 continue;
                             };
                             let (visibility, color) = inherited.hand_on(*look, layer, pen.states);
@@ -380,7 +377,12 @@ impl Blocks {
                                 _ => {
                                     *pen.drawn
                                         .left_out
-                                        .entry((kind, BEYOND_MEASURE))
+                                        .entry((
+                                            kind,
+                                            say!(
+                                                as_a_part_of_a_block_it_comes_to_no_length_numbers
+                                            ),
+                                        ))
                                         .or_default() += 1
                                 }
                             });
@@ -536,7 +538,5 @@ fn are_level(points: &[Vector3]) -> bool {
 }
 
 fn too_deep() -> String {
-    format!(
-        "blocks within blocks are more than {DEEPEST} deep here: nothing is drawn for this INSERT"
-    )
+    say!(blocks_within_blocks_are_more_than_deep_here, DEEPEST)
 }

@@ -42,9 +42,7 @@ impl Document {
     /// angle is written in [0°, 360°).
     pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
         if self.is_binary {
-            return Err(
-                "the file is binary DXF, which is read but not edited: save it as ASCII DXF".into(),
-            );
+            return Err(say!(the_file_is_binary_dxf_which_is_read_but_not).into());
         }
         let mut wanted: BTreeMap<EntityId, Wanted> = BTreeMap::new();
         for change in &edit.changes {
@@ -90,10 +88,7 @@ impl Document {
         }
         edits.sort_by_key(|edit| (edit.range.start, edit.range.end));
         if let Some(line) = edits.iter().find_map(|edit| self.fault_decided_by(edit)) {
-            return Err(format!(
-                "lines would come or go near line {}, which is damaged: mend that first",
-                line + 1
-            ));
+            return Err(say!(lines_would_come_or_go_near_line, line + 1));
         }
         Ok(edits)
     }
@@ -133,7 +128,7 @@ impl Document {
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
         let (Some(entity), Some(item)) = (self.drawing.get(id), self.table.item_of(id)) else {
-            return Err("the entity is not in the text any more".into());
+            return Err(say!(the_entity_is_not_in_the_text_any_more).into());
         };
         let of_entity = self.table.lines_of(item, lines.count());
         let name = format!("{} {}", entity.kind, entity.handle);
@@ -148,8 +143,9 @@ impl Document {
             self.drawing.is_whole(id)
         };
         if !may {
-            return Err(format!(
-                "{name} is a part of a block or fitted to a curve, and has no numbers of its own in the text"
+            return Err(say!(
+                is_a_part_of_a_block_or_fitted_to_a_curve_and_has_no,
+                name
             ));
         }
         if wanted.removed {
@@ -165,7 +161,7 @@ impl Document {
         };
         if let Some((start, end)) = wanted.line {
             if !matches!(entity.geometry, Geometry::Line { .. }) {
-                return Err(format!("{name} is not a LINE"));
+                return Err(say!(is_not_a_line, name));
             }
             for (code, value) in [(10, start.x), (20, start.y), (11, end.x), (21, end.y)] {
                 self.set_length(lines, &tags, code, value, &name, edits)?;
@@ -173,14 +169,14 @@ impl Document {
         }
         if let Some((mut center, radius, mut start_angle, mut end_angle)) = wanted.arc {
             if !matches!(entity.geometry, Geometry::Arc { .. }) {
-                return Err(format!("{name} is not an ARC"));
+                return Err(say!(is_not_an_arc, name));
             }
             if is_mirrored(lines, &tags) {
                 center.x = 0.0 - center.x;
                 (start_angle, end_angle) = mirrored_angles(start_angle, end_angle);
             }
             if radius <= 0.0 || radius.is_nan() {
-                return Err(format!("{name} cannot have the radius {radius}"));
+                return Err(say!(cannot_have_the_radius, name, radius));
             }
             for (code, value) in [(10, center.x), (20, center.y), (40, radius)] {
                 self.set_length(lines, &tags, code, value, &name, edits)?;
@@ -220,10 +216,10 @@ impl Document {
                 Some(_) => {
                     let free = free_handle
                         .or_else(|| record::free_handle(lines))
-                        .ok_or("no handle is left for a new entity")?;
+                        .ok_or(say!(no_handle_is_left_for_a_new_entity))?;
                     *free_handle = Some(
                         free.checked_add(1)
-                            .ok_or("no handle is left for a new entity")?,
+                            .ok_or(say!(no_handle_is_left_for_a_new_entity))?,
                     );
                     Some(format!("{free:X}"))
                 }
@@ -256,7 +252,7 @@ impl Document {
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
         let Some(table) = self.table.vertices.get(&id) else {
-            return Err(format!("{name} is not a polyline"));
+            return Err(say!(is_not_a_polyline, name));
         };
         let end_of_head = of_entity.start + table.lines.first().map_or(2, |&line| line as usize);
         // Of a LWPOLYLINE the flags may also stand behind the vertices.
@@ -271,7 +267,7 @@ impl Document {
                 .ok()
                 .and_then(|text| text.parse().ok());
             let Some(flags) = flags else {
-                return Err(format!("group code 70 of {name} is no whole number"));
+                return Err(say!(group_code_70_of_is_no_whole_number, name));
             };
             let wanted = if closed { flags | 1 } else { flags & !1 };
             if wanted != flags {
@@ -307,7 +303,7 @@ impl Document {
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
         let Some(table) = self.table.vertices.get(&id) else {
-            return Err(format!("{name} is not a polyline"));
+            return Err(say!(is_not_a_polyline, name));
         };
         let count = table.lines.len();
         let removed = wanted
@@ -327,13 +323,16 @@ impl Document {
             .map(|(&index, _)| index)
             .or(beyond)
         {
-            return Err(format!(
-                "vertex {index} of {name} is out of range, the polyline has {count}"
+            return Err(say!(
+                vertex_of_is_out_of_range_the_polyline_has,
+                index,
+                name,
+                count
             ));
         }
         let left = count - removed + wanted.inserted.len();
         if removed > 0 && left < 2 {
-            return Err(format!("{name} would be left with less than two vertices"));
+            return Err(say!(would_be_left_with_less_than_two_vertices, name));
         }
         for (&index, vertex) in &wanted.vertices {
             let Some(range) = self.vertex_lines(id, index) else {
@@ -395,7 +394,7 @@ impl Document {
         }
         let place = tags.iter().rfind(|tag| of_point(tag));
         let Some(&before) = place.filter(|_| vertex.bulge.is_finite()) else {
-            return Err(format!("{name} cannot take the bulge"));
+            return Err(say!(cannot_take_the_bulge, name));
         };
         let code_line = lines.range(before.line);
         let line_end = &self.text.bytes()[code_line.end..self.text.line_start(before.line + 1)];
@@ -429,15 +428,11 @@ impl Document {
     ) -> Result<(), String> {
         let lines = Lines::new(&self.text);
         if !vertex.is_finite() {
-            return Err(format!(
-                "a new vertex of {name} has a number that is not finite"
-            ));
+            return Err(say!(a_new_vertex_of_has_a_number_that_is_not_finite, name));
         }
         let behind = index >= count;
         let Some(model) = self.vertex_lines(id, index.min(count.saturating_sub(1))) else {
-            return Err(format!(
-                "{name} has no vertex that a new one could be modelled on"
-            ));
+            return Err(say!(has_no_vertex_that_a_new_one_could_be_modelled, name));
         };
         let is_record = number::code(lines.content(model.start)) == Code::Known(0);
         let tags: Vec<Tag> = vertex_tags(lines, model.clone()).collect();
@@ -574,10 +569,10 @@ impl Document {
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         if !value.is_finite() {
-            return Err(format!("group code {code} of {name} cannot be {value}"));
+            return Err(say!(group_code_of_cannot_be, code, name, value));
         }
         let Some(tag) = last(tags, code) else {
-            return Err(format!("{name} has no group code {code}"));
+            return Err(say!(has_no_group_code, name, code));
         };
         let line = tag.value_line();
         if let Number::Exact(present) = number::number(lines.content(line))
@@ -594,7 +589,7 @@ impl Document {
 }
 
 fn in_space(name: &str) -> String {
-    format!("{name} is a 3D polyline and cannot take the bulge")
+    say!(is_a_3d_polyline_and_cannot_take_the_bulge, name)
 }
 
 /// The tag that counts: the last one of its code.

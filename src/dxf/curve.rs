@@ -1,8 +1,6 @@
 //! ELLIPSE and SPLINE: their records to curves. Their points are world coordinates.
 
-use super::entity::{
-    Common, NOT_PLANE, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, tag_of_record,
-};
+use super::entity::{Common, Numbers, Outcome, Plane, missing, tag_of_record};
 use super::fault::{damage, oddity};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
@@ -26,7 +24,7 @@ pub(super) fn read_ellipse(
         return Outcome::Damaged;
     };
     if common.paper_space {
-        return Outcome::Unsupported("ELLIPSE".into(), PAPER_SPACE);
+        return Outcome::Unsupported("ELLIPSE".into(), say!(it_lies_in_paper_space));
     }
     let [.., rise, from, to, height] = numbers.values;
     let (rise, height) = (rise.unwrap_or(0.0), height.unwrap_or(0.0));
@@ -49,7 +47,7 @@ pub(super) fn read_ellipse(
             // Its own plane: the half axes are its coordinates.
             let along = in_space(major, rise);
             let Some(normal) = common.normal().try_normalize(0.0) else {
-                return Outcome::Unsupported("ELLIPSE".into(), TILTED);
+                return Outcome::Unsupported("ELLIPSE".into(), say!(its_plane_is_tilted));
             };
             let plane = Space {
                 x: along,
@@ -58,11 +56,14 @@ pub(super) fn read_ellipse(
                 origin: in_space(center.coords, height),
             };
             let arc = ellipse(Point::origin(), Vector::x(), ratio, false, from, to);
-            (arc, Lies::Aslant(Box::new(plane), TILTED))
+            (
+                arc,
+                Lies::Aslant(Box::new(plane), say!(its_plane_is_tilted)),
+            )
         }
     };
     if !arc.is_sound() {
-        let sentence = "ELLIPSE has no width or no length: it is not drawn".to_owned();
+        let sentence = say!(ellipse_has_no_width_or_no_length).to_owned();
         damage(
             findings,
             lexer.lines.trimmed_range(start.value_line()),
@@ -178,7 +179,7 @@ pub(super) fn read_spline(
         return Outcome::Damaged;
     }
     if common.paper_space {
-        return Outcome::Unsupported("SPLINE".into(), PAPER_SPACE);
+        return Outcome::Unsupported("SPLINE".into(), say!(it_lies_in_paper_space));
     }
     if controls.points.is_empty() && through.points.is_empty() {
         missing(start, lexer, &[(10, false), (20, false)], findings);
@@ -190,7 +191,7 @@ pub(super) fn read_spline(
         &mut controls
     };
     if used.is_bad() {
-        let sentence = "SPLINE has a point that lacks x or y".to_owned();
+        let sentence = say!(spline_has_a_point_that_lacks_x_or_y).to_owned();
         damage(
             findings,
             lexer.lines.trimmed_range(start.value_line()),
@@ -202,7 +203,7 @@ pub(super) fn read_spline(
     if used.differ_in_height() {
         let points = used.in_space();
         let Some(plane) = Space::through(&points) else {
-            return Outcome::Unsupported("SPLINE".into(), NOT_PLANE);
+            return Outcome::Unsupported("SPLINE".into(), say!(its_points_differ_in_z));
         };
         used.points = points
             .into_iter()
@@ -214,7 +215,7 @@ pub(super) fn read_spline(
                 *tangent = [Some(seen.x), Some(seen.y), None];
             }
         }
-        lies = Lies::Aslant(Box::new(plane), NOT_PLANE);
+        lies = Lies::Aslant(Box::new(plane), say!(its_points_differ_in_z));
     }
     let is_through = controls.points.is_empty();
     let lacks_knots = !is_through && knots.is_empty();
@@ -228,11 +229,11 @@ pub(super) fn read_spline(
         };
         closed
             .or_else(|| Spline::through(&points, first, last))
-            .ok_or_else(|| "has less than two different points".to_owned())
+            .ok_or_else(|| say!(has_less_than_two_different_points).to_owned())
     } else {
         let degree = degree.unwrap_or(3);
         usize::try_from(degree)
-            .map_err(|_| format!("has the degree {degree}"))
+            .map_err(|_| say!(has_the_degree, degree))
             .and_then(|degree| match lacks_knots {
                 true => Spline::clamped(degree, controls.points, weights),
                 false => Spline::new(degree, knots, controls.points, weights),
@@ -240,11 +241,7 @@ pub(super) fn read_spline(
     };
     let name = lexer.lines.trimmed_range(start.value_line());
     if lacks_knots && spline.is_ok() {
-        oddity(
-            findings,
-            name.clone(),
-            "SPLINE has no knots (group code 40): even ones are taken".to_owned(),
-        );
+        oddity(findings, name.clone(), say!(spline_has_no_knots).to_owned());
     }
     match spline {
         Ok(spline) => common.finish(
@@ -257,12 +254,12 @@ pub(super) fn read_spline(
         ),
         // What is not cut anyway is told once.
         Err(_) if matches!(lies, Lies::Aslant(..)) => {
-            Outcome::Unsupported("SPLINE".into(), NOT_PLANE)
+            Outcome::Unsupported("SPLINE".into(), say!(its_points_differ_in_z))
         }
         Err(why) => {
             // One through less than two points has no length; of any other a part of the outline is missing.
             let say = if is_through { oddity } else { damage };
-            say(findings, name, format!("SPLINE {why}: it is not drawn"));
+            say(findings, name, say!(spline_it_is_not_drawn, why));
             Outcome::Damaged
         }
     }

@@ -69,7 +69,7 @@ impl Reader<'_> {
             .bytes
             .get(self.at..)
             .and_then(|rest| rest.first_chunk::<N>())
-            .ok_or("the file ends inside an item")?;
+            .ok_or(say!(the_file_ends_inside_an_item))?;
         self.at += N;
         Ok(*taken)
     }
@@ -83,7 +83,7 @@ impl Reader<'_> {
         if value.is_finite() {
             Ok(value)
         } else {
-            Err(format!("a number is {value}, expected a finite one"))
+            Err(say!(a_number_is_expected_a_finite_one, value))
         }
     }
 
@@ -116,7 +116,7 @@ impl Reader<'_> {
     /// Writes the record of one item; false at the end of the file. An error says why the file cannot be read on.
     fn item(&mut self, text: &mut Vec<u8>) -> Result<bool, String> {
         let Ok([kind]) = self.take::<1>() else {
-            return Err("the file ends without its end mark".into());
+            return Err(say!(the_file_ends_without_its_end_mark).into());
         };
         if self.open && !matches!(kind, 17 | 20 | 128..=136) {
             self.open = false;
@@ -176,8 +176,8 @@ impl Reader<'_> {
             128 => self.scale = self.float()?,
             129 => {
                 let rest = self.bytes.get(self.at..).unwrap_or_default();
-                let end =
-                    memchr::memchr(0, rest).ok_or("the file ends inside the name of a layer")?;
+                let end = memchr::memchr(0, rest)
+                    .ok_or(say!(the_file_ends_inside_the_name_of_a_layer))?;
                 self.layer = rest[..end]
                     .iter()
                     .map(|&byte| if byte < b' ' { b'?' } else { byte })
@@ -208,9 +208,7 @@ impl Reader<'_> {
                 self.line(self.last, to, text);
             }
             other => {
-                return Err(format!(
-                    "item type {other} is not known, so its length is not"
-                ));
+                return Err(say!(item_type_is_not_known_so_its_length_is_not, other));
             }
         }
         Ok(true)

@@ -69,14 +69,6 @@ pub(super) enum Outcome {
     Damaged,
 }
 
-pub(super) const NOT_CUT: &str = "this kind of entity is not cut";
-pub(super) const PAPER_SPACE: &str = "it lies in paper space";
-pub(super) const TILTED: &str = "its plane is tilted against the drawing's plane";
-pub(super) const NOT_PLANE: &str = "its points differ in z";
-pub(super) const FRAME: &str = "it is the frame of a text";
-pub(super) const MESH: &str = "it is a mesh";
-pub(super) const OUTSIDE: &str = "it stands outside of the section ENTITIES";
-
 /// Extrusion: the normal of the plane in which an entity's own coordinates lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Plane {
@@ -170,9 +162,13 @@ impl Common {
         let (code, line) = (tag.code, tag.value_line());
         let found = quoted(lexer.lines.trimmed(line));
         if let Number::Blemished(value, blemish) = number {
-            let sentence = format!(
-                "group code {code}{} is {found}, which {blemish}; {value} is read",
-                meaning(code)
+            let sentence = say!(
+                group_code_is_which_is_read,
+                code,
+                meaning(code),
+                found,
+                blemish,
+                value
             );
             oddity(findings, lexer.lines.trimmed_range(line), sentence);
             return Some(value);
@@ -180,13 +176,16 @@ impl Common {
         self.bad = true;
         if !lexer.back_in_step(tag, findings) {
             let hint = if found.contains(',') {
-                " with a decimal point"
+                say!(with_a_decimal_point)
             } else {
                 ""
             };
-            let sentence = format!(
-                "group code {code}{} is {found}, expected a number{hint}",
-                meaning(code)
+            let sentence = say!(
+                group_code_is_expected_a_number,
+                code,
+                meaning(code),
+                found,
+                hint
             );
             damage(findings, lexer.lines.trimmed_range(line), sentence);
         }
@@ -212,10 +211,7 @@ impl Common {
             self.bad = true;
             if !lexer.back_in_step(tag, findings) {
                 let found = quoted(lexer.lines.trimmed(tag.value_line()));
-                let sentence = format!(
-                    "group code {} is {found}, expected a whole number",
-                    tag.code
-                );
+                let sentence = say!(group_code_is_expected_a_whole_number, tag.code, found);
                 damage(
                     findings,
                     lexer.lines.trimmed_range(tag.value_line()),
@@ -248,7 +244,7 @@ impl Common {
                         origin: system.z * height,
                         ..system
                     }),
-                    TILTED,
+                    say!(its_plane_is_tilted),
                 )
             }
         })
@@ -274,10 +270,7 @@ impl Common {
         let hexadecimal =
             !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
         if !hexadecimal || value.iter().all(|&digit| digit == b'0') {
-            let sentence = format!(
-                "group code 5 (handle) is {}, expected a hexadecimal number above 0 of at most 16 digits",
-                quoted(value)
-            );
+            let sentence = say!(group_code_5_handle, quoted(value));
             oddity(findings, lexer.lines.range(line), sentence);
         }
         if value.is_empty() || value.iter().all(|&digit| digit == b'0') {
@@ -395,9 +388,9 @@ pub(super) fn read_closely(
         name => {
             let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
             let why = if pass_over(lexer, findings) {
-                PAPER_SPACE
+                say!(it_lies_in_paper_space)
             } else {
-                NOT_CUT
+                say!(this_kind_is_not_cut)
             };
             Outcome::Unsupported(kind, why)
         }
@@ -433,11 +426,8 @@ pub(super) fn missing(
     let kind = String::from_utf8_lossy(lexer.lines.trimmed(start.value_line())).into_owned();
     let last = lacking.pop().unwrap_or_default();
     let sentence = match lacking.is_empty() {
-        true => format!("{kind} lacks group code {last}"),
-        false => format!(
-            "{kind} lacks the group codes {} and {last}",
-            lacking.join(", ")
-        ),
+        true => say!(lacks_group_code, kind, last),
+        false => say!(lacks_the_group_codes_and, kind, lacking.join(", "), last),
     };
     damage(
         findings,
@@ -520,15 +510,14 @@ fn line(
     };
     // The ends of a LINE are world coordinates: its extrusion only gives the direction of its thickness.
     if common.paper_space {
-        return Outcome::Unsupported("LINE".into(), PAPER_SPACE);
+        return Outcome::Unsupported("LINE".into(), say!(it_lies_in_paper_space));
     }
     let (low, high) = (
         numbers.values[4].unwrap_or(0.0),
         numbers.values[5].unwrap_or(0.0),
     );
     if low != high {
-        let sentence =
-            "the ends of this LINE differ in z: it is read as it looks from above".to_owned();
+        let sentence = say!(the_ends_of_this_line_differ_in_z).to_owned();
         oddity(
             findings,
             lexer.lines.trimmed_range(start.value_line()),
@@ -569,8 +558,7 @@ fn radius_of(
     }
     let radius_line = value_line_of(start, lexer, 40);
     let found = quoted(lexer.lines.trimmed(radius_line));
-    let sentence =
-        format!("group code 40 (radius) of {kind} is {found}, expected a number above 0");
+    let sentence = say!(group_code_40_radius, kind, found);
     damage(findings, lexer.lines.trimmed_range(radius_line), sentence);
     None
 }
@@ -585,20 +573,18 @@ fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers, findings: &mut Vec<Fi
     let is_point = radius == 0.0 && (to - from) % 360.0 == 0.0;
     if is_point {
         let place = lexer.lines.trimmed_range(value_line_of(start, lexer, 40));
-        oddity(
-            findings,
-            place,
-            "ARC has the radius 0: it is a point, and is not cut".into(),
-        );
+        oddity(findings, place, say!(arc_has_the_radius_0).into());
     } else if radius_of(radius, "ARC", start, lexer, findings).is_none() {
         return Outcome::Damaged;
     }
     let (from, to) = (radians(from), radians(to));
     let Some(lies) = common.lies(numbers.values[5].unwrap_or(0.0)) else {
-        return Outcome::Unsupported("ARC".into(), TILTED);
+        return Outcome::Unsupported("ARC".into(), say!(its_plane_is_tilted));
     };
     let (center, (start_angle, end_angle)) = match common.plane() {
-        _ if common.paper_space => return Outcome::Unsupported("ARC".into(), PAPER_SPACE),
+        _ if common.paper_space => {
+            return Outcome::Unsupported("ARC".into(), say!(it_lies_in_paper_space));
+        }
         Plane::Normal | Plane::Tilted => (Point::new(x, y), (from, to)),
         Plane::Mirrored => (Point::new(0.0 - x, y), mirrored_angles(from, to)),
     };
@@ -642,10 +628,12 @@ fn circle(
         return Outcome::Damaged;
     };
     let Some(lies) = common.lies(numbers.values[3].unwrap_or(0.0)) else {
-        return Outcome::Unsupported("CIRCLE".into(), TILTED);
+        return Outcome::Unsupported("CIRCLE".into(), say!(its_plane_is_tilted));
     };
     let x = match common.plane() {
-        _ if common.paper_space => return Outcome::Unsupported("CIRCLE".into(), PAPER_SPACE),
+        _ if common.paper_space => {
+            return Outcome::Unsupported("CIRCLE".into(), say!(it_lies_in_paper_space));
+        }
         Plane::Normal | Plane::Tilted => x,
         Plane::Mirrored => 0.0 - x,
     };
@@ -686,11 +674,11 @@ fn text(
         _ => (x, y),
     };
     if common.paper_space {
-        return Outcome::Unsupported(kind.name().into(), PAPER_SPACE);
+        return Outcome::Unsupported(kind.name().into(), say!(it_lies_in_paper_space));
     }
     let height = height.unwrap_or(0.0);
     let Some(lies) = common.lies(height) else {
-        return Outcome::Unsupported(kind.name().into(), TILTED);
+        return Outcome::Unsupported(kind.name().into(), say!(its_plane_is_tilted));
     };
     let (x, y, lies) = match (kind, lies) {
         // The place of an MTEXT is in world coordinates.
@@ -757,7 +745,7 @@ fn point(
         return Outcome::Damaged;
     };
     if common.paper_space {
-        return Outcome::Unsupported("POINT".into(), PAPER_SPACE);
+        return Outcome::Unsupported("POINT".into(), say!(it_lies_in_paper_space));
     }
     let geometry = Geometry::Text {
         at: Point::new(x, y),
@@ -837,8 +825,9 @@ fn light_polyline(
                     (_, Some(vertex)) => vertex.bulge = value,
                     (code, None) => {
                         if !common.bad && !lexer.out_of_step {
-                            let sentence = format!(
-                                "group code {code}{} stands before the first group code 10 (x)",
+                            let sentence = say!(
+                                group_code_stands_before_the_first_group_code,
+                                code,
                                 meaning(code)
                             );
                             damage(findings, lexer.lines.trimmed_range(tag.line), sentence);
@@ -860,15 +849,15 @@ fn light_polyline(
     }
     if let Some(index) = read.without_y {
         let line = start.line + read.lines.get(index).map_or(0, |&line| line as usize);
-        let sentence = format!("vertex {} lacks group code 20 (y)", index + 1);
+        let sentence = say!(vertex_lacks_group_code_20, index + 1);
         damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
         return Outcome::Damaged;
     }
     if common.paper_space {
-        return Outcome::Unsupported("LWPOLYLINE".into(), PAPER_SPACE);
+        return Outcome::Unsupported("LWPOLYLINE".into(), say!(it_lies_in_paper_space));
     }
     let Some(lies) = common.lies(height) else {
-        return Outcome::Unsupported("LWPOLYLINE".into(), TILTED);
+        return Outcome::Unsupported("LWPOLYLINE".into(), say!(its_plane_is_tilted));
     };
     let mirrored = common.plane() == Plane::Mirrored;
     let found = read.vertices.len();
@@ -877,9 +866,7 @@ fn light_polyline(
         && Common::whole(lexer, tag) != i64::try_from(found).ok()
     {
         let stated = quoted(lexer.lines.trimmed(tag.value_line()));
-        let sentence = format!(
-            "group code 90 (number of vertices) is {stated}, but {found} vertices are there"
-        );
+        let sentence = say!(group_code_90_number, stated, found);
         oddity(findings, lexer.lines.range(tag.value_line()), sentence);
     }
     polyline_of(
@@ -911,10 +898,7 @@ fn polyline_of(
     findings: &mut Vec<Finding>,
 ) -> Outcome {
     if read.vertices.len() < 2 {
-        let sentence = format!(
-            "{kind} has {} vertices, expected at least 2",
-            read.vertices.len()
-        );
+        let sentence = say!(has_vertices_expected_at_least_2, kind, read.vertices.len());
         oddity(
             findings,
             lexer.lines.trimmed_range(start.value_line()),
@@ -980,9 +964,9 @@ fn polyline(
         return Outcome::Unsupported(
             "POLYLINE".into(),
             if common.paper_space {
-                PAPER_SPACE
+                say!(it_lies_in_paper_space)
             } else {
-                MESH
+                say!(it_is_a_mesh)
             },
         );
     }
@@ -1051,12 +1035,12 @@ fn polyline(
         oddity(
             findings,
             lexer.lines.trimmed_range(start.value_line()),
-            "POLYLINE does not end with SEQEND".into(),
+            say!(polyline_does_not_end_with_seqend).into(),
         );
     }
     let in_space = flags & IN_SPACE != 0;
     if common.paper_space {
-        return Outcome::Unsupported("POLYLINE".into(), PAPER_SPACE);
+        return Outcome::Unsupported("POLYLINE".into(), say!(it_lies_in_paper_space));
     }
     // The points of a 3D polyline are world coordinates.
     let lies = match in_space {
@@ -1077,12 +1061,19 @@ fn polyline(
                     .zip(points)
                     .for_each(|(vertex, point)| vertex.point = plane.seen_from(point));
             }
-            plane.map(|plane| Lies::Aslant(Box::new(plane), NOT_PLANE))
+            plane.map(|plane| Lies::Aslant(Box::new(plane), say!(its_points_differ_in_z)))
         }
         false => common.lies(height),
     };
     let Some(lies) = lies else {
-        return Outcome::Unsupported("POLYLINE".into(), if in_space { NOT_PLANE } else { TILTED });
+        return Outcome::Unsupported(
+            "POLYLINE".into(),
+            if in_space {
+                say!(its_points_differ_in_z)
+            } else {
+                say!(its_plane_is_tilted)
+            },
+        );
     };
     let mirrored = !in_space && common.plane() == Plane::Mirrored;
     polyline_of(

@@ -59,9 +59,9 @@ pub(super) fn meaning(code: i16) -> &'static str {
         21 => " (end y)",
         31 => " (end z)",
         42 => " (bulge)",
-        50 => " (start angle)",
-        51 => " (end angle)",
-        90 => " (number of vertices)",
+        50 => say!(start_angle),
+        51 => say!(end_angle),
+        90 => say!(number_of_vertices),
         210 | 220 | 230 => " (extrusion)",
         _ => "",
     }

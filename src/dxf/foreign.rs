@@ -7,25 +7,25 @@ pub(super) fn recognise(bytes: &[u8]) -> Option<&'static str> {
     let known: [(&[u8], &str); 9] = [
         (
             b"AutoCAD Binary DXF",
-            "the text is binary DXF, which an editor cannot keep: save it as ASCII DXF",
+            say!(the_text_is_binary_dxf_which_an_editor_cannot_keep),
         ),
         (
             b"AutoCAD DXB",
-            "the text is DXB, which an editor cannot keep: save it as ASCII DXF",
+            say!(the_text_is_dxb_which_an_editor_cannot_keep),
         ),
-        (b"%PDF", "the file is a PDF, not DXF text"),
-        (b"PK\x03\x04", "the file is a ZIP archive, not DXF text"),
-        (b"\xff\xfe", "the text is UTF-16: save it as UTF-8"),
-        (b"\xfe\xff", "the text is UTF-16: save it as UTF-8"),
-        (b"\x1f\x8b", "the file is compressed (gzip), not DXF text"),
-        (b"\x89PNG", "the file is a picture (PNG), not DXF text"),
-        (b"II*\0", "the file is a picture (TIFF), not DXF text"),
+        (b"%PDF", say!(the_file_is_a_pdf_not_dxf_text)),
+        (b"PK\x03\x04", say!(the_file_is_a_zip_archive_not_dxf_text)),
+        (b"\xff\xfe", say!(the_text_is_utf_16_save)),
+        (b"\xfe\xff", say!(the_text_is_utf_16_save)),
+        (b"\x1f\x8b", say!(the_file_is_compressed_gzip_not)),
+        (b"\x89PNG", say!(the_file_is_a_picture_png_not)),
+        (b"II*\0", say!(the_file_is_a_picture_tiff_not)),
     ];
     if let Some((_, sentence)) = known.iter().find(|(magic, _)| head.starts_with(magic)) {
         return Some(sentence);
     }
     if head.starts_with(b"AC10") || head.starts_with(b"AC1.") || head.starts_with(b"AC2.") {
-        return Some("the file is a DWG drawing, not DXF text: save it as DXF");
+        return Some(say!(the_file_is_a_dwg_drawing_not_dxf_text));
     }
     let alternate = head
         .iter()
@@ -35,7 +35,7 @@ pub(super) fn recognise(bytes: &[u8]) -> Option<&'static str> {
         .count();
     if zeros * 5 > head.len() * 2 && alternate * 10 > head.len() * 4 && zeros < head.len() * 6 / 10
     {
-        return Some("the text is UTF-16: save it as UTF-8");
+        return Some(say!(the_text_is_utf_16_save));
     }
-    (zeros * 10 > head.len() * 3).then_some("the file is binary, not DXF text")
+    (zeros * 10 > head.len() * 3).then_some(say!(the_file_is_binary_not_dxf_text))
 }

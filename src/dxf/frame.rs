@@ -1,6 +1,6 @@
 //! The frame of an MTEXT: before release 2018 a polyline of its own, which the text names in its extended data.
 
-use super::entity::{FRAME, Outcome};
+use super::entity::Outcome;
 use super::lines::Lines;
 use super::number::{self, Code};
 use rustc_hash::FxHashSet;
@@ -45,7 +45,7 @@ pub(super) fn without_frames(outcome: Outcome, frames: &FxHashSet<u64>) -> Outco
                     .and_then(|(handle, _)| number_of(handle.as_bytes()))
                     .is_some_and(|handle| frames.contains(&handle)) =>
         {
-            Outcome::Unsupported(read.kind.name().into(), FRAME)
+            Outcome::Unsupported(read.kind.name().into(), say!(it_is_the_frame_of_a_text))
         }
         other => other,
     }

@@ -1,8 +1,7 @@
 //! INSERT: which block it draws, where, how often and how it is stretched.
 
 use super::entity::{
-    Common, Look, Numbers, Outcome, PAPER_SPACE, Plane, TILTED, missing, pass_over_followers,
-    value_line_of,
+    Common, Look, Numbers, Outcome, Plane, missing, pass_over_followers, value_line_of,
 };
 use super::fault::{damage, oddity, quoted};
 use super::layers::Layers;
@@ -69,9 +68,10 @@ pub(super) fn read(
         Some(tag) if Common::whole(lexer, tag).is_none() => {
             common.bad = true;
             let found = quoted(lexer.lines.trimmed(tag.value_line()));
-            let sentence = format!(
-                "group code {} of INSERT is {found}, expected a whole number",
-                tag.code
+            let sentence = say!(
+                group_code_of_insert_is_expected_a_whole_number,
+                tag.code,
+                found
             );
             damage(
                 findings,
@@ -105,7 +105,7 @@ pub(super) fn read(
         return Outcome::Damaged;
     };
     if common.paper_space {
-        return Outcome::Unsupported("INSERT".into(), PAPER_SPACE);
+        return Outcome::Unsupported("INSERT".into(), say!(it_lies_in_paper_space));
     }
     let system = match common.plane() {
         Plane::Normal => Some(Space::IDENTITY),
@@ -117,7 +117,7 @@ pub(super) fn read(
         Plane::Tilted => Space::of_extrusion(common.normal()),
     };
     let Some(system) = system else {
-        return Outcome::Unsupported("INSERT".into(), TILTED);
+        return Outcome::Unsupported("INSERT".into(), say!(its_plane_is_tilted));
     };
     let [
         _,
@@ -134,9 +134,7 @@ pub(super) fn read(
     for (code, axis, value) in [(41, 'x', x_scale), (42, 'y', y_scale), (43, 'z', z_scale)] {
         if value == Some(0.0) {
             let place = lexer.lines.trimmed_range(value_line_of(start, lexer, code));
-            let sentence = format!(
-                "group code {code} ({axis} scale) of INSERT is 0, expected any other number: 1 is read"
-            );
+            let sentence = say!(group_code_scale_of_insert_is_0, code, axis);
             oddity(findings, place, sentence);
         }
     }

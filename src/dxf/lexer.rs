@@ -112,7 +112,7 @@ impl<'a> Lexer<'a> {
                     damage(
                         findings,
                         self.lines.trimmed_range(line),
-                        format!("group code {code} is out of range, expected -5 to 1071"),
+                        say!(group_code_is_out_of_range_expected_5_to_1071, code),
                     );
                     self.at = line + 2;
                 }
@@ -139,12 +139,8 @@ impl<'a> Lexer<'a> {
     /// Empty lines between two records take nothing from either.
     fn pass_over_empty_lines(&mut self, line: usize, record: usize, findings: &mut Vec<Finding>) {
         let sentence = match record - line {
-            1 => {
-                "an empty line stands where a group code is expected: it is passed over".to_owned()
-            }
-            count => format!(
-                "{count} empty lines stand where a group code is expected: they are passed over"
-            ),
+            1 => say!(an_empty_line_stands_where).to_owned(),
+            count => say!(empty_lines_stand_where, count),
         };
         oddity(findings, self.lines.range(line), sentence);
         self.at = record;
@@ -166,10 +162,7 @@ impl<'a> Lexer<'a> {
             self.lost_value(tag.line, findings);
         } else {
             let found = quoted(self.lines.trimmed(line));
-            let sentence = format!(
-                "{found} stands where the value of group code {} is expected: a line is missing or one too many",
-                tag.code
-            );
+            let sentence = say!(stands_where_the_value_of_group_code, found, tag.code);
             damage(findings, self.lines.range(line), sentence);
         }
         true
@@ -207,25 +200,23 @@ impl<'a> Lexer<'a> {
         if next == line + 1 {
             self.at = self.settled(next);
         }
-        let sentence = if next == line + 2
-            && number::code(self.lines.content(line)) == Code::Known(0)
-        {
-            format!(
-                "group code 0 is followed by {}, expected the name of a record",
-                quoted(self.lines.trimmed(line + 1))
-            )
-        } else if next == line + 2 {
-            format!("{found} stands where a group code is expected, which is a whole number")
-        } else if next > line + 2 {
-            format!(
-                "{found} stands where a group code is expected: {} lines are no tags",
-                next - line
-            )
-        } else {
-            format!(
-                "{found} stands where a group code is expected: a line is missing or one too many"
-            )
-        };
+        let sentence =
+            if next == line + 2 && number::code(self.lines.content(line)) == Code::Known(0) {
+                say!(
+                    group_code_0_is_followed_by_expected_the_name,
+                    quoted(self.lines.trimmed(line + 1))
+                )
+            } else if next == line + 2 {
+                say!(stands_where_a_group_code_is_expected, found)
+            } else if next > line + 2 {
+                say!(
+                    stands_where_a_group_code_is_expected_lines,
+                    found,
+                    next - line
+                )
+            } else {
+                say!(stands_where_a_group_code_is_expected_a_line, found)
+            };
         let end = self.lines.range(next.max(line + 1) - 1).end;
         let start = self.lines.range(line).start;
         let whole = if next > line + 2 {
@@ -240,9 +231,7 @@ impl<'a> Lexer<'a> {
     /// be another record.
     fn lost_value(&self, code_line: usize, findings: &mut Vec<Finding>) {
         let code = quoted(self.lines.trimmed(code_line));
-        let sentence = format!(
-            "group code {code} is not followed by its value: a line is missing or one too many"
-        );
+        let sentence = say!(group_code_is_not_followed_by_its_value, code);
         damage(findings, self.lines.range(code_line), sentence);
     }
 

@@ -98,8 +98,7 @@ impl Document {
         };
         document.take(bytes);
         if is_mangled && fault.is_none() {
-            let sentence =
-                "this binary file was handled as a text on its way here (LF in place of CR LF), which damages numbers".to_owned();
+            let sentence = say!(this_binary_file_was_handled_as_a_text).to_owned();
             fault::oddity(&mut document.findings, 0..0, sentence);
         }
         if let Some(sentence) = fault {
@@ -130,7 +129,7 @@ impl Document {
         self.text = SourceText::new(if too_long { Vec::new() } else { bytes });
         self.read_all();
         if too_long {
-            self.is_no_dxf("the text is longer than 4 GiB");
+            self.is_no_dxf(say!(the_text_is_longer_than_4_gib));
         }
     }
 
@@ -191,7 +190,7 @@ impl Document {
             .iter()
             .all(|byte| byte.is_ascii_whitespace())
         {
-            return self.is_no_dxf("the text is empty, expected DXF");
+            return self.is_no_dxf(say!(the_text_is_empty_expected_dxf));
         }
         let mut reading = Reading::default();
         self.read_items(&mut reading);
@@ -229,7 +228,7 @@ impl Document {
             ..
         } = reading;
         if !any_record {
-            return self.is_no_dxf("the text has no DXF records: expected lines of group codes and values, as 0 and SECTION");
+            return self.is_no_dxf(say!(the_text_has_no_dxf_records));
         }
         self.table.used = known.unwrap_or(blocks).used;
         drawing.unit = unit.and_then(unit_of);
@@ -299,9 +298,7 @@ impl Document {
                     item.became = Became::Block;
                     reading.early |= reading.known.is_none() && reading.refers;
                     if let Some(name_line) = reading.blocks.begin(&lexer, line) {
-                        let sentence =
-                            "a block of this name stands before this one: that one is drawn"
-                                .to_owned();
+                        let sentence = say!(a_block_of_this_name_stands_before_this_one).to_owned();
                         fault::oddity(findings, lines.trimmed_range(name_line), sentence);
                     }
                 }
@@ -321,8 +318,7 @@ impl Document {
                     }
                     table.sections += usize::from(entities);
                     if entities && table.sections > 1 {
-                        let sentence =
-                            "a second section ENTITIES begins here; both are read".to_owned();
+                        let sentence = say!(a_second_section_entities_begins_here).to_owned();
                         fault::oddity(findings, lines.trimmed_range(line + 1), sentence);
                     }
                 }
@@ -612,8 +608,10 @@ impl Reading {
             .map(|entity| &entity.handle)
             .filter(|given| ***given != *asked)
         {
-            let sentence = format!(
-                "the handle {asked} is taken by an entity before this one, which is called {given} here"
+            let sentence = say!(
+                the_handle_is_taken_by_an_entity_before_this_one,
+                asked,
+                given
             );
             fault::oddity(findings, lines.trimmed_range(handle_line), sentence);
             item.named = Named::Anew;
@@ -774,11 +772,12 @@ fn unit_of(insunits: i32) -> Option<Unit> {
 
 fn about_unit(insunits: Option<i32>) -> Option<String> {
     match insunits {
-        None => Some("the drawing does not say its unit ($INSUNITS is missing): the unit of the settings holds".into()),
-        Some(0) => Some("the drawing says that it has no unit ($INSUNITS is 0): the unit of the settings holds".into()),
-        Some(other) if unit_of(other).is_none() => {
-            Some(format!("$INSUNITS is {other}, which is no unit of length that is known here: the unit of the settings holds"))
-        }
+        None => Some(say!(the_drawing_does_not_say_its_unit).into()),
+        Some(0) => Some(say!(the_drawing_says_that_it_has_no_unit).into()),
+        Some(other) if unit_of(other).is_none() => Some(say!(
+            insunits_is_which_is_no_unit_of_length_that_is_known_here,
+            other
+        )),
         Some(_) => None,
     }
 }

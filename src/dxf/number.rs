@@ -90,7 +90,7 @@ pub(super) fn number(line: &[u8]) -> Number {
         .map_or(&text[..0], |last| &text[..=last]);
     if without_nul.len() < text.len() {
         return match decimal(&without_nul[trimmed(without_nul)]) {
-            Some(value) => Number::Blemished(value, "is followed by NUL bytes"),
+            Some(value) => Number::Blemished(value, say!(is_followed_by_nul_bytes)),
             None => Number::Bad,
         };
     }
@@ -98,7 +98,7 @@ pub(super) fn number(line: &[u8]) -> Number {
         let mut plain = text.to_vec();
         plain[exponent] = b'e';
         if let Some(value) = decimal(&plain) {
-            return Number::Blemished(value, "has a FORTRAN exponent, expected E");
+            return Number::Blemished(value, say!(has_a_fortran_exponent_expected_e));
         }
     }
     Number::Bad

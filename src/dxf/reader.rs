@@ -1,6 +1,6 @@
 //! One item after another: sections, the entities of the modelspace, everything else passed over.
 
-use super::entity::{self, OUTSIDE, Outcome};
+use super::entity::{self, Outcome};
 use super::fault::{self, damage, oddity, quoted};
 use super::layer_table::{self, LayerEntry};
 use super::layers::Layers;
@@ -74,7 +74,7 @@ pub(super) fn read_item(
             findings,
             0..BYTE_ORDER_MARK.len(),
             Severity::Hint,
-            "the text begins with a byte-order mark".into(),
+            say!(the_text_begins_with_a_byte_order_mark).into(),
         );
     }
     let item = |said, after| ReadItem {
@@ -97,7 +97,7 @@ pub(super) fn read_item(
                 oddity(
                     findings,
                     lexer.lines.trimmed_range(start.value_line()),
-                    "SECTION begins before ENDSEC of the one before".into(),
+                    say!(section_begins_before_endsec_of_the_one_before).into(),
                 );
             }
             let (said, after) = section(start, lexer, findings);
@@ -118,7 +118,7 @@ pub(super) fn read_item(
                 oddity(
                     findings,
                     lexer.lines.trimmed_range(start.value_line()),
-                    "EOF stands before ENDSEC of the last section".into(),
+                    say!(eof_stands_before_endsec_of_the_last_section).into(),
                 );
             }
             pass_over_what_follows(lexer, findings);
@@ -139,8 +139,8 @@ pub(super) fn read_item(
             item(Said::Nothing, context)
         }
         (Context::Entities | Context::Blocks, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
-            let sentence = format!(
-                "{} does not follow an entity that it is a part of",
+            let sentence = say!(
+                does_not_follow_an_entity_that_it_is_a_part,
                 String::from_utf8_lossy(name)
             );
             oddity(
@@ -174,7 +174,13 @@ pub(super) fn read_item(
         (Context::Outside, _) => {
             let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
             entity::pass_over(lexer, findings);
-            item(Said::Entity(Outcome::Unsupported(kind, OUTSIDE)), context)
+            item(
+                Said::Entity(Outcome::Unsupported(
+                    kind,
+                    say!(it_stands_outside_of_entities),
+                )),
+                context,
+            )
         }
     };
     let cut = close(Some((start, &read)), already, lexer, read.after, findings);
@@ -205,9 +211,7 @@ fn drawn(
         Ok((geometry, times)) => {
             if times > 1.0 {
                 let kind = read.kind;
-                let sentence = format!(
-                    "{kind} takes too many arcs for its size: it is drawn within {times} times arc-fit, not within arc-fit"
-                );
+                let sentence = say!(takes_too_many_arcs_for_its_size, kind, times);
                 oddity(
                     findings,
                     lexer.lines.trimmed_range(start.value_line()),
@@ -221,15 +225,9 @@ fn drawn(
         }
         Err(why) => {
             let sentence = match why {
-                Unfit::NoCurve => format!(
-                    "{} has no length, or numbers beyond all measure: it is not drawn",
-                    read.kind
-                ),
+                Unfit::NoCurve => say!(has_no_length_or_numbers_beyond_all, read.kind),
                 Unfit::TooManyArcs(most) => {
-                    format!(
-                        "{} takes more than {most} arcs, which is beyond all measure for what it is made of: it is not drawn",
-                        read.kind
-                    )
+                    say!(takes_more_than_arcs_which_is_beyond_all, read.kind, most)
                 }
             };
             damage(
@@ -255,7 +253,7 @@ fn pass_over_what_follows(lexer: &mut Lexer, findings: &mut Vec<Finding>) {
         oddity(
             findings,
             lexer.lines.trimmed_range(line),
-            "what stands behind EOF is not read".into(),
+            say!(what_stands_behind_eof_is_not_read).into(),
         );
     }
     lexer.begin_item(lexer.lines.count());
@@ -309,7 +307,7 @@ fn close(
         damage(
             findings,
             name,
-            format!("the text ends inside this {}", kind.trim_matches('"')),
+            say!(the_text_ends_inside_this, kind.trim_matches('"')),
         );
         return true;
     }
@@ -319,7 +317,7 @@ fn close(
         damage(
             findings,
             lexer.lines.range(last),
-            format!("the text ends after group code {code}, expected its value"),
+            say!(the_text_ends_after_group_code_expected_its_value, code),
         );
         return false;
     }
@@ -339,9 +337,9 @@ fn end_of_section(
     if findings.len() == already {
         let sentence = match after {
             Context::Entities | Context::Blocks | Context::Other => {
-                "the text ends inside a section, expected ENDSEC"
+                say!(the_text_ends_inside_a_section_expected_endsec)
             }
-            Context::Outside => "the text ends without EOF: something may be missing",
+            Context::Outside => say!(the_text_ends_without_eof),
         };
         oddity(
             findings,
@@ -371,8 +369,8 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
                         unit = Some(value as i32)
                     }
                     _ => {
-                        let sentence = format!(
-                            "group code 70 of $INSUNITS is {}, expected a whole number",
+                        let sentence = say!(
+                            group_code_70_of_insunits_is_expected_a_whole_number,
                             quoted(value)
                         );
                         damage(findings, lexer.lines.range(tag.value_line()), sentence);
@@ -405,7 +403,7 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
             Context::Other,
         ),
         None => {
-            let sentence = "SECTION lacks group code 2 (its name)".to_owned();
+            let sentence = say!(section_lacks_group_code_2).to_owned();
             if !lexer.out_of_step {
                 damage(
                     findings,

@@ -85,10 +85,7 @@ pub(super) fn new_entity(
         );
     let height = height.or(marked.then_some(0.0));
     if !geometry.is_sound() {
-        return Err(
-            "a coordinate of the new entity is no finite number, or its radius is not above 0"
-                .into(),
-        );
+        return Err(say!(a_coordinate_of_the_new_entity_is_no_finite_number_or).into());
     }
     let mut record = Vec::new();
     let begin = |kind: &[u8], class: &[u8], record: &mut Vec<u8>| {
@@ -141,7 +138,7 @@ pub(super) fn new_entity(
             style.number(50, degrees(*start_angle), DECIMALS, &mut record);
             style.number(51, degrees(*end_angle), DECIMALS, &mut record);
         }
-        _ => return Err("only a LINE or an ARC can be added to DXF text".into()),
+        _ => return Err(say!(only_a_line_or_an_arc_can_be_added_to_dxf).into()),
     }
     Ok(record)
 }

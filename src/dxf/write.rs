@@ -85,7 +85,7 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     }
     let mut bytes = Vec::new();
     file.save(&mut bytes)
-        .map_err(|error| format!("the DXF file cannot be written: {error}"))?;
+        .map_err(|error| say!(the_dxf_file_cannot_be_written, error))?;
     Ok(with_table_handles(bytes))
 }
 

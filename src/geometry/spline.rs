@@ -28,37 +28,36 @@ impl Spline {
         weights: Vec<f64>,
     ) -> Result<Spline, String> {
         if !(1..=MAX_DEGREE).contains(&degree) {
-            return Err(format!(
-                "has the degree {degree}, expected 1 to {MAX_DEGREE}"
-            ));
+            return Err(say!(has_the_degree_expected_1, degree, MAX_DEGREE));
         }
         if points.len() <= degree {
-            return Err(format!(
-                "has {} control points, expected at least {}",
+            return Err(say!(
+                has_control_points_expected_at_least,
                 points.len(),
                 degree + 1
             ));
         }
         if knots.len() != points.len() + degree + 1 {
-            return Err(format!(
-                "has {} knots, expected {} for {} control points of degree {degree}",
+            return Err(say!(
+                has_knots_expected_for_control_points_of_degree,
                 knots.len(),
                 points.len() + degree + 1,
-                points.len()
+                points.len(),
+                degree
             ));
         }
         if knots.windows(2).any(|pair| pair[1] < pair[0]) || knots[degree] >= knots[points.len()] {
-            return Err("has knots that do not rise".into());
+            return Err(say!(has_knots_that_do_not_rise).into());
         }
         if !weights.is_empty() && weights.len() != points.len() {
-            return Err(format!(
-                "has {} weights for {} control points",
+            return Err(say!(
+                has_weights_for_control_points,
                 weights.len(),
                 points.len()
             ));
         }
         if weights.iter().any(|&weight| weight <= 0.0) {
-            return Err("has a weight that is not above 0".into());
+            return Err(say!(has_a_weight_that_is_not_above_0).into());
         }
         let weights = if weights.windows(2).all(|pair| pair[0] == pair[1]) {
             Vec::new()

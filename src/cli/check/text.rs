@@ -30,7 +30,7 @@ pub(super) fn render(survey: &Survey) -> String {
         parts.push(counted(notes, "note"));
     }
     let result = if parts.is_empty() {
-        styled(output::GOOD, "nothing found")
+        styled(output::GOOD, say!(nothing_found))
     } else {
         parts.join(", ")
     };
@@ -38,22 +38,25 @@ pub(super) fn render(survey: &Survey) -> String {
     if let [only] = survey.fixable.as_slice() {
         let _ = writeln!(
             text,
-            "{} wedm fix {} --in-place",
-            styled(output::NOTE, "repair what can be repaired with:"),
-            output::name(only)
+            "{}",
+            say!(
+                wedm_fix_in_place,
+                styled(output::NOTE, "repair what can be repaired with:"),
+                output::name(only)
+            )
         );
     } else if let Some(first) = survey.fixable.first() {
         let heading = styled(
             output::NOTE,
-            format!(
-                "{} can be repaired, such as:",
+            say!(
+                can_be_repaired_such_as,
                 counted(survey.fixable.len(), "file")
             ),
         );
         let _ = writeln!(
             text,
-            "{heading} wedm fix {} --in-place",
-            output::name(first)
+            "{}",
+            say!(heading_wedm_fix_in_place, heading, output::name(first))
         );
     }
     text

@@ -29,18 +29,18 @@ impl Client {
     /// Starts this very program as a server.
     pub fn start() -> Result<Client, Failure> {
         let program = std::env::current_exe()
-            .map_err(|error| Failure(format!("the program does not find itself: {error}")))?;
+            .map_err(|error| Failure(say!(the_program_does_not_find_itself, error)))?;
         let mut child = Command::new(program)
             .args(["serve", "--stdio"])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
-            .map_err(|error| Failure(format!("the server did not start: {error}")))?;
+            .map_err(|error| Failure(say!(the_server_did_not_start, error)))?;
         let stdin = child.stdin.take();
         let stdout = child
             .stdout
             .take()
-            .ok_or_else(|| Failure("the server has no stdout".into()))?;
+            .ok_or_else(|| Failure(say!(the_server_has_no_stdout).into()))?;
         let (sender, incoming) = channel();
         std::thread::spawn(move || read_messages(BufReader::new(stdout), &sender));
         Ok(Client {
@@ -68,8 +68,8 @@ impl Client {
     /// The result of the request `id`. An error reply is a failure with the server's sentence.
     pub fn reply(&mut self, id: u64) -> Result<Value, Failure> {
         self.reply_or_error(id)?.map_err(|error| {
-            Failure(format!(
-                "the server refuses: {}",
+            Failure(say!(
+                the_server_refuses,
                 error["message"].as_str().unwrap_or("without a reason")
             ))
         })
@@ -77,7 +77,7 @@ impl Client {
 
     /// The result of the request `id`, or the error that it was answered with.
     pub fn reply_or_error(&mut self, id: u64) -> Result<Result<Value, Value>, Failure> {
-        let mut message = self.wait_for("an answer", |message| {
+        let mut message = self.wait_for(say!(an_answer), |message| {
             message["id"] == id && message.get("method").is_none()
         })?;
         Ok(match message.get_mut("error") {
@@ -102,14 +102,14 @@ impl Client {
         match message["params"]["diagnostics"].take() {
             Value::Array(diagnostics) => Ok(diagnostics),
             _ => Err(Failure(
-                "the server sent diagnostics that are no list".into(),
+                say!(the_server_sent_diagnostics_that_are_no_list).into(),
             )),
         }
     }
 
     /// The server's own request `method`: its id and params.
     pub fn asked(&mut self, method: &str) -> Result<(Value, Value), Failure> {
-        let mut message = self.wait_for("a request of the server", |message| {
+        let mut message = self.wait_for(say!(a_request_of_the_server), |message| {
             message["method"] == method && message.get("id").is_some()
         })?;
         Ok((message["id"].take(), message["params"].take()))
@@ -129,17 +129,18 @@ impl Client {
             match self.child.try_wait() {
                 Ok(Some(status)) if status.success() => return Ok(()),
                 Ok(Some(status)) => {
-                    return Err(Failure(format!(
-                        "the server ended with {status}, expected success"
+                    return Err(Failure(say!(
+                        the_server_ended_with_expected_success,
+                        status
                     )));
                 }
                 Ok(None) => std::thread::sleep(Duration::from_millis(2)),
                 Err(error) => {
-                    return Err(Failure(format!("the server cannot be waited for: {error}")));
+                    return Err(Failure(say!(the_server_cannot_be_waited_for, error)));
                 }
             }
         }
-        Err(Failure("the server did not end after exit".into()))
+        Err(Failure(say!(the_server_did_not_end_after_exit).into()))
     }
 
     fn wait_for(&mut self, what: &str, wanted: impl Fn(&Value) -> bool) -> Result<Value, Failure> {
@@ -157,13 +158,14 @@ impl Client {
                 Ok(message) if wanted(&message) => return Ok(message),
                 Ok(message) => self.keep(message)?,
                 Err(RecvTimeoutError::Timeout) => {
-                    return Err(Failure(format!(
-                        "{what} did not arrive within {} s",
+                    return Err(Failure(say!(
+                        did_not_arrive_within,
+                        what,
                         PATIENCE.as_secs()
                     )));
                 }
                 Err(RecvTimeoutError::Disconnected) => {
-                    return Err(Failure(format!("the server ended before {what} arrived")));
+                    return Err(Failure(say!(the_server_ended_before_arrived, what)));
                 }
             }
         }
@@ -185,11 +187,11 @@ impl Client {
     fn send(&mut self, message: &Value) -> Result<(), Failure> {
         let body = message.to_string();
         let Some(stdin) = &mut self.stdin else {
-            return Err(Failure("the server's stdin is closed".into()));
+            return Err(Failure(say!(the_server_stdin_is_closed).into()));
         };
         let sent = write!(stdin, "Content-Length: {}\r\n\r\n{body}", body.len())
             .and_then(|()| stdin.flush());
-        sent.map_err(|error| Failure(format!("the server does not read: {error}")))
+        sent.map_err(|error| Failure(say!(the_server_does_not_read, error)))
     }
 }
 

@@ -34,9 +34,9 @@ impl Copy {
         let mut changes = Vec::new();
         for &(index, x, y) in moves {
             for (is_x, value) in [(true, x), (false, y)] {
-                let vertex = self.vertex(handle, index).ok_or_else(|| {
-                    Failure(format!("the plate has no vertex {index} of {handle}"))
-                })?;
+                let vertex = self
+                    .vertex(handle, index)
+                    .ok_or_else(|| Failure(say!(the_plate_has_no_vertex, index, handle)))?;
                 let range = if is_x { vertex.x } else { vertex.y };
                 let text = shortest(value);
                 if self.text.get(range.clone()) != Some(text.as_str()) {
@@ -54,16 +54,18 @@ impl Copy {
             .as_array()
             .map_or(&[][..], Vec::as_slice);
         let [document] = documents else {
-            return Err(Failure(format!(
-                "the fix edits {} documents, expected one",
+            return Err(Failure(say!(
+                the_fix_edits_documents_expected_one,
                 documents.len()
             )));
         };
         let versioned = &document["textDocument"];
         if versioned["uri"] != self.uri.as_str() || versioned["version"] != self.version {
-            return Err(Failure(format!(
-                "the fix is for {versioned}, expected version {} of {}",
-                self.version, self.uri
+            return Err(Failure(say!(
+                the_fix_is_for_expected_version,
+                versioned,
+                self.version,
+                self.uri
             )));
         }
         let edits = document["edits"].as_array().map_or(&[][..], Vec::as_slice);
@@ -75,7 +77,7 @@ impl Copy {
             );
             let (Some(start), Some(end), Some(text)) = (start, end, edit["newText"].as_str())
             else {
-                return Err(Failure(format!("the edit {edit} does not fit the text")));
+                return Err(Failure(say!(the_edit_does_not_fit_the_text, edit)));
             };
             placed.push((start..end, text));
         }
@@ -95,7 +97,10 @@ impl Copy {
 
     fn replace(&mut self, range: Range<usize>, text: &str) -> Result<Value, Failure> {
         if self.text.get(range.clone()).is_none() {
-            return Err(Failure(format!("the edit {range:?} does not fit the text")));
+            return Err(Failure(say!(
+                the_range_does_not_fit_the_text,
+                format!("{range:?}")
+            )));
         }
         let change = json!({ "range": { "start": self.position(range.start), "end": self.position(range.end) }, "text": text });
         self.text.replace_range(range, text);

@@ -46,57 +46,57 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         .unwrap_or(crate::settings::Settings::default().correction());
     if !CORRECTIONS.contains(&correction) {
         let (least, most) = (CORRECTIONS.start(), CORRECTIONS.end());
-        return Err(Failure(format!(
-            "the plate of the demonstration is made for corrections from {least} to {most} mm, found {correction}"
+        return Err(Failure(say!(
+            the_plate_of_the_demonstration_is_made_for_corrections_from_to_mm,
+            least,
+            most,
+            correction
         )));
     }
     if arguments.common.side.is_some() || arguments.common.config.is_some() {
         return Err(Failure(
-            "the demonstration brings its own settings, expected --correction alone".into(),
+            say!(the_demonstration_brings_its_own_settings_expected_correction_alone).into(),
         ));
     }
-    std::fs::create_dir_all(&arguments.folder).map_err(|error| {
-        Failure(format!(
-            "{} could not be made: {error}",
-            arguments.folder.display()
-        ))
-    })?;
+    std::fs::create_dir_all(&arguments.folder)
+        .map_err(|error| Failure(say!(could_not_be_made, arguments.folder.display(), error)))?;
 
     let mut narrator = Narrator::default();
-    narrator.heading(&format!(
-        "wedm {}: a cutting plate, a correction of {correction:.3} mm, a real server",
-        env!("CARGO_PKG_VERSION")
+    narrator.heading(&say!(
+        wedm_a_cutting_plate_a_correction_of_mm,
+        env!("CARGO_PKG_VERSION"),
+        correction
     ));
     let mut client = start(&mut narrator, correction)?;
     let made = plate::session(&mut narrator, &mut client, correction)?;
     punch::session(&mut narrator, &mut client, correction)?;
     client.end()?;
 
-    narrator.step("The server has ended as it should. These files are yours");
+    narrator.step(say!(the_server_has_ended_as_it_should_these_files));
     for (name, bytes, what) in [
-        ("demo.dxf", made.dxf.as_bytes(), "the plate, repaired"),
-        ("demo.3b", made.program.as_bytes(), "its program"),
+        ("demo.dxf", made.dxf.as_bytes(), say!(the_plate_repaired)),
+        ("demo.3b", made.program.as_bytes(), say!(its_program)),
         (
             "demo.svg",
             made.picture.as_bytes(),
-            "contour, faults and wire path: open it in a browser",
+            say!(contour_faults_and_wire_path),
         ),
     ] {
         let path = arguments.folder.join(name);
         output::write(Some(&path), bytes)?;
         narrator.say(&format!("{}  {what}", output::name(&path)));
     }
-    narrator.good("Everything above was checked as it was said.");
+    narrator.good(say!(everything_above_was_checked_as_it_was_said));
     Ok(Verdict::Clean)
 }
 
 fn start(narrator: &mut Narrator, correction: f64) -> Result<Client, Failure> {
-    narrator.step("The server starts as a child and speaks LSP over stdio");
+    narrator.step(say!(the_server_starts_as_a_child_and_speaks_lsp_over));
     let begun = std::time::Instant::now();
     let mut client = Client::start()?;
     let params = json!({
         "processId": std::process::id(),
-        "clientInfo": { "name": "wedm demo" },
+        "clientInfo": { "name": say!(wedm_demo) },
         "rootUri": null,
         "capabilities": {
             "general": { "positionEncodings": ["utf-8", "utf-16"] },
@@ -126,14 +126,15 @@ fn start(narrator: &mut Narrator, correction: f64) -> Result<Client, Failure> {
     let protocol = &result["capabilities"]["experimental"]["wedm"]["protocol"];
     holds(
         name == "wedm" && protocol == crate::protocol::PROTOCOL,
-        || format!("the server says it is {name}, protocol {protocol}"),
+        || say!(the_server_says_it_is_protocol, name, protocol),
     )?;
-    narrator.say(&format!(
-        "wedm {}, protocol {protocol}; started and answered within {}",
+    narrator.say(&say!(
+        wedm_protocol_started_and_answered_within,
         version.as_str().unwrap_or("of unknown version"),
+        protocol,
         narrator::duration(elapsed)
     ));
-    narrator.say("Layers DIE and HOLES are openings: the wire runs inside. PLATE is not cut.");
+    narrator.say(say!(layers_die_and_holes_are_openings));
     Ok(client)
 }
 
@@ -142,8 +143,8 @@ fn holds(claim: bool, otherwise: impl FnOnce() -> String) -> Result<(), Failure>
     if claim {
         Ok(())
     } else {
-        Err(Failure(format!(
-            "the demonstration found something else than it claims: {}",
+        Err(Failure(say!(
+            the_demonstration_found_something_else_than_it_claims,
             otherwise()
         )))
     }
@@ -177,5 +178,5 @@ fn preferred(narrator: &mut Narrator, actions: &Value) -> Result<Value, Failure>
         .find(|action| action["isPreferred"] == true && action["kind"] == "quickfix");
     preferred
         .cloned()
-        .ok_or_else(|| Failure("the server offers no preferred fix".into()))
+        .ok_or_else(|| Failure(say!(the_server_offers_no_preferred_fix).into()))
 }

@@ -60,7 +60,7 @@ pub fn session(
 impl Session<'_> {
     fn open(&mut self) -> Result<(), Failure> {
         self.narrator
-            .step("The drawing of a cutting plate is opened as DXF text");
+            .step(say!(the_drawing_of_a_cutting_plate_is_opened_as_dxf_text));
         let item = json!({ "uri": URI, "languageId": "dxf", "version": 1, "text": self.copy.text });
         self.tell("textDocument/didOpen", json!({ "textDocument": item }))
     }
@@ -68,28 +68,26 @@ impl Session<'_> {
     /// Squeezes a fillet, opens it again, squeezes another one.
     fn design(&mut self, correction: f64) -> Result<(), Failure> {
         let (tight, wide) = (0.6 * correction, 2.0 * correction);
-        self.narrator.step(&format!(
-            "The designer squeezes the fillet at 31, 13 to R {tight:.3}"
-        ));
+        self.narrator
+            .step(&say!(the_designer_squeezes_the_fillet_at_31_13_to_r, tight));
         self.fillet_by_the_tab(tight)?;
         let squeezed = self.has_segment(2);
-        holds(squeezed, || format!("R {tight:.3} gets no diagnostic"))?;
+        holds(squeezed, || say!(r_gets_no_diagnostic, tight))?;
 
-        self.narrator
-            .step(&format!("... and opens it again, to R {wide:.3}"));
+        self.narrator.step(&say!(and_opens_it_again_to_r, wide));
         self.fillet_by_the_tab(wide)?;
         let still_there = self.has_segment(2);
         holds(!still_there, || format!("R {wide:.3} gets a diagnostic"))?;
 
         let tight = 0.9 * correction;
         self.narrator
-            .step(&format!("The fillet at 16, 24 becomes R {tight:.3}"));
+            .step(&say!(the_fillet_at_16_24_becomes_r, tight));
         let params = self
             .copy
             .move_vertices(DIE, &[(22, 16.0 + tight, 24.0), (23, 16.0, 24.0 - tight)])?;
         self.tell("textDocument/didChange", params)?;
         let found = self.has_segment(22);
-        holds(found, || format!("R {tight:.3} gets no diagnostic"))
+        holds(found, || say!(r_gets_no_diagnostic, tight))
     }
 
     fn fillet_by_the_tab(&mut self, radius: f64) -> Result<(), Failure> {
@@ -114,9 +112,11 @@ impl Session<'_> {
         let before: BTreeSet<(String, u64)> = self.diagnostics.iter().map(segment_of).collect();
         let after: BTreeSet<(String, u64)> = diagnostics.iter().map(segment_of).collect();
         let count = counted(diagnostics.len(), "diagnostic");
-        self.narrator.say(&format!(
-            "version {}: {count}, {elapsed} after it was sent",
-            self.copy.version
+        self.narrator.say(&say!(
+            version_after_it_was_sent,
+            self.copy.version,
+            count,
+            elapsed
         ));
         for diagnostic in diagnostics
             .iter()
@@ -134,7 +134,7 @@ impl Session<'_> {
 
     /// No program comes out of a drawing that the wire cannot follow.
     fn ask_too_early(&mut self) -> Result<(), Failure> {
-        self.narrator.step("A program is asked for too early");
+        self.narrator.step(say!(a_program_is_asked_for_too_early));
         let id = self
             .client
             .ask("wedm/generate", json!({ "uri": URI, "format": "3b" }))?;
@@ -142,17 +142,18 @@ impl Session<'_> {
             Err(error) => error,
             Ok(_) => {
                 return Err(Failure(
-                    "the server made a program of a drawing with errors".into(),
+                    say!(the_server_made_a_program_of_a_drawing_with_errors).into(),
                 ));
             }
         };
         let listed = error["data"]["diagnostics"].as_array().map_or(0, Vec::len);
         holds(
             error["code"] == -32803 && listed == self.diagnostics.len(),
-            || format!("the refusal is {error}"),
+            || say!(the_refusal_is, error),
         )?;
-        self.narrator.say(&format!(
-            "refused, with {listed} of them listed: {}",
+        self.narrator.say(&say!(
+            refused_with_of_them_listed,
+            listed,
             error["message"].as_str().unwrap_or_default()
         ));
         Ok(())
@@ -160,12 +161,11 @@ impl Session<'_> {
 
     fn fix_one(&mut self) -> Result<(), Failure> {
         let Some(diagnostic) = self.diagnostics.first().cloned() else {
-            return Err(Failure("there is nothing to fix".into()));
+            return Err(Failure(say!(there_is_nothing_to_fix).into()));
         };
         let (handle, segment) = segment_of(&diagnostic);
-        self.narrator.step(&format!(
-            "What can be done about {handle} segment {segment}?"
-        ));
+        self.narrator
+            .step(&say!(what_can_be_done_about_segment, handle, segment));
         let actions = self.actions(
             &diagnostic["range"].clone(),
             json!({ "diagnostics": [diagnostic], "only": ["quickfix"] }),
@@ -174,8 +174,8 @@ impl Session<'_> {
         let edits = action["edit"]["documentChanges"][0]["edits"]
             .as_array()
             .map_or(0, Vec::len);
-        self.narrator.say(&format!(
-            "The preferred one is applied: {} in the text.",
+        self.narrator.say(&say!(
+            the_preferred_one_is_applied_in_the_text,
             counted(edits, "new number")
         ));
         let before = self.diagnostics.len();
@@ -183,13 +183,12 @@ impl Session<'_> {
         self.tell("textDocument/didChange", params)?;
         let after = self.diagnostics.len();
         holds(after < before, || {
-            format!("{after} diagnostics after the fix, {before} before it")
+            say!(diagnostics_after_the_fix_before, after, before)
         })
     }
 
     fn fix_the_rest(&mut self, faulty: &str) -> Result<(), Failure> {
-        self.narrator
-            .step("All others are fixed at once (source.fixAll.wedm)");
+        self.narrator.step(say!(all_others_are_fixed_at_once));
         let lines = self.copy.text.lines().count();
         let whole = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": lines, "character": 0 } });
         let context = json!({ "diagnostics": self.diagnostics, "only": ["source.fixAll.wedm"] });
@@ -200,7 +199,7 @@ impl Session<'_> {
         }
         let left = self.diagnostics.len();
         holds(left == 0, || {
-            format!("{left} diagnostics are left after all fixes")
+            say!(diagnostics_are_left_after_all_fixes, left)
         })?;
         let (old, new): (Vec<&str>, Vec<&str>) = (
             faulty.split('\n').collect(),
@@ -208,7 +207,7 @@ impl Session<'_> {
         );
         let differing = old.iter().zip(&new).filter(|(a, b)| a != b).count();
         holds(old.len() == new.len() && differing < 24, || {
-            format!("{differing} lines differ")
+            say!(lines_differ, differing)
         })?;
         let inspection = self
             .client
@@ -218,14 +217,16 @@ impl Session<'_> {
             .map_or(&[][..], Vec::as_slice);
         holds(
             !segments.is_empty() && segments.iter().all(|segment| segment["verdict"] == "ok"),
-            || "a verdict is not ok".into(),
+            || say!(a_verdict_is_not_ok).into(),
         )?;
-        self.narrator.good(&format!(
-            "The drawing is clean: {} of {DIE}, all ok.",
-            counted(segments.len(), "segment")
+        self.narrator.good(&say!(
+            the_drawing_is_clean_of_all_ok,
+            counted(segments.len(), "segment"),
+            DIE
         ));
-        self.narrator.say(&format!(
-            "{differing} of {} lines differ, every other byte is as it was.",
+        self.narrator.say(&say!(
+            of_lines_differ_every_other_byte_is_as_it_was,
+            differing,
             old.len() - 1
         ));
         Ok(())
@@ -237,22 +238,23 @@ impl Session<'_> {
     }
 
     fn generate(&mut self) -> Result<String, Failure> {
-        self.narrator.step("Now the 3B program");
+        self.narrator.step(say!(now_the_3b_program));
         let begun = Instant::now();
         let mut result = self
             .client
             .request("wedm/generate", json!({ "uri": URI, "format": "3b" }))?;
         let elapsed = duration(begun.elapsed());
         let Value::String(program) = result["program"].take() else {
-            return Err(Failure("the server sent no program".into()));
+            return Err(Failure(say!(the_server_sent_no_program).into()));
         };
         // A drift that rounds to zero has no sign.
         let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
         let drift = |axis: &str| (number(&result["closure"][axis]) * 100.0).round() / 100.0 + 0.0;
-        self.narrator.say(&format!(
-            "{} blocks, {:.3} mm, after {elapsed}; closes within {:.2}, {:.2} µm",
+        self.narrator.say(&say!(
+            blocks_mm_after_closes,
             result["blocks"],
             number(&result["length"]),
+            elapsed,
             drift("x"),
             drift("y")
         ));
@@ -261,27 +263,30 @@ impl Session<'_> {
             self.narrator.say(line);
         }
         self.narrator
-            .say(&format!("... {} more lines", lines.len().saturating_sub(3)));
+            .say(&say!(more_lines, lines.len().saturating_sub(3)));
         Ok(program)
     }
 
     /// Reads the files' contents as a stranger would and holds them against what was asked for.
     fn prove(&mut self, faulty: &str, program: &str, correction: f64) -> Result<String, Failure> {
-        self.narrator
-            .step("Program and drawing are read again and held against each other");
+        self.narrator.step(say!(
+            program_and_drawing_are_read_again_and_held_against_each
+        ));
         let toolpath = self
             .client
             .request("wedm/toolpath", json!({ "uri": URI }))?;
         let proof = proof::of(faulty, &self.copy.text, program, &toolpath, correction)?;
-        self.narrator.say(&format!(
-            "{} decoded one from the end of the other: at most {:.2} µm from the path, and back in the last thread hole within {:.2} µm.",
+        self.narrator.say(&say!(
+            decoded_one_from_the_end_of_the_other,
             counted(proof.blocks, "block"),
             proof.from_path_um,
             proof.open_um
         ));
-        self.narrator.say(&format!(
-            "Along the contours the wire's centre keeps {:.4} to {:.4} mm from them: the correction is {correction:.3}.",
-            proof.least_distance, proof.largest_distance
+        self.narrator.say(&say!(
+            along_the_contours_the_wire_centre_keeps_to_mm_from,
+            proof.least_distance,
+            proof.largest_distance,
+            correction
         ));
         Ok(proof.picture)
     }

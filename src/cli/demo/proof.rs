@@ -36,17 +36,17 @@ pub fn of(
     correction: f64,
 ) -> Result<Proof, Failure> {
     let path: Toolpath = serde_json::from_value(path.clone())
-        .map_err(|error| Failure(format!("the wire path is not one: {error}")))?;
+        .map_err(|error| Failure(say!(the_wire_path_is_not_one, error)))?;
     let settings = settings(correction);
     let mut before = document(faulty, &settings);
     let mut after = document(fixed, &settings);
     let (faults, _) = before.findings(usize::MAX);
     holds(!after.has_errors() && !faults.is_empty(), || {
-        "the repaired drawing has errors when it is read again".into()
+        say!(the_repaired_drawing_has_errors_when_it_is_read_again).into()
     })?;
     let (Some(snapshot), Some(first)) = (after.snapshot(), path.paths.first()) else {
         return Err(Failure(
-            "there is no path to hold the program against".into(),
+            say!(there_is_no_path_to_hold_the_program_against).into(),
         ));
     };
 
@@ -79,17 +79,14 @@ pub fn of(
     let allowed_um = crate::program::path::tolerance(arcs);
     let near = proof.from_path_um <= allowed_um && proof.open_um <= allowed_um;
     holds(near, || {
-        format!(
-            "the program lies {:.2} µm from the path",
-            proof.from_path_um
-        )
+        say!(the_program_lies_um_from_the_path, proof.from_path_um)
     })?;
     let distances = (proof.least_distance - correction)
         .abs()
         .max((proof.largest_distance - correction).abs())
         * 1e3;
     holds(distances <= allowed_um, || {
-        format!("the wire leaves its distance by {distances:.2} µm")
+        say!(the_wire_leaves_its_distance_by_um, distances)
     })?;
 
     let planned = toolpath::plan(
@@ -162,9 +159,10 @@ fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
             Item::StartPoint { .. } => {}
             Item::Block { block, .. } => {
                 let segment = three_b::decode(&block, at).map_err(|fault| {
-                    Failure(format!(
-                        "block {} leads nowhere: {fault:?}",
-                        motions.len() + 1
+                    Failure(say!(
+                        block_leads_nowhere,
+                        motions.len() + 1,
+                        format!("{fault:?}")
                     ))
                 })?;
                 at = segment.end();
@@ -175,7 +173,7 @@ fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
             }
         }
     }
-    holds(ended, || "the program has no end".into())?;
+    holds(ended, || say!(the_program_has_no_end).into())?;
     Ok(motions)
 }
 

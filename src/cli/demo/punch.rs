@@ -16,7 +16,7 @@ pub fn session(
     client: &mut Client,
     correction: f64,
 ) -> Result<(), Failure> {
-    narrator.step("The same from a CAD program: a punch, no text behind it (wedm/didOpenDrawing)");
+    narrator.step(say!(the_same_from_a_cad_program));
     let wide = 2.0 * correction;
     let mut vertices = vec![
         json!([0, 0]),
@@ -38,15 +38,13 @@ pub fn session(
     narrator.say(&format!("version 1: {}", counted(first, "diagnostic")));
 
     let tight = 0.5 * correction;
-    narrator.say(&format!(
-        "Two of its 10 vertices are spliced: the fillet in the slot becomes R {tight:.3}."
-    ));
+    narrator.say(&say!(two_of_its_10_vertices_are_spliced, tight));
     let splice = json!({ "handle": "9F", "vertices": { "start": 4, "deleteCount": 2, "insert": fillet(tight) } });
     let begun = Instant::now();
     change(client, 2, json!([splice]))?;
     let diagnostics = client.diagnostics(URI, 2)?;
-    narrator.say(&format!(
-        "version 2: {}, {} after the splice",
+    narrator.say(&say!(
+        version_2_after_the_splice,
         counted(diagnostics.len(), "diagnostic"),
         duration(begun.elapsed())
     ));
@@ -54,7 +52,7 @@ pub fn session(
         .iter()
         .find(|diagnostic| diagnostic["data"]["segment"] == 4);
     let Some(diagnostic) = found else {
-        return Err(Failure("the splice gets no diagnostic".into()));
+        return Err(Failure(say!(the_splice_gets_no_diagnostic).into()));
     };
     narrator.diagnostic(diagnostic, Behind::Nothing);
 
@@ -62,7 +60,7 @@ pub fn session(
     change(client, 3, edit["changes"].clone())?;
     let left = client.diagnostics(URI, 3)?.len();
     holds(left == first, || {
-        format!("{left} diagnostics are left in the punch")
+        say!(diagnostics_are_left_in_the_punch, left)
     })?;
     narrator.good(&format!("version 3: {}", counted(left, "diagnostic")));
     client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }))
@@ -104,11 +102,10 @@ fn ask_for_edit(
     let (asked, mut params) = client.asked("wedm/applyDrawingEdit")?;
     let edit = params["edit"].take();
     holds(edit["version"] == 2 && edit["uri"] == URI, || {
-        format!("the edit is {edit}")
+        say!(the_edit_is, edit)
     })?;
     client.answer(&asked, json!({ "applied": true }))?;
     client.reply(id)?;
-    narrator
-        .say("The server asks for the edit (wedm/applyDrawingEdit), the CAD program applies it.");
+    narrator.say(say!(the_server_asks_for_the_edit));
     Ok(edit)
 }
