@@ -1,21 +1,13 @@
 //! Where the cuts of a program cross themselves, found anew for what an edit has touched.
 
 use super::cuts::{contours, way_of};
-use super::document::Document;
+use super::document::{Crossings, Document};
 use crate::finding::Finding;
-use crate::program::path::{Found, Known};
+use crate::program::path::Found;
 use std::sync::Arc;
 
 /// A cut with fewer moves does not cross itself.
 const FEWEST_MOVES: u32 = 4;
-
-/// What was found in the cuts of a program.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Crossings {
-    known: Known,
-    /// The cuts that cross themselves or lie on themselves, by their stretches and the runs in there, and where.
-    found: Vec<(Vec<(usize, usize)>, Arc<Found>)>,
-}
 
 impl Crossings {
     /// Looks through a program; what is known of pairs of its parts is taken as it is.

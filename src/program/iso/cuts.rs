@@ -1,7 +1,7 @@
 //! The cuts of a program: consecutive moves without a rapid or a stop between, put together from the stretches that they run through;
 //! and which stops stand within a contour, before its tab.
 
-use super::document::{Document, Placed};
+use super::document::{Document, Placed, StopAt};
 use super::machine::{Move, Place, apart, micrometres};
 use super::run::{Path, Run, SEVERAL, changes_side};
 use crate::geometry::{Point, Segment};
@@ -20,9 +20,6 @@ pub(super) struct Part {
     /// Byte of the text from which the stretch's places count.
     pub offset: usize,
 }
-
-/// A stop: the index of its stretch, and its byte counted from there.
-pub(super) type StopAt = (usize, u32);
 
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
@@ -206,8 +203,14 @@ pub(super) fn contours(document: &Document, each: &mut dyn FnMut(Cut)) {
     waiting.into_iter().for_each(each);
 }
 
-/// The stops before tabs, in the order in which they run.
-pub(super) fn tabs(document: &Document) -> Vec<StopAt> {
+impl Document {
+    /// The stops before tabs, in the order in which they run.
+    pub(super) fn find_tabs(&self) -> Vec<StopAt> {
+        tabs(self)
+    }
+}
+
+fn tabs(document: &Document) -> Vec<StopAt> {
     if document
         .stretches()
         .iter()

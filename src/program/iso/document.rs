@@ -2,19 +2,17 @@
 
 use super::block::{Block, Offset, read_line};
 use super::control::{Control, lines_from};
-use super::crossings::Crossings;
-use super::cuts::{StopAt, tabs};
 use super::evidence::Evidence;
 use super::limits::Limits;
 use super::machine::{Machine, Reading};
 use super::order::{Order, order};
-use super::repair::{Repairs, repairs};
+use super::repair::found::Repairs;
 use super::run::Hears;
 use super::stretch::Stretch;
-use crate::finding::{Finding, Fix};
 use crate::program::chunks::{Chunks, Language};
+use crate::program::path::{Found, Known};
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit};
+use crate::text::SourceText;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -41,7 +39,18 @@ pub struct Document {
     /// What the program puts into the control's table.
     pub(super) table: Box<Table>,
     /// The slips that may be behind what is wrong, once somebody has asked for them.
-    repairs: OnceLock<Arc<Repairs>>,
+    pub(super) repairs: OnceLock<Arc<Repairs>>,
+}
+
+/// A stop: the index of its stretch, and its byte counted from there.
+pub(super) type StopAt = (usize, u32);
+
+/// What was found in the cuts of a program.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Crossings {
+    pub known: Known,
+    /// The cuts that cross themselves or lie on themselves, by their stretches and the runs in there, and where.
+    pub found: Vec<(Vec<(usize, usize)>, Arc<Found>)>,
 }
 
 /// The last value of each place of the control's table, nm.
@@ -121,22 +130,6 @@ impl Document {
         }
     }
 
-    /// What is wrong in the program, in the order of the text.
-    pub fn findings(&self) -> Vec<Finding> {
-        super::report::findings(self)
-    }
-
-    /// The same without the blocks that are only suspected.
-    pub fn plain_findings(&self) -> Vec<Finding> {
-        super::report::plain_findings(self)
-    }
-
-    /// The slips that may be behind what is wrong, by the lines of the cuts that they stand in.
-    pub(super) fn repairs(&self) -> &Repairs {
-        self.repairs
-            .get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
-    }
-
     /// A line's bytes, without its end.
     pub(super) fn line_bytes(&self, line: usize) -> &[u8] {
         self.text
@@ -158,11 +151,6 @@ impl Document {
     /// Whether lengths have a decimal point, where nearly all are written alike.
     pub(super) fn pointed(&self) -> Option<bool> {
         self.evidence.pointed()
-    }
-
-    /// The fixes of one finding, the preferred one first.
-    pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
-        super::fixes::fixes(self, finding)
     }
 
     pub(super) fn stretches(&self) -> &[Stretch] {
@@ -289,7 +277,7 @@ impl Document {
     /// finest step, then, measured with these, where I and J lead.
     fn settle(&mut self) {
         self.find_reading();
-        self.tabs = tabs(self);
+        self.tabs = self.find_tabs();
         let mut crossings = std::mem::take(&mut self.crossings);
         crossings.look(self);
         self.crossings = crossings;
@@ -306,7 +294,7 @@ impl Document {
                 .iter_mut()
                 .for_each(|stretch| stretch.is_quiet = false);
         }
-        for index in super::report::quiet(self) {
+        for index in self.quiet() {
             self.stretches[index].is_quiet = true;
         }
     }

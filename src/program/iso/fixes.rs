@@ -16,8 +16,14 @@ use crate::program::grid::{best_center, snap};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
-pub(super) fn fixes(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+impl Document {
+    /// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
+    pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+        fixes(self, finding)
+    }
+}
+
+fn fixes(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
     let own = of_place(document, finding);
     let searched = searched(document, finding);
     let speaks_for_itself =

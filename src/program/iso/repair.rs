@@ -4,15 +4,17 @@
 //! it did, so that most cost a few lines; all is bounded by counted lines, so that what is found hangs on the text alone.
 
 mod change;
+pub mod found;
 mod scan;
 
 use super::document::Document;
 use super::machine::Machine;
-use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
-use crate::text::TextEdit;
+use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity};
 use change::{Change, Pool};
+pub use found::{Repair, Repairs};
 use scan::{Line, Scan, Way};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Cuts of more lines are searched only near what is wrong.
 const MOST_LINES: usize = 160;
@@ -44,29 +46,16 @@ const OFFERED: usize = 4;
 /// By how much a change must be better than any other that leads elsewhere to be the one that is meant.
 const CLEAR: f64 = 1.5;
 
-/// A change that makes a cut sound, or sounder.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Repair {
-    pub kind: FixKind,
-    pub edits: Vec<TextEdit>,
-    /// The line that it changes first.
-    pub line: usize,
-    /// What is written, and what is meant.
-    pub found: String,
-    pub meant: String,
-    /// The cut does not close without it.
-    pub closes: bool,
-    /// Nothing is wrong any more, and no other change does as well.
-    pub is_sure: bool,
-    /// What is wrong speaks for it: a cut that only crosses itself may be meant to run elsewhere altogether.
-    pub explains: bool,
+impl Document {
+    /// The slips that may be behind what is wrong, by the lines of the cuts that they stand in.
+    pub(super) fn repairs(&self) -> &Repairs {
+        self.repairs
+            .get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
+    }
 }
 
-/// Repairs by the lines of the cuts that they belong to.
-pub type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
-
 /// Searches the cuts in which something is wrong.
-pub fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
+fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
     let text = document.text();
     let mut found: Repairs = Vec::new();
     let mut too_long: Vec<Range<usize>> = Vec::new();

@@ -40,8 +40,24 @@ const LARGE_PART: f64 = 40.0;
 /// The thinnest wire there is, with its spark gap, has a larger correction, nm.
 const THINNEST: i64 = 14_000;
 
-/// All findings, in the order of the text.
-pub(super) fn findings(document: &Document) -> Vec<Finding> {
+impl Document {
+    /// What is wrong in the program, in the order of the text.
+    pub fn findings(&self) -> Vec<Finding> {
+        findings(self)
+    }
+
+    /// The same without the blocks that are only suspected.
+    pub fn plain_findings(&self) -> Vec<Finding> {
+        plain_findings(self)
+    }
+
+    /// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
+    pub(super) fn quiet(&self) -> Vec<usize> {
+        quiet(self)
+    }
+}
+
+fn findings(document: &Document) -> Vec<Finding> {
     let mut findings = plain_findings(document);
     let suspects = suspects(document, &findings);
     if !suspects.is_empty() {
@@ -95,7 +111,7 @@ fn sort(findings: &mut [Finding]) {
 }
 
 /// What is wrong by itself, without a search for what is behind it.
-pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
+fn plain_findings(document: &Document) -> Vec<Finding> {
     let mut report = Report::new(document);
     let mut last_words = None;
     let mut is_ended = false;
@@ -139,8 +155,7 @@ pub(super) fn plain_findings(document: &Document) -> Vec<Finding> {
     report.finish()
 }
 
-/// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
-pub(super) fn quiet(document: &Document) -> Vec<usize> {
+fn quiet(document: &Document) -> Vec<usize> {
     let mut report = Report::new(document);
     let not_known = document
         .placed()

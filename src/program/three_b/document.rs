@@ -8,6 +8,7 @@ mod judge;
 mod repairs;
 mod report;
 mod sections;
+mod sequence;
 mod walk;
 mod way;
 

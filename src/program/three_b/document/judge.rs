@@ -1,11 +1,10 @@
 //! What is wrong with a program as a whole: contours that do not close or cross themselves, its end, texts, numbers, places.
 
-use super::super::entry::{BlockEntry, Entry, What};
+use super::super::entry::{BlockEntry, What};
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
-use super::super::rules::block_number::{Numbered, Sequence};
-use super::super::rules::{self, block_number, culprit, not_closed, position_mismatch};
-use super::super::run::{Numbering, may_cross_itself};
+use super::super::rules::{self, culprit, not_closed};
+use super::super::run::may_cross_itself;
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Place, Rule, Severity};
@@ -376,140 +375,6 @@ impl Document {
             });
         }
         view.findings.extend(findings);
-    }
-
-    fn judge_numbers(&self, view: &mut View) {
-        let numbering = self
-            .runs
-            .iter()
-            .fold(Numbering::Empty, |before, run| before.then(run.numbering));
-        if numbering != Numbering::Irregular || self.runs.iter().all(|run| run.numbered == 0) {
-            return;
-        }
-        let end = view.end;
-        let runs = || 0..end.map_or(self.runs.len(), |end| end.run + 1);
-        let from = |run: usize| (run..runs().end).flat_map(|run| self.numbered_in(run, end));
-        let head: Vec<Numbered> = from(0)
-            .map(|(_, block)| block)
-            .take(block_number::FIRST)
-            .collect();
-        let first = runs()
-            .filter(|run| self.runs[*run].numbered > 0)
-            .flat_map(|run| self.numbered_in(run, end));
-        let first = first.into_iter().find_map(|(_, block)| block.number);
-        let Some(mut sequence) = Sequence::of(&head, first) else {
-            return;
-        };
-        for run in runs() {
-            // A run in which the numbers go on as before is not walked through.
-            let regular = match self.runs[run].numbering {
-                Numbering::Regular { first, last, step } if end.is_none_or(|end| run < end.run) => {
-                    Some((first, last, step))
-                }
-                _ => None,
-            };
-            let count = self.runs[run].numbered;
-            if regular.is_some_and(|(first, last, step)| sequence.skip(first, last, step, count)) {
-                continue;
-            }
-            let mut blocks = self.numbered_in(run, end).peekable();
-            let mut is_first = true;
-            while let Some((at, block)) = blocks.next() {
-                let next = blocks.peek().copied().or_else(|| from(run + 1).next());
-                sequence.push(&block, next.map(|(_, next)| next).as_ref(), at);
-                let rest = regular.filter(|_| std::mem::take(&mut is_first) && count > 1);
-                if rest.is_some_and(|(first, last, step)| {
-                    sequence.skip(first + step, last, step, count - 1)
-                }) {
-                    break;
-                }
-            }
-        }
-        for (at, fault, _) in sequence.found() {
-            view.findings.push(Finding::of(fault, self.range_of(at)));
-        }
-    }
-
-    /// Blocks and numbered words up to the end, with their numbers.
-    pub(super) fn numbered(&self, end: Option<At>) -> (Vec<At>, Vec<Numbered>) {
-        (0..self.runs.len())
-            .flat_map(|run| self.numbered_in(run, end))
-            .unzip()
-    }
-
-    /// Those of one run.
-    fn numbered_in(
-        &self,
-        run: usize,
-        end: Option<At>,
-    ) -> impl Iterator<Item = (At, Numbered)> + '_ {
-        let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
-        let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
-        let mut is_after_pause = None;
-        entries.iter().enumerate().filter_map(move |(entry, what)| {
-            let follows_word = is_after_pause.unwrap_or_else(|| {
-                let before = self.runs[..run]
-                    .iter()
-                    .rev()
-                    .find_map(|of| of.entries.last());
-                before.is_some_and(is_word)
-            });
-            is_after_pause = Some(is_word(what));
-            let at = At { run, entry };
-            let (number, is_unread) = (what.number(), what.what == What::Unread);
-            let counts = what.block().is_some() || is_unread || (is_word(what) && number.is_some());
-            let is_in_program = end.is_none_or(|end| at <= end);
-            (counts && is_in_program).then_some((
-                at,
-                Numbered {
-                    number,
-                    is_after_pause: follows_word,
-                    is_unread,
-                },
-            ))
-        })
-    }
-
-    fn judge_positions(&self, view: &mut View) {
-        let mut anchor = None;
-        let (mut compared, mut ordinal) = (0, 0);
-        let mut off: Vec<(usize, At, [f64; 2])> = Vec::new();
-        for (run, of) in self.runs.iter().enumerate() {
-            let positions = &of.positions;
-            if let (Some(before), Some((entry, stated, travel))) = (&anchor, &positions.first) {
-                compared += 1;
-                off.extend(
-                    position_mismatch::mismatch(before, travel, stated)
-                        .map(|by| (ordinal, At { run, entry: *entry }, by)),
-                );
-            }
-            compared += positions.compared;
-            off.extend(
-                positions
-                    .off
-                    .iter()
-                    .map(|(nth, entry, by)| (ordinal + nth, At { run, entry: *entry }, *by)),
-            );
-            ordinal += of.blocks;
-            anchor = positions.anchor.unwrap_or(anchor);
-        }
-        if off.len() > 2 && off.len() as f64 > position_mismatch::FOREIGN * compared as f64 {
-            return;
-        }
-        let mut before: Option<(usize, [f64; 2])> = None;
-        for (ordinal, at, [x, y]) in off {
-            // One end point that is off on its own is off once there and once back.
-            let goes_back = before.is_some_and(|(last, [a, b])| {
-                last + 1 == ordinal && (a + x).abs() <= 4.0 && (b + y).abs() <= 4.0
-            });
-            before = (!goes_back).then_some((ordinal, [x, y]));
-            if !goes_back {
-                view.findings.push(Finding::of(
-                    Fault::PositionMismatch { x, y },
-                    self.range_of(at),
-                ));
-            }
-        }
     }
 }
 
