@@ -3,23 +3,29 @@
 //! [`sentence`] makes of it what a person reads, the server its form in the protocol.
 
 mod fault;
+mod fix;
+mod lengths;
 mod not_judged;
+mod program_sentence;
 mod sentence;
+mod small_radius;
+mod title;
 mod unwritable;
 
 pub use fault::{Axis, Fault};
+pub use fix::{CenterFix, Edit, Fix, FixKind};
 pub use not_judged::NotJudged;
-pub use sentence::{related, sentence, title};
+pub use sentence::{related, sentence};
+pub use small_radius::{NoFix, SmallRadius};
+pub use title::title;
 pub use unwritable::Unwritable;
 
 pub use crate::geometry::Side;
 pub use crate::rule::{Rule, Severity};
 
-use crate::drawing::{Change, ContourSegment, DrawingEdit, EntityId, Visibility};
-use crate::geometry::{Arc, Point};
-use crate::text::TextEdit;
+use crate::drawing::{ContourSegment, EntityId, Visibility};
+use crate::geometry::Point;
 use rustc_hash::FxHashSet;
-use std::f64::consts::PI;
 use std::ops::Range;
 
 impl From<&ContourSegment> for Place {
@@ -65,77 +71,6 @@ pub enum Place {
     },
     /// The document as a whole.
     Document,
-}
-
-/// Why no fix is offered for an arc that is too tight.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoFix {
-    /// A slot, hole or pocket narrower than twice the correction: no arc of the required radius fits (`narrow-slot`).
-    NarrowSlot,
-    /// The arc that fits would move the contour by more than the correction, or remove more of it than a short neighbour.
-    SealsContour,
-    /// The arc ends an open contour: there is no neighbour to be tangent to.
-    NoNeighbour,
-    /// The entity cannot be edited (part of a block, or of a kind that has no such edit).
-    NotEditable,
-    /// The arc that fits would leave a segment too short to cut.
-    ShortSegment,
-    /// The arc that fits would bring another fault: it crosses another outline, or puts another arc at fault.
-    Spoils,
-    /// It stands in a program: the drawing that it was made of has to change.
-    Program,
-}
-
-/// An arc tighter than the correction, in drawing units. Lengths for people are made in mm by the message.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SmallRadius {
-    pub radius: f64,
-    /// The correction that the radius is held against.
-    pub required: f64,
-    pub center: Point,
-    pub start: Point,
-    pub end: Point,
-    /// Signed sweep in the entity's own direction, radians.
-    pub sweep: f64,
-    /// Wire side in the entity's own direction.
-    pub side: Side,
-    /// What an untrimmed offset cuts beyond the wire's contour: `(c − r)(1 − cos θ)`, at most `2 (c − r)`.
-    pub overcut: f64,
-    /// What stays when the control trims: `(c − r)(1 / cos(θ/2) − 1)`; infinite at a half turn and beyond.
-    pub stock_left: f64,
-    /// The pass (1-based) whose correction is the largest, where several passes are set.
-    pub pass: Option<usize>,
-    /// Why no fix is offered; `None` where one is.
-    pub no_fix: Option<NoFix>,
-}
-
-impl SmallRadius {
-    /// The numbers of an arc whose radius counts as `radius`; of a length in them there are `unit` in one of theirs.
-    pub(crate) fn of(arc: &Arc, radius: f64, required: f64, unit: f64) -> SmallRadius {
-        let (short, turn) = ((required - radius).max(0.0) / unit, arc.sweep.abs().min(PI));
-        let stock_left = if turn < PI {
-            short * (1.0 / (turn / 2.0).cos() - 1.0)
-        } else {
-            f64::INFINITY
-        };
-        SmallRadius {
-            radius: radius / unit,
-            required: required / unit,
-            center: arc.center / unit,
-            start: arc.start / unit,
-            end: arc.end / unit,
-            sweep: arc.sweep,
-            side: if arc.sweep > 0.0 {
-                Side::Left
-            } else {
-                Side::Right
-            },
-            overcut: short * (1.0 - turn.cos()),
-            stock_left,
-            pass: None,
-            no_fix: None,
-        }
-    }
 }
 
 /// The numbers of a finding. One variant for each kind of sentence.
@@ -243,19 +178,6 @@ pub enum Detail {
     },
 }
 
-/// How the centre was found to which an arc's ends fit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CenterFix {
-    /// I and J as other controls take them.
-    OtherConvention,
-    /// A sign was lost.
-    Sign,
-    /// I stands for J and J for I.
-    Swap,
-    /// The nearest one that fits, `moved` mm from the one that stands.
-    Nearest { moved: f64 },
-}
-
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     pub rule: Rule,
@@ -277,176 +199,4 @@ impl Finding {
             related: Vec::new(),
         }
     }
-}
-
-/// A repair that a user may choose. Rules on drawings make edits of the drawing, rules on programs edits of the text.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Fix<E = DrawingEdit> {
-    pub kind: FixKind,
-    /// The one that a user most likely wants.
-    pub preferred: bool,
-    /// False where "fix all" leaves it out.
-    pub in_fix_all: bool,
-    pub edit: E,
-}
-
-/// What a fix changes: a drawing, which each kind of document turns into its own edit, or the text itself.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Edit {
-    Drawing(DrawingEdit),
-    /// Sorted and disjoint.
-    Text(Vec<TextEdit>),
-}
-
-impl Fix {
-    /// The repair that a user most likely wants, and that "fix all" makes.
-    pub(crate) fn new(kind: FixKind, changes: Vec<Change>) -> Fix {
-        Fix {
-            kind,
-            preferred: true,
-            in_fix_all: true,
-            edit: DrawingEdit { changes },
-        }
-    }
-}
-
-impl<E> Fix<E> {
-    /// The same repair with its edit in another form.
-    pub fn map<F>(self, form: impl FnOnce(E) -> F) -> Fix<F> {
-        Fix {
-            kind: self.kind,
-            preferred: self.preferred,
-            in_fix_all: self.in_fix_all,
-            edit: form(self.edit),
-        }
-    }
-}
-
-/// What a fix does, as data for its title. Lengths in drawing units.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FixKind {
-    /// One arc of `radius` replaces `arcs` arcs; the contour moves by at most `moved`.
-    Refillet {
-        radius: f64,
-        arcs: usize,
-        moved: f64,
-    },
-    /// The end points stay, only the bulge changes; the contour kinks by `kink` radians at each end.
-    KeepEndPoints {
-        radius: f64,
-        kink: f64,
-    },
-    /// A sharp corner gets a fillet of `radius`.
-    Fillet {
-        radius: f64,
-    },
-    /// The ends of an open contour are joined by a line of `length`, or become one where it is 0.
-    Close {
-        length: f64,
-    },
-    /// Two ends are moved onto each other.
-    Snap {
-        distance: f64,
-    },
-    /// One of two entities in the same place goes.
-    DeleteDouble,
-    /// A segment too short to cut goes, its neighbours meet.
-    Merge,
-    /// An entity without length goes.
-    DeletePoint,
-    /// An arc is changed so that it leaves its neighbour without a kink.
-    MakeTangent {
-        moved: f64,
-    },
-    /// One arc takes the place of `chords` lines.
-    OneArc {
-        chords: usize,
-        radius: f64,
-    },
-    /// A program gets the word that ends it.
-    AddEnd {
-        word: String,
-    },
-    /// Letters and digits that only look like those of a program become plain ones.
-    PlainLetters,
-    /// Decimal commas become points.
-    DecimalPoints,
-    /// What stands behind the end of a program goes.
-    DeleteBehindEnd,
-    /// J of a block becomes `j`, µm.
-    SetJ {
-        j: i64,
-    },
-    /// X or Y of a block becomes `value`, µm.
-    SetEnd {
-        axis: Axis,
-        value: i64,
-    },
-    /// G of a block becomes the other axis; J with it where it is there, µm.
-    SetAxis {
-        axis: Axis,
-        j: Option<i64>,
-    },
-    /// Z of a block becomes `name`.
-    SetMotion {
-        name: &'static str,
-    },
-    /// The coordinates behind a block become those where it ends, mm.
-    SetCoordinates {
-        at: [f64; 2],
-    },
-    /// A block becomes one that ends at the coordinates behind it.
-    FollowCoordinates,
-    /// X and Y of a block change places.
-    ExchangeXAndY,
-    /// A block that cannot be read becomes `block`.
-    RestoreBlock {
-        block: String,
-    },
-    /// One of two equal blocks goes.
-    DeleteTwin,
-    /// Two blocks in a row change places.
-    ExchangeBlocks,
-    /// A block that is lost is put back: its ends are `length` mm apart.
-    InsertBlock {
-        length: f64,
-        is_arc: bool,
-    },
-    /// The `B` that is lost is put back.
-    InsertB,
-    /// `B25` becomes `N25`.
-    NumberWithN,
-    /// The letter O becomes a zero.
-    ZeroForO,
-    DeleteBlock,
-    /// A block becomes several that fit.
-    SplitBlock {
-        pieces: usize,
-    },
-    /// A block gets the number of its turn.
-    SetNumber {
-        number: u32,
-    },
-    /// All blocks are numbered anew.
-    Renumber {
-        first: u32,
-        step: u32,
-    },
-    /// A rapid becomes a cut.
-    CutRapid,
-    /// I and J of an ISO arc lead to a centre `radius` mm from both its ends.
-    SetCenter {
-        radius: f64,
-        how: CenterFix,
-    },
-    /// G41 becomes G42 or the other way round.
-    SwapSide,
-    /// Words of a block as they are meant; `meant` is empty where they go, `found` where they come.
-    Rewrite {
-        found: String,
-        meant: String,
-    },
-    InsertLine {
-        block: String,
-    },
 }

@@ -32,7 +32,7 @@ pub struct Observed {
 }
 
 /// What the rules take for two segments that come near each other, in looks.
-pub const LOOKS_OF_A_PAIR: u64 = 16;
+pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
 
 /// Segments of a run that have one box together.
 const GROUP: usize = 8;
@@ -63,7 +63,7 @@ pub struct Kept<'a, 'b> {
 }
 
 impl<'b> Kept<'_, 'b> {
-    pub fn walls_of(&mut self, run: RunId) -> Option<Rc<Walls<'b>>> {
+    pub(crate) fn walls_of(&mut self, run: RunId) -> Option<Rc<Walls<'b>>> {
         if let Some(walls) = self.walls.get(&run) {
             return Some(walls.clone());
         }
@@ -116,7 +116,7 @@ impl<'a> Walls<'a> {
     }
 
     /// True when a segment comes nearer to `center` than `radius`; `area` is the box of that disc.
-    pub fn reach_into(&self, area: &Bounds, center: Point, radius: f64) -> bool {
+    pub(crate) fn reach_into(&self, area: &Bounds, center: Point, radius: f64) -> bool {
         let groups = self
             .each
             .chunks(GROUP)

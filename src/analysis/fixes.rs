@@ -100,7 +100,7 @@ impl Analysis {
     }
 
     /// As [`Analysis::fix_all`], of the fixes that `can` says can be made.
-    pub fn fix_all_that(
+    pub(crate) fn fix_all_that(
         &self,
         drawing: &Drawing,
         can: &dyn Fn(&DrawingEdit) -> bool,

@@ -93,7 +93,7 @@ impl Known {
     }
 
     /// True when a local rule has seen something.
-    pub fn has_observations(&self) -> bool {
+    pub(crate) fn has_observations(&self) -> bool {
         !self.observations.iter().flatten().all(Vec::is_empty)
     }
 

@@ -17,7 +17,7 @@ pub type FacingWalls = ([usize; 2], Option<Side>);
 
 impl Pairs {
     /// Contours that have something of `rule` between two of their own segments.
-    pub fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
+    pub(crate) fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
         let own = |each: &&Observed| {
             PAIR_RULES[each.rule].rule == rule && each.one.0 == each.other.0 && !each.blocked
         };
@@ -30,7 +30,7 @@ impl Pairs {
     }
 
     /// What `narrow-slot` tells of one contour: the two segments, and the disc between them.
-    pub fn slots_of(&self, key: ContourKey) -> Vec<Slot> {
+    pub(crate) fn slots_of(&self, key: ContourKey) -> Vec<Slot> {
         let own = |each: &&Observed| {
             PAIR_RULES[each.rule].rule == Rule::NarrowSlot
                 && each.one.0 == key

@@ -49,14 +49,14 @@ impl Pairs {
     }
 
     /// Gives the looks anew, for an edit that is only tried.
-    pub fn refill(&mut self) {
+    pub(crate) fn refill(&mut self) {
         (self.left, self.left_to_ask) = (self.granted, self.granted);
     }
 
     /// True while what has been seen, edit by edit, is what a look at everything sees. Each pair that there is has been looked at once at
     /// least: where that took no more than half of what there was, a look at everything comes to its end, too. Else what is left out
     /// hangs on the order in which things are looked at: all has to be looked at.
-    pub fn is_within_budget(&self) -> bool {
+    pub(crate) fn is_within_budget(&self) -> bool {
         let half = self.granted / 2;
         self.uncompared.is_empty()
             && self.seen_count < self.most_seen
@@ -65,7 +65,7 @@ impl Pairs {
     }
 
     /// True when nothing that has been seen between others depends on this contour, and all that is sought has been.
-    pub fn may_spare(&self, key: ContourKey) -> bool {
+    pub(crate) fn may_spare(&self, key: ContourKey) -> bool {
         let depends = |each: &Observed| {
             each.disc.is_some() && !each.own_disc && each.one.0 != key && each.other.0 != key
         };
@@ -75,14 +75,14 @@ impl Pairs {
     }
 
     /// Forgets a contour as it was when it was looked at last.
-    pub fn forget(&mut self, key: ContourKey, index: &ContourIndex) {
+    pub(crate) fn forget(&mut self, key: ContourKey, index: &ContourIndex) {
         for run in 0..index.run_count() {
             self.forget_run((key, run as u32), &index.bounds_of_run(run));
         }
     }
 
     /// Forgets a run with the box that it was looked at with.
-    pub fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
+    pub(crate) fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
         self.uncompared.remove(&run);
         self.disturb(bounds);
@@ -307,7 +307,7 @@ impl Pairs {
     }
 
     /// How many runs have not been compared with everything near them.
-    pub fn uncompared(&self) -> usize {
+    pub(crate) fn uncompared(&self) -> usize {
         self.uncompared.len()
     }
 }

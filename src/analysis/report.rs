@@ -47,7 +47,7 @@ impl Tally {
 
     /// True when nothing got worse since `before`: no more errors, no more errors and warnings together, and no rule that speaks of
     /// damage, but for `mended`, has more to say.
-    pub fn is_no_worse_than(&self, before: &Tally, mended: Rule) -> bool {
+    pub(crate) fn is_no_worse_than(&self, before: &Tally, mended: Rule) -> bool {
         self.errors <= before.errors
             && self.errors + self.warnings <= before.errors + before.warnings
             && self.brings_nothing_new(before, |rule| rule == mended || CORNERS.contains(&rule))
@@ -55,7 +55,7 @@ impl Tally {
 
     /// True when there are no more errors, and nothing new but kinks and slots, which may have been beside a tight arc all the time,
     /// and what a rule that is `spared` says.
-    pub fn spoils_nothing(&self, before: &Tally, spared: Option<Rule>) -> bool {
+    pub(crate) fn spoils_nothing(&self, before: &Tally, spared: Option<Rule>) -> bool {
         let is_spared =
             |rule| CORNERS.contains(&rule) || SLOTS.contains(&rule) || spared == Some(rule);
         self.errors <= before.errors && self.brings_nothing_new(before, is_spared)
@@ -75,7 +75,7 @@ impl Tally {
 
     /// True when closing a contour has brought nothing new to light but corners. The wire has a side on it now: what was one hint
     /// for all its corners is a warning for each that the wire runs inside of, and what was a warning may be an error.
-    pub fn is_no_worse_once_closed(&self, before: &Tally) -> bool {
+    pub(crate) fn is_no_worse_once_closed(&self, before: &Tally) -> bool {
         let corners = self
             .of(Rule::SharpCorner)
             .saturating_sub(before.of(Rule::SharpCorner));
@@ -96,12 +96,12 @@ impl Report {
     }
 
     /// False where findings are only counted.
-    pub fn shows_findings(&self) -> bool {
+    pub(crate) fn shows_findings(&self) -> bool {
         self.limit > 0
     }
 
     /// True where the settings take a contour as the path of the wire.
-    pub fn is_for_a_path(&self) -> bool {
+    pub(crate) fn is_for_a_path(&self) -> bool {
         self.settings.compensation == Compensation::None
     }
 
@@ -133,7 +133,7 @@ impl Report {
     }
 
     /// True when no finding of this severity is added any more, or the rule is off.
-    pub fn is_full(&self, rule: Rule, mildest: Option<Severity>) -> bool {
+    pub(crate) fn is_full(&self, rule: Rule, mildest: Option<Severity>) -> bool {
         let kept = |severity| self.kept.get(&severity).map_or(0, Vec::len);
         self.severity(rule, mildest)
             .is_none_or(|severity| kept(severity) >= self.limit)

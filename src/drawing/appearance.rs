@@ -16,7 +16,7 @@ pub enum Visibility {
 }
 
 impl Visibility {
-    pub fn is_seen(self) -> bool {
+    pub(crate) fn is_seen(self) -> bool {
         matches!(self, Visibility::Shown | Visibility::Unplotted)
     }
 }
@@ -43,7 +43,7 @@ const NAMED: [(&str, u32); 7] = [
 
 impl Color {
     /// A colour of 24 bits; one of those that have a name is that one.
-    pub fn of_rgb(rgb: u32) -> Color {
+    pub(crate) fn of_rgb(rgb: u32) -> Color {
         let named = NAMED.iter().zip(1..).find(|((_, named), _)| *named == rgb);
         named.map_or(Color::True(rgb & 0xFF_FFFF), |(_, index)| {
             Color::Index(index)

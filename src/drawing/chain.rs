@@ -101,7 +101,7 @@ impl Chains {
     }
 
     /// The first of a contour's entities in machining order.
-    pub fn first_of(&self, key: Key) -> Option<EntityId> {
+    pub(crate) fn first_of(&self, key: Key) -> Option<EntityId> {
         self.contours.get(&key).map(|chain| chain.first)
     }
 
@@ -141,7 +141,7 @@ impl Chains {
     }
 
     /// The contour that holds a segment of an entity, and its index in there.
-    pub fn index_of(&self, entity: EntityId, segment: usize) -> Option<(Key, usize)> {
+    pub(crate) fn index_of(&self, entity: EntityId, segment: usize) -> Option<(Key, usize)> {
         Some((
             self.contour_of(entity)?,
             self.piece_of(entity)?.index_of(segment)?,
@@ -155,7 +155,7 @@ impl Chains {
 
     /// True when an entity's free ends have not moved, so that the contours stand as they are. Never for an entity whose own
     /// ends touch, or that others meet: what lies between its ends counts there.
-    pub fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
+    pub(crate) fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
         let known = self.ends_of(entity);
         let now = if is_cut {
             free_ends(drawing, entity)
@@ -175,7 +175,7 @@ impl Chains {
     }
 
     /// The number of segments of an entity has changed: its contour counts them anew.
-    pub fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
+    pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
         let Some(Chain { contour, .. }) = self
             .contour_of(entity)
             .and_then(|key| self.contours.get_mut(&key))
@@ -409,7 +409,7 @@ impl Chains {
 }
 
 /// Role that the entities of a contour state, or what they are drawn on or in: that of the first piece which has one.
-pub fn stated_role(
+pub(crate) fn stated_role(
     contour: &Contour,
     of_entity: &dyn Fn(EntityId) -> Option<Role>,
 ) -> Option<Role> {

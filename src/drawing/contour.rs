@@ -31,7 +31,7 @@ impl Piece {
     }
 
     /// The index within the contour of one of the piece's own segments.
-    pub fn index_of(&self, segment: usize) -> Option<usize> {
+    pub(crate) fn index_of(&self, segment: usize) -> Option<usize> {
         let along = if self.reversed {
             self.count().checked_sub(1 + segment)?
         } else {
@@ -103,7 +103,7 @@ impl Contour {
     }
 
     /// False where there is nothing to cut: no segment is longer than `zero_length` (drawing units).
-    pub fn has_length(&self, drawing: &Drawing, zero_length: f64) -> bool {
+    pub(crate) fn has_length(&self, drawing: &Drawing, zero_length: f64) -> bool {
         self.segments(drawing)
             .any(|segment| segment.geometry.length() > zero_length)
     }
@@ -131,7 +131,7 @@ impl Contour {
     }
 
     /// The segments of a range of indices in the direction of travel.
-    pub fn segments_in<'a>(
+    pub(crate) fn segments_in<'a>(
         &'a self,
         drawing: &'a Drawing,
         range: Range<usize>,

@@ -9,7 +9,7 @@ pub(super) const SAME_PLACE: f64 = 0.5;
 
 /// True when each segment of one entity lies within `tolerance` on that of the other in its turn; with `turned` the other is
 /// travelled against its own direction. `flat`: what rises less above its chord is a line.
-pub fn run_together(
+pub(crate) fn run_together(
     one: &Geometry,
     other: &Geometry,
     turned: bool,

@@ -301,7 +301,7 @@ impl Drawing {
     }
 
     /// Whether an entity can take a change at all, whatever its numbers are.
-    pub fn accepts(&self, change: &Change) -> Result<(), ChangeError> {
+    pub(crate) fn accepts(&self, change: &Change) -> Result<(), ChangeError> {
         let bulge = match change {
             Change::SetVertex { vertex, .. } | Change::InsertVertex { vertex, .. } => vertex.bulge,
             _ => 0.0,

@@ -110,7 +110,7 @@ impl Geometry {
     /// which starts at its +X-most point. What rises less than `flat` (see [`Drawing::flat`]) above its chord is a line.
     ///
     /// [`Drawing::flat`]: super::Drawing::flat
-    pub fn segment_of(&self, index: usize, flat: f64) -> Option<Segment> {
+    pub(crate) fn segment_of(&self, index: usize, flat: f64) -> Option<Segment> {
         match self {
             Geometry::Polyline { vertices, .. } => {
                 if index >= self.segment_count() {
@@ -147,12 +147,12 @@ impl Geometry {
     }
 
     /// All segments in the entity's own direction: see [`Geometry::segment_of`].
-    pub fn segments_of(&self, flat: f64) -> impl Iterator<Item = Segment> + '_ {
+    pub(crate) fn segments_of(&self, flat: f64) -> impl Iterator<Item = Segment> + '_ {
         (0..self.segment_count()).filter_map(move |index| self.segment_of(index, flat))
     }
 
     /// True where the geometry is a contour of its own and has no free ends.
-    pub fn is_closed(&self) -> bool {
+    pub(crate) fn is_closed(&self) -> bool {
         match self {
             Geometry::Polyline { closed, .. } => *closed,
             Geometry::Circle { .. } => true,
@@ -232,7 +232,7 @@ pub struct Entity {
 
 impl Entity {
     /// The place of an arc whose radius is 0: it is drawn and has no segment.
-    pub fn point_of_arc(&self) -> Option<Point> {
+    pub(crate) fn point_of_arc(&self) -> Option<Point> {
         match (self.kind, &self.geometry) {
             (Kind::Arc, Geometry::Text { at, .. }) => Some(*at),
             _ => None,

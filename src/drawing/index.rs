@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// Segments in one run. Short enough that one run is looked through in a microsecond, long enough that a million
 /// segments make only some thousand boxes.
-pub const RUN: usize = 64;
+pub(crate) const RUN: usize = 64;
 
 /// An area below this share of the square about a contour has no sign: it says nothing of which way the contour goes round.
 const ROUNDING: f64 = 1e-12;
@@ -128,12 +128,12 @@ impl ContourIndex {
     }
 
     /// Number of runs.
-    pub fn run_count(&self) -> usize {
+    pub(crate) fn run_count(&self) -> usize {
         self.runs.len()
     }
 
     /// The box of a run; empty past the last one.
-    pub fn bounds_of_run(&self, run: usize) -> Bounds {
+    pub(crate) fn bounds_of_run(&self, run: usize) -> Bounds {
         self.runs.get(run).map_or(Bounds::EMPTY, |run| run.bounds)
     }
 
@@ -142,7 +142,7 @@ impl ContourIndex {
     }
 
     /// A box that holds the segments of `range`, and some beside them.
-    pub fn bounds_about(&self, range: Range<usize>) -> Bounds {
+    pub(crate) fn bounds_about(&self, range: Range<usize>) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         let runs = range.start / RUN..range.end.div_ceil(RUN).min(self.runs.len());
         self.runs

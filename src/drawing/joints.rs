@@ -99,7 +99,7 @@ impl<'a> Joints<'a> {
         joints
     }
 
-    pub fn end_count(&self) -> usize {
+    pub(crate) fn end_count(&self) -> usize {
         self.places.len()
     }
 
@@ -127,12 +127,12 @@ impl<'a> Joints<'a> {
     }
 
     /// True where there is nothing that an end can be joined to.
-    pub fn is_lone(&self, end: End) -> bool {
+    pub(crate) fn is_lone(&self, end: End) -> bool {
         self.met.get(end.index()).is_none_or(|&met| met == NOTHING)
     }
 
     /// Ends that lie in one small cell by the thousand, by cell.
-    pub fn crowds(&self) -> impl Iterator<Item = &Vec<End>> {
+    pub(crate) fn crowds(&self) -> impl Iterator<Item = &Vec<End>> {
         self.dense.iter().flat_map(|dense| dense.crowded.values())
     }
 
@@ -142,17 +142,17 @@ impl<'a> Joints<'a> {
     }
 
     /// The ends of a cell, and of others in the same list.
-    pub fn of_cell(&self, cell: Cell) -> impl Iterator<Item = End> + '_ {
+    pub(crate) fn of_cell(&self, cell: Cell) -> impl Iterator<Item = End> + '_ {
         self.all.of_cell(cell)
     }
 
-    pub fn is_crowded(&self, end: End) -> bool {
+    pub(crate) fn is_crowded(&self, end: End) -> bool {
         self.dense
             .as_ref()
             .is_some_and(|dense| dense.is_crowded(self.place(end)))
     }
 
-    pub fn by_place(&self, one: u32, other: u32) -> Ordering {
+    pub(crate) fn by_place(&self, one: u32, other: u32) -> Ordering {
         doubles::by_place(
             self.drawing,
             self.entities[one as usize],
@@ -161,7 +161,7 @@ impl<'a> Joints<'a> {
     }
 
     /// Number of ends of an entity that meet the end of another one in one point, for which `leaves_out` does not hold.
-    pub fn count_met(&self, entity: u32, leaves_out: impl Fn(u32) -> bool) -> usize {
+    pub(crate) fn count_met(&self, entity: u32, leaves_out: impl Fn(u32) -> bool) -> usize {
         let meets = |&end: &End| {
             let mut met = false;
             self.each_near(end, |other, distance| {
@@ -174,7 +174,7 @@ impl<'a> Joints<'a> {
 
     /// Hands over every end within the join tolerance of one, with the distance, in no order. The other end of its own entity counts
     /// where that leads round. In a crowd no end sees another, nor is it seen.
-    pub fn each_near(&self, end: End, mut look: impl FnMut(End, f64)) {
+    pub(crate) fn each_near(&self, end: End, mut look: impl FnMut(End, f64)) {
         let place = self.place(end);
         if place.x.is_nan() || self.is_crowded(end) {
             return;
@@ -228,7 +228,7 @@ impl<'a> Joints<'a> {
     }
 
     /// True when an entity whose own ends touch really leads round, and is not just shorter than the join tolerance.
-    pub fn leads_round(&self, entity: u32) -> bool {
+    pub(crate) fn leads_round(&self, entity: u32) -> bool {
         let Some(geometry) = self
             .drawing
             .get(self.entities[entity as usize])
@@ -243,7 +243,7 @@ impl<'a> Joints<'a> {
     }
 
     /// True when all of an entity lies within the join tolerance about a place.
-    pub fn is_crumb(&self, entity: u32, about: Point) -> bool {
+    pub(crate) fn is_crumb(&self, entity: u32, about: Point) -> bool {
         let near = |point: Point| (point - about).norm() <= self.cells.join;
         self.drawing
             .get(self.entities[entity as usize])

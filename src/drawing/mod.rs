@@ -23,19 +23,22 @@ mod outline;
 mod slots;
 
 pub use appearance::{Color, Visibility};
-pub use chain::{Chains, Key as ContourKey, Rechained, stated_role};
+pub(crate) use chain::stated_role;
+pub use chain::{Chains, Key as ContourKey, Rechained};
 pub use contour::{Contour, ContourSegment, Piece};
-pub use doubles::run_together;
+pub(crate) use doubles::run_together;
 pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, Geometry, Role, Vertex};
 pub use handle::Handle;
-pub use index::{ContourIndex, RUN};
+pub use index::ContourIndex;
+pub(crate) use index::RUN;
 pub use kind::Kind;
-pub use nesting::{nesting_depths, winding, winding_of};
+pub(crate) use nesting::{nesting_depths, winding, winding_of};
 pub use orientation::{
     Orientation, orientation, orientation_by_extreme_point, orientation_by_turns,
 };
-pub use outline::{Outline, wire_side};
+pub use outline::Outline;
+pub(crate) use outline::wire_side;
 
 use crate::geometry::{Segment, Tolerances};
 use names::Names;
@@ -100,12 +103,12 @@ impl Drawing {
     }
 
     /// Says which unit to take where the drawing states none; without a word, that is millimetres.
-    pub fn assume_unit(&mut self, unit: Unit) {
+    pub(crate) fn assume_unit(&mut self, unit: Unit) {
         self.assumed_unit = Some(unit);
     }
 
     /// False where [`Drawing::assume_unit`] would say nothing new.
-    pub fn assumes_another(&self, unit: Unit) -> bool {
+    pub(crate) fn assumes_another(&self, unit: Unit) -> bool {
         self.assumed_unit.unwrap_or(Unit::MILLIMETRE) != unit
     }
 
@@ -153,7 +156,7 @@ impl Drawing {
     }
 
     /// One past the largest id ever given out, for tables indexed by id.
-    pub fn id_bound(&self) -> usize {
+    pub(crate) fn id_bound(&self) -> usize {
         self.slots.len()
     }
 
@@ -245,7 +248,7 @@ impl Drawing {
 
     /// Adds an entity at the end of the machining order that shares its handle with the entity that [`Drawing::find`]
     /// gives for it, as the parts of a block do. It is not editable.
-    pub fn push_part(&mut self, entity: Entity) -> EntityId {
+    pub(crate) fn push_part(&mut self, entity: Entity) -> EntityId {
         let id = EntityId(self.slots.len() as u32);
         self.enter(&entity.handle, id);
         self.slots.push(entity);
@@ -256,7 +259,7 @@ impl Drawing {
     }
 
     /// Says whether an entity is geometry of the source itself, which an edit can change.
-    pub fn set_editable(&mut self, id: EntityId, editable: bool) {
+    pub(crate) fn set_editable(&mut self, id: EntityId, editable: bool) {
         if editable {
             self.fixed.remove(&id);
         } else {
@@ -265,7 +268,7 @@ impl Drawing {
     }
 
     /// Says whether an entity is a curve that arcs are fitted to: it has no numbers for them, but is one entity of the source.
-    pub fn set_fitted(&mut self, id: EntityId, fitted: bool) {
+    pub(crate) fn set_fitted(&mut self, id: EntityId, fitted: bool) {
         self.set_editable(id, !fitted);
         if fitted {
             self.whole.insert(id);
@@ -275,7 +278,7 @@ impl Drawing {
     }
 
     /// Whether an entity is one of the source, and no part of what a block reference draws.
-    pub fn is_whole(&self, id: EntityId) -> bool {
+    pub(crate) fn is_whole(&self, id: EntityId) -> bool {
         self.is_editable(id) || self.whole.contains(&id)
     }
 
@@ -285,7 +288,7 @@ impl Drawing {
     }
 
     /// Says whether a polyline can have lines only.
-    pub fn set_straight(&mut self, id: EntityId, straight: bool) {
+    pub(crate) fn set_straight(&mut self, id: EntityId, straight: bool) {
         if straight {
             self.straight.insert(id);
         } else {
@@ -299,7 +302,7 @@ impl Drawing {
     }
 
     /// Says whether an entity is seen, and which layer decides it. True when that is something new.
-    pub fn set_visibility(
+    pub(crate) fn set_visibility(
         &mut self,
         id: EntityId,
         visibility: Visibility,
@@ -319,14 +322,14 @@ impl Drawing {
     }
 
     /// Entities that are not simply shown, with the layer that decides it; in no order.
-    pub fn unseen(&self) -> impl Iterator<Item = (EntityId, Visibility, &Arc<str>)> + '_ {
+    pub(crate) fn unseen(&self) -> impl Iterator<Item = (EntityId, Visibility, &Arc<str>)> + '_ {
         self.unseen
             .iter()
             .map(|(&id, (visibility, layer))| (id, *visibility, layer))
     }
 
     /// Gives an entity a colour of its own, or leaves it that of its layer. True when that is something new.
-    pub fn set_color(&mut self, id: EntityId, color: Option<Color>) -> bool {
+    pub(crate) fn set_color(&mut self, id: EntityId, color: Option<Color>) -> bool {
         let index = id.0 as usize;
         if color.is_some() && index >= self.colors.len() {
             self.colors.resize(index + 1, None);
@@ -336,7 +339,7 @@ impl Drawing {
             .is_some_and(|slot| std::mem::replace(slot, color) != color)
     }
 
-    pub fn set_layer_color(&mut self, layer: &str, color: Color) {
+    pub(crate) fn set_layer_color(&mut self, layer: &str, color: Color) {
         self.layer_colors.insert(layer.to_lowercase(), color);
     }
 
@@ -390,7 +393,7 @@ impl Drawing {
     }
 
     /// Removes entities. Costs the length of the machining order once, however many they are.
-    pub fn remove_all(&mut self, ids: &FxHashSet<EntityId>) {
+    pub(crate) fn remove_all(&mut self, ids: &FxHashSet<EntityId>) {
         if ids.iter().filter_map(|&id| self.take(id)).count() > 0 {
             self.order.retain(|id| !ids.contains(id));
         }

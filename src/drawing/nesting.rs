@@ -8,7 +8,10 @@ use std::f64::consts::TAU;
 ///
 /// A contour lies within another when its first point does; where the two touch in just that point either answer may come.
 /// Costs what the boxes about each first point hold, and the segments of those contours.
-pub fn nesting_depths(drawing: &Drawing, contours: &[(&Contour, &ContourIndex)]) -> Vec<usize> {
+pub(crate) fn nesting_depths(
+    drawing: &Drawing,
+    contours: &[(&Contour, &ContourIndex)],
+) -> Vec<usize> {
     let boxes: Vec<Bounds> = contours
         .iter()
         .map(|(contour, index)| {
@@ -42,7 +45,7 @@ pub fn nesting_depths(drawing: &Drawing, contours: &[(&Contour, &ContourIndex)])
 }
 
 /// How often a closed contour goes round `point`, positive counter-clockwise; undefined on the contour itself.
-pub fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64 {
+pub(crate) fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64 {
     winding_of(
         contour.segments(drawing).map(|segment| segment.geometry),
         point,
@@ -50,7 +53,7 @@ pub fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64 {
 }
 
 /// The same of closed segments.
-pub fn winding_of(segments: impl Iterator<Item = Segment>, point: Point) -> i64 {
+pub(crate) fn winding_of(segments: impl Iterator<Item = Segment>, point: Point) -> i64 {
     let mut angle = 0.0;
     let mut caps = 0;
     for segment in segments {

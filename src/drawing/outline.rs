@@ -15,14 +15,14 @@ pub struct Outline {
 
 impl Outline {
     /// Side of the direction of travel on which the wire runs: see [`wire_side`].
-    pub fn wire_side(&self) -> Option<Side> {
+    pub(crate) fn wire_side(&self) -> Option<Side> {
         wire_side(self.role, self.contour.closed, self.twice_area)
     }
 }
 
 /// Side of the direction of travel on which the wire runs: inside an opening, outside a punch.
 /// `None` where every arc must survive both sides, for an open contour and for one without area.
-pub fn wire_side(role: Role, closed: bool, twice_area: f64) -> Option<Side> {
+pub(crate) fn wire_side(role: Role, closed: bool, twice_area: f64) -> Option<Side> {
     if !closed || twice_area == 0.0 {
         return None;
     }

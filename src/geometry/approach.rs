@@ -6,7 +6,7 @@ use super::{Arc, Line, Point, Segment, Vector, circle_circle, cross, line_circle
 const PARALLEL: f64 = 1e-6;
 
 /// The points that two segments have in common, without those of a stretch that they share.
-pub fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
+pub(crate) fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
     let mut points = match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => {
             line_line(a.start, a.end - a.start, b.start, b.end - b.start)
@@ -24,7 +24,7 @@ pub fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
 
 /// Pairs of points, one inside each segment, whose connection is perpendicular to both: every place where the distance of
 /// the two is at a minimum, a maximum or a saddle. Where it is the same all along, the middle of that stretch.
-pub fn facing(a: &Segment, b: &Segment) -> Vec<(Point, Point)> {
+pub(crate) fn facing(a: &Segment, b: &Segment) -> Vec<(Point, Point)> {
     match (a, b) {
         (Segment::Line(one), Segment::Line(other)) => {
             facing_lines(one, other).into_iter().collect()
@@ -41,7 +41,7 @@ pub fn facing(a: &Segment, b: &Segment) -> Vec<(Point, Point)> {
 /// The length over which two segments of one kind run on one another within `tolerance`, measured along `a`.
 ///
 /// What counts is the stretch between the feet of the ends; all of it must lie within the tolerance.
-pub fn shared_length(a: &Segment, b: &Segment, tolerance: f64) -> f64 {
+pub(crate) fn shared_length(a: &Segment, b: &Segment, tolerance: f64) -> f64 {
     if std::mem::discriminant(a) != std::mem::discriminant(b) {
         return 0.0;
     }
@@ -60,7 +60,7 @@ pub fn shared_length(a: &Segment, b: &Segment, tolerance: f64) -> f64 {
 }
 
 /// Curvature of a segment at a point of it: positive where its centre lies in the direction `toward`.
-pub fn curvature(segment: &Segment, at: Point, toward: Vector) -> f64 {
+pub(crate) fn curvature(segment: &Segment, at: Point, toward: Vector) -> f64 {
     match segment {
         Segment::Line(_) => 0.0,
         Segment::Arc(arc) => (arc.center - at).dot(&toward).signum() / arc.radius,
@@ -68,7 +68,7 @@ pub fn curvature(segment: &Segment, at: Point, toward: Vector) -> f64 {
 }
 
 /// The nearest point of a segment's line or circle, `None` where it lies outside the segment or at an end of it.
-pub fn foot_inside(segment: &Segment, point: Point) -> Option<Point> {
+pub(crate) fn foot_inside(segment: &Segment, point: Point) -> Option<Point> {
     let share = segment.share_of(point);
     if share <= 0.0 || share >= 1.0 {
         return None;
@@ -100,7 +100,7 @@ fn facing_lines(a: &Line, b: &Line) -> Option<(Point, Point)> {
 }
 
 /// The point of an arc in a direction from its centre; `None` where the arc does not reach there.
-pub fn reached(arc: &Arc, way: Vector) -> Option<Point> {
+pub(crate) fn reached(arc: &Arc, way: Vector) -> Option<Point> {
     let share = arc.share_of(arc.center + way * arc.radius);
     (0.0..=1.0).contains(&share).then(|| arc.point_at(share))
 }

@@ -52,7 +52,7 @@ impl Arc {
     }
 
     /// The arc about `center` from `start_angle` through `sweep` (radians, positive counter-clockwise).
-    pub fn from_center(center: Point, radius: f64, start_angle: f64, sweep: f64) -> Arc {
+    pub(crate) fn from_center(center: Point, radius: f64, start_angle: f64, sweep: f64) -> Arc {
         let start = center + direction(start_angle) * radius;
         let full = sweep.abs() >= TAU;
         let end = if full {
@@ -106,7 +106,7 @@ impl Arc {
     }
 
     /// How high the arc rises above its chord, `r (1 − cos(sweep / 2))`; twice the radius for a full turn.
-    pub fn sagitta(&self) -> f64 {
+    pub(crate) fn sagitta(&self) -> f64 {
         2.0 * self.radius * (self.sweep / 4.0).sin().powi(2)
     }
 
@@ -179,7 +179,7 @@ impl Arc {
     }
 
     /// How far `point` lies outside the arc's circle; negative inside.
-    pub fn rise_of(&self, point: Point) -> f64 {
+    pub(crate) fn rise_of(&self, point: Point) -> f64 {
         let to_center = (point - self.center).norm();
         if self.is_shallow() {
             // The difference of two squares, without the digits that the two share.
@@ -218,7 +218,7 @@ impl Arc {
     }
 
     /// Twice the signed area between the chord and the arc, `r² (sweep − sin sweep)`: what the arc adds to the shoelace sum.
-    pub fn twice_cap_area(&self) -> f64 {
+    pub(crate) fn twice_cap_area(&self) -> f64 {
         let sweep = self.sweep;
         // sin is better conditioned from its series where the sweep is small.
         let difference = if sweep.abs() < 1e-3 {
@@ -230,7 +230,7 @@ impl Arc {
     }
 
     /// True when the arc turns by at most a half turn.
-    pub fn is_minor(&self) -> bool {
+    pub(crate) fn is_minor(&self) -> bool {
         self.sweep.abs() <= PI
     }
 }

@@ -11,20 +11,20 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    pub const EMPTY: Bounds = Bounds {
+    pub(crate) const EMPTY: Bounds = Bounds {
         min: Point::new(f64::INFINITY, f64::INFINITY),
         max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
     };
 
     /// The smallest box that holds all `points`; empty for none.
-    pub fn of_points(points: &[Point]) -> Bounds {
+    pub(crate) fn of_points(points: &[Point]) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         points.iter().for_each(|&point| bounds.include(point));
         bounds
     }
 
     /// The box of a disc.
-    pub fn of_disc(center: Point, radius: f64) -> Bounds {
+    pub(crate) fn of_disc(center: Point, radius: f64) -> Bounds {
         Bounds {
             min: center.map(|c| c - radius),
             max: center.map(|c| c + radius),
@@ -35,7 +35,7 @@ impl Bounds {
         self.min.x > self.max.x
     }
 
-    pub fn include(&mut self, point: Point) {
+    pub(crate) fn include(&mut self, point: Point) {
         self.min = self.min.inf(&point);
         self.max = self.max.sup(&point);
     }
@@ -46,7 +46,7 @@ impl Bounds {
     }
 
     /// The smallest box that holds both.
-    pub fn merged(&self, other: &Bounds) -> Bounds {
+    pub(crate) fn merged(&self, other: &Bounds) -> Bounds {
         Bounds {
             min: self.min.inf(&other.min),
             max: self.max.sup(&other.max),

@@ -40,7 +40,7 @@ impl<K> Default for Grid<K> {
 
 impl<K: Copy + PartialEq> Grid<K> {
     /// Makes room for so many more boxes.
-    pub fn reserve(&mut self, count: usize) {
+    pub(crate) fn reserve(&mut self, count: usize) {
         self.boxes.reserve(count);
     }
 

@@ -4,7 +4,7 @@ use super::{Point, Vector, cross};
 
 /// The point where the line through `p` along `u` meets the line through `q` along `v`.
 /// `None` for parallel lines (the sine of their angle below 1e-12) and for a direction of length zero.
-pub fn line_line(p: Point, u: Vector, q: Point, v: Vector) -> Option<Point> {
+pub(crate) fn line_line(p: Point, u: Vector, q: Point, v: Vector) -> Option<Point> {
     let denominator = cross(u, v);
     if denominator.abs() <= 1e-12 * u.norm() * v.norm() {
         return None;
@@ -15,7 +15,7 @@ pub fn line_line(p: Point, u: Vector, q: Point, v: Vector) -> Option<Point> {
 /// The points where the line through `p` along `u` meets a circle, in the order of `u`.
 ///
 /// A line that misses the circle by less than 1e-9 of its radius counts as touching and gives one point.
-pub fn line_circle(p: Point, u: Vector, center: Point, radius: f64) -> Vec<Point> {
+pub(crate) fn line_circle(p: Point, u: Vector, center: Point, radius: f64) -> Vec<Point> {
     let Some(along) = u.try_normalize(0.0) else {
         return Vec::new();
     };
@@ -30,7 +30,7 @@ pub fn line_circle(p: Point, u: Vector, center: Point, radius: f64) -> Vec<Point
 
 /// The points where two circles meet: none, one (touching within 1e-9 of the larger radius) or two,
 /// first the one to the left of the way from `a` to `b`. Concentric circles give none.
-pub fn circle_circle(a: Point, radius_a: f64, b: Point, radius_b: f64) -> Vec<Point> {
+pub(crate) fn circle_circle(a: Point, radius_a: f64, b: Point, radius_b: f64) -> Vec<Point> {
     let between = b - a;
     let distance = between.norm();
     let Some(along) = between.try_normalize(1e-300) else {

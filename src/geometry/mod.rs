@@ -15,16 +15,16 @@ mod side;
 mod spline;
 mod tolerances;
 
-pub use approach::{curvature, facing, foot_inside, meetings, reached, shared_length};
+pub(crate) use approach::{curvature, facing, foot_inside, meetings, reached, shared_length};
 pub use arc::Arc;
 pub use biarc::{Chain, Curve, Unfit, fit};
 pub use bounds::Bounds;
 pub use ellipse::EllipticArc;
 pub use grid::Grid;
-pub use intersection::{circle_circle, line_circle, line_line};
+pub(crate) use intersection::{circle_circle, line_circle, line_line};
 pub use segment::{Line, Segment};
 pub use side::Side;
-pub use spline::{MAX_DEGREE, Spline, SplineCurve};
+pub use spline::{Spline, SplineCurve};
 pub use tolerances::Tolerances;
 
 /// A point of the plane, in drawing units.
@@ -49,7 +49,7 @@ pub fn direction(angle: f64) -> Vector {
 }
 
 /// `degrees` in radians. What is beyond a turn is taken off first, which is exact: radians of a great number are not.
-pub fn radians(degrees: f64) -> f64 {
+pub(crate) fn radians(degrees: f64) -> f64 {
     if degrees.abs() > 360.0 {
         (degrees % 360.0).to_radians()
     } else {

@@ -63,7 +63,7 @@ impl Segment {
     /// What comes of a drawing's numbers goes through this, so that reader, rules, fixes and paths take it for the same. A full turn stays one.
     ///
     /// [`Tolerances::flat`]: super::Tolerances::flat
-    pub fn straightened(self, flat: f64) -> Segment {
+    pub(crate) fn straightened(self, flat: f64) -> Segment {
         match self {
             Segment::Arc(arc) if !arc.is_full_turn() && arc.sagitta() < flat => {
                 Segment::line(arc.start, arc.end)

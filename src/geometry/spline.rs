@@ -4,7 +4,7 @@ use super::biarc::Curve;
 use super::{Bounds, Point, Vector};
 
 /// A higher degree is refused: no program draws it, and each point of it costs its square.
-pub const MAX_DEGREE: usize = 24;
+pub(crate) const MAX_DEGREE: usize = 24;
 
 /// A (rational) B-spline. Made by [`Spline::new`], so that its numbers fit each other.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +73,11 @@ impl Spline {
     }
 
     /// The spline with even knots that begins at the first point and ends at the last one. Errors as in [`Spline::new`].
-    pub fn clamped(degree: usize, points: Vec<Point>, weights: Vec<f64>) -> Result<Spline, String> {
+    pub(crate) fn clamped(
+        degree: usize,
+        points: Vec<Point>,
+        weights: Vec<f64>,
+    ) -> Result<Spline, String> {
         let last = points.len().saturating_sub(degree);
         let knots = (0..points.len() + degree.min(MAX_DEGREE) + 1)
             .map(|knot| knot.saturating_sub(degree).min(last) as f64)
@@ -176,12 +180,12 @@ impl Spline {
     }
 
     /// Number of its control points.
-    pub fn point_count(&self) -> usize {
+    pub(crate) fn point_count(&self) -> usize {
         self.points.len()
     }
 
     /// The same curve with its control points moved by an affine transformation.
-    pub fn mapped(&self, map: impl Fn(Point) -> Point) -> Spline {
+    pub(crate) fn mapped(&self, map: impl Fn(Point) -> Point) -> Spline {
         Spline {
             points: self.points.iter().map(|&point| map(point)).collect(),
             ..self.clone()

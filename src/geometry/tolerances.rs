@@ -44,7 +44,7 @@ impl Default for Tolerances {
 
 impl Tolerances {
     /// The same tolerances in a drawing whose unit is `unit_mm` millimetres.
-    pub fn in_units(self, unit_mm: f64) -> Tolerances {
+    pub(crate) fn in_units(self, unit_mm: f64) -> Tolerances {
         Tolerances {
             join: self.join / unit_mm,
             report: self.report / unit_mm,

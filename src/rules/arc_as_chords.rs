@@ -13,7 +13,7 @@ use crate::geometry::{Arc, Line, Point, Segment, cross, left_normal, line_line, 
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-pub const RULE: LocalRule = LocalRule {
+pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::ArcAsChords,
     check,
     reach: |_, _| (LEAST, 1),
@@ -153,7 +153,7 @@ fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
 }
 
 /// For each of some segments: whether the corner where it begins is one between chords that are told as an arc.
-pub fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<bool> {
+pub(crate) fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<bool> {
     // The chord before the corner and the one behind it lie in one window.
     let starts = range.start as isize - (LEAST as isize - 1)..range.end as isize - 1;
     windows(outlook, starts)
@@ -163,10 +163,10 @@ pub fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<bool> {
 }
 
 /// What is told of a corner may depend on so many segments before and behind it.
-pub const REACH: usize = LEAST;
+pub(crate) const REACH: usize = LEAST;
 
 /// Corners that turn by more (radians) are none between chords.
-pub fn steepest() -> f64 {
+pub(crate) fn steepest() -> f64 {
     STEEPEST.atan()
 }
 

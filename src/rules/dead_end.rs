@@ -14,7 +14,7 @@ use crate::finding::{Rule, Side};
 use crate::geometry::{Point, Segment, cross, turn};
 use std::f64::consts::FRAC_PI_2;
 
-pub const RULE: PairRule = PairRule {
+pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::LostPocket,
     reach: |limits| 2.0 * limits.correction,
     check,

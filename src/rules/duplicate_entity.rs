@@ -9,7 +9,7 @@ use crate::drawing::{Change, Geometry, run_together};
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use crate::geometry::{Point, Segment};
 
-pub const RULE: PairRule = PairRule {
+pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::DuplicateEntity,
     reach: |limits| limits.tolerances.same_place,
     check: |one, other, _| {

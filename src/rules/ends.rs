@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// The change that puts the end (or, with `at_end` false, the start) of a contour's segment to `to`. A line swings about its
 /// other end, an arc keeps its sweep. `None` where the segment is not the last of its entity on that side, for a circle, and
 /// for an arc of nearly a full turn, whose ends say little about it.
-pub fn end_moved(
+pub(crate) fn end_moved(
     drawing: &Drawing,
     place: &ContourSegment,
     at_end: bool,

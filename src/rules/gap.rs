@@ -8,7 +8,7 @@ use super::{LocalRule, Observation, Outlook};
 use crate::finding::{Detail, Fix, FixKind, Place, Rule};
 use std::ops::Range;
 
-pub const RULE: LocalRule = LocalRule {
+pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::Gap,
     check,
     reach: |_, _| (0, 1),

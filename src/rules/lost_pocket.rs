@@ -15,7 +15,7 @@ use cavalier_contours::polyline::{PlineSource, PlineSourceMut, Polyline};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Contours of more segments are not asked: the offset would take longer than an edit may. `narrow-slot` is still seen there.
-pub const MOST_SEGMENTS: usize = 5_000;
+pub(crate) const MOST_SEGMENTS: usize = 5_000;
 
 /// What the offset of a contour loses.
 #[derive(Clone, Copy, Debug, PartialEq)]

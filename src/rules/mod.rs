@@ -92,7 +92,7 @@ impl Outlook<'_> {
 
     /// The angle (radians, positive to the left) by which the contour turns where the segment at `index` begins.
     /// `None` at the start of an open contour, and beside a segment too short to have a direction that counts.
-    pub fn turn_at(&self, index: usize) -> Option<f64> {
+    pub(crate) fn turn_at(&self, index: usize) -> Option<f64> {
         let (before, behind) = (
             self.segment(index as isize - 1)?.geometry,
             self.segment(index as isize)?.geometry,
@@ -171,7 +171,7 @@ fn other_at_joint(outlook: &Outlook, observation: Observation) -> Vec<Place> {
 }
 
 /// Every rule on single segments and their neighbours.
-pub const LOCAL_RULES: &[LocalRule] = &[
+pub(crate) const LOCAL_RULES: &[LocalRule] = &[
     sharp_corner::RULE,
     gap::RULE,
     short_segment::RULE,
@@ -196,7 +196,7 @@ pub struct ContourRule {
 }
 
 /// Every rule on whole contours.
-pub const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
+pub(crate) const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
 
 /// What a pair rule has seen between two segments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -247,10 +247,10 @@ impl PairRule {
 }
 
 /// How many segments before and behind a segment a pair rule may look at.
-pub const NEIGHBOURS: usize = 4;
+pub(crate) const NEIGHBOURS: usize = 4;
 
 /// Every rule on pairs of segments; `duplicate-entity` first, which others are silent for.
-pub const PAIR_RULES: &[PairRule] = &[
+pub(crate) const PAIR_RULES: &[PairRule] = &[
     duplicate_entity::RULE,
     overlap::RULE,
     self_intersection::RULE,

@@ -9,7 +9,7 @@ use super::{Limits, NEIGHBOURS, PairObservation, PairRule, small_radius};
 use crate::finding::{Detail, Rule, Side};
 use crate::geometry::{Point, Segment, curvature, facing, foot_inside};
 
-pub const RULE: PairRule = PairRule {
+pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::NarrowSlot,
     reach: |limits| 2.0 * limits.correction,
     check: |one, other, same_contour| {

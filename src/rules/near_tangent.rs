@@ -11,7 +11,7 @@ use crate::finding::{Detail, Fix, FixKind, Rule, Side};
 use crate::geometry::Segment;
 use std::ops::Range;
 
-pub const RULE: LocalRule = LocalRule {
+pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::NearTangent,
     check,
     reach: |_, _| (0, 1),

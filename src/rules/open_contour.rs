@@ -8,7 +8,7 @@ use crate::finding::{Detail, Fix, FixKind, Place, Rule, Severity};
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Effective};
 
-pub const RULE: ContourRule = ContourRule {
+pub(crate) const RULE: ContourRule = ContourRule {
     rule: Rule::OpenContour,
     holds,
     mildest,

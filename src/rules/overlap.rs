@@ -9,7 +9,7 @@ use crate::drawing::Change;
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use crate::geometry::shared_length;
 
-pub const RULE: PairRule = PairRule {
+pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::Overlap,
     reach: |limits| limits.tolerances.same_place,
     check,

@@ -11,7 +11,7 @@ use crate::geometry::{
     Point, Segment, Vector, cross, facing, foot_inside, meetings, positive_angle, shared_length,
 };
 
-pub const RULE: PairRule = PairRule {
+pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::SelfIntersection,
     reach: |limits| limits.tolerances.touch,
     check: |one, other, same_contour| {

@@ -13,7 +13,7 @@ use crate::finding::{Detail, Fix, FixKind, Rule, Side};
 use crate::geometry::{Point, turn};
 use std::ops::Range;
 
-pub const RULE: LocalRule = LocalRule {
+pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::SharpCorner,
     check,
     reach: |_, _| (arc_as_chords::REACH, arc_as_chords::REACH),
@@ -28,10 +28,10 @@ pub const RULE: LocalRule = LocalRule {
 const LEAST: f64 = 1.0 * std::f64::consts::PI / 180.0;
 
 /// Below this a joint is one that nearly is tangent, and `near-tangent` speaks of it, unless the wire is known to run inside.
-pub const CLEAR: f64 = 2.0 * std::f64::consts::PI / 180.0;
+pub(crate) const CLEAR: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 /// The side on which the wire runs inside a corner that turns by `turn`; `None` for what is no corner.
-pub fn inner_side(turn: f64) -> Option<Side> {
+pub(crate) fn inner_side(turn: f64) -> Option<Side> {
     (turn.abs() > LEAST).then_some(if turn > 0.0 { Side::Left } else { Side::Right })
 }
 

@@ -9,7 +9,7 @@ use crate::drawing::{Change, ContourSegment, Geometry, Vertex};
 use crate::finding::{Detail, Fix, FixKind, Rule};
 use std::ops::Range;
 
-pub const RULE: LocalRule = LocalRule {
+pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::ShortSegment,
     check,
     detail,

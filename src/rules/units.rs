@@ -15,11 +15,11 @@ pub fn size(bounds: &Bounds) -> f64 {
 }
 
 /// True for a contour of a size that is absurd at `unit_mm`.
-pub fn is_vast(bounds: &Bounds, unit_mm: f64) -> bool {
+pub(crate) fn is_vast(bounds: &Bounds, unit_mm: f64) -> bool {
     size(bounds) * unit_mm > LARGEST_MM
 }
 
 /// True for a contour that a drawing cannot do without: one that is large enough to be cut.
-pub fn is_sizable(bounds: &Bounds, unit_mm: f64) -> bool {
+pub(crate) fn is_sizable(bounds: &Bounds, unit_mm: f64) -> bool {
     size(bounds) * unit_mm >= SMALLEST_MM
 }

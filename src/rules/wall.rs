@@ -109,7 +109,7 @@ impl Joints {
     }
 
     /// True when a point lies at a joint.
-    pub fn are_at(&self, point: Point, tolerance: f64) -> bool {
+    pub(crate) fn are_at(&self, point: Point, tolerance: f64) -> bool {
         self.points
             .iter()
             .any(|joint| (joint - point).norm() <= tolerance)
@@ -117,7 +117,7 @@ impl Joints {
 }
 
 /// True when two neighbours turn so little together that they cannot come near each other again.
-pub fn parts_for_good(one: &Wall, other: &Wall) -> bool {
+pub(crate) fn parts_for_good(one: &Wall, other: &Wall) -> bool {
     let (a, b) = (one.geometry(), other.geometry());
     let sweep = |segment: &Segment| segment.as_arc().map_or(0.0, |arc| arc.sweep.abs());
     let swept = sweep(a) + sweep(b);
@@ -131,12 +131,12 @@ pub fn parts_for_good(one: &Wall, other: &Wall) -> bool {
 
 impl Corner {
     /// True at an end of an open contour.
-    pub fn is_free_end(&self) -> bool {
+    pub(crate) fn is_free_end(&self) -> bool {
         self.incoming.is_none() || self.outgoing.is_none()
     }
 
     /// True when no step along the contour brings the vertex nearer to what lies in `direction` (a unit vector) of it.
-    pub fn is_nearest(&self, direction: Vector) -> bool {
+    pub(crate) fn is_nearest(&self, direction: Vector) -> bool {
         const ROUNDING: f64 = 1e-6;
         self.outgoing
             .is_none_or(|segment| direction.dot(&segment.start_tangent()) <= ROUNDING)
@@ -153,7 +153,7 @@ impl Corner {
 }
 
 /// Side of `along` on which `direction` lies.
-pub fn side_of(along: Vector, direction: Vector) -> Side {
+pub(crate) fn side_of(along: Vector, direction: Vector) -> Side {
     if cross(along, direction) > 0.0 {
         Side::Left
     } else {

@@ -35,12 +35,12 @@ impl Walls {
     }
 
     /// The first wall found to which `path` comes nearer than `distance`.
-    pub fn too_near(&self, path: &Segment, distance: f64) -> Option<usize> {
+    pub(crate) fn too_near(&self, path: &Segment, distance: f64) -> Option<usize> {
         self.find_near(path, distance, |_, _| true)
     }
 
     /// The same among those for which, with their distance, `counts` holds.
-    pub fn find_near(
+    pub(crate) fn find_near(
         &self,
         path: &Segment,
         distance: f64,

@@ -120,7 +120,7 @@ impl Raw {
     /// The path that is left where neighbours are cut with each other and what they use up goes, each piece with the index of the
     /// element that it is of. Right wherever corners do not reach past their neighbours; whether it is, `proof` says. `None`
     /// where nothing is left or neighbours do not meet.
-    pub fn trimmed(&self) -> Option<Vec<(usize, Element)>> {
+    pub(crate) fn trimmed(&self) -> Option<Vec<(usize, Element)>> {
         Ring::new(self).resolve()
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct Job<'a> {
 }
 
 impl Job<'_> {
-    pub fn go_on(&self) -> Result<(), Refusal> {
+    pub(crate) fn go_on(&self) -> Result<(), Refusal> {
         if (self.goes_on)() {
             Ok(())
         } else {

@@ -187,7 +187,7 @@ impl Job<'_> {
     }
 
     /// The finding that stands for a path which cannot be made.
-    pub fn no_path(&self, fault: &Fault, walls: &[Wall]) -> Finding {
+    pub(crate) fn no_path(&self, fault: &Fault, walls: &[Wall]) -> Finding {
         let required = self.units(self.settings.correction);
         let near = |wall: usize| {
             walls

@@ -181,11 +181,11 @@ impl Contours {
     }
 
     /// The outline that a wall is of.
-    pub fn outline_of(&self, wall: usize) -> usize {
+    pub(crate) fn outline_of(&self, wall: usize) -> usize {
         self.of[wall].0
     }
 
-    pub fn place_of(&self, wall: usize) -> Place {
+    pub(crate) fn place_of(&self, wall: usize) -> Place {
         let (_, entity, segment) = self.of[wall];
         Place::Segment { entity, segment }
     }
@@ -278,25 +278,21 @@ impl Surroundings<'_> {
         match *obstacle {
             Obstacle::Own(wall) => {
                 let place = walls.get(wall).and_then(|wall| wall.source.place());
-                (
-                    place,
-                    format!(
-                        "crosses the contour or comes nearer to it than the correction {correction:.3} mm"
-                    ),
-                )
+                (place, say!(crosses_the_contour_or_comes_nearer, correction))
             }
             Obstacle::Contour(wall) => (
                 Some(self.contours.place_of(wall)),
-                format!(
-                    "cuts into contour {} or comes nearer to it than the correction {correction:.3} mm",
-                    named(self.contours.outline_of(wall))
+                say!(
+                    cuts_into_contour_or_comes_nearer,
+                    named(self.contours.outline_of(wall)),
+                    correction
                 ),
             ),
             Obstacle::Kerf(piece) => {
                 let (outline, source) = self.kerfs.of[piece];
                 (
                     source.place(),
-                    format!("runs into the cut along contour {}", named(outline)),
+                    say!(runs_into_the_cut_along_contour, named(outline)),
                 )
             }
         }
@@ -350,10 +346,7 @@ pub(super) fn thread_hole(
             None => Ok(thread),
             Some(obstacle) => {
                 let (place, does) = surroundings.told(&obstacle, walls, correction);
-                let sentence = format!(
-                    "the lead-in from the thread hole ({:.3}, {:.3}) to ({:.3}, {:.3}) {does}",
-                    thread.x, thread.y, begin.x, begin.y
-                );
+                let sentence = say!(the_lead_in_does, thread.x, thread.y, begin.x, begin.y, does);
                 Err(fault(severity, source, sentence, place))
             }
         };
@@ -398,11 +391,15 @@ pub(super) fn thread_hole(
     let why = if does.is_empty() {
         does
     } else {
-        format!(" (it {does})")
+        say!(because_it, does)
     };
-    let sentence = format!(
-        "no lead-in from {:.3} mm down to the correction {correction:.3} mm fits at ({:.3}, {:.3}){why}: give a thread hole or another entry",
-        settings.lead_in, entry.point.x, entry.point.y
+    let sentence = say!(
+        no_lead_in_fits_at,
+        settings.lead_in,
+        correction,
+        entry.point.x,
+        entry.point.y,
+        why
     );
     Err(fault(severity, source, sentence, place))
 }
@@ -415,8 +412,11 @@ pub(super) fn off_contour(
     distance_mm: f64,
 ) -> Refusal {
     let handle = name(drawing, outline);
-    Refusal::Sentence(format!(
-        "the entry ({}, {}) lies {distance_mm:.3} mm from contour {handle}, expected a point on it",
-        entry.x, entry.y
+    Refusal::Sentence(say!(
+        the_entry_lies_from_contour,
+        entry.x,
+        entry.y,
+        distance_mm,
+        handle
     ))
 }

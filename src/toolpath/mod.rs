@@ -89,7 +89,7 @@ pub fn cuts(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Op
 }
 
 /// The same for as long as `goes_on` says so, which is asked every few milliseconds.
-pub fn plan_while(
+pub(crate) fn plan_while(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
@@ -151,7 +151,7 @@ pub fn plan_while(
 }
 
 /// The entities of the contours that hold one of `handles`; `None` where none is named, which means all.
-pub fn entities_of(
+pub(crate) fn entities_of(
     drawing: &Drawing,
     outlines: &[Outline],
     handles: Option<&[String]>,
@@ -174,7 +174,11 @@ pub fn entities_of(
 
 /// What stands against a path along one contour under the settings' correction, as a finding: an error where there is none, a
 /// warning where the wire can only stand. `None` where there is a path, and where the side of the wire is not known.
-pub fn misfit(drawing: &Drawing, outline: &Outline, settings: &Effective) -> Option<Finding> {
+pub(crate) fn misfit(
+    drawing: &Drawing,
+    outline: &Outline,
+    settings: &Effective,
+) -> Option<Finding> {
     let side = outline.wire_side()?.sign();
     let job = Job {
         drawing,

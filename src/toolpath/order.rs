@@ -27,8 +27,9 @@ pub(super) fn outline_of(
     handle: &str,
 ) -> Result<usize, Refusal> {
     let Some(id) = drawing.find(handle) else {
-        return Err(Refusal::Sentence(format!(
-            "there is no entity with the handle {handle}"
+        return Err(Refusal::Sentence(say!(
+            there_is_no_entity_with_the_handle,
+            handle
         )));
     };
     let holds = |outline: &Outline, id: EntityId| {
@@ -42,9 +43,7 @@ pub(super) fn outline_of(
     let found = outlines
         .iter()
         .position(|outline| kept.is_some_and(|kept| holds(outline, kept)));
-    found.ok_or_else(|| {
-        Refusal::Sentence(format!("entity {handle} belongs to no contour that is cut"))
-    })
+    found.ok_or_else(|| Refusal::Sentence(say!(entity_belongs_to_no_contour_that_is_cut, handle)))
 }
 
 /// What the selection says of one contour.
@@ -86,7 +85,7 @@ pub(super) fn chosen(
     chosen.retain(|&index| known.insert(index));
     chosen.retain(|&index| outlines[index].contour.has_length(drawing, zero_length));
     if chosen.is_empty() {
-        return Err(Refusal::Sentence("there is no contour to cut".into()));
+        return Err(Refusal::Sentence(say!(there_is_no_contour_to_cut).into()));
     }
     let nested = Nesting::new(drawing, outlines, &chosen);
     let places = match order {

@@ -38,7 +38,7 @@ struct Unled {
 
 impl Job<'_> {
     /// The contours themselves as paths, and the leads that cut through others.
-    pub fn as_drawn_all(
+    pub(crate) fn as_drawn_all(
         &self,
         chosen: &[usize],
         wanted: &[Wanted],
@@ -58,9 +58,13 @@ impl Job<'_> {
             {
                 let crossed = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
                 let (from, to) = (lead.start(), lead.end());
-                let sentence = format!(
-                    "the lead-in from the thread hole ({:.3}, {:.3}) to ({:.3}, {:.3}) cuts through contour {crossed}",
-                    from.x, from.y, to.x, to.y
+                let sentence = say!(
+                    the_lead_in_cuts_through_contour,
+                    from.x,
+                    from.y,
+                    to.x,
+                    to.y,
+                    crossed
                 );
                 let source = path.segments.get(1).map(|piece| piece.source);
                 findings.push(fault(
@@ -76,7 +80,7 @@ impl Job<'_> {
     }
 
     /// The offsets of contours, with leads that are held against all of them, and the leads that do not fit.
-    pub fn offset_all(
+    pub(crate) fn offset_all(
         &self,
         chosen: &[usize],
         wanted: &[Wanted],
@@ -157,7 +161,7 @@ impl Job<'_> {
     }
 
     /// The ways from one contour to the next that cut through a part, where the wire stays threaded.
-    pub fn jumps_that_cut(&self, paths: &[WirePath], contours: &Contours) -> Vec<Finding> {
+    pub(crate) fn jumps_that_cut(&self, paths: &[WirePath], contours: &Contours) -> Vec<Finding> {
         if !self.settings.stays_threaded || self.settings.jumps == Jumps::None {
             return Vec::new();
         }
@@ -165,8 +169,8 @@ impl Job<'_> {
             let (from, next) = (pair[0].segments.last()?.geometry.end(), &pair[1]);
             let to = next.segments.first()?.geometry.start();
             let wall = self.crossed(&Segment::line(from, to), contours, None)?;
-            let sentence = format!(
-                "the way from ({:.3}, {:.3}) to ({:.3}, {:.3}) cuts into contour {}: the wire stays threaded, since the profile's pause does not stop the machine",
+            let sentence = say!(
+                the_way_cuts_into_contour,
                 from.x,
                 from.y,
                 to.x,
@@ -205,7 +209,7 @@ impl Job<'_> {
         let (contour, _) = self.directed(index);
         let mut walls = walls(contour.segments(self.drawing), contour.closed, zero_length);
         let handle = name(self.drawing, outline);
-        let empty = || Refusal::Sentence(format!("contour {handle} has no length"));
+        let empty = || Refusal::Sentence(say!(contour_has_no_length, handle));
         let path = if contour.closed {
             let path = elements(&walls);
             match self.entry(index, &walls, wanted)? {
@@ -222,9 +226,11 @@ impl Job<'_> {
                 if wanted.entry.is_some()
                     && to_first.min(to_last) > self.units(self.settings.tolerances.join)
                 {
-                    return Err(Refusal::Sentence(format!(
-                        "contour {handle} is open and cannot be entered at ({}, {}), expected one of its ends",
-                        begin.x, begin.y
+                    return Err(Refusal::Sentence(say!(
+                        contour_is_open_and_cannot_be_entered_at,
+                        handle,
+                        begin.x,
+                        begin.y
                     )));
                 }
                 if to_last < to_first {
@@ -249,13 +255,15 @@ impl Job<'_> {
         let (outline, settings) = (&self.outlines[index], self.settings);
         let handle = name(self.drawing, outline);
         if !outline.contour.closed {
-            return Err(Refusal::Sentence(format!(
-                "contour {handle} is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn"
+            return Err(Refusal::Sentence(say!(
+                contour_is_open_the_side_of_the_wire_is_not_known,
+                handle
             )));
         }
         let Some(own_side) = outline.wire_side() else {
-            return Err(Refusal::Sentence(format!(
-                "side of contour {handle} is not known: say opening or punch"
+            return Err(Refusal::Sentence(say!(
+                side_of_contour_is_not_known,
+                handle
             )));
         };
         let correction = self.units(settings.correction);
@@ -281,7 +289,7 @@ impl Job<'_> {
             .or_else(|| default_entry(&walls))
         {
             Some(entry) => entry,
-            None => return Err(Refusal::Sentence(format!("contour {handle} has no length"))),
+            None => return Err(Refusal::Sentence(say!(contour_has_no_length, handle))),
         };
         let (element, begin) =
             path_point(&path, &walls, &entry, correction, side).ok_or_else(|| {
@@ -358,9 +366,13 @@ impl Job<'_> {
             .filter(|thread| (thread - point).norm() > join)
         {
             let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
-            let sentence = format!(
-                "the thread hole ({:.3}, {:.3}) comes nearer to the contour than the correction {:.3} mm: the wire can stand at ({:.3}, {:.3}) alone",
-                thread.x, thread.y, self.settings.correction, point.x, point.y
+            let sentence = say!(
+                the_thread_hole_comes_nearer_to_the_contour,
+                thread.x,
+                thread.y,
+                self.settings.correction,
+                point.x,
+                point.y
             );
             let source = walls.get(wall).map(|wall| wall.source);
             return Err(Refusal::Findings(vec![fault(
@@ -402,8 +414,8 @@ impl Job<'_> {
             .entry(index, &walls, wanted)?
             .or_else(|| default_entry(&walls))
         else {
-            return Err(Refusal::Sentence(format!(
-                "contour {} has no length",
+            return Err(Refusal::Sentence(say!(
+                contour_has_no_length,
                 name(self.drawing, outline)
             )));
         };

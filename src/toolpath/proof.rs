@@ -34,12 +34,12 @@ pub(super) struct Unproved {
 
 impl Proof<'_> {
     /// True where the wire runs, beside the contour. Costs a look at every wall.
-    pub fn is_on_wire_side(&self, point: Point) -> bool {
+    pub(crate) fn is_on_wire_side(&self, point: Point) -> bool {
         (winding_of(self.walls.iter().map(|wall| wall.geometry), point) != 0) == self.is_inside()
     }
 
     /// True where the wire runs inside of the contour.
-    pub fn is_inside(&self) -> bool {
+    pub(crate) fn is_inside(&self) -> bool {
         let origin = self
             .walls
             .first()
@@ -53,7 +53,7 @@ impl Proof<'_> {
     }
 
     /// Some pieces of a path: nowhere nearer to a wall than the correction, and at it from their own.
-    pub fn pieces_hold(&self, pieces: &[(usize, Element)]) -> Result<(), Unproved> {
+    pub(crate) fn pieces_hold(&self, pieces: &[(usize, Element)]) -> Result<(), Unproved> {
         for (_, element) in pieces {
             let geometry = &element.geometry;
             if let Some(wall) = self.own.too_near(geometry, self.correction - self.rounding) {
@@ -73,7 +73,7 @@ impl Proof<'_> {
 
     /// Nothing that was cut off is a place of the path: what is left out of the raw elements `range` is too near to some wall.
     /// `by_raw` are all pieces of the path in the order of the raw elements.
-    pub fn nothing_is_missing(
+    pub(crate) fn nothing_is_missing(
         &self,
         by_raw: &[(usize, Element)],
         range: std::ops::Range<usize>,

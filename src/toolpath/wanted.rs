@@ -27,9 +27,15 @@ pub(super) fn wanted(
         outlines,
         chosen,
         settings.thread.as_ref(),
-        "thread hole",
+        say!(thread_hole),
     )?;
-    let entries = points(drawing, outlines, chosen, settings.entry.as_ref(), "entry")?;
+    let entries = points(
+        drawing,
+        outlines,
+        chosen,
+        settings.entry.as_ref(),
+        say!(entry),
+    )?;
     let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
     let wanted =
         chosen
@@ -91,8 +97,10 @@ fn points(
             [only] => *only = Some(Point::from(*at)),
             several => {
                 let count = several.len();
-                return Err(Refusal::Sentence(format!(
-                    "one {what} is given for {count} contours: choose one contour by its handle, or give a table by handle"
+                return Err(Refusal::Sentence(say!(
+                    one_is_given_for_several_contours,
+                    what,
+                    count
                 )));
             }
         },

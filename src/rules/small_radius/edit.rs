@@ -18,7 +18,7 @@ enum Fate {
 ///
 /// The longest arc of each run becomes the new arc, its neighbours are cut back to the feet, what lies between goes.
 /// `None` where a run has no arc that could carry the new one.
-pub fn drawing_edit(
+pub(crate) fn drawing_edit(
     drawing: &Drawing,
     replacements: &[(Travel, Replacement)],
 ) -> Option<DrawingEdit> {
@@ -158,7 +158,7 @@ pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<Drawing
 /// The edit of the original "R minimum" tool: the arc's end points stay, its radius becomes the fix radius; and the angle
 /// (radians) by which the contour kinks at each end. `None` past a half turn, where it would remove a bulb, and where the
 /// arc is no entity's own.
-pub fn keep_end_points(
+pub(crate) fn keep_end_points(
     drawing: &Drawing,
     segment: &ContourSegment,
     limits: &Limits,

@@ -11,9 +11,11 @@ mod refillet;
 mod run;
 mod travel;
 
-pub use edit::{drawing_edit, fillet, keep_end_points};
-pub use refillet::{Attempt, Replacement, made_tangent, refillet};
-pub use run::{rounded_run_of, run_of};
+pub use edit::fillet;
+pub(crate) use edit::{drawing_edit, keep_end_points};
+pub use refillet::{Attempt, Replacement};
+pub(crate) use refillet::{made_tangent, refillet};
+pub(crate) use run::{rounded_run_of, run_of};
 pub use travel::Travel;
 
 use super::Limits;
@@ -21,12 +23,12 @@ use crate::drawing::ContourSegment;
 use crate::finding::{Side, SmallRadius};
 
 /// Side of travel on which an arc's centre lies.
-pub fn center_side(sweep: f64) -> Side {
+pub(crate) fn center_side(sweep: f64) -> Side {
     if sweep > 0.0 { Side::Left } else { Side::Right }
 }
 
 /// True when a radius is below the correction by more than rounding.
-pub fn is_too_small(radius: f64, limits: &Limits) -> bool {
+pub(crate) fn is_too_small(radius: f64, limits: &Limits) -> bool {
     radius < limits.correction - limits.tolerances.report
 }
 

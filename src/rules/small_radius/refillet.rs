@@ -40,7 +40,7 @@ pub struct Attempt {
 /// wire side, or the circle about the end vertex itself. A solution counts when its feet lie on the neighbours, it turns
 /// by at most a half turn, and its disc keeps clear of the whole contour. Where none fits, short neighbours are swallowed,
 /// as long as that moves the contour by no more than the correction.
-pub fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -> Attempt {
+pub(crate) fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -> Attempt {
     let mut search = Search::new(travel, limits, run.clone());
     let outcome = search.search();
     Attempt {
@@ -51,7 +51,7 @@ pub fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -
 
 /// The arc at `position` with the radius it has, made tangent to its neighbour at its end (or, with `at_end` false, at its
 /// start). At the other end it is tangent too, or keeps the vertex. No promise on how far the contour moves.
-pub fn made_tangent(
+pub(crate) fn made_tangent(
     travel: &Travel,
     position: isize,
     at_end: bool,
@@ -93,7 +93,7 @@ pub fn made_tangent(
 
 /// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and behind it, which turns
 /// to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the contour.
-pub fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {
+pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {
     let (one, other) = (
         travel.segment(before)?.geometry,
         travel.segment(before + 1)?.geometry,

@@ -15,12 +15,16 @@ const ROUNDED_CENTER: f64 = 0.1;
 
 /// The run that holds the arc at `position`: the maximal chain of arcs concave to the wire with r ≤ R, split at every
 /// vertex that is convex to the wire. `None` when that segment is no such arc.
-pub fn run_of(travel: &Travel, position: isize, limits: &Limits) -> Option<RangeInclusive<isize>> {
+pub(crate) fn run_of(
+    travel: &Travel,
+    position: isize,
+    limits: &Limits,
+) -> Option<RangeInclusive<isize>> {
     run_within(travel, position, limits, false)
 }
 
 /// The same run where an arc that is drawn in two, and rounded, is one arc.
-pub fn rounded_run_of(
+pub(crate) fn rounded_run_of(
     travel: &Travel,
     position: isize,
     limits: &Limits,

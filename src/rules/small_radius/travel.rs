@@ -26,7 +26,7 @@ impl Travel<'_> {
     }
 
     /// The contour's own index at a position; `None` past the ends of an open contour.
-    pub fn index_at(&self, position: isize) -> Option<usize> {
+    pub(crate) fn index_at(&self, position: isize) -> Option<usize> {
         let count = self.len() as isize;
         let inside = (0..count).contains(&position);
         if count == 0 || (!inside && !self.contour.closed) {
@@ -40,7 +40,7 @@ impl Travel<'_> {
     }
 
     /// The position, within one round, of a contour's own index.
-    pub fn position_of(&self, index: usize) -> isize {
+    pub(crate) fn position_of(&self, index: usize) -> isize {
         match self.side {
             Side::Left => index as isize,
             Side::Right => self.len() as isize - 1 - index as isize,
@@ -64,7 +64,7 @@ impl Travel<'_> {
 
     /// True when every segment keeps a distance of at least `radius` less a slack from `center`. Segments at the positions
     /// for which `is_replaced` holds have `loose` as their slack, the others `strict`.
-    pub fn keeps_clear(
+    pub(crate) fn keeps_clear(
         &self,
         center: Point,
         radius: f64,

@@ -1,0 +1,190 @@
+//! A repair as data: what it does, and its edit.
+
+use super::Axis;
+use crate::drawing::{Change, DrawingEdit};
+use crate::text::TextEdit;
+
+/// How the centre was found to which an arc's ends fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CenterFix {
+    /// I and J as other controls take them.
+    OtherConvention,
+    /// A sign was lost.
+    Sign,
+    /// I stands for J and J for I.
+    Swap,
+    /// The nearest one that fits, `moved` mm from the one that stands.
+    Nearest { moved: f64 },
+}
+
+/// A repair that a user may choose. Rules on drawings make edits of the drawing, rules on programs edits of the text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fix<E = DrawingEdit> {
+    pub kind: FixKind,
+    /// The one that a user most likely wants.
+    pub preferred: bool,
+    /// False where "fix all" leaves it out.
+    pub in_fix_all: bool,
+    pub edit: E,
+}
+
+/// What a fix changes: a drawing, which each kind of document turns into its own edit, or the text itself.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    Drawing(DrawingEdit),
+    /// Sorted and disjoint.
+    Text(Vec<TextEdit>),
+}
+
+impl Fix {
+    /// The repair that a user most likely wants, and that "fix all" makes.
+    pub(crate) fn new(kind: FixKind, changes: Vec<Change>) -> Fix {
+        Fix {
+            kind,
+            preferred: true,
+            in_fix_all: true,
+            edit: DrawingEdit { changes },
+        }
+    }
+}
+
+impl<E> Fix<E> {
+    /// The same repair with its edit in another form.
+    pub fn map<F>(self, form: impl FnOnce(E) -> F) -> Fix<F> {
+        Fix {
+            kind: self.kind,
+            preferred: self.preferred,
+            in_fix_all: self.in_fix_all,
+            edit: form(self.edit),
+        }
+    }
+}
+
+/// What a fix does, as data for its title. Lengths in drawing units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FixKind {
+    /// One arc of `radius` replaces `arcs` arcs; the contour moves by at most `moved`.
+    Refillet {
+        radius: f64,
+        arcs: usize,
+        moved: f64,
+    },
+    /// The end points stay, only the bulge changes; the contour kinks by `kink` radians at each end.
+    KeepEndPoints {
+        radius: f64,
+        kink: f64,
+    },
+    /// A sharp corner gets a fillet of `radius`.
+    Fillet {
+        radius: f64,
+    },
+    /// The ends of an open contour are joined by a line of `length`, or become one where it is 0.
+    Close {
+        length: f64,
+    },
+    /// Two ends are moved onto each other.
+    Snap {
+        distance: f64,
+    },
+    /// One of two entities in the same place goes.
+    DeleteDouble,
+    /// A segment too short to cut goes, its neighbours meet.
+    Merge,
+    /// An entity without length goes.
+    DeletePoint,
+    /// An arc is changed so that it leaves its neighbour without a kink.
+    MakeTangent {
+        moved: f64,
+    },
+    /// One arc takes the place of `chords` lines.
+    OneArc {
+        chords: usize,
+        radius: f64,
+    },
+    /// A program gets the word that ends it.
+    AddEnd {
+        word: String,
+    },
+    /// Letters and digits that only look like those of a program become plain ones.
+    PlainLetters,
+    /// Decimal commas become points.
+    DecimalPoints,
+    /// What stands behind the end of a program goes.
+    DeleteBehindEnd,
+    /// J of a block becomes `j`, µm.
+    SetJ {
+        j: i64,
+    },
+    /// X or Y of a block becomes `value`, µm.
+    SetEnd {
+        axis: Axis,
+        value: i64,
+    },
+    /// G of a block becomes the other axis; J with it where it is there, µm.
+    SetAxis {
+        axis: Axis,
+        j: Option<i64>,
+    },
+    /// Z of a block becomes `name`.
+    SetMotion {
+        name: &'static str,
+    },
+    /// The coordinates behind a block become those where it ends, mm.
+    SetCoordinates {
+        at: [f64; 2],
+    },
+    /// A block becomes one that ends at the coordinates behind it.
+    FollowCoordinates,
+    /// X and Y of a block change places.
+    ExchangeXAndY,
+    /// A block that cannot be read becomes `block`.
+    RestoreBlock {
+        block: String,
+    },
+    /// One of two equal blocks goes.
+    DeleteTwin,
+    /// Two blocks in a row change places.
+    ExchangeBlocks,
+    /// A block that is lost is put back: its ends are `length` mm apart.
+    InsertBlock {
+        length: f64,
+        is_arc: bool,
+    },
+    /// The `B` that is lost is put back.
+    InsertB,
+    /// `B25` becomes `N25`.
+    NumberWithN,
+    /// The letter O becomes a zero.
+    ZeroForO,
+    DeleteBlock,
+    /// A block becomes several that fit.
+    SplitBlock {
+        pieces: usize,
+    },
+    /// A block gets the number of its turn.
+    SetNumber {
+        number: u32,
+    },
+    /// All blocks are numbered anew.
+    Renumber {
+        first: u32,
+        step: u32,
+    },
+    /// A rapid becomes a cut.
+    CutRapid,
+    /// I and J of an ISO arc lead to a centre `radius` mm from both its ends.
+    SetCenter {
+        radius: f64,
+        how: CenterFix,
+    },
+    /// G41 becomes G42 or the other way round.
+    SwapSide,
+    /// Words of a block as they are meant; `meant` is empty where they go, `found` where they come.
+    Rewrite {
+        found: String,
+        meant: String,
+    },
+    InsertLine {
+        block: String,
+    },
+}

@@ -1,0 +1,20 @@
+//! Lengths as people read them.
+
+/// A length in mm with three decimals, or with as many as its first digit needs.
+pub(super) fn mm(length: f64) -> String {
+    let places = if length != 0.0 && length.abs() < 0.0005 {
+        6
+    } else {
+        3
+    };
+    format!("{length:.places$}")
+}
+
+/// Two lengths in mm with as many decimals as it takes to tell them apart, at least three.
+pub(super) fn told_apart(one: f64, other: f64) -> (String, String) {
+    let digits = |places: usize| (format!("{one:.places$}"), format!("{other:.places$}"));
+    (3..=9)
+        .map(digits)
+        .find(|(a, b)| a != b)
+        .unwrap_or_else(|| digits(3))
+}

@@ -1,0 +1,277 @@
+//! What is said of a fault in a program.
+
+use super::lengths::{mm, told_apart};
+use super::{Fault, Side};
+
+/// A field that keeps a contour open, as far as can be known from the contour alone.
+fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
+    if is_sure {
+        return say!(keeps_the_contour_open_with, found, meant);
+    }
+    say!(may_be_wrong_the_contour_does, found, meant)
+}
+
+/// What is wrong in a program, and what comes of it at the machine.
+pub(super) fn program(fault: &Fault) -> String {
+    let side_word = |side: &Side| match side {
+        Side::Left => say!(g41_lets_the_wire_run_on_the_left),
+        Side::Right => say!(g42_lets_the_wire_run_on_the_right),
+    };
+    match fault {
+        Fault::MissingB => say!(a_b_of_the_block_is_missing_the_controller).into(),
+        Fault::BlockNumberAsB { number } => {
+            say!(b_stands_where_the_block_number, number)
+        }
+        Fault::LengthInJ {
+            j,
+            projection,
+            axis,
+        } => say!(
+            j_is_the_length_of_the_line_the_controller_counts_its_projection_on,
+            j,
+            axis.letter(),
+            projection
+        ),
+        Fault::WrongJ {
+            j: 0,
+            projection,
+            axis,
+        } => {
+            say!(
+                j_is_0_the_line_projection_on_is_um,
+                axis.letter(),
+                projection
+            )
+        }
+        Fault::WrongJ {
+            j,
+            projection,
+            axis,
+        } => say!(
+            j_is_not_the_line_projection_on_um,
+            j,
+            axis.letter(),
+            projection,
+            (j - projection).abs(),
+            if j > projection {
+                say!(too_far)
+            } else {
+                say!(too_early)
+            }
+        ),
+        Fault::JKeepsOpen { j, meant, is_sure } => {
+            keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure)
+        }
+        Fault::JOverTurn { j, turn } => {
+            say!(j_is_more_than_one_turn_counts_um, j, turn)
+        }
+        Fault::SmallerProjection {
+            axis,
+            counted,
+            larger,
+        } => {
+            say!(
+                g_counts_the_smaller_projection_of_units,
+                axis.letter(),
+                counted,
+                larger,
+                axis.other().letter()
+            )
+        }
+        Fault::ArcEndAxis { axis, x, y } => say!(
+            g_does_not_fit_the_arc_end_at,
+            axis.letter(),
+            x,
+            y,
+            axis.other().letter()
+        ),
+        Fault::AxisKeepsOpen { axis, is_sure } => keeps_open(
+            &format!("G{}", axis.letter()),
+            &format!("G{}", axis.other().letter()),
+            *is_sure,
+        ),
+        Fault::UnusualQuadrant {
+            found,
+            expected: [one, other],
+            axis,
+        } => say!(
+            is_unusual_for_a_line_along,
+            found,
+            axis.letter(),
+            one,
+            other
+        ),
+        Fault::AxisQuadrant {
+            found,
+            expected: [one, other],
+            axis,
+        } => {
+            say!(
+                contradicts_a_line_along_expected,
+                found,
+                axis.letter(),
+                one,
+                other
+            )
+        }
+        Fault::QuadrantKeepsOpen {
+            found,
+            meant,
+            is_sure,
+        } => keeps_open(found, meant, *is_sure),
+        Fault::NumberKeepsOpen { axis, value, meant } => {
+            let letter = axis.letter();
+            keeps_open(
+                &format!("{letter} {value}"),
+                &format!("{letter} {meant}"),
+                true,
+            )
+        }
+        Fault::ExchangedKeepsOpen => say!(x_and_y_stand_for_each_other).into(),
+        Fault::TwinKeepsOpen => say!(the_block_stands_twice_without).into(),
+        Fault::ZeroBlock => say!(the_block_moves_nothing_its_j).into(),
+        Fault::ArcWithoutRadius => say!(the_arc_has_no_radius).into(),
+        Fault::TooManyDigits {
+            field,
+            value,
+            digits,
+        } => {
+            say!(
+                has_more_than_the_digits_that_the_controller_takes,
+                field,
+                value,
+                digits
+            )
+        }
+        Fault::NotClosed { x, y, .. } => say!(
+            the_contour_does_not_close,
+            mm(x.hypot(*y) / 1000.0),
+            x / 1000.0,
+            y / 1000.0
+        ),
+        Fault::MissingEnd { word } => {
+            say!(the_program_has_no_end_expected, word)
+        }
+        Fault::TextAfterEnd { word } => {
+            say!(text_behind_which_ends_the_program, word)
+        }
+        Fault::DoubledNumber { number } => say!(block_number_n_stands_twice, number),
+        Fault::NumberOutOfOrder { expected, number } => {
+            say!(block_number_n_is_out_of_turn_expected_n, number, expected)
+        }
+        Fault::Unnumbered { expected } => {
+            say!(the_block_has_no_number_expected_n, expected)
+        }
+        Fault::PositionMismatch { x, y } => say!(
+            the_coordinates_behind_the_block_are_mm_from,
+            mm(x.hypot(*y) / 1000.0),
+            x / 1000.0,
+            y / 1000.0
+        ),
+        Fault::PathCrossesItself { at: [x, y], other } => say!(
+            the_wire_crosses_its_own_path_of_line_here_at,
+            other + 1,
+            x,
+            y
+        ),
+        Fault::OffRadius { start, end } => {
+            let (near, far) = told_apart(start / 1e3, end / 1e3);
+            say!(the_ends_of_the_arc_are_not_on_one_circle, near, far)
+        }
+        Fault::NoRadius => say!(arc_without_a_radius_i).into(),
+        Fault::Switch {
+            on: true,
+            arc: true,
+        } => say!(the_correction_is_switched_on_by_an_arc).into(),
+        Fault::Switch {
+            on: false,
+            arc: true,
+        } => say!(the_correction_is_switched_off_by_an_arc).into(),
+        Fault::Switch { .. } => say!(the_correction_is_switched_on_by_a_rapid).into(),
+        Fault::RoleSide { side, punch } => {
+            let (is, wanted) = if *punch {
+                (say!(outside), say!(opening))
+            } else {
+                (say!(inside), say!(punch))
+            };
+            say!(
+                which_is_this_contour_the_settings,
+                side_word(side),
+                is,
+                wanted
+            )
+        }
+        Fault::EntrySide { side } => {
+            say!(
+                of_this_contour_but_it_comes_to_it_from_the_other_side,
+                side_word(side)
+            )
+        }
+        Fault::CutOpen { distance } => {
+            say!(the_cut_does_not_close, mm(distance / 1e3))
+        }
+        Fault::BehindEnd => say!(text_behind_the_end_of_the_program).into(),
+        Fault::Foreign { word, count: 1 } => {
+            say!(is_a_matter_of_the_machine_it_is_kept_not, word)
+        }
+        Fault::Foreign { word, count } => {
+            say!(times_is_a_matter_of_the_machine_it_is_kept, word, count)
+        }
+        Fault::NoSubprogram { number } => say!(subprogram_does_not_stand_in_this_text, number),
+        Fault::EndlessCalls => say!(the_subprograms_call_each_other_without_end_or).into(),
+        Fault::CenterOnLine => say!(i_and_j_stand_beside_a_straight_cut).into(),
+        Fault::WordTwice { letter } => say!(stands_twice_in_this_line, letter),
+        Fault::ReversedArc { is_sure: true } => say!(the_arc_runs_the_wrong_way_round).into(),
+        Fault::ReversedArc { is_sure: false } => say!(the_arc_may_run_the_wrong_way_round).into(),
+        Fault::Spur { length } => {
+            say!(the_wire_goes_out_mm_and_back_on_the_same, mm(length / 1e3))
+        }
+        Fault::DoubledBlock { arc: true } => say!(the_block_stands_twice_the_wire).into(),
+        Fault::DoubledBlock { arc: false } => say!(the_block_stands_twice_the_wire_is_there).into(),
+        Fault::NoOffset { side } => {
+            say!(and_nothing_says_by_how_much, side_word(side))
+        }
+        Fault::SideChange { side } => {
+            say!(from_here_on_in_the_middle_of_the_cut, side_word(side))
+        }
+        Fault::StillOn => say!(the_program_ends_with_the_correction_on).into(),
+        Fault::NoReturn { number } => {
+            say!(subprogram_has_no_m99, number)
+        }
+        Fault::NoCorner => say!(the_word_for_a_corner_finds_none_here_or).into(),
+        Fault::Bare { word, count: 1 } => {
+            say!(has_no_decimal_point_the_other_numbers_have, word)
+        }
+        Fault::Bare { word, count } => say!(and_others_in_all_have_no_decimal, word, count),
+        Fault::Pointed { word } => {
+            say!(has_a_decimal_point_the_other_numbers_have_none, word)
+        }
+        Fault::Places { word, usual } => {
+            say!(has_not_decimals_as_all_other_numbers, word, usual)
+        }
+        Fault::LooksLikeInches { size } => say!(the_program_does_not_say_its_unit, mm(*size)),
+        Fault::UnknownValue { word } => {
+            say!(
+                hangs_on_a_place_of_the_control_table_that_the_program_does,
+                word
+            )
+        }
+        Fault::Suspect {
+            found,
+            meant,
+            closes,
+        } => {
+            let comes_of_it = if *closes {
+                say!(the_cut_does_not_close_and_it_would)
+            } else {
+                say!(the_cut_would_be_sound)
+            };
+            match (found.is_empty(), meant.is_empty()) {
+                (true, _) => say!(may_be_missing_here_with, meant, comes_of_it),
+                (_, true) => say!(may_be_one_too_many, found, comes_of_it),
+                _ => say!(may_be_wrong_with_here, found, comes_of_it, meant),
+            }
+        }
+        Fault::OpenCenters => say!(full_circles_alone_do_not_tell_how).into(),
+    }
+}
