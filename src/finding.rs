@@ -13,7 +13,7 @@ mod title;
 mod unwritable;
 
 pub use fault::{Axis, Fault};
-pub use fix::{CenterFix, Edit, Fix, FixKind};
+pub use fix::{CenterFix, Edit, Fix, FixKind, TextFix};
 pub use not_judged::NotJudged;
 pub use sentence::{related, sentence};
 pub use small_radius::{NoFix, SmallRadius};

@@ -30,6 +30,19 @@ pub struct TextEdit {
     pub text: String,
 }
 
+impl TextEdit {
+    pub fn new(range: Range<usize>, text: impl Into<String>) -> TextEdit {
+        let text = text.into();
+        TextEdit { range, text }
+    }
+}
+
+impl From<TextEdit> for Vec<TextEdit> {
+    fn from(edit: TextEdit) -> Vec<TextEdit> {
+        vec![edit]
+    }
+}
+
 /// The bytes with `edits` made, which are sorted and disjoint; `None` when they are not, or reach past the end.
 pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
     let mut result = Vec::with_capacity(bytes.len());

@@ -36,6 +36,25 @@ pub enum Edit {
     Text(Vec<TextEdit>),
 }
 
+/// A repair of a program.
+pub type TextFix = Fix<Vec<TextEdit>>;
+
+impl TextFix {
+    /// The repair that a user most likely wants.
+    pub(crate) fn text(kind: FixKind, in_fix_all: bool, edit: impl Into<Vec<TextEdit>>) -> TextFix {
+        Fix {
+            kind,
+            preferred: true,
+            in_fix_all,
+            edit: edit.into(),
+        }
+    }
+
+    pub(crate) fn preferred_if(self, preferred: bool) -> TextFix {
+        Fix { preferred, ..self }
+    }
+}
+
 impl Fix {
     /// The repair that a user most likely wants, and that "fix all" makes.
     pub(crate) fn new(kind: FixKind, changes: Vec<Change>) -> Fix {

@@ -1,9 +1,10 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
 use super::path::{Chain, Step, Trace};
+use super::repair::gate;
 use super::steps::{self, Program};
-use super::{gate, iso, three_b};
-use crate::finding::{Finding, Fix, Severity};
+use super::{iso, three_b};
+use crate::finding::{Finding, Severity, TextFix};
 use crate::geometry::Point;
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
@@ -123,12 +124,12 @@ impl Document {
 
     /// The fixes of one finding as edits of the text, the preferred one first. What would spoil the program is neither preferred nor
     /// made without asking.
-    pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         gate::gated(self, finding, self.offered(finding))
     }
 
     /// What the language has to offer.
-    fn offered(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+    fn offered(&self, finding: &Finding) -> Vec<TextFix> {
         match self {
             Document::ThreeB(document) => document.fixes(finding),
             Document::Iso(document) => document.fixes(finding),

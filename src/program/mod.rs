@@ -8,7 +8,6 @@ pub mod convert;
 mod document;
 mod edits;
 mod format;
-mod gate;
 pub mod grid;
 pub mod iso;
 pub mod language;

@@ -7,53 +7,37 @@ use super::line::{Bent, Target, line_to, with_word};
 use super::machine::{Bend, CenterRule, Machine, Move, Place, distance, micrometres};
 use super::numbers::numbered;
 use super::order::labels;
-use super::repair::{Repair, is_trouble, line_of};
+use super::repair::{is_trouble, line_of};
 use super::style::Style;
 use super::word::plain;
-use crate::finding::{CenterFix, Detail, Fault, Finding, Fix, FixKind, Place as Where, Rule};
+use crate::finding::{CenterFix, Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
 use crate::geometry::Arc;
 use crate::program::grid::{best_center, snap};
+use crate::program::repair::{merged, offered};
 use crate::text::TextEdit;
 use std::ops::Range;
 
 impl Document {
     /// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
-    pub fn fixes(&self, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         fixes(self, finding)
     }
 }
 
-fn fixes(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+fn fixes(document: &Document, finding: &Finding) -> Vec<TextFix> {
     let own = of_place(document, finding);
     let searched = searched(document, finding);
     let speaks_for_itself =
         matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock) && !own.is_empty();
-    let (mut fixes, more) = if speaks_for_itself {
-        (own, searched)
-    } else {
-        (searched, own)
-    };
-    let first = fixes.len();
-    for mut fix in more {
-        match fixes[..first]
-            .iter_mut()
-            .find(|other| other.edit == fix.edit)
-        {
-            // What the place says by itself names the slip better.
-            Some(known) if !speaks_for_itself => known.kind = fix.kind,
-            Some(_) => {}
-            None => {
-                fix.preferred &= fixes.is_empty();
-                fix.in_fix_all &= fix.preferred;
-                fixes.push(fix);
-            }
-        }
+    match speaks_for_itself {
+        true => merged(own, searched, false),
+        // What the place says by itself names the slip better.
+        false => merged(searched, own, true),
     }
-    fixes
 }
 
 /// The slips that make the cut sound in which something is wrong.
-fn searched(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+fn searched(document: &Document, finding: &Finding) -> Vec<TextFix> {
     if finding.rule != Rule::SuspectBlock && !is_trouble(finding) {
         return Vec::new();
     }
@@ -67,17 +51,14 @@ fn searched(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
     else {
         return Vec::new();
     };
-    let fix = |(rank, repair): (usize, &Repair)| Fix {
-        kind: repair.kind.clone(),
-        preferred: rank == 0,
-        in_fix_all: rank == 0 && repair.is_sure,
-        edit: repair.edits.clone(),
-    };
-    repairs.iter().enumerate().map(fix).collect()
+    let found = repairs
+        .iter()
+        .map(|repair| Some((repair.kind.clone(), repair.edits.clone(), repair.is_sure)));
+    offered(found)
 }
 
 /// What a place says by itself.
-fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
+fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
     let Where::Text { range } = &finding.place else {
         return Vec::new();
     };
@@ -86,12 +67,6 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
         Detail::Syntax(_) => return character_fixes(document, range),
         _ => return Vec::new(),
     };
-    let fix = |kind: FixKind, in_fix_all: bool, edits: Vec<TextEdit>| Fix {
-        kind,
-        preferred: true,
-        in_fix_all,
-        edit: edits,
-    };
     let line = document.text().line_of(range.start);
     match fault {
         Fault::ReversedArc { is_sure } => {
@@ -99,13 +74,9 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
             let Some((found, meant, edit)) = exchanged_word(document, line, before) else {
                 return Vec::new();
             };
-            vec![fix(FixKind::Rewrite { found, meant }, *is_sure, vec![edit])]
+            one(FixKind::Rewrite { found, meant }, *is_sure, edit)
         }
-        Fault::DoubledBlock { .. } => vec![fix(
-            FixKind::DeleteBlock,
-            true,
-            vec![whole_line(document, line)],
-        )],
+        Fault::DoubledBlock { .. } => one(FixKind::DeleteBlock, true, whole_line(document, line)),
         Fault::Spur { .. } => spur_fix(document, line).into_iter().collect(),
         Fault::NoOffset { .. } => {
             let Some(offset) = document.only_offset() else {
@@ -117,18 +88,15 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
             } else {
                 word.clone()
             };
-            let edit = TextEdit {
-                range: range.end..range.end,
-                text,
-            };
-            vec![fix(
+            let edit = TextEdit::new(range.end..range.end, text);
+            one(
                 FixKind::Rewrite {
                     found: String::new(),
                     meant: word,
                 },
                 false,
-                vec![edit],
-            )]
+                edit,
+            )
         }
         Fault::SideChange { .. } => {
             let other = match document.text().bytes().get(range.clone()) {
@@ -136,14 +104,11 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 Some(word) if word.ends_with(b"42") => "G41",
                 _ => return Vec::new(),
             };
-            vec![fix(
+            one(
                 FixKind::SwapSide,
                 false,
-                vec![TextEdit {
-                    range: range.clone(),
-                    text: other.into(),
-                }],
-            )]
+                TextEdit::new(range.clone(), other),
+            )
         }
         Fault::StillOn => {
             let Some(at) = way_out(document, line) else {
@@ -151,30 +116,24 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
             };
             let start = document.text().line_start(at);
             let text = format!("G40{}", line_end(document, range.end));
-            vec![fix(
+            one(
                 FixKind::InsertLine {
                     block: "G40".into(),
                 },
                 false,
-                vec![TextEdit {
-                    range: start..start,
-                    text,
-                }],
-            )]
+                TextEdit::new(start..start, text),
+            )
         }
         Fault::NoReturn { .. } => {
             let end = document.text().line_range(line).end;
             let text = format!("{}M99", line_end(document, range.end));
-            vec![fix(
+            one(
                 FixKind::InsertLine {
                     block: "M99".into(),
                 },
                 true,
-                vec![TextEdit {
-                    range: end..end,
-                    text,
-                }],
-            )]
+                TextEdit::new(end..end, text),
+            )
         }
         Fault::Bare { .. } => bare_fixes(document, range),
         Fault::MissingEnd { word } => {
@@ -183,14 +142,11 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 .line_range(document.text().line_of(range.end))
                 .end;
             let text = format!("{}{word}", line_end(document, range.end));
-            vec![fix(
+            one(
                 FixKind::AddEnd { word: word.clone() },
                 true,
-                vec![TextEdit {
-                    range: end..end,
-                    text,
-                }],
-            )]
+                TextEdit::new(end..end, text),
+            )
         }
         Fault::Switch {
             on: true,
@@ -200,14 +156,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
             let Some(word) = rapid_word(document, range) else {
                 return Vec::new();
             };
-            vec![fix(
-                FixKind::CutRapid,
-                false,
-                vec![TextEdit {
-                    range: word,
-                    text: "G01".into(),
-                }],
-            )]
+            one(FixKind::CutRapid, false, TextEdit::new(word, "G01"))
         }
         Fault::RoleSide { .. } | Fault::EntrySide { .. } => {
             let bytes = document
@@ -220,14 +169,11 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
                 Some(super::block::Compensation::Right) => "G41",
                 _ => return Vec::new(),
             };
-            vec![fix(
+            one(
                 FixKind::SwapSide,
                 false,
-                vec![TextEdit {
-                    range: range.clone(),
-                    text: other.into(),
-                }],
-            )]
+                TextEdit::new(range.clone(), other),
+            )
         }
         Fault::OffRadius { .. } => center_fixes(document, range),
         Fault::CutOpen { .. } => closing_fix(document, range).into_iter().collect(),
@@ -236,21 +182,22 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<Fix<Vec<TextEdit>>> {
         }
         Fault::BehindEnd => {
             let end = document.text().len();
-            vec![fix(
+            one(
                 FixKind::DeleteBehindEnd,
                 false,
-                vec![TextEdit {
-                    range: range.start..end,
-                    text: String::new(),
-                }],
-            )]
+                TextEdit::new(range.start..end, ""),
+            )
         }
         _ => Vec::new(),
     }
 }
 
+fn one(kind: FixKind, in_fix_all: bool, edit: TextEdit) -> Vec<TextFix> {
+    vec![TextFix::text(kind, in_fix_all, edit)]
+}
+
 /// Characters that only look like those of a control.
-fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
+fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     let text = document.text();
     let (kind, edit) = match text.bytes().get(range.clone()) {
         Some([b'O' | b'o', rest @ ..]) => {
@@ -263,19 +210,13 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<Tex
             });
             (
                 FixKind::ZeroForO,
-                TextEdit {
-                    range: range.clone(),
-                    text: ['0'].into_iter().chain(zeros).collect(),
-                },
+                TextEdit::new(
+                    range.clone(),
+                    ['0'].into_iter().chain(zeros).collect::<String>(),
+                ),
             )
         }
-        Some(b",") => (
-            FixKind::DecimalPoints,
-            TextEdit {
-                range: range.clone(),
-                text: ".".into(),
-            },
-        ),
+        Some(b",") => (FixKind::DecimalPoints, TextEdit::new(range.clone(), ".")),
         _ => {
             let line = text.line_range(text.line_of(range.start));
             let plain = text
@@ -284,15 +225,10 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<Tex
                 .and_then(plain)
                 .and_then(|plain| String::from_utf8(plain).ok());
             let Some(text) = plain else { return Vec::new() };
-            (FixKind::PlainLetters, TextEdit { range: line, text })
+            (FixKind::PlainLetters, TextEdit::new(line, text))
         }
     };
-    vec![Fix {
-        kind,
-        preferred: true,
-        in_fix_all: true,
-        edit: vec![edit],
-    }]
+    one(kind, true, edit)
 }
 
 /// G02 for G03 of a line, or the other way round: what stands, what is meant, and the edit.
@@ -317,29 +253,22 @@ fn exchanged_word(
         let word = word.start - 1..word.end - 1;
         let found =
             String::from_utf8_lossy(document.text().bytes().get(word.clone())?).into_owned();
-        return Some((
-            found,
-            meant.clone(),
-            TextEdit {
-                range: word,
-                text: meant,
-            },
-        ));
+        return Some((found, meant.clone(), TextEdit::new(word, meant)));
     }
     let text = String::from_utf8(with_word(bytes, &meant, is_parted(document.text()))).ok()?;
-    Some((String::new(), meant, TextEdit { range, text }))
+    Some((String::new(), meant, TextEdit::new(range, text)))
 }
 
 /// A line with its end.
 fn whole_line(document: &Document, line: usize) -> TextEdit {
-    TextEdit {
-        range: document.text().line_start(line)..document.text().line_start(line + 1),
-        text: String::new(),
-    }
+    TextEdit::new(
+        document.text().line_start(line)..document.text().line_start(line + 1),
+        "",
+    )
 }
 
 /// Out and back go, where they lead back to where they began.
-fn spur_fix(document: &Document, back: usize) -> Option<Fix<Vec<TextEdit>>> {
+fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
     let moves = |line: usize| {
         let block = document.block(line);
         block.has_coordinates() || block.i.is_some() || block.j.is_some()
@@ -365,15 +294,14 @@ fn spur_fix(document: &Document, back: usize) -> Option<Fix<Vec<TextEdit>>> {
     };
     let found = format!("{} and {}", shown(out), shown(back));
     let edit = vec![whole_line(document, out), whole_line(document, back)];
-    Some(Fix {
-        kind: FixKind::Rewrite {
+    Some(TextFix::text(
+        FixKind::Rewrite {
             found,
             meant: String::new(),
         },
-        preferred: true,
-        in_fix_all: false,
+        false,
         edit,
-    })
+    ))
 }
 
 /// Lines before the way back of a spur in which its way out is looked for.
@@ -395,7 +323,7 @@ fn way_out(document: &Document, end: usize) -> Option<usize> {
 }
 
 /// A number without its point, as one of whole units and as one of the finest steps.
-fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
+fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     let found = String::from_utf8_lossy(
         document
             .text()
@@ -416,25 +344,22 @@ fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit
         &padded[padded.len() - 3..]
     );
     let fix = |meant: String| {
-        let edit = vec![TextEdit {
-            range: range.clone(),
-            text: meant.clone(),
-        }];
-        Fix {
-            kind: FixKind::Rewrite {
+        let edit = TextEdit::new(range.clone(), meant.clone());
+        TextFix::text(
+            FixKind::Rewrite {
                 found: found.clone(),
                 meant,
             },
-            preferred: false,
-            in_fix_all: false,
+            false,
             edit,
-        }
+        )
+        .preferred_if(false)
     };
     vec![fix(fine), fix(format!("{found}."))]
 }
 
 /// Centres that the ends of an arc fit: where another convention, a lost sign or a swap of I and J leads, else the nearest one.
-fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEdit>>> {
+fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);
     let Some(before) = document.machine_before(line) else {
@@ -487,7 +412,7 @@ fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEd
     centers.retain(|(center, _)| fits(*center));
     let nearest = own.and_then(|own| nearest_center(document, &made, own, machine.inch));
     centers.extend(nearest.map(|(center, moved)| (center, CenterFix::Nearest { moved })));
-    let mut fixes: Vec<Fix<Vec<TextEdit>>> = Vec::new();
+    let mut fixes: Vec<TextFix> = Vec::new();
     let mut seen: Vec<Place> = own.into_iter().collect();
     for (center, how) in centers {
         if seen.contains(&center) {
@@ -503,12 +428,7 @@ fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Fix<Vec<TextEd
         };
         let radius = distance(made.from, center) / 1e6;
         let kind = FixKind::SetCenter { radius, how };
-        fixes.push(Fix {
-            kind,
-            preferred: fixes.is_empty(),
-            in_fix_all: false,
-            edit: vec![edit],
-        });
+        fixes.push(TextFix::text(kind, false, edit).preferred_if(fixes.is_empty()));
     }
     fixes
 }
@@ -533,7 +453,7 @@ fn nearest_center(
 }
 
 /// A straight cut behind the last one that leads back to where the cut began, or to where its way in ended.
-fn closing_fix(document: &Document, range: &Range<usize>) -> Option<Fix<Vec<TextEdit>>> {
+fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);
     let begun = document.begun_cut_with(line)?;
@@ -566,17 +486,12 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<Fix<Vec<Text
         return None;
     }
     let behind = text.line_range(line).end;
-    let edit = TextEdit {
-        range: behind..behind,
-        text: format!("{}{words}", line_end(document, range.end)),
-    };
+    let edit = TextEdit::new(
+        behind..behind,
+        format!("{}{words}", line_end(document, range.end)),
+    );
     let length = near(target) / 1e6;
-    Some(Fix {
-        kind: FixKind::Close { length },
-        preferred: true,
-        in_fix_all: false,
-        edit: vec![edit],
-    })
+    Some(TextFix::text(FixKind::Close { length }, false, edit))
 }
 
 /// True where the line behind `line` that moves next says itself how, or would cut straight anyway.
@@ -601,11 +516,7 @@ fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
 }
 
 /// The number of the block's turn where there is room for it; all blocks numbered anew.
-fn number_fixes(
-    document: &Document,
-    fault: &Fault,
-    range: &Range<usize>,
-) -> Vec<Fix<Vec<TextEdit>>> {
+fn number_fixes(document: &Document, fault: &Fault, range: &Range<usize>) -> Vec<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);
     let mut fixes = Vec::new();
@@ -619,16 +530,12 @@ fn number_fixes(
                 is_parted(text),
             );
             if let Ok(new) = String::from_utf8(new) {
-                let edit = vec![TextEdit {
-                    range: own,
-                    text: new,
-                }];
-                fixes.push(Fix {
-                    kind: FixKind::SetNumber { number: expected },
-                    preferred: true,
-                    in_fix_all: true,
+                let edit = TextEdit::new(own, new);
+                fixes.push(TextFix::text(
+                    FixKind::SetNumber { number: expected },
+                    true,
                     edit,
-                });
+                ));
             }
         }
         Fault::DoubledNumber { number } if !document.calls(number) => {
@@ -639,16 +546,12 @@ fn number_fixes(
             if let Some(turn) =
                 turn.filter(|turn| free(*turn) && next.is_none_or(|next| next > *turn))
             {
-                let edit = vec![TextEdit {
-                    range: range.clone(),
-                    text: format!("N{turn}"),
-                }];
-                fixes.push(Fix {
-                    kind: FixKind::SetNumber { number: turn },
-                    preferred: true,
-                    in_fix_all: true,
+                let edit = TextEdit::new(range.clone(), format!("N{turn}"));
+                fixes.push(TextFix::text(
+                    FixKind::SetNumber { number: turn },
+                    true,
                     edit,
-                });
+                ));
             }
         }
         _ => {}
@@ -658,12 +561,7 @@ fn number_fixes(
             first: RENUMBERED,
             step: RENUMBERED,
         };
-        fixes.push(Fix {
-            kind,
-            preferred: fixes.is_empty(),
-            in_fix_all: false,
-            edit,
-        });
+        fixes.push(TextFix::text(kind, false, edit).preferred_if(fixes.is_empty()));
     }
     fixes
 }

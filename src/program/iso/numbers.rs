@@ -52,16 +52,13 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
                 if labels.get(&old) == Some(&line) {
                     renamed.insert(old, number);
                 }
-                edits.push(TextEdit {
-                    range: word,
-                    text: format!("N{number}"),
-                });
+                edits.push(TextEdit::new(word, format!("N{number}")));
             }
             _ => {
                 let new = with_word(bytes, &format!("N{number}"), parted);
                 let new = String::from_utf8(new)
                     .map_err(|_| format!("line {}: it is in another code page", line + 1))?;
-                edits.push(TextEdit { range, text: new });
+                edits.push(TextEdit::new(range, new));
             }
         }
         number = number.saturating_add(step);
@@ -122,10 +119,7 @@ pub(super) fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, Stri
                 .iter()
                 .take_while(|byte| matches!(byte, b' ' | b'\t'))
                 .count();
-            edits.push(TextEdit {
-                range: word.start..word.end + space,
-                text: String::new(),
-            });
+            edits.push(TextEdit::new(word.start..word.end + space, ""));
         }
     }
     Ok(edits)
@@ -158,10 +152,7 @@ pub(in crate::program) fn renamed(
     if let Some(line) = labels.get(&new).filter(|line| **line != own) {
         return Err(format!("N{new} is the block in line {}", line + 1));
     }
-    let mut edits = vec![TextEdit {
-        range: digits,
-        text: name.to_owned(),
-    }];
+    let mut edits = vec![TextEdit::new(digits, name.to_owned())];
     if labels.get(&old) == Some(&own) {
         edits.extend(calls(document, |called| (called == old).then_some(new)));
     }
@@ -179,10 +170,7 @@ fn calls(document: &Document, renamed: impl Fn(u32) -> Option<u32>) -> Vec<TextE
         if let Some(new) = read_line(bytes, 1, |_| {}).call.and_then(&renamed)
             && let Some(word) = word_range(bytes, range.start, |letter, _| letter == b'P')
         {
-            edits.push(TextEdit {
-                range: word,
-                text: format!("P{new}"),
-            });
+            edits.push(TextEdit::new(word, format!("P{new}")));
         }
     }
     edits

@@ -1,3 +1,42 @@
-//! Repairs of a program's one slip, whatever its language.
+//! Repairs of a program, whatever its language: what fills a gap, how what is found is offered, and what of it may be made.
 
 pub(super) mod gap;
+pub(super) mod gate;
+
+use crate::finding::{FixKind, TextFix};
+use crate::text::TextEdit;
+
+/// Repairs that were found by trying, as they are offered: the best one first, which is preferred, and made by "fix all" where it is
+/// sure. Those that cannot be written are left out.
+pub(super) fn offered(
+    found: impl Iterator<Item = Option<(FixKind, Vec<TextEdit>, bool)>>,
+) -> Vec<TextFix> {
+    let fix = |(nth, repair): (usize, Option<_>)| {
+        let (kind, edits, is_sure) = repair?;
+        Some(TextFix::text(kind, is_sure, edits).preferred_if(nth == 0))
+    };
+    found.enumerate().filter_map(fix).collect()
+}
+
+/// Those that go before others for one finding. Of two that edit alike one stays, under the other's name where that `names` it better.
+pub(super) fn merged(mut fixes: Vec<TextFix>, more: Vec<TextFix>, names: bool) -> Vec<TextFix> {
+    if fixes.is_empty() {
+        return more;
+    }
+    let first = fixes.len();
+    for fix in more {
+        match fixes[..first]
+            .iter_mut()
+            .find(|known| known.edit == fix.edit)
+        {
+            Some(known) if names => known.kind = fix.kind,
+            Some(_) => {}
+            None => fixes.push(TextFix {
+                preferred: false,
+                in_fix_all: false,
+                ..fix
+            }),
+        }
+    }
+    fixes
+}

@@ -854,16 +854,13 @@ impl Change {
                 let place = text.line_start(line);
                 let end = line_end(document, text.line_range(line).end);
                 let new = String::from_utf8(new.clone()).ok()?;
-                vec![TextEdit {
-                    range: place..place,
-                    text: format!("{new}{end}"),
-                }]
+                vec![TextEdit::new(place..place, format!("{new}{end}"))]
             }
             // The whole line goes, with its end.
-            [] => vec![TextEdit {
-                range: text.line_start(line)..text.line_start(line + 1),
-                text: String::new(),
-            }],
+            [] => vec![TextEdit::new(
+                text.line_start(line)..text.line_start(line + 1),
+                "",
+            )],
             lines => {
                 let edit = |(nth, new): (usize, &Vec<u8>)| {
                     let range = text.line_range(line + nth);
@@ -900,8 +897,5 @@ fn edit_between(start: usize, old: &[u8], new: &[u8]) -> Option<TextEdit> {
         .take_while(|(a, b)| a == b)
         .count();
     let text = String::from_utf8(new[head..new.len() - tail].to_vec()).ok()?;
-    Some(TextEdit {
-        range: start + head..start + old.len() - tail,
-        text,
-    })
+    Some(TextEdit::new(start + head..start + old.len() - tail, text))
 }

@@ -15,6 +15,7 @@ use super::super::rules::{
 use super::super::run::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
+use crate::program::repair::merged;
 use crate::settings::Layout;
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
@@ -22,19 +23,7 @@ use std::ops::Range;
 impl Document {
     /// The fixes of one finding, the preferred one first: what explains the whole contour before what the finding alone suggests.
     pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        let mut fixes = self.contour_fixes(finding);
-        let found = fixes.len();
-        for fix in self.fixes_of(finding) {
-            if fixes.iter().all(|known| known.edit != fix.edit) {
-                fixes.push(fix);
-            }
-        }
-        if found > 0 {
-            fixes[1..]
-                .iter_mut()
-                .for_each(|fix| (fix.preferred, fix.in_fix_all) = (false, false));
-        }
-        fixes
+        merged(self.contour_fixes(finding), self.fixes_of(finding), false)
     }
 
     fn fixes_of(&self, finding: &Finding) -> Vec<TextFix> {
@@ -212,16 +201,8 @@ impl Document {
             return Vec::new();
         };
         let length = (x as f64).hypot(y as f64) / 1000.0;
-        let edit = vec![TextEdit {
-            range: behind..behind,
-            text,
-        }];
-        vec![crate::finding::Fix {
-            kind: FixKind::Close { length },
-            preferred: true,
-            in_fix_all: false,
-            edit,
-        }]
+        let edit = vec![TextEdit::new(behind..behind, text)];
+        vec![TextFix::text(FixKind::Close { length }, false, edit)]
     }
 
     /// The number that a block behind another one has, where the two before it are numbered.
@@ -251,12 +232,11 @@ impl Document {
         if let Some(meant) = meant
             && let Some(edit) = places.get(index).map(|at| self.number_edit(*at, meant))
         {
-            fixes.push(crate::finding::Fix {
-                kind: FixKind::SetNumber { number: meant },
-                preferred: true,
-                in_fix_all: true,
-                edit: vec![edit],
-            });
+            fixes.push(TextFix::text(
+                FixKind::SetNumber { number: meant },
+                true,
+                edit,
+            ));
         }
         let numbers = || blocks.iter().filter_map(|block| block.number);
         if let (Some(first), Some(second)) = (numbers().next(), numbers().nth(1)) {
@@ -266,12 +246,10 @@ impl Document {
                 (self.entry(*at)?.number() != Some(number)).then(|| self.number_edit(*at, number))
             });
             let edit: Vec<TextEdit> = edit.collect();
-            fixes.push(crate::finding::Fix {
-                kind: FixKind::Renumber { first, step },
-                preferred: fixes.is_empty(),
-                in_fix_all: false,
-                edit,
-            });
+            fixes.push(
+                TextFix::text(FixKind::Renumber { first, step }, false, edit)
+                    .preferred_if(fixes.is_empty()),
+            );
         }
         fixes
     }
@@ -303,30 +281,16 @@ impl Document {
             } else {
                 number.to_string()
             };
-            return TextEdit {
-                range: line.start + digits_start..line.start + digits_end,
-                text,
-            };
+            return TextEdit::new(line.start + digits_start..line.start + digits_end, text);
         }
-        TextEdit {
-            range: range.start..range.start,
-            text: format!("N{number} "),
-        }
+        TextEdit::new(range.start..range.start, format!("N{number} "))
     }
 
     fn letter_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
         match self.text.bytes().get(range.clone()) {
             Some(b"O" | b"o") => {
-                let edit = vec![TextEdit {
-                    range: range.clone(),
-                    text: "0".into(),
-                }];
-                vec![crate::finding::Fix {
-                    kind: FixKind::ZeroForO,
-                    preferred: true,
-                    in_fix_all: true,
-                    edit,
-                }]
+                let edit = vec![TextEdit::new(range.clone(), "0")];
+                vec![TextFix::text(FixKind::ZeroForO, true, edit)]
             }
             Some(bytes) => {
                 let place =
@@ -336,14 +300,7 @@ impl Document {
                     range: place(found.at, found.length),
                     text: (found.likeness.ascii() as char).to_string(),
                 };
-                let fix = |kind, edit| {
-                    vec![crate::finding::Fix {
-                        kind,
-                        preferred: true,
-                        in_fix_all: true,
-                        edit,
-                    }]
-                };
+                let fix = |kind, edit| vec![TextFix::text(kind, true, edit)];
                 if alike.iter().any(|found| found.likeness.is_letter()) {
                     return fix(FixKind::PlainLetters, alike.iter().map(plain).collect());
                 }

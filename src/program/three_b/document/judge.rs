@@ -1,9 +1,10 @@
 //! What is wrong with a program as a whole: contours that do not close or cross themselves, its end, texts, numbers, places.
 
-use super::super::entry::{BlockEntry, What};
+use super::super::entry::What;
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
-use super::super::rules::{self, culprit, not_closed};
+use super::super::repair::FEWEST_BLAMED;
+use super::super::rules::{self, not_closed};
 use super::super::run::may_cross_itself;
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
@@ -180,17 +181,10 @@ impl Document {
             ..Finding::of(fault, self.range_of(last))
         }];
         let may_be_one_field = section.sum.errors == 0
-            && culprit::BLOCKS.contains(&section.sum.blocks)
+            && section.sum.blocks >= FEWEST_BLAMED
             && !self.lacks_a_number(section);
         if !is_fragment && may_be_one_field {
-            let blocks: Vec<&BlockEntry> = self
-                .blocks_of(section)
-                .filter_map(|at| self.entry(at)?.block())
-                .collect();
-            let named = self
-                .blamed(section)
-                .or_else(|| culprit::culprit(&section.sum, &blocks));
-            if let Some((nth, fault)) = named
+            if let Some((nth, fault)) = self.blamed(section)
                 && let Some(at) = self.blocks_of(section).nth(nth)
             {
                 let spot = match &fault {

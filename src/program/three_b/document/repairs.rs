@@ -10,8 +10,9 @@ use super::super::repair::{
 };
 use super::super::rules::{TextFix, axis_of, block_number, motion_name};
 use super::{At, Document, Section};
-use crate::finding::{Axis, Fault, Finding, Fix, FixKind, Place, Rule};
+use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
+use crate::program::repair::offered;
 use crate::program::three_b::block::Block;
 use crate::settings::Layout;
 use crate::text::TextEdit;
@@ -52,67 +53,72 @@ impl Document {
         let is_closed = self.closes(&self.view, &section) && section.sum.unread == 0;
         let path = self.path_of(&section, &places, &pieces, is_closed);
         let found = repairs(&path, scope);
-        let fix = |(nth, repair): (usize, &Repair)| {
+        let fixes = found.iter().map(|repair| {
             let (kind, mut edit) =
                 self.edit_of(&repair.change, &places, &pieces, section.is_jump)?;
             edit.sort_by_key(|edit| edit.range.start);
-            Some(Fix {
-                kind,
-                preferred: nth == 0,
-                in_fix_all: repair.is_sure,
-                edit,
-            })
-        };
-        found.iter().enumerate().filter_map(fix).collect()
+            Some((kind, edit, repair.is_sure))
+        });
+        offered(fixes)
     }
 
     /// The block that keeps a contour open, by its number in the section, where no other repair is as likely.
     pub(super) fn blamed(&self, section: &Section) -> Option<(usize, Fault)> {
         let (places, pieces) = self.pieces_of(section)?;
         let path = self.path_of(section, &places, &pieces, false);
-        let best = repairs(&path, Scope::Blocks)
-            .into_iter()
-            .next()
-            .filter(|repair| repair.is_sure && repair.is_whole)?;
-        match best.change {
-            Change::Delete { index } => Some((index, Fault::TwinKeepsOpen)),
-            Change::Replace { index, block, slip } => {
-                let old = pieces.get(index)?.block?;
-                let fault = match slip {
-                    Slip::Motion => {
-                        let [found, meant] = [old.motion, block.motion].map(motion_name);
-                        Fault::QuadrantKeepsOpen {
-                            found,
-                            meant,
-                            is_sure: true,
-                        }
-                    }
-                    Slip::Axis => Fault::AxisKeepsOpen {
-                        axis: axis_of(old.axis),
-                        is_sure: true,
-                    },
-                    Slip::Exchanged => Fault::ExchangedKeepsOpen,
-                    Slip::Number(Number::X, _) => Fault::NumberKeepsOpen {
-                        axis: Axis::X,
-                        value: old.x,
-                        meant: block.x,
-                    },
-                    Slip::Number(Number::Y, _) => Fault::NumberKeepsOpen {
-                        axis: Axis::Y,
-                        value: old.y,
-                        meant: block.y,
-                    },
-                    Slip::Number(Number::J, _) => Fault::JKeepsOpen {
-                        j: old.j,
-                        meant: block.j,
-                        is_sure: true,
-                    },
-                    Slip::Coordinates | Slip::Unread { .. } => return None,
-                };
-                Some((index, fault))
+        let found = repairs(&path, Scope::Blocks);
+        let (best, others) = found.split_first().filter(|(best, _)| best.is_whole)?;
+        let (index, block, slip) = match best.change {
+            Change::Delete { index } if best.is_sure => {
+                return Some((index, Fault::TwinKeepsOpen));
             }
-            Change::Exchange { .. } | Change::Insert { .. } => None,
+            Change::Replace { index, block, slip } => (index, block, slip),
+            _ => return None,
+        };
+        let is_sure = best.is_sure;
+        // One field of another block would do as well.
+        let is_field =
+            |slip: &Slip| matches!(slip, Slip::Motion | Slip::Axis | Slip::Number(Number::J, _));
+        let is_rival = |other: &Repair| match &other.change {
+            Change::Replace { slip, .. } => other.is_whole && is_field(slip),
+            _ => false,
+        };
+        if !is_sure && (!is_field(&slip) || others.iter().any(is_rival)) {
+            return None;
         }
+        let old = pieces.get(index)?.block?;
+        let fault = match slip {
+            Slip::Motion => {
+                let [found, meant] = [old.motion, block.motion].map(motion_name);
+                Fault::QuadrantKeepsOpen {
+                    found,
+                    meant,
+                    is_sure,
+                }
+            }
+            Slip::Axis => Fault::AxisKeepsOpen {
+                axis: axis_of(old.axis),
+                is_sure,
+            },
+            Slip::Exchanged => Fault::ExchangedKeepsOpen,
+            Slip::Number(Number::X, _) => Fault::NumberKeepsOpen {
+                axis: Axis::X,
+                value: old.x,
+                meant: block.x,
+            },
+            Slip::Number(Number::Y, _) => Fault::NumberKeepsOpen {
+                axis: Axis::Y,
+                value: old.y,
+                meant: block.y,
+            },
+            Slip::Number(Number::J, _) => Fault::JKeepsOpen {
+                j: old.j,
+                meant: block.j,
+                is_sure,
+            },
+            Slip::Coordinates | Slip::Unread { .. } => return None,
+        };
+        Some((index, fault))
     }
 
     fn path_of<'a>(
@@ -295,7 +301,7 @@ impl Document {
                     FixKind::RestoreBlock {
                         block: made.clone(),
                     },
-                    vec![TextEdit { range, text: made }],
+                    vec![TextEdit::new(range, made)],
                 ))
             }
             Change::Replace { index, block, slip } => {
@@ -308,18 +314,11 @@ impl Document {
             }
             Change::Delete { index } if is_alone(*index)? => Some((
                 FixKind::DeleteTwin,
-                vec![TextEdit {
-                    range: whole(line(*index)?),
-                    text: String::new(),
-                }],
+                vec![TextEdit::new(whole(line(*index)?), "")],
             )),
-            Change::Delete { index } => Some((
-                FixKind::DeleteTwin,
-                vec![TextEdit {
-                    range: own(*index)?,
-                    text: String::new(),
-                }],
-            )),
+            Change::Delete { index } => {
+                Some((FixKind::DeleteTwin, vec![TextEdit::new(own(*index)?, "")]))
+            }
             Change::Exchange { index } => {
                 let (one, other) = (own(*index)?, own(index + 1)?);
                 // With what stands behind and before them, where each has its line.
@@ -339,14 +338,8 @@ impl Document {
                     )
                 };
                 let edits = vec![
-                    TextEdit {
-                        text: taken(&other)?,
-                        range: one.clone(),
-                    },
-                    TextEdit {
-                        text: taken(&one)?,
-                        range: other,
-                    },
+                    TextEdit::new(one.clone(), taken(&other)?),
+                    TextEdit::new(other, taken(&one)?),
                 ];
                 Some((FixKind::ExchangeBlocks, edits))
             }
@@ -427,15 +420,9 @@ impl Document {
                 let place = self
                     .text
                     .line_start(self.text.line_of(stop.unwrap_or(line.start)));
-                TextEdit {
-                    range: place..place,
-                    text: format!("{made}{line_end}"),
-                }
+                TextEdit::new(place..place, format!("{made}{line_end}"))
             }
-            _ => TextEdit {
-                range: line.end..line.end,
-                text: format!("{line_end}{made}"),
-            },
+            _ => TextEdit::new(line.end..line.end, format!("{line_end}{made}")),
         };
         let [x, y] = super::super::entry::travel_of(block).meant_um();
         let is_arc = !matches!(block.motion, Motion::Line(_));

@@ -29,6 +29,9 @@ use slips::{Wanted, blocks_to, is_usual, solved, straight, with};
 /// Contours of more blocks cost too long to try.
 pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 
+/// Contours of fewer blocks are open by too many changes to name one.
+pub(super) const FEWEST_BLAMED: usize = 4;
+
 /// How far coordinates of three decimals may lie from where a block ends, µm.
 const STATED: f64 = 4.0;
 

@@ -7,8 +7,8 @@ use super::super::entry::{Move, travel_of};
 use super::super::rules::{self, Counts, Limits};
 use crate::finding::Rule;
 use crate::geometry::{Arc, Point, Segment};
-use crate::program::gate::is_slip;
 use crate::program::grid::Node;
+use crate::program::repair::gate::is_slip;
 
 /// A number of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

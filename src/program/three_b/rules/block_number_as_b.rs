@@ -9,9 +9,6 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
         return Vec::new();
     };
     let n = if b == b'b' { "n" } else { "N" };
-    let edit = vec![TextEdit {
-        range: site.range.start..site.range.start + 1,
-        text: n.into(),
-    }];
+    let edit = vec![TextEdit::new(site.range.start..site.range.start + 1, n)];
     vec![one_edit(FixKind::NumberWithN, edit, true, true)]
 }

@@ -20,9 +20,6 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     });
     let Some(at) = found else { return Vec::new() };
     let is_lower = line.contains(&b'b') && !line.contains(&b'B');
-    let edit = vec![TextEdit {
-        range: at..at,
-        text: if is_lower { "b" } else { "B" }.into(),
-    }];
+    let edit = vec![TextEdit::new(at..at, if is_lower { "b" } else { "B" })];
     vec![one_edit(FixKind::InsertB, edit, true, true)]
 }

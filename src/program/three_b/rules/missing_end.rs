@@ -9,10 +9,7 @@ pub(in super::super) fn fixes(text: &SourceText, behind: usize, word: &str) -> V
     let line_end = line_end_of(text);
     let line = text.line_of(behind);
     let range = text.line_range(line);
-    let edit = TextEdit {
-        range: range.end..range.end,
-        text: format!("{line_end}{word}"),
-    };
+    let edit = TextEdit::new(range.end..range.end, format!("{line_end}{word}"));
     vec![one_edit(
         FixKind::AddEnd { word: word.into() },
         vec![edit],

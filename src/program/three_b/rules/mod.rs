@@ -17,7 +17,6 @@ mod wrong_quadrant;
 mod zero_block;
 
 pub(super) mod block_number;
-pub(super) mod culprit;
 pub(super) mod missing_end;
 pub(super) mod not_closed;
 pub(super) mod position_mismatch;
@@ -201,14 +200,11 @@ pub(super) struct Site<'a> {
     pub closes_with: &'a dyn Fn(&[Block]) -> bool,
 }
 
-pub(super) type TextFix = Fix<Vec<TextEdit>>;
+pub(super) use crate::finding::TextFix;
 
 impl Site<'_> {
     fn replace(&self, range: &Range<usize>, text: impl Into<String>) -> TextEdit {
-        TextEdit {
-            range: range.clone(),
-            text: text.into(),
-        }
+        TextEdit::new(range.clone(), text.into())
     }
 
     fn set_j(&self, j: i64) -> TextEdit {
@@ -260,12 +256,7 @@ impl Site<'_> {
     }
 
     fn delete(&self, kind: FixKind, in_fix_all: bool) -> TextFix {
-        Fix {
-            kind,
-            preferred: true,
-            in_fix_all,
-            edit: vec![self.replace(&self.whole(), "")],
-        }
+        Fix::text(kind, in_fix_all, self.replace(&self.whole(), ""))
     }
 }
 
@@ -303,10 +294,5 @@ pub(super) fn motion_name(motion: Motion) -> &'static str {
 
 /// A fix that changes one thing, to be made without asking only where the contour then closes.
 fn one_edit(kind: FixKind, edit: Vec<TextEdit>, preferred: bool, in_fix_all: bool) -> TextFix {
-    Fix {
-        kind,
-        preferred,
-        in_fix_all,
-        edit,
-    }
+    Fix::text(kind, in_fix_all, edit).preferred_if(preferred)
 }

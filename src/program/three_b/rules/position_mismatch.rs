@@ -128,7 +128,7 @@ fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
             text
         };
         let range = site.coordinates.start + start..site.coordinates.start + start + length;
-        edit.extend((text != number).then_some(TextEdit { range, text }));
+        edit.extend((text != number).then_some(TextEdit::new(range, text)));
         from = start + length;
     }
     (!edit.is_empty()).then_some((FixKind::SetCoordinates { at }, edit))

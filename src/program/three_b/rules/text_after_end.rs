@@ -7,9 +7,6 @@ use crate::text::{SourceText, TextEdit};
 /// Takes away all lines behind the one in which the program ends.
 pub(in super::super) fn fixes(text: &SourceText, end: usize) -> Vec<TextFix> {
     let kept = text.line_range(text.line_of(end)).end;
-    let edit = vec![TextEdit {
-        range: kept..text.len(),
-        text: String::new(),
-    }];
+    let edit = vec![TextEdit::new(kept..text.len(), "")];
     vec![one_edit(FixKind::DeleteBehindEnd, edit, true, false)]
 }

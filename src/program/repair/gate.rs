@@ -4,10 +4,10 @@
 //! finding, no full turn out of nothing, and what it leads to closes. Where only what is written changes and not where the machine
 //! goes, nothing can be spoilt. Where a contour stays open, the fault has to say by itself what was meant, and the gap may not grow.
 
-use super::Document;
-use super::path::Kind;
-use crate::finding::{Detail, Fault, Finding, Fix, FixKind, Rule, Severity};
+use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity, TextFix};
 use crate::geometry::{Arc, Segment};
+use crate::program::Document;
+use crate::program::path::Kind;
 use crate::text::TextEdit;
 use std::collections::BTreeMap;
 
@@ -229,10 +229,8 @@ fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
     matches!(edits, [edit] if is_slip(&found(edit), edit.text.as_bytes()))
 }
 
-type TextFix = Fix<Vec<TextEdit>>;
-
 /// The repairs of a finding for which it goes, those that pass the gate before those that do not, which are neither preferred nor made without asking.
-pub(super) fn gated(
+pub(in crate::program) fn gated(
     program: &Document,
     finding: &Finding,
     mut fixes: Vec<TextFix>,
@@ -277,7 +275,10 @@ fn refuse(fix: &mut TextFix) {
 
 /// Those of the repairs that go together and leave the program no worse, as one sorted list of disjoint edits: all, or else one after
 /// another as far as they pass. At most one changes a line.
-pub(super) fn together(program: &Document, fixes: Vec<(Rule, TextFix)>) -> Vec<TextEdit> {
+pub(in crate::program) fn together(
+    program: &Document,
+    fixes: Vec<(Rule, TextFix)>,
+) -> Vec<TextEdit> {
     let mut taken = Taken::default();
     let fixes: Vec<(Rule, TextFix)> = fixes
         .into_iter()
