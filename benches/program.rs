@@ -6,7 +6,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::program::three_b::{self, Words};
-use wedm::program::{Document, Language, iso, language};
+use wedm::program::{self, Document, Language, iso};
 use wedm::settings::{Effective, Layout, from_toml};
 use wedm::toolpath::{WirePath, plan};
 
@@ -219,7 +219,7 @@ fn iso_programs(c: &mut Criterion) {
                 ..settings.clone()
             };
             b.iter(|| {
-                black_box(language::format(
+                black_box(program::format(
                     &document,
                     &settings,
                     0..document.text().line_count(),
@@ -262,7 +262,7 @@ fn formatting(c: &mut Criterion) {
         };
         group.bench_function(format!("compact to {layout:?}"), |b| {
             b.iter(|| {
-                black_box(language::format(
+                black_box(program::format(
                     &document,
                     &settings,
                     0..document.text().line_count(),

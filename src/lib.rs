@@ -15,6 +15,7 @@ pub mod drawing;
 pub mod dxf;
 pub mod finding;
 pub mod geometry;
+pub mod ide;
 pub mod job;
 pub mod picture;
 pub mod program;

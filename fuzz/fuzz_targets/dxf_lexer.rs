@@ -4,7 +4,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use wedm::dxf::Document;
-use wedm::dxf::language::{Node, folds, outline, tokens, tokens_in};
+use wedm::ide::dxf::{Node, folds, outline, tokens, tokens_in};
 use wedm::text::SourceText;
 
 fuzz_target!(|data: &[u8]| {

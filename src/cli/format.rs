@@ -5,7 +5,7 @@ use super::options::{Common, words};
 use super::output::{self, STRONG, counted, styled};
 use super::{Failure, Verdict, files};
 use crate::finding::Rule;
-use crate::program::{Language, language};
+use crate::program::{self, Language};
 use crate::settings::{Layout, ProgramSettings, Settings};
 use crate::text::edited;
 use clap::Args;
@@ -143,7 +143,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let settings = opened.document.settings().clone();
     let program = opened.program()?;
     let text = program.text();
-    let edits = language::format(program, &settings, 0..text.line_count());
+    let edits = program::format(program, &settings, 0..text.line_count());
     let before = text.bytes();
     let after = edited(before, &edits)
         .ok_or_else(|| Failure::of(path, say!(internal_error, say!(the_edits_overlap))))?;

@@ -49,9 +49,9 @@ pub(super) enum Paint {
 
 /// Where the vertices of a polyline stand.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct VertexLines {
+pub(crate) struct VertexLines {
     /// The line of each vertex's first tag (its x, or its VERTEX record), counted from the first line of the entity.
-    pub(super) lines: Vec<u32>,
+    pub(crate) lines: Vec<u32>,
     /// True where the entity's plane has the extrusion (0, 0, -1).
     pub(super) mirrored: bool,
     /// True for a 3D polyline, whose bulges mean nothing.

@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 /// One entry of the table.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct LayerEntry {
-    pub(super) name: Arc<str>,
+pub(crate) struct LayerEntry {
+    pub(crate) name: Arc<str>,
     pub(super) visibility: Visibility,
     pub(super) color: Option<Color>,
 }

@@ -8,7 +8,7 @@ use super::number::{self, Code, Number};
 use crate::finding::Finding;
 
 /// No decision of the lexer looks further ahead than this many lines.
-pub(super) const LOOKAHEAD: usize = 2 * (WINDOW + SETTLING) + 4;
+pub(crate) const LOOKAHEAD: usize = 2 * (WINDOW + SETTLING) + 4;
 /// Tags that are looked at to tell codes from values.
 const WINDOW: usize = 8;
 /// Tags that are passed over, once the text is in step, to reach a sound one.
@@ -18,30 +18,30 @@ const EMPTY_LINES: usize = 16;
 
 /// A group code and the line it stands on; the value stands on the next line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Tag {
-    pub(super) code: i16,
-    pub(super) line: usize,
+pub(crate) struct Tag {
+    pub(crate) code: i16,
+    pub(crate) line: usize,
 }
 
 impl Tag {
-    pub(super) fn value_line(self) -> usize {
+    pub(crate) fn value_line(self) -> usize {
         self.line + 1
     }
 }
 
-pub(super) struct Lexer<'a> {
-    pub(super) lines: Lines<'a>,
+pub(crate) struct Lexer<'a> {
+    pub(crate) lines: Lines<'a>,
     at: usize,
     /// First line of what must not be taken for a code line any more.
     consumed: usize,
     /// The text was out of step since the last [`Lexer::begin_item`].
-    pub(super) out_of_step: bool,
+    pub(crate) out_of_step: bool,
     /// A code line at the end of the text that has no value.
-    pub(super) dangling: Option<usize>,
+    pub(crate) dangling: Option<usize>,
 }
 
 impl<'a> Lexer<'a> {
-    pub(super) fn new(lines: Lines<'a>, at: usize) -> Lexer<'a> {
+    pub(crate) fn new(lines: Lines<'a>, at: usize) -> Lexer<'a> {
         Lexer {
             lines,
             at,
@@ -52,16 +52,16 @@ impl<'a> Lexer<'a> {
     }
 
     /// The line of the next tag.
-    pub(super) fn at(&self) -> usize {
+    pub(crate) fn at(&self) -> usize {
         self.at
     }
 
-    pub(super) fn at_end(&self) -> bool {
+    pub(crate) fn at_end(&self) -> bool {
         self.at >= self.lines.count()
     }
 
     /// Goes on from `line` and forgets what was before it.
-    pub(super) fn begin_item(&mut self, line: usize) {
+    pub(crate) fn begin_item(&mut self, line: usize) {
         self.at = line;
         self.consumed = line + 1;
         self.out_of_step = false;
@@ -69,13 +69,13 @@ impl<'a> Lexer<'a> {
     }
 
     /// Leaves `tag`, which was just read, to be read again.
-    pub(super) fn back_to(&mut self, tag: Tag) {
+    pub(crate) fn back_to(&mut self, tag: Tag) {
         self.at = tag.line;
         self.consumed = tag.line + 1;
     }
 
     /// The tag that begins the next record, when the lexer stands before one.
-    pub(super) fn peek_record(&self) -> Option<Tag> {
+    pub(crate) fn peek_record(&self) -> Option<Tag> {
         let line = self.at;
         let begins = line + 1 < self.lines.count()
             && number::code(self.lines.content(line)) == Code::Known(0)
@@ -84,12 +84,12 @@ impl<'a> Lexer<'a> {
     }
 
     /// Passes over the tag that begins a record, as [`Lexer::peek_record`] gave it.
-    pub(super) fn pass(&mut self, record: Tag) {
+    pub(crate) fn pass(&mut self, record: Tag) {
         self.at = record.line + 2;
     }
 
     /// The next tag; `None` at the end of the text. What is no tag is passed over with one finding.
-    pub(super) fn next(&mut self, findings: &mut Vec<Finding>) -> Option<Tag> {
+    pub(crate) fn next(&mut self, findings: &mut Vec<Finding>) -> Option<Tag> {
         loop {
             let line = self.at;
             if line + 1 >= self.lines.count() {
@@ -149,7 +149,7 @@ impl<'a> Lexer<'a> {
 
     /// True when the value of `tag`, which does not fit its code, is the next code: a line is missing or extra.
     /// The finding is made and the lexer goes on in step.
-    pub(super) fn back_in_step(&mut self, tag: Tag, findings: &mut Vec<Finding>) -> bool {
+    pub(crate) fn back_in_step(&mut self, tag: Tag, findings: &mut Vec<Finding>) -> bool {
         let line = tag.value_line();
         let kept = self.score(line + 1);
         if kept == FULL || self.score(line) <= kept {

@@ -4,18 +4,18 @@ use super::number::trimmed;
 use crate::text::{LineStarts, SourceText};
 use std::ops::Range;
 
-pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Lines by number, without line ends, without a byte-order mark, without the empty line behind the last line end.
 #[derive(Clone, Copy)]
-pub(super) struct Lines<'a> {
+pub(crate) struct Lines<'a> {
     bytes: &'a [u8],
     starts: &'a LineStarts,
     count: usize,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn new(text: &'a SourceText) -> Lines<'a> {
+    pub(crate) fn new(text: &'a SourceText) -> Lines<'a> {
         let (bytes, starts) = (text.bytes(), text.line_starts());
         let empty_last = starts
             .len()
@@ -29,24 +29,24 @@ impl<'a> Lines<'a> {
         }
     }
 
-    pub(super) fn bytes(&self) -> &'a [u8] {
+    pub(crate) fn bytes(&self) -> &'a [u8] {
         self.bytes
     }
 
-    pub(super) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 
     /// True when the last line has no line end: it may be cut.
-    pub(super) fn last_is_open(&self) -> bool {
+    pub(crate) fn last_is_open(&self) -> bool {
         self.count == self.starts.len()
     }
 
-    pub(super) fn has_byte_order_mark(&self) -> bool {
+    pub(crate) fn has_byte_order_mark(&self) -> bool {
         self.bytes.starts_with(BYTE_ORDER_MARK)
     }
 
-    pub(super) fn range(&self, line: usize) -> Range<usize> {
+    pub(crate) fn range(&self, line: usize) -> Range<usize> {
         let Some(mut start) = self.starts.get(line) else {
             return self.bytes.len()..self.bytes.len();
         };
@@ -68,19 +68,19 @@ impl<'a> Lines<'a> {
         start..end
     }
 
-    pub(super) fn content(&self, line: usize) -> &'a [u8] {
+    pub(crate) fn content(&self, line: usize) -> &'a [u8] {
         &self.bytes[self.range(line)]
     }
 
     /// Where a line's content stands without padding.
-    pub(super) fn trimmed_range(&self, line: usize) -> Range<usize> {
+    pub(crate) fn trimmed_range(&self, line: usize) -> Range<usize> {
         let range = self.range(line);
         let inner = trimmed(&self.bytes[range.clone()]);
         range.start + inner.start..range.start + inner.end
     }
 
     /// A line's content without padding.
-    pub(super) fn trimmed(&self, line: usize) -> &'a [u8] {
+    pub(crate) fn trimmed(&self, line: usize) -> &'a [u8] {
         &self.bytes[self.trimmed_range(line)]
     }
 }

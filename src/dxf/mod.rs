@@ -19,13 +19,12 @@ mod foreign;
 mod frame;
 mod insert;
 mod johab;
-pub mod language;
 mod layer_table;
 mod layers;
-mod lexer;
-mod lines;
-mod number;
-mod place;
+pub(crate) mod lexer;
+pub(crate) mod lines;
+pub(crate) mod number;
+pub(crate) mod place;
 mod plain;
 mod reader;
 mod record;
@@ -33,7 +32,7 @@ mod shape;
 mod sleep;
 mod space;
 mod strings;
-mod table;
+pub(crate) mod table;
 #[cfg(test)]
 mod tests;
 mod write;
@@ -131,6 +130,11 @@ impl Document {
         if too_long {
             self.is_no_dxf(say!(the_text_is_longer_than_4_gib));
         }
+    }
+
+    /// What became of each record.
+    pub(crate) fn table(&self) -> &Table {
+        &self.table
     }
 
     pub fn text(&self) -> &SourceText {
@@ -745,7 +749,7 @@ fn fit_tolerance(arc_fit: Option<f64>, unit: Option<Unit>) -> f64 {
 }
 
 /// The unit that a value of `$INSUNITS` stands for (DXF reference, HEADER section); `None` where it is no length.
-fn unit_of(insunits: i32) -> Option<Unit> {
+pub(crate) fn unit_of(insunits: i32) -> Option<Unit> {
     let mm = match insunits {
         1 => 25.4,
         2 => 304.8,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// What is left of `bytes` without padding (spaces and tabs) on either side, as a range within them.
-pub(super) fn trimmed(bytes: &[u8]) -> Range<usize> {
+pub(crate) fn trimmed(bytes: &[u8]) -> Range<usize> {
     let padding = |byte: &u8| matches!(byte, b' ' | b'\t');
     let start = bytes
         .iter()
@@ -18,7 +18,7 @@ pub(super) fn trimmed(bytes: &[u8]) -> Range<usize> {
 
 /// What a line that should be a group code is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Code {
+pub(crate) enum Code {
     Known(i16),
     /// A whole number that no group code can be.
     OutOfRange,
@@ -26,7 +26,7 @@ pub(super) enum Code {
 }
 
 /// Reads a group code; padding is allowed.
-pub(super) fn code(line: &[u8]) -> Code {
+pub(crate) fn code(line: &[u8]) -> Code {
     // Nearly all code lines are one to four digits behind spaces.
     let mut at = 0;
     while at < line.len() && matches!(line[at], b' ' | b'\t') {
@@ -66,7 +66,7 @@ fn in_range(value: i32) -> Code {
 
 /// What a value that should be a number is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Number {
+pub(crate) enum Number {
     Exact(f64),
     /// A number with a blemish that a person should hear of.
     Blemished(f64, &'static str),
@@ -79,7 +79,7 @@ const POWERS: [f64; 23] = [
 ];
 
 /// Reads a decimal number; padding is allowed. Only finite numbers in decimal notation are numbers.
-pub(super) fn number(line: &[u8]) -> Number {
+pub(crate) fn number(line: &[u8]) -> Number {
     let text = &line[trimmed(line)];
     if let Some(value) = decimal(text) {
         return Number::Exact(value);
@@ -107,7 +107,7 @@ pub(super) fn number(line: &[u8]) -> Number {
 /// The number `[-] digits [. digits]` that bytes begin with, and its length. `None` also where it is one, but too long to be read in
 /// one step.
 #[inline]
-pub(super) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
+pub(crate) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
     let digit = |at: usize| {
         bytes
             .get(at)
@@ -253,7 +253,7 @@ fn decimal(text: &[u8]) -> Option<f64> {
 }
 
 /// A number as DXF text: no exponent, at most `decimals` decimals and at least one.
-pub(super) fn written(value: f64, decimals: usize) -> String {
+pub(crate) fn written(value: f64, decimals: usize) -> String {
     let mut text = format!("{value:.decimals$}");
     if text.contains('.') {
         while text.ends_with('0') && !text.ends_with(".0") {

@@ -9,7 +9,7 @@ use crate::finding::Place;
 use std::ops::Range;
 
 /// The tags between two lines that are in step, as all of an entity with geometry are.
-pub(super) fn tags<'a>(lines: Lines<'a>, range: Range<usize>) -> impl Iterator<Item = Tag> + 'a {
+pub(crate) fn tags<'a>(lines: Lines<'a>, range: Range<usize>) -> impl Iterator<Item = Tag> + 'a {
     let end = range.end.min(lines.count());
     (range.start..end.saturating_sub(1))
         .step_by(2)
@@ -20,7 +20,7 @@ pub(super) fn tags<'a>(lines: Lines<'a>, range: Range<usize>) -> impl Iterator<I
 }
 
 /// The tags of one record that are its own: not those of the next record, of other programs, or of an embedded object.
-pub(super) fn own_tags<'a>(
+pub(crate) fn own_tags<'a>(
     lines: Lines<'a>,
     range: Range<usize>,
 ) -> impl Iterator<Item = Tag> + 'a {
@@ -90,7 +90,7 @@ impl Document {
     }
 
     /// The lines of a vertex: from its first tag to that of the next vertex, for the last one to the end of the entity.
-    pub(super) fn vertex_lines(&self, entity: EntityId, index: usize) -> Option<Range<usize>> {
+    pub(crate) fn vertex_lines(&self, entity: EntityId, index: usize) -> Option<Range<usize>> {
         let vertices = self.table.vertices.get(&entity)?;
         let item = self
             .table
@@ -179,7 +179,7 @@ impl Document {
 }
 
 /// The own tags of a vertex, whether it is a record of its own or a part of a LWPOLYLINE.
-pub(super) fn vertex_tags<'a>(
+pub(crate) fn vertex_tags<'a>(
     lines: Lines<'a>,
     range: Range<usize>,
 ) -> impl Iterator<Item = Tag> + 'a {

@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The section in which a record stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Context {
+pub(crate) enum Context {
     Outside,
     Entities,
     /// What is drawn where a block is referred to.
@@ -17,7 +17,7 @@ pub(super) enum Context {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Became {
+pub(crate) enum Became {
     /// Text that is kept and says nothing about the drawing's modelspace.
     Nothing,
     /// SECTION, ENDSEC or EOF: decides what the records after it are. A HEADER says the unit (`$INSUNITS`).
@@ -44,7 +44,7 @@ pub(super) enum Became {
 
 /// Whence an entity has its handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Named {
+pub(crate) enum Named {
     ByText,
     ByOrdinal,
     /// The text's handle was taken.
@@ -53,15 +53,15 @@ pub(super) enum Named {
 
 /// One record, or a POLYLINE or INSERT with the records that belong to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Item {
+pub(crate) struct Item {
     /// Where it stands, its own change of section not counted.
-    pub(super) context: Context,
-    pub(super) became: Became,
-    pub(super) named: Named,
+    pub(crate) context: Context,
+    pub(crate) became: Became,
+    pub(crate) named: Named,
 }
 
 impl Item {
-    pub(super) fn entity(&self) -> Option<EntityId> {
+    pub(crate) fn entity(&self) -> Option<EntityId> {
         match self.became {
             Became::Entity(entity) => Some(entity),
             _ => None,
@@ -69,7 +69,7 @@ impl Item {
     }
 
     /// All entities that it became.
-    pub(super) fn entities(&self) -> impl Iterator<Item = EntityId> + use<> {
+    pub(crate) fn entities(&self) -> impl Iterator<Item = EntityId> + use<> {
         let (first, count) = match self.became {
             Became::Entity(entity) => (entity, 1),
             Became::Parts { first, count } => (first, count),
@@ -79,7 +79,7 @@ impl Item {
     }
 
     /// True for what counts as an entity of the file.
-    pub(super) fn is_entity(&self) -> bool {
+    pub(crate) fn is_entity(&self) -> bool {
         matches!(
             self.became,
             Became::Entity(_) | Became::Parts { .. } | Became::Unsupported(_) | Became::Damaged
@@ -87,17 +87,17 @@ impl Item {
     }
 }
 
-pub(super) const NO_ITEM: u32 = u32::MAX;
+pub(crate) const NO_ITEM: u32 = u32::MAX;
 
 /// Kinds of entities that are not cut, with the reason; each once.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Kinds {
+pub(crate) struct Kinds {
     kinds: Vec<(String, &'static str)>,
     by_name: FxHashMap<(String, &'static str), u32>,
 }
 
 impl Kinds {
-    pub(super) fn index(&mut self, kind: String, why: &'static str) -> u32 {
+    pub(crate) fn index(&mut self, kind: String, why: &'static str) -> u32 {
         let key = (kind, why);
         if let Some(&index) = self.by_name.get(&key) {
             return index;
@@ -108,54 +108,54 @@ impl Kinds {
         index
     }
 
-    pub(super) fn get(&self, index: u32) -> Option<&(String, &'static str)> {
+    pub(crate) fn get(&self, index: u32) -> Option<&(String, &'static str)> {
         self.kinds.get(index as usize)
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.kinds.len()
     }
 }
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct Table {
+pub(crate) struct Table {
     /// The first line of each item, ascending, the first of them 0.
-    pub(super) lines: Vec<u32>,
-    pub(super) items: Vec<Item>,
+    pub(crate) lines: Vec<u32>,
+    pub(crate) items: Vec<Item>,
     /// The item of each entity, by its id.
-    pub(super) item_of: Vec<u32>,
-    pub(super) vertices: FxHashMap<EntityId, VertexLines>,
-    pub(super) kinds: Kinds,
+    pub(crate) item_of: Vec<u32>,
+    pub(crate) vertices: FxHashMap<EntityId, VertexLines>,
+    pub(crate) kinds: Kinds,
     /// What of a block is not cut, and why, by the first entity that its reference became: kind and how many.
-    pub(super) left_out: FxHashMap<EntityId, Vec<(u32, usize)>>,
-    pub(super) layers: Vec<LayerEntry>,
+    pub(crate) left_out: FxHashMap<EntityId, Vec<(u32, usize)>>,
+    pub(crate) layers: Vec<LayerEntry>,
     pub(super) states: LayerStates,
     /// Entities that are named by their ordinal, and that were named anew.
-    pub(super) by_ordinal: usize,
-    pub(super) named_anew: usize,
+    pub(crate) by_ordinal: usize,
+    pub(crate) named_anew: usize,
     /// Blocks that are drawn somewhere, in the order of the text.
-    pub(super) used: Vec<bool>,
+    pub(crate) used: Vec<bool>,
     /// Arcs that the curves take beyond what each has free, and whether one was left out since all of them would take too many.
-    pub(super) curve_arcs: u64,
-    pub(super) lacks_curves: bool,
+    pub(crate) curve_arcs: u64,
+    pub(crate) lacks_curves: bool,
     /// How near a fitted arc lies to its curve, in drawing units.
-    pub(super) fit_tolerance: f64,
+    pub(crate) fit_tolerance: f64,
     /// Sections ENTITIES.
-    pub(super) sections: usize,
+    pub(crate) sections: usize,
     /// Handles of what is the frame of a text.
-    pub(super) frames: FxHashSet<u64>,
+    pub(crate) frames: FxHashSet<u64>,
 }
 
 impl Table {
     /// The item that holds a line.
-    pub(super) fn item_at(&self, line: usize) -> Option<usize> {
+    pub(crate) fn item_at(&self, line: usize) -> Option<usize> {
         self.lines
             .partition_point(|&start| start as usize <= line)
             .checked_sub(1)
     }
 
     /// The item of an entity.
-    pub(super) fn item_of(&self, entity: EntityId) -> Option<usize> {
+    pub(crate) fn item_of(&self, entity: EntityId) -> Option<usize> {
         self.item_of
             .get(entity.0 as usize)
             .filter(|&&item| item != NO_ITEM)
@@ -163,7 +163,7 @@ impl Table {
     }
 
     /// First and one past the last line of an item; `line_count` ends the last one.
-    pub(super) fn lines_of(&self, item: usize, line_count: usize) -> std::ops::Range<usize> {
+    pub(crate) fn lines_of(&self, item: usize, line_count: usize) -> std::ops::Range<usize> {
         let start = self
             .lines
             .get(item)
@@ -176,14 +176,14 @@ impl Table {
     }
 
     /// Gives back the room that was made ahead.
-    pub(super) fn shrink_to_fit(&mut self) {
+    pub(crate) fn shrink_to_fit(&mut self) {
         self.lines.shrink_to_fit();
         self.items.shrink_to_fit();
         self.item_of.shrink_to_fit();
         self.vertices.shrink_to_fit();
     }
 
-    pub(super) fn set_item_of(&mut self, entity: EntityId, item: u32) {
+    pub(crate) fn set_item_of(&mut self, entity: EntityId, item: u32) {
         let index = entity.0 as usize;
         if index >= self.item_of.len() {
             self.item_of.resize(index + 1, NO_ITEM);

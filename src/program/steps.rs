@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 /// A program of any language, chunk by chunk in the order in which the machine runs them.
-pub(in crate::program) trait Program {
+pub(crate) trait Program {
     fn text(&self) -> &SourceText;
 
     /// How it says where its blocks lead.
@@ -29,7 +29,7 @@ pub(in crate::program) trait Program {
 
 /// What the steps of a chunk come to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::program) struct Sum {
+pub(crate) struct Sum {
     pub moves: usize,
     pub arcs: usize,
     /// Moves without the wire; told only where there are no stops.
@@ -54,7 +54,7 @@ impl Sum {
 }
 
 /// Every step of a program.
-pub(in crate::program) fn trace(program: &dyn Program) -> Trace {
+pub(crate) fn trace(program: &dyn Program) -> Trace {
     let (start, start_is_known) = program.begin();
     let mut trace = Trace {
         steps: Vec::new(),
@@ -70,7 +70,7 @@ pub(in crate::program) fn trace(program: &dyn Program) -> Trace {
 }
 
 /// The steps whose text overlaps or touches a range of bytes.
-pub(in crate::program) fn steps_in(program: &dyn Program, range: Range<usize>) -> Vec<Step> {
+pub(crate) fn steps_in(program: &dyn Program, range: Range<usize>) -> Vec<Step> {
     let text = program.text();
     let wanted = text.line_of(range.start)..text.line_of(range.end) + 1;
     let mut steps = Vec::new();
@@ -92,7 +92,7 @@ pub(in crate::program) fn steps_in(program: &dyn Program, range: Range<usize>) -
 
 /// The moves between two stops of which one touches a byte, and the number of that one among them: of two that touch it, the one that
 /// begins there. At least `ends` of either end are held, where there are as many.
-pub(in crate::program) fn chain_at(
+pub(crate) fn chain_at(
     program: &dyn Program,
     offset: usize,
     ends: usize,
@@ -112,10 +112,7 @@ pub(in crate::program) fn chain_at(
 }
 
 /// The moves from the last stop on that stand before a byte, by their ends.
-pub(in crate::program) fn chain_before(
-    program: &dyn Program,
-    offset: usize,
-) -> Option<Chain<'static>> {
+pub(crate) fn chain_before(program: &dyn Program, offset: usize) -> Option<Chain<'static>> {
     let line = program.text().line_of(offset);
     let mut walk = Walk::through(program);
     let at = (0..program.chunk_count())
@@ -135,10 +132,7 @@ pub(in crate::program) fn chain_before(
 }
 
 /// The first stop behind a byte.
-pub(in crate::program) fn stop_behind(
-    program: &dyn Program,
-    offset: usize,
-) -> Option<Range<usize>> {
+pub(crate) fn stop_behind(program: &dyn Program, offset: usize) -> Option<Range<usize>> {
     let line = program.text().line_of(offset);
     let mut walk = Walk::through(program);
     (0..program.chunk_count())
@@ -152,7 +146,7 @@ pub(in crate::program) fn stop_behind(
 }
 
 /// The first block that moves.
-pub(in crate::program) fn first_move(program: &dyn Program) -> Option<Range<usize>> {
+pub(crate) fn first_move(program: &dyn Program) -> Option<Range<usize>> {
     let mut walk = Walk::through(program);
     (0..program.chunk_count())
         .filter(|chunk| program.sum_of(*chunk).moves > 0)

@@ -9,8 +9,8 @@ use super::token_memory::TokenMemory;
 use super::transport::panic_text;
 use crate::document::{self, Document, Source};
 use crate::dxf;
-use crate::dxf::language::{Name, name_at};
 use crate::finding::{Rule, Severity};
+use crate::ide::dxf::{Name, name_at};
 use crate::program;
 use crate::settings::{Effective, SettingsError, from_json};
 use crate::text::{Encoding, SourceText, TextEdit};
@@ -208,6 +208,12 @@ impl RequestContext {
 
     pub fn program(&self) -> Option<&program::Document> {
         self.document()?.program()
+    }
+
+    /// The document, where it has a text.
+    pub fn document_and_text(&self) -> Option<(&Document, &SourceText)> {
+        let document = self.document()?;
+        Some((document, document.text()?))
     }
 
     pub fn dxf(&self) -> Option<&dxf::Document> {

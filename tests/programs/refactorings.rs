@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use wedm::document::{Document, Source};
 use wedm::finding::Severity;
 use wedm::program::Proposal;
-use wedm::program::language::{refactorings, scaled};
 use wedm::program::{self, Language};
+use wedm::program::{refactorings, scaled};
 use wedm::settings::Effective;
 use wedm::text::TextEdit;
 

@@ -35,9 +35,9 @@ pub struct Document {
     /// The stops within contours, before their tabs, in the order in which they run.
     tabs: Vec<StopAt>,
     /// What settings a fault is held against.
-    pub(super) limits: Box<Limits>,
+    pub(crate) limits: Box<Limits>,
     /// What the program puts into the control's table.
-    pub(super) table: Box<Table>,
+    pub(crate) table: Box<Table>,
     /// The slips that may be behind what is wrong, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
 }
@@ -98,7 +98,7 @@ impl Document {
         &self.reading
     }
 
-    pub(super) fn evidence(&self) -> &Evidence {
+    pub(crate) fn evidence(&self) -> &Evidence {
         &self.evidence
     }
 

@@ -10,19 +10,19 @@ const LOOKED_BACK: usize = 50;
 
 impl Document {
     /// Whether some line calls the subprogram with a number.
-    pub(super) fn calls(&self, number: u32) -> bool {
+    pub(crate) fn calls(&self, number: u32) -> bool {
         self.order()
             .is_some_and(|order| order.called.contains(&number))
     }
 
     /// The line of the subprogram with a number, where it is called.
-    pub(super) fn called_line(&self, number: u32) -> Option<usize> {
+    pub(crate) fn called_line(&self, number: u32) -> Option<usize> {
         self.order()?.labels.get(&number).copied()
     }
 
     /// The subprograms that a call may name, with their lines: those that are called, and what stands behind the end of a program
     /// without calls, where it is run by nobody yet.
-    pub(super) fn subprograms(&self) -> BTreeMap<u32, usize> {
+    pub(crate) fn subprograms(&self) -> BTreeMap<u32, usize> {
         if let Some(order) = self.order() {
             let called = order.called.iter();
             return called
@@ -49,7 +49,7 @@ impl Document {
     }
 
     /// The last block number before a line, and the step in which they count there.
-    pub(super) fn numbers_before(&self, line: usize) -> Option<(u32, u32)> {
+    pub(crate) fn numbers_before(&self, line: usize) -> Option<(u32, u32)> {
         let mut numbers = (line.saturating_sub(LOOKED_BACK)..line)
             .rev()
             .filter_map(|line| self.block(line).number)
@@ -66,7 +66,7 @@ impl Document {
     }
 
     /// The number of the next block behind a line that has one.
-    pub(super) fn number_behind(&self, line: usize) -> Option<u32> {
+    pub(crate) fn number_behind(&self, line: usize) -> Option<u32> {
         self.lines_behind(line)
             .find_map(|line| self.block(line).number)
     }

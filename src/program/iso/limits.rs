@@ -8,7 +8,7 @@ use std::sync::{Arc, LazyLock};
 
 /// The settings that decide what is a fault.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Limits {
+pub(crate) struct Limits {
     /// mm, where the program's own table does not say.
     pub correction: f64,
     pub side: crate::settings::SideSetting,

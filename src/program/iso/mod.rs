@@ -2,21 +2,20 @@
 //!
 //! How numbers and arc centres are meant differs from machine to machine and is found from the program itself, never assumed.
 
-mod block;
+pub(crate) mod block;
 mod control;
 mod corner;
 mod crossings;
 mod cuts;
-mod document;
+pub(crate) mod document;
 mod encode;
 mod evidence;
 mod fixes;
-mod labels;
-pub mod language;
+pub(crate) mod labels;
 mod layout;
 mod limits;
 mod line;
-mod machine;
+pub(crate) mod machine;
 mod numbers;
 mod order;
 mod read;
@@ -25,20 +24,20 @@ mod repair;
 mod report;
 mod run;
 mod shape;
-mod steps;
+pub(crate) mod steps;
 mod stretch;
-mod style;
+pub(crate) mod style;
 mod table;
 mod taper;
 #[cfg(test)]
 mod tests;
-mod word;
+pub(crate) mod word;
 mod write;
 
 pub use block::{Block, Compensation, Corner, Motion, Note, Offset, Stop, read_line};
 pub use document::Document;
 pub use layout::format;
-pub(in crate::program) use numbers::renamed;
+pub(crate) use numbers::renamed;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
 pub use machine::{CenterRule, Course, Machine, Move, Reading};

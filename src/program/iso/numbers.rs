@@ -128,7 +128,7 @@ pub(super) fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, Stri
 /// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
 ///
 /// Errors: a name that is no number, or one that another block has.
-pub(in crate::program) fn renamed(
+pub(crate) fn renamed(
     document: &Document,
     digits: Range<usize>,
     old: u32,

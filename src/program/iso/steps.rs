@@ -17,7 +17,7 @@ use std::ops::Range;
 
 /// A cut that has begun before some line and may go on in it, nm.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Begun {
+pub(crate) struct Begun {
     /// Its first move, which is the way in where it has one.
     pub from: Place,
     pub to: Place,
@@ -89,7 +89,7 @@ impl Document {
     }
 
     /// Hands out the moves in the order in which they run, each with its line and what is in force behind it.
-    pub(super) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
+    pub(crate) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
         for stretch in 0..self.stretches().len() {
             self.run_lines(stretch, &mut |ran| {
                 for made in ran.moves() {
@@ -100,7 +100,7 @@ impl Document {
     }
 
     /// A move up to where the corner at its end begins, and that corner.
-    pub(super) fn turned(
+    pub(crate) fn turned(
         &self,
         line: usize,
         made: Move,
@@ -119,7 +119,7 @@ impl Document {
     }
 
     /// True where the control makes corners of its own.
-    pub(super) fn has_corners(&self) -> bool {
+    pub(crate) fn has_corners(&self) -> bool {
         self.stretches().iter().any(|stretch| stretch.has_corners)
     }
 
@@ -140,23 +140,23 @@ impl Document {
     }
 
     /// What is in force, and where the wire stands, before a line; `None` for a line that does not run.
-    pub(super) fn machine_before(&self, line: usize) -> Option<Machine> {
+    pub(crate) fn machine_before(&self, line: usize) -> Option<Machine> {
         self.run_up_to(line, false)
             .map(|(_, stretch)| stretch.after)
     }
 
     /// What is in force behind a line.
-    pub(super) fn machine_behind(&self, line: usize) -> Option<Machine> {
+    pub(crate) fn machine_behind(&self, line: usize) -> Option<Machine> {
         self.run_up_to(line, true).map(|(_, stretch)| stretch.after)
     }
 
     /// The cut that is under way before a line.
-    pub(super) fn begun_cut(&self, line: usize) -> Option<Begun> {
+    pub(crate) fn begun_cut(&self, line: usize) -> Option<Begun> {
         self.begun(self.run_up_to(line, false)?)
     }
 
     /// The cut that is under way behind a line.
-    pub(super) fn begun_cut_with(&self, line: usize) -> Option<Begun> {
+    pub(crate) fn begun_cut_with(&self, line: usize) -> Option<Begun> {
         self.begun(self.run_up_to(line, true)?)
     }
 

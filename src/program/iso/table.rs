@@ -25,12 +25,12 @@ impl Document {
     }
 
     /// The correction in nm that the program itself puts into a place of the control's table.
-    pub(super) fn table_value(&self, offset: Offset) -> Option<i64> {
+    pub(crate) fn table_value(&self, offset: Offset) -> Option<i64> {
         self.table.get(&offset).copied()
     }
 
     /// The places of the control's table that the program fills, with their values in nm, and those that its first lines use.
-    pub(super) fn table_places(&self, letter: u8) -> Vec<(u32, Option<i64>)> {
+    pub(crate) fn table_places(&self, letter: u8) -> Vec<(u32, Option<i64>)> {
         let mut places: BTreeMap<u32, Option<i64>> = self
             .used_places()
             .filter(|its| its.letter == letter)
@@ -47,7 +47,7 @@ impl Document {
     }
 
     /// The corrections that the program itself puts into the control's table: their names, and mm.
-    pub(in crate::program) fn stated_corrections(&self) -> Vec<(String, f64)> {
+    pub(crate) fn stated_corrections(&self) -> Vec<(String, f64)> {
         let mut places: Vec<_> = self
             .table
             .iter()
@@ -66,7 +66,7 @@ impl Document {
     }
 
     /// `D` or `H`, as the program names places of the control's table.
-    pub(super) fn table_letter(&self) -> u8 {
+    pub(crate) fn table_letter(&self) -> u8 {
         let defined = self
             .stretches()
             .iter()
@@ -79,7 +79,7 @@ impl Document {
     }
 
     /// The place of the table that a program names, where it names but one.
-    pub(super) fn only_offset(&self) -> Option<Offset> {
+    pub(crate) fn only_offset(&self) -> Option<Offset> {
         let mut all = self
             .table
             .keys()

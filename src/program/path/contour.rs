@@ -218,7 +218,7 @@ pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<boo
 mod tests {
     use super::*;
     use crate::finding::Rule;
-    use crate::program::language::{SymbolKind, symbols};
+    use crate::ide::program::{SymbolKind, symbols};
     use crate::program::path::cuts;
     use crate::program::{Document, Language, convert};
     use crate::settings::Effective;

@@ -16,7 +16,7 @@ pub(in crate::program) use contour::{closing, gap, goes_round, is_tab};
 pub(in crate::program) use crossing::{crossings as crossings_of, near_each_other};
 pub(in crate::program) use crossings::{Found, Known};
 pub use cut::Cut;
-pub(in crate::program) use cut::{cut_at, cut_of, cuts};
+pub(crate) use cut::{cut_at, cut_of, cuts};
 pub(in crate::program) use passes::{passes, pieces_of};
 pub(in crate::program) use tight::{UM_IN_MM, is_tight};
 pub use trace::{Chain, Kind, Step, Trace};

@@ -128,12 +128,12 @@ impl Document {
     }
 
     /// The words between blocks.
-    pub(in crate::program) fn words(&self) -> Words<'_> {
+    pub(crate) fn words(&self) -> Words<'_> {
         self.words.words()
     }
 
     /// The largest number that the controller takes, µm.
-    pub(in crate::program) fn largest(&self) -> i64 {
+    pub(crate) fn largest(&self) -> i64 {
         self.limits.largest()
     }
 

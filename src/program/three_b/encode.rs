@@ -8,10 +8,10 @@ pub use crate::program::grid::{point_of, snap};
 use std::f64::consts::{PI, TAU};
 
 /// How far a decoded block may end from its node, µm.
-pub(super) const END_TOLERANCE: f64 = 1.5;
+pub(crate) const END_TOLERANCE: f64 = 1.5;
 
 /// How far a decoded block may lie from its piece of the path, anywhere, µm.
-pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
+pub(crate) const ASIDE_TOLERANCE: f64 = 2.5;
 
 /// The largest sagitta of a chord that stands for a piece of an arc too large for the format, µm.
 const CHORD_SAGITTA: f64 = 0.5;
@@ -73,7 +73,7 @@ fn encode_line(
 /// The block of a straight line between two different nodes.
 ///
 /// A line at 45° counts Y in the quadrants I and III, X in II and IV; sources disagree, and J is the same either way.
-pub(super) fn line_block(from: Node, to: Node) -> Block {
+pub(crate) fn line_block(from: Node, to: Node) -> Block {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
     let (x, y) = (dx.abs(), dy.abs());
     let quadrant = Quadrant::counter_clockwise(dx, dy);
@@ -201,7 +201,7 @@ fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
 }
 
 /// Other blocks that stand for the same arc within tolerance: about another centre, or counting 1 µm more or less.
-pub(super) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
+pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
     let Segment::Arc(arc) = &encoded.piece else {
         return Vec::new();
     };
@@ -289,7 +289,7 @@ fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -
 }
 
 /// What a controller counts on an axis along an arc.
-pub(super) fn counted(arc: &Arc, axis: CountingAxis) -> f64 {
+pub(crate) fn counted(arc: &Arc, axis: CountingAxis) -> f64 {
     let (first, last) = match axis {
         CountingAxis::X => (arc.start.x - arc.center.x, arc.end.x - arc.center.x),
         CountingAxis::Y => (arc.start.y - arc.center.y, arc.end.y - arc.center.y),

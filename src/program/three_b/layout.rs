@@ -4,7 +4,7 @@ use super::block::{Block, CountingAxis, Motion, Node, PartArc};
 use crate::settings::Layout;
 
 /// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point stand in the checking layout only.
-pub(super) fn push_block(
+pub(crate) fn push_block(
     out: &mut Vec<u8>,
     layout: Layout,
     number: usize,
@@ -24,14 +24,14 @@ pub(super) fn push_block(
 }
 
 /// Appends `N   12: `.
-pub(super) fn push_block_number(out: &mut Vec<u8>, number: u64) {
+pub(crate) fn push_block_number(out: &mut Vec<u8>, number: u64) {
     out.push(b'N');
     push_number(out, number, 5);
     out.extend_from_slice(b": ");
 }
 
 /// Appends the block itself, from its first `B` to the quadrant; with `part` it is one of 4B.
-pub(super) fn push_fields(
+pub(crate) fn push_fields(
     out: &mut Vec<u8>,
     layout: Layout,
     block: &Block,
@@ -67,7 +67,7 @@ pub(super) fn push_fields(
 }
 
 /// Appends the spaces behind a block in columns, so that what follows lines and arcs stands in one column.
-pub(super) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
+pub(crate) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
     out.extend_from_slice(if matches!(block.motion, Motion::Line(_)) {
         b"  "
     } else {
@@ -76,7 +76,7 @@ pub(super) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
 }
 
 /// Appends `; x , y`, the absolute end point in mm.
-pub(super) fn push_end_point(out: &mut Vec<u8>, end: Node) {
+pub(crate) fn push_end_point(out: &mut Vec<u8>, end: Node) {
     out.extend_from_slice(b"; ");
     push_millimetres(out, end.x, 10);
     out.extend_from_slice(b" , ");
@@ -84,7 +84,7 @@ pub(super) fn push_end_point(out: &mut Vec<u8>, end: Node) {
 }
 
 /// Appends the header that carries the absolute start of a program, which blocks cannot.
-pub(super) fn push_start_point(out: &mut Vec<u8>, start: Node) {
+pub(crate) fn push_start_point(out: &mut Vec<u8>, start: Node) {
     out.extend_from_slice(b"; Start Point = ");
     push_millimetres(out, start.x, 0);
     out.extend_from_slice(b" , ");

@@ -2,17 +2,18 @@
 //!
 //! Everything in here counts in micrometres on the program's grid; only [`write()`] knows of a drawing's unit.
 
-mod block;
-mod decode;
+pub(crate) mod block;
+pub(crate) mod decode;
 mod document;
-mod encode;
+pub(crate) mod encode;
 mod entry;
 mod fields;
-pub(in crate::program) mod language;
-mod layout;
+pub(in crate::program) mod format;
+pub(crate) mod layout;
 mod machine;
-mod parse;
+pub(crate) mod parse;
 mod part;
+pub(crate) mod pieces;
 mod plain;
 mod proof;
 pub(in crate::program) mod refactor;

@@ -3,7 +3,7 @@
 use crate::document::{Document, Source};
 use crate::finding::{self, Edit, Finding, Place};
 use crate::job::{self, Repairs};
-use crate::program::language;
+use crate::program;
 use crate::protocol::{self, FindingData, method};
 use crate::server::context::RequestContext;
 use crate::server::convert;
@@ -75,7 +75,7 @@ fn actions(
         && is_asked_for(asked)
     {
         let selection = convert::bytes_of(program.text(), params.range, context.encoding);
-        let proposals = language::refactorings(program, document.settings(), selection, |id| {
+        let proposals = program::refactorings(program, document.settings(), selection, |id| {
             wants(asked, id)
         });
         actions.extend(

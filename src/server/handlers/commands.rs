@@ -1,6 +1,6 @@
 //! `workspace/executeCommand`: the client is asked to change its drawing, or its program's text.
 
-use crate::program::language;
+use crate::program;
 use crate::protocol::{Applied, ApplyDrawingEdit, DrawingEdit, ScaleProgram, method};
 use crate::server::context::RequestContext;
 use crate::server::errors::{internal, moved_on, refused};
@@ -87,7 +87,7 @@ pub(in crate::server) fn scaled(
     let (Some(program), Some(document)) = (context.program(), context.document()) else {
         return Err(refused(say!(is_no_program, context.uri)));
     };
-    let edits = language::scaled(program, document.settings(), params.factor).map_err(refused)?;
+    let edits = program::scaled(program, document.settings(), params.factor).map_err(refused)?;
     context.workspace_edit(program.text(), edits)
 }
 

@@ -1,7 +1,6 @@
 //! `textDocument/completion`: group codes, names of records, layers; the fields of a block.
 
-use crate::dxf::language::{Completion, CompletionKind, completions};
-use crate::program;
+use crate::ide::{Completion, CompletionKind, completions};
 use crate::server::context::RequestContext;
 use ls_types::{
     CompletionItem, CompletionItemKind, CompletionParams, CompletionResponse, CompletionTextEdit,
@@ -14,58 +13,39 @@ pub(in crate::server) fn completion(
     params: CompletionParams,
 ) -> Result<Option<CompletionResponse>> {
     let position = params.text_document_position.position;
-    let snippets = context.abilities.snippets;
-    if let Some(program) = context.program() {
-        let text = program.text();
-        let item = |(index, found): (usize, program::language::Completion)| CompletionItem {
+    let Some((document, text)) = context.document_and_text() else {
+        return Ok(None);
+    };
+    let item = |(index, found): (usize, Completion)| {
+        let is_snippet = found.kind == CompletionKind::Snippet;
+        let typed = text.bytes().get(found.range.clone()).unwrap_or_default();
+        CompletionItem {
             label: found.label,
-            kind: Some(if found.is_snippet {
-                CompletionItemKind::SNIPPET
-            } else {
-                CompletionItemKind::VALUE
+            kind: Some(match found.kind {
+                CompletionKind::Code => CompletionItemKind::PROPERTY,
+                CompletionKind::Record => CompletionItemKind::KEYWORD,
+                CompletionKind::Name | CompletionKind::Word => CompletionItemKind::VALUE,
+                CompletionKind::Snippet => CompletionItemKind::SNIPPET,
             }),
-            detail: Some(found.about),
+            detail: Some(found.about.into_owned()),
+            // Codes are not to be sorted as words.
             sort_text: Some(format!("{index:04}")),
-            filter_text: Some(
-                String::from_utf8_lossy(text.bytes().get(found.range.clone()).unwrap_or_default())
-                    .into_owned(),
-            )
-            .filter(|typed| !typed.is_empty()),
-            insert_text_format: found.is_snippet.then_some(InsertTextFormat::SNIPPET),
+            filter_text: match found.kind {
+                CompletionKind::Word | CompletionKind::Snippet if !typed.is_empty() => {
+                    Some(String::from_utf8_lossy(typed).into_owned())
+                }
+                _ => None,
+            },
+            insert_text_format: is_snippet.then_some(InsertTextFormat::SNIPPET),
             text_edit: Some(CompletionTextEdit::Edit(TextEdit {
                 range: context.range(text, found.range),
                 new_text: found.text,
             })),
             ..CompletionItem::default()
-        };
-        let found = program::language::completions(program, context.offset(text, position));
-        let found = found
-            .into_iter()
-            .filter(|found| snippets || !found.is_snippet);
-        return Ok(Some(CompletionResponse::Array(
-            found.enumerate().map(item).collect(),
-        )));
-    }
-    let Some(dxf) = context.dxf() else {
-        return Ok(None);
+        }
     };
-    let item = |(index, found): (usize, Completion)| CompletionItem {
-        label: found.text.clone(),
-        kind: Some(match found.kind {
-            CompletionKind::Code => CompletionItemKind::PROPERTY,
-            CompletionKind::Record => CompletionItemKind::KEYWORD,
-            CompletionKind::Name => CompletionItemKind::VALUE,
-        }),
-        detail: Some(found.about.into()),
-        // Codes are not to be sorted as words.
-        sort_text: Some(format!("{index:04}")),
-        text_edit: Some(CompletionTextEdit::Edit(TextEdit {
-            range: context.range(dxf.text(), found.range),
-            new_text: found.text,
-        })),
-        ..CompletionItem::default()
-    };
-    let found = completions(dxf, context.offset(dxf.text(), position));
+    let mut found = completions(document, context.offset(text, position));
+    found.retain(|found| context.abilities.snippets || found.kind != CompletionKind::Snippet);
     Ok(Some(CompletionResponse::Array(
         found.into_iter().enumerate().map(item).collect(),
     )))

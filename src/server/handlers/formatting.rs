@@ -1,6 +1,6 @@
 //! `textDocument/formatting`, `rangeFormatting` and `onTypeFormatting`: programs in their layout.
 
-use crate::program::language;
+use crate::program;
 use crate::server::context::RequestContext;
 use crate::server::convert::{bytes_of, lsp_edits};
 use crate::text::SourceText;
@@ -47,6 +47,6 @@ fn formatted(
         return Ok(None);
     };
     let text = program.text();
-    let edits = language::format(program, document.settings(), lines(text));
+    let edits = program::format(program, document.settings(), lines(text));
     Ok(Some(lsp_edits(text, edits, context.encoding)))
 }

@@ -1,6 +1,6 @@
 //! `textDocument/codeLens`: what a client can do with a program, above its first block. For clients that have the commands.
 
-use crate::program::language::{SymbolKind, symbols};
+use crate::ide::program::{SymbolKind, symbols};
 use crate::server::context::RequestContext;
 use ls_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;

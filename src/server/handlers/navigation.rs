@@ -1,8 +1,8 @@
 //! `textDocument/definition`, `references` and `documentHighlight`: handles, layers, blocks, linetypes, text styles; what belongs
 //! together in a program.
 
-use crate::dxf::language::{Occurrence, occurrences};
-use crate::program::language::{highlights, match_of, pauses};
+use crate::ide::dxf::{Occurrence, occurrences};
+use crate::ide::program::{highlights, match_of, pauses};
 use crate::server::context::RequestContext;
 use crate::server::errors::moved_on;
 use crate::text::SourceText;

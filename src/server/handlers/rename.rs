@@ -1,6 +1,6 @@
 //! `textDocument/prepareRename` and `rename`: the number of a block.
 
-use crate::program::language::{number_at, renamed};
+use crate::ide::program::{number_at, renamed};
 use crate::server::context::RequestContext;
 use crate::server::errors::refused;
 use ls_types::{PrepareRenameResponse, RenameParams, TextDocumentPositionParams, WorkspaceEdit};

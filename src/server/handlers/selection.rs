@@ -1,9 +1,7 @@
 //! `textDocument/selectionRange`: value, tag, vertex, entity, section; word, block, contour of a program.
 
-use crate::dxf;
-use crate::program;
+use crate::ide;
 use crate::server::context::RequestContext;
-use crate::text::SourceText;
 use ls_types::{Position, Range, SelectionRange, SelectionRangeParams};
 use tower_lsp::jsonrpc::{Error, Result};
 
@@ -22,33 +20,22 @@ pub(in crate::server) fn selection_range(
             PLACES
         )));
     }
-    type Ranges = Vec<std::ops::Range<usize>>;
-    let around = |text: &SourceText, selections: &dyn Fn(usize) -> Ranges| {
-        let around = |position: &Position| {
-            let wrap = |parent: Option<SelectionRange>, range| {
-                Some(SelectionRange {
-                    range: context.range(text, range),
-                    parent: parent.map(Box::new),
-                })
-            };
-            let ranges = selections(context.offset(text, *position)).into_iter();
-            ranges
-                .rev()
-                .fold(None, wrap)
-                .unwrap_or_else(|| SelectionRange {
-                    range: Range::new(*position, *position),
-                    parent: None,
-                })
-        };
-        positions.iter().map(around).collect()
+    let Some((document, text)) = context.document_and_text() else {
+        return Ok(None);
     };
-    Ok(match (context.program(), context.dxf()) {
-        (Some(program), _) => Some(around(program.text(), &|offset| {
-            program::language::selections(program, offset)
-        })),
-        (_, Some(dxf)) => Some(around(dxf.text(), &|offset| {
-            dxf::language::selections(dxf, offset)
-        })),
-        _ => None,
-    })
+    let around = |position: Position| {
+        let wrap = |parent: Option<SelectionRange>, range| {
+            Some(SelectionRange {
+                range: context.range(text, range),
+                parent: parent.map(Box::new),
+            })
+        };
+        let ranges = ide::selections(document, context.offset(text, position)).into_iter();
+        let nothing = || SelectionRange {
+            range: Range::new(position, position),
+            parent: None,
+        };
+        ranges.rev().fold(None, wrap).unwrap_or_else(nothing)
+    };
+    Ok(Some(positions.into_iter().map(around).collect()))
 }

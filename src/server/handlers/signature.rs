@@ -1,6 +1,6 @@
 //! `textDocument/signatureHelp`: which number of a block the cursor is in.
 
-use crate::program::language::signature;
+use crate::ide::program::signature;
 use crate::server::context::RequestContext;
 use ls_types::{
     Documentation, MarkupContent, MarkupKind, ParameterInformation, ParameterLabel, SignatureHelp,

@@ -1,8 +1,7 @@
 //! `textDocument/documentSymbol`: sections, tables, layers, blocks, entities, contours; contours and blocks of programs.
 
 use crate::drawing::{Drawing, Outline};
-use crate::dxf::language::{ContourNote, Node, NodeKind, outline, symbols};
-use crate::program;
+use crate::ide::dxf::{ContourNote, Node, NodeKind, outline, symbols};
 use crate::server::context::RequestContext;
 use crate::server::errors::moved_on;
 use crate::text::SourceText;
@@ -18,7 +17,7 @@ pub(in crate::server) fn document_symbol(
     _: DocumentSymbolParams,
 ) -> Result<Option<DocumentSymbolResponse>> {
     if let Some(program) = context.program() {
-        let tree = program::language::symbols(program).into_iter();
+        let tree = crate::ide::program::symbols(program).into_iter();
         let tree = tree.map(Listed::of_program).collect();
         return answer(context, program.text(), tree).map(Some);
     }
@@ -59,8 +58,8 @@ impl Listed {
         }
     }
 
-    fn of_program(symbol: program::language::Symbol) -> Listed {
-        use program::language::SymbolKind as Of;
+    fn of_program(symbol: crate::ide::program::Symbol) -> Listed {
+        use crate::ide::program::SymbolKind as Of;
         let kind = match symbol.kind {
             Of::Contour => SymbolKind::CLASS,
             Of::Lead => SymbolKind::CONSTRUCTOR,

@@ -1,8 +1,7 @@
 //! `textDocument/semanticTokens`: of the whole text, of what has changed in it, and of the lines in sight.
 
-use crate::dxf::language::{Token, TokenKind, tokens, tokens_in};
-use crate::program;
-use crate::program::language::{WordKind, words_of};
+use crate::ide::dxf::{Token, TokenKind, tokens, tokens_in};
+use crate::ide::program::{WordKind, words_of};
 use crate::server::context::RequestContext;
 use crate::server::errors::moved_on;
 use crate::text::{Encoding, SourceText};
@@ -57,7 +56,7 @@ fn kind_of(kind: WordKind) -> Option<TokenKind> {
 
 /// The tokens of some lines of a program, at most `limit`.
 fn tokens_of(
-    program: &program::Document,
+    program: &crate::program::Document,
     lines: std::ops::Range<usize>,
     limit: usize,
 ) -> Vec<Token> {
@@ -65,7 +64,7 @@ fn tokens_of(
     let mut found = Vec::new();
     for line in lines.start..lines.end.min(text.line_count()) {
         let begin = text.line_start(line);
-        let token = |part: program::language::Part| {
+        let token = |part: crate::ide::program::Part| {
             Some(Token {
                 line,
                 start: part.range.start - begin,
@@ -83,7 +82,7 @@ fn tokens_of(
 }
 
 /// The tokens of a program, at most [`LIMIT`]; what a line says hangs on no other line.
-fn all_tokens_of(program: &program::Document) -> Vec<Token> {
+fn all_tokens_of(program: &crate::program::Document) -> Vec<Token> {
     const CHUNK: usize = 4_096;
     let count = program.text().line_count();
     if count <= CHUNK {

@@ -6,7 +6,7 @@
 
 use super::ThreeB;
 use crate::program::refactor::{Refactoring, Sheet};
-use crate::program::three_b::language::format;
+use crate::program::three_b::format::format;
 use crate::settings::Layout;
 use crate::text::TextEdit;
 

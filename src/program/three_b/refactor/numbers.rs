@@ -2,7 +2,7 @@
 
 use crate::program::path::Step;
 use crate::program::three_b::Document;
-use crate::program::three_b::language::{Field, pieces};
+use crate::program::three_b::pieces::{Field, pieces};
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 

@@ -7,8 +7,8 @@ use crate::program::refactor::{Contour, Row};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::encode::{point_of, snap};
-use crate::program::three_b::language::{Field, pieces};
 use crate::program::three_b::parse::{Item, read_line};
+use crate::program::three_b::pieces::{Field, pieces};
 use crate::settings::Layout;
 use std::ops::Range;
 

@@ -1,0 +1,45 @@
+//! What can be folded: sections, tables, blocks, entities, polylines with their vertices.
+
+use super::outline::{Node, NodeKind};
+use crate::ide::{Fold, FoldKind};
+
+/// The folds of a tree, in the order of the text. When there are more than `limit`, what holds others goes first.
+pub fn folds(tree: &[Node], limit: usize) -> Vec<Fold> {
+    let mut found = Vec::new();
+    collect(tree, 0, &mut found);
+    if found.len() > limit {
+        found.sort_by_key(|(depth, _)| *depth);
+        found.truncate(limit);
+        found.sort_by_key(|(_, fold)| fold.first);
+    }
+    found.into_iter().map(|(_, fold)| fold).collect()
+}
+
+fn collect(nodes: &[Node], depth: usize, found: &mut Vec<(usize, Fold)>) {
+    for node in nodes {
+        // The name of the record stays in sight, not its group code 0.
+        let (first, last) = (node.lines.start + 1, node.lines.end.saturating_sub(1));
+        if last > first {
+            let of_entity = if node.kind == NodeKind::Entity {
+                node.detail.as_str()
+            } else {
+                ""
+            };
+            let parts = [&*node.record, &*node.name, of_entity];
+            let text = parts
+                .into_iter()
+                .filter(|part| !part.is_empty())
+                .collect::<Vec<_>>()
+                .join(" ");
+            found.push((
+                depth,
+                Fold {
+                    first,
+                    last,
+                    kind: FoldKind::Record(format!("{text} …")),
+                },
+            ));
+        }
+        collect(&node.children, depth + 1, found);
+    }
+}

@@ -1,0 +1,29 @@
+//! What an editor asks about DXF text: what a code means, what stands where, what names what.
+//!
+//! Functions of a document or of its text, without a protocol: places are bytes. What looks at the neighbourhood of a place
+//! reads the text from the beginning of its record; what looks at everything takes a text only, so that it can run beside
+//! the document, and stops when it is told to.
+
+mod codes;
+mod completion;
+mod folding;
+mod hints;
+mod hover;
+mod names;
+mod outline;
+mod selection;
+mod spot;
+mod symbols;
+#[cfg(test)]
+mod tests;
+mod tokens;
+
+pub use completion::completions;
+pub use folding::folds;
+pub use hints::hints;
+pub use hover::hover;
+pub use names::{Name, Names, Occurrence, name_at, occurrences};
+pub use outline::{ContourNote, Node, NodeKind, Stop, outline};
+pub use selection::selections;
+pub use symbols::{GROUPED_ABOVE, symbols};
+pub use tokens::{Token, TokenKind, tokens, tokens_in};

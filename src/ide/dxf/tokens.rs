@@ -1,0 +1,177 @@
+//! Each line of the text with what it is, for colouring.
+
+use super::codes::{Value, meaning};
+use super::outline::Stop;
+use super::spot::spot;
+use crate::dxf::Document;
+use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::lines::Lines;
+use crate::dxf::number::{self, Number};
+use crate::text::SourceText;
+use std::ops::Range;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TokenKind {
+    Code,
+    Record,
+    Handle,
+    Layer,
+    Number,
+    Text,
+    Comment,
+    /// Name of a header variable.
+    Variable,
+    /// Name of a section, table, block or subclass.
+    Name,
+}
+
+impl TokenKind {
+    /// All kinds; the position of each is its number.
+    pub const ALL: [TokenKind; 9] = [
+        TokenKind::Code,
+        TokenKind::Record,
+        TokenKind::Handle,
+        TokenKind::Layer,
+        TokenKind::Number,
+        TokenKind::Text,
+        TokenKind::Comment,
+        TokenKind::Variable,
+        TokenKind::Name,
+    ];
+}
+
+/// A line, or what stands on it between its padding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Token {
+    pub line: usize,
+    /// Bytes from the beginning of the line as the text has it.
+    pub start: usize,
+    pub length: usize,
+    pub kind: TokenKind,
+}
+
+/// The tokens of the whole text, at most `limit`; `None` when it was stopped.
+pub fn tokens(text: &SourceText, limit: usize, stop: Stop<'_>) -> Option<Vec<Token>> {
+    let mut found = Vec::with_capacity(text.line_count().min(limit));
+    let mut until_asked = 0;
+    let whole = collect(text, 0, b"", |token| {
+        found.push(token);
+        until_asked += 1;
+        if until_asked == 8192 {
+            until_asked = 0;
+            if stop() {
+                return Next::Stopped;
+            }
+        }
+        if found.len() >= limit {
+            Next::Enough
+        } else {
+            Next::On
+        }
+    });
+    whole.then_some(found)
+}
+
+/// The tokens of some lines.
+pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
+    let mut found = Vec::new();
+    // A text that is no DXF has no spots; it is looked at from its beginning.
+    let (begin, name) = spot(document, lines.start).map_or((0, &b""[..]), |spot| {
+        (spot.tag.map_or(spot.in_step, |tag| tag.line), spot.name)
+    });
+    collect(document.text(), begin, name, |token| {
+        if token.line >= lines.end {
+            return Next::Enough;
+        }
+        if token.line >= lines.start {
+            found.push(token);
+        }
+        Next::On
+    });
+    found
+}
+
+enum Next {
+    On,
+    Enough,
+    Stopped,
+}
+
+/// Calls `take` for each token from a line on that is in step; `record` is the name of the record that holds it. False
+/// when it was stopped.
+fn collect(
+    text: &SourceText,
+    from: usize,
+    record: &[u8],
+    mut take: impl FnMut(Token) -> Next,
+) -> bool {
+    let lines = Lines::new(text);
+    let (mut lexer, mut unheard) = (Lexer::new(lines, from), Vec::new());
+    let mut is_style = record == b"DIMSTYLE";
+    // Where a line is missing the lexer takes a value for the next code: it has been told of by then.
+    let mut told = from;
+    while let Some(tag) = lexer.next(&mut unheard) {
+        unheard.clear();
+        let value = lines.trimmed(tag.value_line());
+        if tag.code == 0 {
+            is_style = value == b"DIMSTYLE";
+        }
+        for (line, kind) in [
+            (tag.line, code_kind(tag)),
+            (tag.value_line(), value_kind(tag, value, is_style)),
+        ] {
+            let range = lines.trimmed_range(line);
+            if range.is_empty() || line < told {
+                continue;
+            }
+            told = line + 1;
+            match take(Token {
+                line,
+                start: range.start - text.line_start(line),
+                length: range.len(),
+                kind,
+            }) {
+                Next::On => {}
+                Next::Enough => return true,
+                Next::Stopped => return false,
+            }
+        }
+    }
+    true
+}
+
+fn code_kind(tag: Tag) -> TokenKind {
+    if tag.code == 999 {
+        TokenKind::Comment
+    } else {
+        TokenKind::Code
+    }
+}
+
+fn value_kind(tag: Tag, value: &[u8], is_style: bool) -> TokenKind {
+    match tag.code {
+        0 => TokenKind::Record,
+        999 => TokenKind::Comment,
+        5 if is_style => TokenKind::Text,
+        8 | 1003 => TokenKind::Layer,
+        9 => TokenKind::Variable,
+        2 | 100 => TokenKind::Name,
+        1 | 3 | 4 | 6 | 7 | 102 | 300..=309 | 410..=419 | 430..=439 | 470..=479 | 1000..=1002 => {
+            TokenKind::Text
+        }
+        // Points and numbers are nearly all that there is: no look into the table for them.
+        10..=59 => number_or_text(value),
+        code => match meaning("", code).1 {
+            Value::Handle | Value::OwnHandle => TokenKind::Handle,
+            _ => number_or_text(value),
+        },
+    }
+}
+
+fn number_or_text(value: &[u8]) -> TokenKind {
+    if number::number(value) == Number::Bad {
+        TokenKind::Text
+    } else {
+        TokenKind::Number
+    }
+}

@@ -1,0 +1,310 @@
+//! What can follow where a block is being written: G, J and Z from X and Y, the way back to where the contour began, the words between
+//! blocks.
+
+use crate::geometry::{Arc, Point, Segment};
+use crate::ide::{Completion, CompletionKind};
+use crate::program::path::cut_of;
+use crate::program::steps::{self, Program};
+use crate::program::three_b::Document;
+use crate::program::three_b::block::{Block, CountingAxis, Motion, Node, Quadrant};
+use crate::program::three_b::decode::decode;
+use crate::program::three_b::encode::{encode, line_block, point_of, snap};
+use crate::program::three_b::layout::push_fields;
+use crate::program::three_b::pieces::{Field, pieces};
+use crate::settings::Layout;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Lines before the cursor that are looked through for where the machine stands.
+const LOOKED_BACK: usize = 500;
+
+/// What can stand at a byte, what is most likely first.
+pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
+    let text = document.text();
+    let line = text.line_range(text.line_of(offset));
+    let before = text
+        .bytes()
+        .get(line.start..offset.clamp(line.start, line.end))
+        .unwrap_or_default();
+    let typed = Typed::of(before, document);
+    match typed {
+        Some(typed) => typed.tails(document, line.start, offset),
+        None => {
+            // A word that has been begun is replaced.
+            let letters = before
+                .iter()
+                .rev()
+                .take_while(|byte| byte.is_ascii_alphabetic())
+                .count();
+            let rest = &before[..before.len() - letters];
+            let is_new =
+                rest.iter().all(|byte| matches!(byte, b' ' | b'\t')) || rest.ends_with(b": ");
+            if is_new {
+                beginnings(document, offset - letters, offset)
+            } else {
+                Vec::new()
+            }
+        }
+    }
+}
+
+/// The block under way at the end of some text.
+struct Typed {
+    numbers: Vec<Option<i64>>,
+    axis: Option<CountingAxis>,
+    /// Byte of the line at which a letter stands that has been begun: `G`, `N`, `S`.
+    begun: Option<usize>,
+}
+
+impl Typed {
+    fn of(before: &[u8], document: &Document) -> Option<Typed> {
+        let mut typed: Option<Typed> = None;
+        for piece in pieces(before, &document.words()) {
+            let bytes = before.get(piece.range.clone()).unwrap_or_default();
+            let number = || std::str::from_utf8(bytes).ok()?.parse::<i64>().ok();
+            match (piece.field, &mut typed) {
+                (Field::Separator, Some(typed)) => typed.numbers.push(None),
+                (Field::Separator, None) => {
+                    typed = Some(Typed {
+                        numbers: vec![None],
+                        axis: None,
+                        begun: None,
+                    })
+                }
+                (Field::X | Field::Y | Field::J, Some(typed)) => {
+                    if let Some(last) = typed.numbers.last_mut() {
+                        *last = number();
+                    }
+                }
+                (Field::Axis, Some(typed)) => {
+                    let is_x = bytes
+                        .last()
+                        .is_some_and(|byte| byte.eq_ignore_ascii_case(&b'X'));
+                    typed.axis = Some(if is_x {
+                        CountingAxis::X
+                    } else {
+                        CountingAxis::Y
+                    });
+                }
+                (Field::Strange, Some(typed)) if piece.range.end == before.len() => {
+                    typed.begun = Some(piece.range.start)
+                }
+                _ => typed = None,
+            }
+        }
+        typed.filter(|typed| typed.numbers.len() == 3)
+    }
+
+    /// What can stand behind the numbers that are there, each with where it leads.
+    fn tails(&self, document: &Document, line_start: usize, offset: usize) -> Vec<Completion> {
+        let (x, y) = (self.numbers[0].unwrap_or(0), self.numbers[1].unwrap_or(0));
+        let start = stand(document, line_start);
+        let range = self.begun.map_or(offset, |begun| line_start + begun)..offset;
+        let candidates = match (self.numbers[2], self.axis) {
+            (None, None) => shapes(x, y, document.largest()),
+            (Some(j), None) => [CountingAxis::X, CountingAxis::Y]
+                .into_iter()
+                .flat_map(|axis| motions(x, y, j, axis))
+                .collect(),
+            (Some(j), Some(axis)) => motions(x, y, j, axis),
+            (None, Some(_)) => Vec::new(),
+        };
+        let completion = |block: Block| {
+            let mut out = Vec::new();
+            push_fields(&mut out, Layout::Compact, &block, None);
+            let whole = String::from_utf8(out).ok()?;
+            // What stands there already is left out.
+            let skipped = match (self.numbers[2], self.axis) {
+                (None, _) => whole.rfind('B')? + 1,
+                (Some(_), None) => whole.rfind('G')?,
+                (Some(_), Some(_)) => whole.rfind('G')? + 2,
+            };
+            let text = whole.get(skipped..)?.to_owned();
+            let about = about(&decode(&block, start).ok()?);
+            Some(Completion {
+                label: text.clone(),
+                about: about.into(),
+                text,
+                range: range.clone(),
+                kind: CompletionKind::Word,
+            })
+        };
+        candidates.into_iter().filter_map(completion).collect()
+    }
+}
+
+/// Blocks with these X and Y: straight lines into each quadrant; circles, half and quarter turns from each of them.
+fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
+    let origin = Node { x: 0, y: 0 };
+    let corners = corners(x, y);
+    let mut blocks: Vec<Block> = corners
+        .iter()
+        .filter(|&&corner| corner != origin)
+        .map(|&corner| line_block(origin, corner))
+        .collect();
+    for sweep in [TAU, PI, FRAC_PI_2] {
+        for turn in [1.0, -1.0] {
+            for &corner in corners.iter().filter(|&&corner| corner != origin) {
+                let start = point_of(corner);
+                let arc = Arc::from_center(
+                    Point::origin(),
+                    start.coords.norm(),
+                    start.y.atan2(start.x),
+                    sweep * turn,
+                );
+                let Some(end) = snap(arc.end) else { continue };
+                let mut encoded = Vec::new();
+                let piece = Segment::Arc(Arc {
+                    start,
+                    end: point_of(end),
+                    ..arc
+                });
+                if encode(&piece, corner, end, largest, &mut encoded).is_some()
+                    && let [one] = encoded[..]
+                    && !matches!(one.block.motion, Motion::Line(_))
+                {
+                    blocks.push(one.block);
+                }
+            }
+        }
+    }
+    blocks
+}
+
+/// The points whose coordinates have these amounts.
+fn corners(x: i64, y: i64) -> Vec<Node> {
+    let mut corners: Vec<Node> = Vec::new();
+    for (sign_x, sign_y) in [(1, 1), (-1, 1), (-1, -1), (1, -1)] {
+        let corner = Node {
+            x: sign_x * x,
+            y: sign_y * y,
+        };
+        if !corners.contains(&corner) {
+            corners.push(corner);
+        }
+    }
+    corners
+}
+
+/// Blocks with these numbers and each Z that they can have.
+fn motions(x: i64, y: i64, j: i64, axis: CountingAxis) -> Vec<Block> {
+    let kinds: [fn(Quadrant) -> Motion; 3] =
+        [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
+    let mut blocks = Vec::new();
+    for kind in kinds {
+        for corner in corners(x, y) {
+            let quadrant = match kind(Quadrant::First) {
+                Motion::Clockwise(_) => Quadrant::clockwise(corner.x, corner.y),
+                Motion::Line(_) | Motion::CounterClockwise(_) => {
+                    Quadrant::counter_clockwise(corner.x, corner.y)
+                }
+            };
+            blocks.push(Block {
+                x,
+                y,
+                j,
+                axis,
+                motion: kind(quadrant),
+            });
+        }
+    }
+    blocks
+}
+
+/// Where a piece leads, in words.
+fn about(piece: &Segment) -> String {
+    let mm = |value: f64| format!("{:.3}", value / 1000.0 + 0.0);
+    match piece {
+        Segment::Line(line) => format!("line to ({}, {})", mm(line.end.x), mm(line.end.y)),
+        Segment::Arc(arc) => {
+            let turn = if arc.sweep > 0.0 {
+                "counter-clockwise"
+            } else {
+                "clockwise"
+            };
+            if arc.is_full_turn() {
+                return format!(
+                    "circle R {}, {turn}, about ({}, {})",
+                    mm(arc.radius),
+                    mm(arc.center.x),
+                    mm(arc.center.y)
+                );
+            }
+            format!(
+                "arc R {}, {:.1}° {turn}, to ({}, {})",
+                mm(arc.radius),
+                arc.sweep.abs().to_degrees(),
+                mm(arc.end.x),
+                mm(arc.end.y)
+            )
+        }
+    }
+}
+
+/// Where the machine stands at a byte.
+fn stand(document: &Document, offset: usize) -> Point {
+    let text = document.text();
+    let line = text.line_of(offset);
+    let from = text.line_start(line.saturating_sub(LOOKED_BACK));
+    let steps = document.steps_in(from..offset);
+    steps
+        .iter()
+        .rfind(|step| step.range.end <= offset)
+        .map_or_else(|| document.begin().0, |step| step.end)
+}
+
+/// What can begin a line.
+fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completion> {
+    let range = start..offset;
+    let mut found = Vec::new();
+    let plain = |label: &str, about: String, text: String| Completion {
+        label: label.to_owned(),
+        about: about.into(),
+        text,
+        range: range.clone(),
+        kind: CompletionKind::Word,
+    };
+    let at = stand(document, start);
+    let mut targets: Vec<(&str, Point)> = Vec::new();
+    if let Some(chain) = steps::chain_before(document, start) {
+        let first = chain.step(0);
+        targets
+            .extend(first.map(|first| ("back to the start of the program's contour", first.start)));
+        targets.extend(first.map(|first| ("to the end of the lead-in", first.end)));
+        let closed = cut_of(&chain).is_some_and(|cut| cut.closed);
+        if closed && chain.count() > 1 {
+            // The contour is closed: what is left is the way out.
+            targets.truncate(1);
+        }
+    }
+    for (label, target) in targets {
+        let (Some(from), Some(to)) = (snap(at), snap(target)) else {
+            continue;
+        };
+        if from != to {
+            let mut out = Vec::new();
+            push_fields(&mut out, Layout::Compact, &line_block(from, to), None);
+            if let Ok(text) = String::from_utf8(out) {
+                found.push(plain(&text.clone(), format!("line {label}"), text));
+            }
+        }
+    }
+    found.push(Completion {
+        label: "B X B Y B".into(),
+        about: "a block: J, G and Z are offered behind its third B".into(),
+        text: "B${1:0}B${2:0}B$0".into(),
+        range: range.clone(),
+        kind: CompletionKind::Snippet,
+    });
+    let words = document.words();
+    found.push(plain(
+        words.pause,
+        "pause: the wire is cut or threaded".into(),
+        words.pause.to_owned(),
+    ));
+    found.push(plain(
+        words.end,
+        "end of the program".into(),
+        words.end.to_owned(),
+    ));
+    found
+}

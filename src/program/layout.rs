@@ -1,0 +1,21 @@
+//! A program brought into a layout.
+
+use crate::program::{Document, iso, three_b};
+use crate::settings::Effective;
+use crate::text::TextEdit;
+use std::ops::Range;
+
+/// The edits that bring some lines of a program into the layout that is set, else into the one in which the program stands.
+///
+/// They are sorted and disjoint, and change nothing that the machine does: each line is read again before it is taken.
+pub fn format(document: &Document, settings: &Effective, lines: Range<usize>) -> Vec<TextEdit> {
+    match document {
+        Document::ThreeB(program) => three_b::format::format(
+            program.text(),
+            settings.stated_layout,
+            &program.words(),
+            lines,
+        ),
+        Document::Iso(program) => iso::format(program.text(), settings.stated_layout, lines),
+    }
+}
