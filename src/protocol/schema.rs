@@ -71,7 +71,7 @@ fn declare(definitions: &mut Map<String, Value>, row: &Row) {
     };
     let Some(schema) = definitions
         .get_mut(of)
-        .and_then(|table| table["properties"].get_mut(&camel_case(key)))
+        .and_then(|table| table["properties"].get_mut(camel_case(key)))
     else {
         return;
     };
