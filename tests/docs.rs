@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use wedm::rule::{Rule, Subject};
-use wedm::settings::{Effective, Settings};
+use wedm::settings::Effective;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -425,7 +425,6 @@ fn the_settings_of_the_readme_are_the_defaults() {
         stated_layout: None,
         stated_direction: None,
         stated_lead_in: None,
-        set: Settings::default(),
         ..Effective::of(&all)
     };
     assert_eq!(shown, Effective::default());

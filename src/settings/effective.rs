@@ -58,8 +58,6 @@ pub struct Effective {
     pub pause: String,
     pub tolerances: Tolerances,
     pub budget: Budget,
-    /// What somebody has set: of keys that mean no more than they say.
-    pub set: Settings,
 }
 
 impl Effective {
@@ -146,7 +144,6 @@ impl Effective {
                 ..Tolerances::default()
             },
             budget: Budget::default(),
-            set: settings.clone(),
         }
     }
 
@@ -220,5 +217,20 @@ impl Effective {
 impl Default for Effective {
     fn default() -> Self {
         Effective::of(&Settings::default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Open documents are judged anew where what holds for them is another thing, and else not.
+    #[test]
+    fn what_is_set_to_its_default_changes_nothing() {
+        let set = Settings {
+            correction: Some(Settings::default().correction()),
+            ..Settings::default()
+        };
+        assert!(Effective::of(&set) == Effective::of(&Settings::default()));
     }
 }
