@@ -1,7 +1,7 @@
 //! A drawing's edit as replacements of numbers in the text; nothing else of the text moves.
 
 use super::Document;
-use super::entity::{mirror, mirrored_angles};
+use super::entities::{mirror, mirrored_angles};
 use super::lexer::{LOOKAHEAD, Tag};
 use super::lines::Lines;
 use super::number::{self, Code, Number, written};

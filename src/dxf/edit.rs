@@ -4,7 +4,8 @@
 //! reaches further (sections, doubled handles, ordinals as names), everything is read.
 
 use super::Document;
-use super::entity::{Outcome, Read, mirror};
+use super::entities::mirror;
+use super::entity::{Outcome, Read};
 use super::foreign;
 use super::frame;
 use super::lexer::{LOOKAHEAD, Lexer};

@@ -13,6 +13,7 @@ mod code_page;
 mod curve;
 mod dxb;
 mod edit;
+mod entities;
 mod entity;
 mod fault;
 mod foreign;

@@ -1,6 +1,6 @@
 //! LINE, ARC and CIRCLE as nearly all of them stand in files: every tag sound and known, read in one pass over the bytes.
 //!
-//! What is found here is what [`super::entity::read`] would find; anything that it would say a word about is left to it.
+//! What is found here is what [`super::entities::read`] would find; anything that it would say a word about is left to it.
 
 use super::entity::{Look, Paint, Read};
 use super::layers::Layers;
@@ -155,7 +155,8 @@ fn plain_paint(value: &[u8]) -> Option<Paint> {
 
 #[cfg(test)]
 mod tests {
-    use crate::dxf::entity::{self, Outcome};
+    use crate::dxf::entities;
+    use crate::dxf::entity::Outcome;
     use crate::dxf::layers::Layers;
     use crate::dxf::lexer::Lexer;
     use crate::dxf::lines::Lines;
@@ -218,7 +219,7 @@ mod tests {
             let mut findings = Vec::new();
             let start = lexer.peek_record().expect("a record begins");
             lexer.pass(start);
-            let looked = entity::read_closely(start, &mut lexer, &mut Layers::default(), &mut findings);
+            let looked = entities::read_closely(start, &mut lexer, &mut Layers::default(), &mut findings);
             let Outcome::Entity(looked) = looked else { panic!("{looked:?} {findings:?}") };
             prop_assert!(findings.is_empty(), "{findings:?}");
             prop_assert_eq!((format!("{read:?}"), next), (format!("{looked:?}"), lexer.at()));

@@ -1,5 +1,6 @@
 //! One item after another: sections, the entities of the modelspace, everything else passed over.
 
+use super::entities;
 use super::entity::{self, Outcome};
 use super::fault::{self, damage, oddity, quoted};
 use super::layer_table::{self, LayerEntry};
@@ -152,11 +153,11 @@ pub(super) fn read_item(
             item(Said::Nothing, context)
         }
         (Context::Blocks, _) => item(
-            Said::Entity(entity::read(start, lexer, layers, findings)),
+            Said::Entity(entities::read(start, lexer, layers, findings)),
             context,
         ),
         (Context::Entities, _) => {
-            let outcome = entity::read(start, lexer, layers, findings);
+            let outcome = entities::read(start, lexer, layers, findings);
             item(
                 Said::Entity(drawn(outcome, start, lexer, tolerance, findings)),
                 context,

@@ -5,7 +5,8 @@
 
 use super::Document;
 use super::edit::{Others, VertexZone, plain_vertex, shift};
-use super::entity::{Common, VertexLines, mirror};
+use super::entities::mirror;
+use super::entity::{Common, VertexLines};
 use super::lexer::{Lexer, Tag};
 use super::lines::Lines;
 use super::number::{self, Code, Number};

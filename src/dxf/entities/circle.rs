@@ -1,0 +1,114 @@
+//! ARC and CIRCLE.
+
+use crate::drawing::{Geometry, Kind};
+use crate::dxf::entity::{Numbers, Outcome, Plane, value_line_of};
+use crate::dxf::fault::{damage, oddity, quoted};
+use crate::dxf::layers::Layers;
+use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::shape::Shape;
+use crate::finding::Finding;
+use crate::geometry::{Point, radians};
+
+/// The radius, when it is positive; else a finding.
+fn radius_of(
+    value: f64,
+    kind: &str,
+    start: Tag,
+    lexer: &Lexer,
+    findings: &mut Vec<Finding>,
+) -> Option<f64> {
+    if value > 0.0 {
+        return Some(value);
+    }
+    let radius_line = value_line_of(start, lexer, 40);
+    let found = quoted(lexer.lines.trimmed(radius_line));
+    let sentence = say!(group_code_40_radius, kind, found);
+    damage(findings, lexer.lines.trimmed_range(radius_line), sentence);
+    None
+}
+
+pub(super) fn arc(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 40, 50, 51, 30]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
+    // A point begins and ends in the same direction: what a fillet of no radius leaves behind. Else the radius is damaged.
+    let is_point = radius == 0.0 && (to - from) % 360.0 == 0.0;
+    if is_point {
+        let place = lexer.lines.trimmed_range(value_line_of(start, lexer, 40));
+        oddity(findings, place, say!(arc_has_the_radius_0).into());
+    } else if radius_of(radius, "ARC", start, lexer, findings).is_none() {
+        return Outcome::Damaged;
+    }
+    let (from, to) = (radians(from), radians(to));
+    let Some(lies) = common.lies(numbers.values[5].unwrap_or(0.0)) else {
+        return Outcome::Unsupported("ARC".into(), say!(its_plane_is_tilted));
+    };
+    let (center, (start_angle, end_angle)) = match common.plane() {
+        _ if common.paper_space => {
+            return Outcome::Unsupported("ARC".into(), say!(it_lies_in_paper_space));
+        }
+        Plane::Normal | Plane::Tilted => (Point::new(x, y), (from, to)),
+        Plane::Mirrored => (Point::new(0.0 - x, y), mirrored_angles(from, to)),
+    };
+    let geometry = if is_point {
+        Geometry::point(center)
+    } else {
+        Geometry::Arc {
+            center,
+            radius,
+            start_angle,
+            end_angle,
+        }
+    };
+    common.finish(
+        lexer,
+        layers,
+        Kind::Arc,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    )
+}
+
+/// Start and end of an arc, counter-clockwise again, once x runs the other way. Its own inverse.
+pub(in crate::dxf) fn mirrored_angles(start: f64, end: f64) -> (f64, f64) {
+    (std::f64::consts::PI - end, std::f64::consts::PI - start)
+}
+
+pub(super) fn circle(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 40, 30]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y, radius]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
+    let Some(radius) = radius_of(radius, "CIRCLE", start, lexer, findings) else {
+        return Outcome::Damaged;
+    };
+    let Some(lies) = common.lies(numbers.values[3].unwrap_or(0.0)) else {
+        return Outcome::Unsupported("CIRCLE".into(), say!(its_plane_is_tilted));
+    };
+    let x = match common.plane() {
+        _ if common.paper_space => {
+            return Outcome::Unsupported("CIRCLE".into(), say!(it_lies_in_paper_space));
+        }
+        Plane::Normal | Plane::Tilted => x,
+        Plane::Mirrored => 0.0 - x,
+    };
+    let shape = Shape::Plain(Geometry::Circle {
+        center: Point::new(x, y),
+        radius,
+    });
+    common.finish(lexer, layers, Kind::Circle, (shape, lies), None, findings)
+}

@@ -1,0 +1,59 @@
+//! LINE.
+
+use crate::drawing::{Geometry, Kind};
+use crate::dxf::entity::{Numbers, Outcome};
+use crate::dxf::fault::oddity;
+use crate::dxf::layers::Layers;
+use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::shape::Shape;
+use crate::dxf::space::{Lies, Vector3};
+use crate::finding::Finding;
+use crate::geometry::Point;
+
+pub(super) fn line(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 11, 21, 30, 31]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y, end_x, end_y]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
+    // The ends of a LINE are world coordinates: its extrusion only gives the direction of its thickness.
+    if common.paper_space {
+        return Outcome::Unsupported("LINE".into(), say!(it_lies_in_paper_space));
+    }
+    let (low, high) = (
+        numbers.values[4].unwrap_or(0.0),
+        numbers.values[5].unwrap_or(0.0),
+    );
+    if low != high {
+        let sentence = say!(the_ends_of_this_line_differ_in_z).to_owned();
+        oddity(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            sentence,
+        );
+    }
+    let geometry = Geometry::Line {
+        start: Point::new(x, y),
+        end: Point::new(end_x, end_y),
+    };
+    let lies = match low == high {
+        true => Lies::Level(low),
+        false => Lies::Rising(Box::new([
+            Vector3::new(x, y, low),
+            Vector3::new(end_x, end_y, high),
+        ])),
+    };
+    common.finish(
+        lexer,
+        layers,
+        Kind::Line,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    )
+}

@@ -1,0 +1,130 @@
+//! TEXT, MTEXT and POINT: what may mark where a cut starts.
+
+use crate::drawing::{Geometry, Kind};
+use crate::dxf::entity::{Numbers, Outcome, Plane, Read};
+use crate::dxf::frame;
+use crate::dxf::layers::Layers;
+use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::shape::Shape;
+use crate::dxf::space::{Lies, Space, Vector3};
+use crate::dxf::strings::{words_of_mtext, words_of_text};
+use crate::finding::Finding;
+use crate::geometry::Point;
+
+pub(super) fn text(
+    kind: Kind,
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    let mut content = Vec::new();
+    let mut numbers = Numbers::new([10, 20, 11, 21, 30]);
+    let mut is_aligned = false;
+    let common = numbers.gather(lexer, findings, |lexer, tag| match tag.code {
+        1 | 3 => content.extend_from_slice(lexer.lines.content(tag.value_line())),
+        // To the right, to the middle, above a line: then the point that somebody has set is the second one.
+        72 if kind == Kind::Text => {
+            is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4")
+        }
+        73 if kind == Kind::Text => {
+            is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"3")
+        }
+        _ => {}
+    });
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
+    let [_, _, set_x, set_y, height] = numbers.values;
+    let (x, y) = match (set_x, set_y) {
+        (Some(x), Some(y)) if is_aligned => (x, y),
+        _ => (x, y),
+    };
+    if common.paper_space {
+        return Outcome::Unsupported(kind.name().into(), say!(it_lies_in_paper_space));
+    }
+    let height = height.unwrap_or(0.0);
+    let Some(lies) = common.lies(height) else {
+        return Outcome::Unsupported(kind.name().into(), say!(its_plane_is_tilted));
+    };
+    let (x, y, lies) = match (kind, lies) {
+        // The place of an MTEXT is in world coordinates.
+        (Kind::LongText, Lies::Aslant(system, why)) => (
+            0.0,
+            0.0,
+            Lies::Aslant(
+                Box::new(Space {
+                    origin: Vector3::new(x, y, height),
+                    ..*system
+                }),
+                why,
+            ),
+        ),
+        (Kind::LongText, _) => (x, y, Lies::Level(height)),
+        (_, lies) => (
+            if common.plane() == Plane::Mirrored {
+                0.0 - x
+            } else {
+                x
+            },
+            y,
+            lies,
+        ),
+    };
+    let content = layers.text(&content);
+    let words = if kind == Kind::LongText {
+        words_of_mtext(&content)
+    } else {
+        words_of_text(&content)
+    };
+    let geometry = Geometry::Text {
+        at: Point::new(x, y),
+        text: words.trim().to_owned(),
+    };
+    let frames = if kind == Kind::LongText {
+        frame::handles(lexer.lines, start.line..lexer.at())
+    } else {
+        Vec::new()
+    };
+    match common.finish(
+        lexer,
+        layers,
+        kind,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    ) {
+        Outcome::Entity(read) => Outcome::Entity(Read { frames, ..read }),
+        other => other,
+    }
+}
+
+/// A POINT marks a start as a text "O" does. Its place is in world coordinates.
+pub(super) fn point(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    let mut numbers = Numbers::new([10, 20, 30]);
+    let common = numbers.gather(lexer, findings, |_, _| {});
+    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+        return Outcome::Damaged;
+    };
+    if common.paper_space {
+        return Outcome::Unsupported("POINT".into(), say!(it_lies_in_paper_space));
+    }
+    let geometry = Geometry::Text {
+        at: Point::new(x, y),
+        text: "O".into(),
+    };
+    let lies = Lies::Level(numbers.values[2].unwrap_or(0.0));
+    common.finish(
+        lexer,
+        layers,
+        Kind::Point,
+        (Shape::Plain(geometry), lies),
+        None,
+        findings,
+    )
+}

@@ -1,0 +1,324 @@
+//! LWPOLYLINE and POLYLINE.
+
+use crate::drawing::{Geometry, Kind, Vertex};
+use crate::dxf::entity::{
+    Common, Outcome, Plane, VertexLines, missing, pass_over, pass_over_followers, tag_of_record,
+};
+use crate::dxf::fault::{damage, meaning, oddity, quoted};
+use crate::dxf::layers::Layers;
+use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::shape::Shape;
+use crate::dxf::space::{Lies, Space, Vector3, in_space as at_height};
+use crate::finding::Finding;
+
+/// Vertices as they come: x opens one, y closes it.
+#[derive(Default)]
+struct Vertices {
+    vertices: Vec<Vertex>,
+    lines: Vec<u32>,
+    /// The last vertex has no y yet.
+    lacks_y: bool,
+    /// The first vertex that got none. Said at the end: lines that are out of step may be the cause.
+    without_y: Option<usize>,
+}
+
+impl Vertices {
+    fn close(&mut self) {
+        if self.lacks_y {
+            self.without_y = self.without_y.or(self.vertices.len().checked_sub(1));
+        }
+        self.lacks_y = false;
+    }
+}
+
+pub(super) fn light_polyline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    let mut common = Common::default();
+    let mut read = Vertices::default();
+    let (mut closed, mut count, mut height) = (false, None, 0.0);
+    while let Some(tag) = tag_of_record(lexer, findings) {
+        match tag.code {
+            10 | 20 | 42 if !common.foreign && !common.group => {
+                // A number that is none has its finding; a stand-in keeps the vertices after it in step.
+                let value = common.coordinate(lexer, tag, findings).unwrap_or_default();
+                match (tag.code, read.vertices.last_mut()) {
+                    (10, _) => {
+                        read.close();
+                        read.vertices.push(Vertex::new(value, 0.0, 0.0));
+                        read.lines.push((tag.line - start.line) as u32);
+                        read.lacks_y = true;
+                    }
+                    (20, Some(vertex)) => {
+                        vertex.point.y = value;
+                        read.lacks_y = false;
+                    }
+                    (_, Some(vertex)) => vertex.bulge = value,
+                    (code, None) => {
+                        if !common.bad && !lexer.out_of_step {
+                            let sentence = say!(
+                                group_code_stands_before_the_first_group_code,
+                                code,
+                                meaning(code)
+                            );
+                            damage(findings, lexer.lines.trimmed_range(tag.line), sentence);
+                        }
+                        common.bad = true;
+                    }
+                }
+            }
+            _ if common.take(lexer, tag, findings) => {}
+            70 => closed = common.flags(lexer, tag, findings) & 1 != 0,
+            38 => height = common.coordinate(lexer, tag, findings).unwrap_or_default(),
+            90 => count = Some(tag),
+            _ => {}
+        }
+    }
+    read.close();
+    if common.bad || lexer.out_of_step {
+        return Outcome::Damaged;
+    }
+    if let Some(index) = read.without_y {
+        let line = start.line + read.lines.get(index).map_or(0, |&line| line as usize);
+        let sentence = say!(vertex_lacks_group_code_20, index + 1);
+        damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
+        return Outcome::Damaged;
+    }
+    if common.paper_space {
+        return Outcome::Unsupported("LWPOLYLINE".into(), say!(it_lies_in_paper_space));
+    }
+    let Some(lies) = common.lies(height) else {
+        return Outcome::Unsupported("LWPOLYLINE".into(), say!(its_plane_is_tilted));
+    };
+    let mirrored = common.plane() == Plane::Mirrored;
+    let found = read.vertices.len();
+    if let Some(tag) = count
+        && found > 1
+        && Common::whole(lexer, tag) != i64::try_from(found).ok()
+    {
+        let stated = quoted(lexer.lines.trimmed(tag.value_line()));
+        let sentence = say!(group_code_90_number, stated, found);
+        oddity(findings, lexer.lines.range(tag.value_line()), sentence);
+    }
+    polyline_of(
+        Kind::LightPolyline,
+        start,
+        common,
+        closed,
+        read,
+        (mirrored, false, lies),
+        lexer,
+        layers,
+        findings,
+    )
+}
+
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what a polyline is made of, in one call from each of its two kinds"
+)]
+fn polyline_of(
+    kind: Kind,
+    start: Tag,
+    common: Common,
+    closed: bool,
+    mut read: Vertices,
+    (mirrored, in_space, lies): (bool, bool, Lies),
+    lexer: &Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    if read.vertices.len() < 2 {
+        let sentence = say!(has_vertices_expected_at_least_2, kind, read.vertices.len());
+        oddity(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            sentence,
+        );
+        return Outcome::Damaged;
+    }
+    if mirrored {
+        read.vertices.iter_mut().for_each(mirror);
+    }
+    read.vertices.shrink_to_fit();
+    read.lines.shrink_to_fit();
+    let geometry = Geometry::Polyline {
+        closed,
+        vertices: read.vertices,
+    };
+    let vertices = VertexLines {
+        lines: read.lines,
+        mirrored,
+        in_space,
+    };
+    common.finish(
+        lexer,
+        layers,
+        kind,
+        (Shape::Plain(geometry), lies),
+        Some(vertices),
+        findings,
+    )
+}
+
+/// A vertex once x runs the other way. Its own inverse.
+pub(in crate::dxf) fn mirror(vertex: &mut Vertex) {
+    vertex.point.x = 0.0 - vertex.point.x;
+    vertex.bulge = 0.0 - vertex.bulge;
+}
+
+/// POLYLINE with its VERTEX records, up to and with SEQEND.
+pub(super) fn polyline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+    findings: &mut Vec<Finding>,
+) -> Outcome {
+    const CLOSED: i64 = 1;
+    const IN_SPACE: i64 = 8;
+    const MESHES: i64 = 16 | 64;
+    const CONTROL_POINT: i64 = 16;
+    let (mut flags, mut height) = (0, 0.0);
+    let mut common = Common::default();
+    while let Some(tag) = tag_of_record(lexer, findings) {
+        if common.take(lexer, tag, findings) {
+            continue;
+        }
+        match tag.code {
+            70 => flags = common.flags(lexer, tag, findings),
+            30 => height = common.coordinate(lexer, tag, findings).unwrap_or_default(),
+            _ => {}
+        }
+    }
+    if flags & MESHES != 0 {
+        pass_over_followers(lexer, findings, &[b"VERTEX", b"SEQEND"]);
+        return Outcome::Unsupported(
+            "POLYLINE".into(),
+            if common.paper_space {
+                say!(it_lies_in_paper_space)
+            } else {
+                say!(it_is_a_mesh)
+            },
+        );
+    }
+    let mut read = Vertices::default();
+    let (mut heights, mut ended) = (Vec::new(), false);
+    while let Some(next) = lexer.peek_record() {
+        let name = lexer.lines.trimmed(next.value_line());
+        if !matches!(name, b"VERTEX" | b"SEQEND") {
+            break;
+        }
+        lexer.next(findings);
+        if name == b"SEQEND" {
+            pass_over(lexer, findings);
+            ended = true;
+            break;
+        }
+        let mut of_vertex = Common::default();
+        let (mut numbers, mut vertex_flags) = ([None; 4], 0);
+        while let Some(tag) = tag_of_record(lexer, findings) {
+            if of_vertex.take(lexer, tag, findings) {
+                continue;
+            }
+            match tag.code {
+                10 => numbers[0] = of_vertex.coordinate(lexer, tag, findings),
+                20 => numbers[1] = of_vertex.coordinate(lexer, tag, findings),
+                30 => numbers[2] = of_vertex.coordinate(lexer, tag, findings),
+                42 => numbers[3] = of_vertex.coordinate(lexer, tag, findings),
+                70 => vertex_flags = of_vertex.flags(lexer, tag, findings),
+                _ => {}
+            }
+        }
+        let bad = of_vertex.bad || lexer.out_of_step;
+        common.bad |= bad;
+        if vertex_flags & CONTROL_POINT != 0 || bad {
+            continue;
+        }
+        let [Some(x), Some(y), z, bulge] = numbers else {
+            missing(
+                next,
+                lexer,
+                &[(10, numbers[0].is_some()), (20, numbers[1].is_some())],
+                findings,
+            );
+            common.bad = true;
+            continue;
+        };
+        heights.push(z.unwrap_or(0.0));
+        let bulge = if flags & IN_SPACE != 0 {
+            0.0
+        } else {
+            bulge.unwrap_or(0.0)
+        };
+        read.vertices.push(Vertex::new(x, y, bulge));
+        read.lines.push((next.line - start.line) as u32);
+    }
+    // The text ends within the name of the next record, which tells of it: that may have been a VERTEX.
+    let is_cut = !ended
+        && lexer.lines.last_is_open()
+        && lexer
+            .peek_record()
+            .is_some_and(|next| next.line + 2 >= lexer.lines.count());
+    if common.bad || lexer.out_of_step || is_cut {
+        return Outcome::Damaged;
+    }
+    if !ended && !lexer.at_end() && read.vertices.len() > 1 {
+        oddity(
+            findings,
+            lexer.lines.trimmed_range(start.value_line()),
+            say!(polyline_does_not_end_with_seqend).into(),
+        );
+    }
+    let in_space = flags & IN_SPACE != 0;
+    if common.paper_space {
+        return Outcome::Unsupported("POLYLINE".into(), say!(it_lies_in_paper_space));
+    }
+    // The points of a 3D polyline are world coordinates.
+    let lies = match in_space {
+        true if heights.windows(2).all(|pair| pair[0] == pair[1]) => {
+            Some(Lies::Level(heights.first().copied().unwrap_or(0.0)))
+        }
+        true => {
+            let points: Vec<Vector3> = read
+                .vertices
+                .iter()
+                .zip(&heights)
+                .map(|(vertex, z)| at_height(vertex.point.coords, *z))
+                .collect();
+            let plane = Space::through(&points);
+            if let Some(plane) = &plane {
+                read.vertices
+                    .iter_mut()
+                    .zip(points)
+                    .for_each(|(vertex, point)| vertex.point = plane.seen_from(point));
+            }
+            plane.map(|plane| Lies::Aslant(Box::new(plane), say!(its_points_differ_in_z)))
+        }
+        false => common.lies(height),
+    };
+    let Some(lies) = lies else {
+        return Outcome::Unsupported(
+            "POLYLINE".into(),
+            if in_space {
+                say!(its_points_differ_in_z)
+            } else {
+                say!(its_plane_is_tilted)
+            },
+        );
+    };
+    let mirrored = !in_space && common.plane() == Plane::Mirrored;
+    polyline_of(
+        Kind::Polyline,
+        start,
+        common,
+        flags & CLOSED != 0,
+        read,
+        (mirrored, in_space, lies),
+        lexer,
+        layers,
+        findings,
+    )
+}
