@@ -101,7 +101,7 @@ impl Geometry {
         }
     }
 
-    /// Segment `index` as [`Geometry::segment_of`] tells it of a drawing in millimetres.
+    /// Segment `index` as `Geometry::segment_of` tells it of a drawing in millimetres.
     pub fn segment(&self, index: usize) -> Option<Segment> {
         self.segment_of(index, Tolerances::default().flat)
     }
@@ -146,7 +146,7 @@ impl Geometry {
         self.segments_of(Tolerances::default().flat)
     }
 
-    /// All segments in the entity's own direction: see [`Geometry::segment_of`].
+    /// All segments in the entity's own direction: see `Geometry::segment_of`.
     pub(crate) fn segments_of(&self, flat: f64) -> impl Iterator<Item = Segment> + '_ {
         (0..self.segment_count()).filter_map(move |index| self.segment_of(index, flat))
     }
@@ -182,7 +182,7 @@ impl Geometry {
         }
     }
 
-    /// The box of all segments, see [`Geometry::segment_of`], or of a text's place.
+    /// The box of all segments, see `Geometry::segment_of`, or of a text's place.
     pub fn bounds(&self, flat: f64) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         self.segments_of(flat)

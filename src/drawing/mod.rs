@@ -107,7 +107,7 @@ impl Drawing {
         self.assumed_unit = Some(unit);
     }
 
-    /// False where [`Drawing::assume_unit`] would say nothing new.
+    /// False where `Drawing::assume_unit` would say nothing new.
     pub(crate) fn assumes_another(&self, unit: Unit) -> bool {
         self.assumed_unit.unwrap_or(Unit::MILLIMETRE) != unit
     }

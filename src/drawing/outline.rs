@@ -14,7 +14,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Side of the direction of travel on which the wire runs: see [`wire_side`].
+    /// Side of the direction of travel on which the wire runs: see `wire_side`.
     pub(crate) fn wire_side(&self) -> Option<Side> {
         wire_side(self.role, self.contour.closed, self.twice_area)
     }

@@ -6,7 +6,7 @@ use super::{Bounds, Point, Vector};
 /// A higher degree is refused: no program draws it, and each point of it costs its square.
 pub(crate) const MAX_DEGREE: usize = 24;
 
-/// A (rational) B-spline. Made by [`Spline::new`], so that its numbers fit each other.
+/// A (rational) B-spline. Made by `Spline::new`, so that its numbers fit each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
     degree: usize,
@@ -72,7 +72,7 @@ impl Spline {
         })
     }
 
-    /// The spline with even knots that begins at the first point and ends at the last one. Errors as in [`Spline::new`].
+    /// The spline with even knots that begins at the first point and ends at the last one. Errors as in `Spline::new`.
     pub(crate) fn clamped(
         degree: usize,
         points: Vec<Point>,

@@ -1,6 +1,6 @@
 //! The absolute tolerances, named once and passed down.
 
-/// Absolute tolerances in millimetres; [`Tolerances::in_units`] turns them into drawing units.
+/// Absolute tolerances in millimetres; `Tolerances::in_units` turns them into drawing units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Two end points closer than this belong together when entities are chained.

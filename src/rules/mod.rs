@@ -126,7 +126,7 @@ impl Observation {
     }
 }
 
-/// A rule on a segment and its near neighbours. All of them stand in [`LOCAL_RULES`].
+/// A rule on a segment and its near neighbours. All of them stand in `LOCAL_RULES`.
 pub struct LocalRule {
     pub rule: Rule,
     /// Looks at the segments `range` of a contour and adds what it sees there. What it sees at a segment may depend only on
@@ -182,7 +182,7 @@ pub(crate) const LOCAL_RULES: &[LocalRule] = &[
 /// A place, and the other places that are concerned.
 pub type Places = (Place, Vec<Place>);
 
-/// A rule on a contour as a whole, cheap enough to be asked at every report. All of them stand in [`CONTOUR_RULES`].
+/// A rule on a contour as a whole, cheap enough to be asked at every report. All of them stand in `CONTOUR_RULES`.
 pub struct ContourRule {
     pub rule: Rule,
     pub holds: fn(&Outlook) -> bool,
@@ -211,13 +211,13 @@ pub struct PairObservation {
     pub mildest: Option<Severity>,
 }
 
-/// A rule on segments that come near each other. All of them stand in [`PAIR_RULES`].
+/// A rule on segments that come near each other. All of them stand in `PAIR_RULES`.
 pub struct PairRule {
     pub rule: Rule,
     /// How near two segments must come to be looked at together. A disc that must be empty lies within this of both.
     pub reach: fn(&Limits) -> f64,
     /// Looks at two segments, the one of the earlier entity first; the flag tells that they are of one contour.
-    /// What it sees may depend only on the two and on the [`NEIGHBOURS`] that follow and precede each in its contour.
+    /// What it sees may depend only on the two and on the `NEIGHBOURS` that follow and precede each in its contour.
     pub check: fn(&Wall, &Wall, bool) -> Vec<PairObservation>,
     pub detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
     pub fixes: fn(&Wall, &Wall) -> Vec<Fix>,

@@ -60,7 +60,7 @@ impl<'a> Wall<'a> {
         std::iter::once(start).chain(end)
     }
 
-    /// How many steps forward it is from this segment to `other` of the same contour; up to [`NEIGHBOURS`].
+    /// How many steps forward it is from this segment to `other` of the same contour; up to `NEIGHBOURS`.
     fn steps_to(&self, other: &Wall) -> Option<usize> {
         let count = self.outlook.contour.len();
         let steps = if self.outlook.contour.closed {
