@@ -183,23 +183,23 @@ impl Document {
         let may_be_one_field = section.sum.errors == 0
             && section.sum.blocks >= FEWEST_BLAMED
             && !self.lacks_a_number(section);
-        if !is_fragment && may_be_one_field {
-            if let Some((nth, fault)) = self.blamed(section)
-                && let Some(at) = self.blocks_of(section).nth(nth)
-            {
-                let spot = match &fault {
-                    Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
-                    Fault::AxisKeepsOpen { .. } => rules::Spot::Axis,
-                    Fault::JKeepsOpen { .. } => rules::Spot::J,
-                    Fault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
-                    Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
-                    _ => rules::Spot::Block,
-                };
-                let block = self.range_of(at);
-                let range = fields_of(self.text.bytes(), block.clone())
-                    .map_or(block.clone(), |fields| spot.range(&fields, block));
-                findings.push(Finding::of(fault, range));
-            }
+        if !is_fragment
+            && may_be_one_field
+            && let Some((nth, fault)) = self.blamed(section)
+            && let Some(at) = self.blocks_of(section).nth(nth)
+        {
+            let spot = match &fault {
+                Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
+                Fault::AxisKeepsOpen { .. } => rules::Spot::Axis,
+                Fault::JKeepsOpen { .. } => rules::Spot::J,
+                Fault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
+                Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
+                _ => rules::Spot::Block,
+            };
+            let block = self.range_of(at);
+            let range = fields_of(self.text.bytes(), block.clone())
+                .map_or(block.clone(), |fields| spot.range(&fields, block));
+            findings.push(Finding::of(fault, range));
         }
         view.findings.extend(findings);
     }

@@ -680,34 +680,34 @@ impl<'a> Search<'a> {
             .map(|tangents| tangents[0]);
         // The way in meets the contour with a corner.
         let is_at_lead = self.is_mirrored && (index <= 1 || index + 1 >= self.items.len());
-        if let (Some(from), Some(to), false) = (before, behind, is_at_lead) {
-            if let Some(half) = half_turn_between(from, to, across) {
-                let (start, end) = (Point::origin(), Point::new(gap[0].round(), gap[1].round()));
-                let arc = Segment::from_bulge(start, end, (half / 2.0).tan());
-                let mut blocks = Vec::new();
-                let node = Node {
-                    x: gap[0].round() as i64,
-                    y: gap[1].round() as i64,
-                };
-                let made = encode(
-                    &arc,
-                    Node { x: 0, y: 0 },
-                    node,
-                    self.path.limits.largest(),
-                    &mut blocks,
-                );
-                if let (Some(()), [one]) = (made, &blocks[..]) {
-                    // A half turn or more joins two sides of a slot, where all else runs smoothly, and is a corner's line elsewhere.
-                    let is_likely =
-                        half.abs() < 1.45 || 2 * self.joints.round > self.items.len() as i32 - 2;
-                    found.push((
-                        Change::Insert {
-                            index,
-                            block: one.block,
-                        },
-                        if is_likely { 2.2 } else { 5.0 },
-                    ));
-                }
+        if let (Some(from), Some(to), false) = (before, behind, is_at_lead)
+            && let Some(half) = half_turn_between(from, to, across)
+        {
+            let (start, end) = (Point::origin(), Point::new(gap[0].round(), gap[1].round()));
+            let arc = Segment::from_bulge(start, end, (half / 2.0).tan());
+            let mut blocks = Vec::new();
+            let node = Node {
+                x: gap[0].round() as i64,
+                y: gap[1].round() as i64,
+            };
+            let made = encode(
+                &arc,
+                Node { x: 0, y: 0 },
+                node,
+                self.path.limits.largest(),
+                &mut blocks,
+            );
+            if let (Some(()), [one]) = (made, &blocks[..]) {
+                // A half turn or more joins two sides of a slot, where all else runs smoothly, and is a corner's line elsewhere.
+                let is_likely =
+                    half.abs() < 1.45 || 2 * self.joints.round > self.items.len() as i32 - 2;
+                found.push((
+                    Change::Insert {
+                        index,
+                        block: one.block,
+                    },
+                    if is_likely { 2.2 } else { 5.0 },
+                ));
             }
         }
         if let Some(line) = straight(&wanted) {
