@@ -37,6 +37,9 @@ pub(super) struct Cut {
     pub flip: Option<(Place, Range<usize>)>,
 }
 
+/// Twice the area of which no way to and fro encloses as much, nm²: 1 mm².
+const LARGE: u128 = 2_000_000_000_000;
+
 impl Cut {
     pub fn of(placed: &Placed<'_>, stretch: usize, run: usize) -> Option<Cut> {
         let (offset, its) = (placed.offset, placed.stretch.run_at(run)?);
@@ -117,18 +120,26 @@ impl Cut {
 
     /// Whether it goes round something: passes to and fro do not.
     fn goes_round(&self, document: &Document) -> bool {
+        // What encloses so much needs no closer look, which an edit would pay for every cut that runs from one stretch into the next.
+        if self.run.twice_area.unsigned_abs() > LARGE && self.closes_by_ends(document) {
+            return true;
+        }
         self.only_path(document).map_or_else(
             || goes_round(&self.way(document)) == Some(true),
             |path| path.goes_round,
         )
     }
 
-    /// Whether it closes; its ends alone tell that for nearly all cuts.
-    pub fn closes(&self, document: &Document) -> bool {
+    fn closes_by_ends(&self, document: &Document) -> bool {
         let tolerance = self.tolerance(document);
         let is_near = |a: Place, b: Place| super::machine::distance(a, b) / 1e3 <= tolerance;
         let (begin, end) = (self.run.first[0], self.run.last[1].to);
-        if is_near(begin.from, end) || (self.run.moves > 2 && is_near(begin.to, end)) {
+        is_near(begin.from, end) || (self.run.moves > 2 && is_near(begin.to, end))
+    }
+
+    /// Whether it closes; its ends alone tell that for nearly all cuts.
+    pub fn closes(&self, document: &Document) -> bool {
+        if self.closes_by_ends(document) {
             return true;
         }
         if let Some(path) = self.only_path(document) {

@@ -29,6 +29,9 @@ struct GoesOn {
     held: Option<Section>,
 }
 
+/// Twice the area of which no way to and fro encloses as much, µm²: 1 mm².
+const LARGE: f64 = 2e6;
+
 impl Document {
     /// `calm` takes the contours within one run of which is known now that they do not cross themselves, in their order.
     pub(super) fn look(&self, known: &mut Known, calm: &mut Vec<PartAt>) -> View {
@@ -104,6 +107,9 @@ impl Document {
     }
 
     fn goes_round(&self, section: &Section) -> bool {
+        if section.sum.twice_area.abs() > LARGE && not_closed::is_closed(&section.sum) {
+            return true;
+        }
         match section.parts {
             [(run, part), last] if (run, part) == last => {
                 let of = self.runs.get(run).and_then(|run| run.parts.get(part));
