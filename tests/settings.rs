@@ -140,7 +140,9 @@ fn the_protocol_lists_every_key() {
             .filter(|(_, meaning)| !meaning.is_empty())
             .map(|(name, meaning)| format!("`{name}`: {meaning}"))
             .collect();
-        let meaning = [&[row.meaning.clone()], &of_words[..]].concat().join(" ");
+        let meaning = [std::slice::from_ref(&row.meaning), &of_words[..]]
+            .concat()
+            .join(" ");
         let kind = type_of(&row, &schema);
         table += &format!("| `{}` | {kind} | {default} | {meaning} |\n", row.key);
     }
