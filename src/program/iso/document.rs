@@ -45,12 +45,15 @@ pub struct Document {
 /// A stop: the index of its stretch, and its byte counted from there.
 pub(super) type StopAt = (usize, u32);
 
+/// The stretches of a cut, and its runs in there.
+type Places = Vec<(usize, usize)>;
+
 /// What was found in the cuts of a program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Crossings {
     pub known: Known,
-    /// The cuts that cross themselves or lie on themselves, by their stretches and the runs in there, and where.
-    pub found: Vec<(Vec<(usize, usize)>, Arc<Found>)>,
+    /// The cuts that cross themselves or lie on themselves, and where.
+    pub found: Vec<(Places, Arc<Found>)>,
 }
 
 /// The last value of each place of the control's table, nm.

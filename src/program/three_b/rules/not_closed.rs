@@ -1,6 +1,6 @@
 //! `not-closed`: a contour does not come back to where it began, nor to the end of its lead-in.
 //!
-//! Where a contour closes is said by [`crate::program::closing`]; its sums alone tell that for nearly all of them.
+//! Where a contour closes is said by [`crate::program::path`]; its sums alone tell that for nearly all of them.
 
 use super::super::entry::Move;
 use super::super::run::Sum;
