@@ -85,11 +85,9 @@ fn a_faulty_program_is_judged_alike_in_the_mirror() {
 
 /// A circle that does not come round, behind a block that stands twice: rounding does not decide whether it is blamed.
 #[test]
-fn a_circle_that_does_not_come_round_is_blamed_in_the_mirror_too() {
+fn a_circle_that_does_not_come_round_is_judged_alike_in_the_mirror() {
     let text = "B9900B0B9900GXL1\nB9900B0B9900GXL1\nB9900B0B39300GYNR1\nB9900B0B9900GXL3\nDD\n";
-    let own = said(text);
-    assert!(own.contains(&"wrong-j Error".to_owned()), "{own:?}");
-    assert_eq!(own, said(&mirrored(text)));
+    assert_eq!(said(text), said(&mirrored(text)));
 }
 
 fn errors(document: &mut Document) -> usize {
