@@ -1,6 +1,6 @@
 //! Every sentence that a person reads, in every language: one file a language, and nothing of the house but text.
 //!
-//! A sentence has a name and takes what it speaks of; the rooms say [`say!`] with both and hold no wording of their own:
+//! A sentence has a name and takes what it speaks of; the rooms say `say!` with both and hold no wording of their own:
 //!
 //! ```text
 //! en.rs      no_such_layer(layer, names) => "there is no layer {layer:?}, expected {names}";
@@ -12,8 +12,8 @@
 //! - What a sentence takes is shown as `format!` shows it, `{layer:?}` and `{length:.3}` included. Where the wording hangs on a number or
 //!   on a choice (a plural, a case), the row is a function: `errors(count: usize) => { … }`. Words that are no text of ours (keys, names
 //!   of rules, file endings, letters of a program) are handed in and never translated.
-//! - `en.rs` says which sentences there are ([`declare!`]). Another language is a file with the same rows under `translate!`, its line
-//!   in [`Language`], and its arm in [`call!`]; a row that it lacks does not compile.
+//! - `en.rs` says which sentences there are (`declare!`). Another language is a file with the same rows under `translate!`, its line
+//!   in [`Language`], and its arm in `call!`; a row that it lacks does not compile.
 //! - A process speaks one language: an editor starts a server of its own, and a command is one person's. [`speak`] chooses it before
 //!   anything is read, since readers put their sentences into what they find.
 //! - Lines of the log, what a bug says before it stops (`expect`), and the help of the command line, which `clap` takes from the comments

@@ -1,6 +1,6 @@
 //! Programs for the machine: how each language is read, judged, followed by the machine and written.
 //!
-//! [`Document`] is a program as the faces hold it, whatever its language; [`trace`] is what every language comes to: where the
+//! [`Document`] is a program as the faces hold it, whatever its language; [`path`] is what every language comes to: where the
 //! machine goes. What a language alone knows stands in its own folder.
 
 mod chunks;
