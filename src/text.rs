@@ -143,6 +143,15 @@ impl SourceText {
         self.line_starts.begun_by(offset).saturating_sub(1)
     }
 
+    /// The line end that the text uses before a place: that of the last line which ends there, LF where none does.
+    pub(crate) fn line_end_before(&self, place: usize) -> &'static str {
+        let before = self.bytes.get(..place).unwrap_or_default();
+        match memchr::memrchr(b'\n', before) {
+            Some(at) if at > 0 && before[at - 1] == b'\r' => "\r\n",
+            _ => "\n",
+        }
+    }
+
     /// The bytes of a line without its line end; empty at the end of the text for a line past the last.
     pub fn line_range(&self, line: usize) -> Range<usize> {
         let start = self.line_start(line);

@@ -2,8 +2,8 @@
 //!
 //! Work is bounded before it begins: the size of a block is counted once, without drawing it.
 
-use super::entity::{Look, Outcome, Paint};
-use super::insert::{Insert, block_key};
+use super::entity::{Insert, Look, Outcome, Paint};
+use super::insert::block_key;
 use super::layer_table::LayerStates;
 use super::lexer::Lexer;
 use super::number::{self, Number};

@@ -4,7 +4,6 @@
 //! the entity has no geometry then.
 
 use super::fault::{damage, meaning, oddity, quoted};
-use super::insert;
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
@@ -60,11 +59,35 @@ pub(crate) struct VertexLines {
 pub(super) enum Outcome {
     Entity(Read),
     /// A reference to a block.
-    Insert(Box<insert::Insert>),
+    Insert(Box<Insert>),
     /// In the text, but not cut: what it is called, and why.
     Unsupported(String, &'static str),
     /// A finding says what is wrong with it.
     Damaged,
+}
+
+/// A reference to a block, as it stands in the text.
+#[derive(Clone, Debug)]
+pub(super) struct Insert {
+    /// The handle, and the line it stands on.
+    pub(super) handle: Option<(Handle, usize)>,
+    pub(super) layer: Arc<str>,
+    pub(super) look: Look,
+    /// The block's name as `insert::block_key` has it.
+    pub(super) block: String,
+    /// The line of the block's name.
+    pub(super) name_line: usize,
+    /// From the block's coordinates, its base point at the origin, to those around the reference.
+    pub(super) map: Space,
+    /// Columns and rows, at least 1, and the step from one to the next.
+    pub(super) columns: (u64, Vector3),
+    pub(super) rows: (u64, Vector3),
+}
+
+impl Insert {
+    pub(super) fn copies(&self) -> u64 {
+        self.columns.0.saturating_mul(self.rows.0)
+    }
 }
 
 /// Extrusion: the normal of the plane in which an entity's own coordinates lie.

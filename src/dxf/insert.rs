@@ -1,40 +1,14 @@
 //! INSERT: which block it draws, where, how often and how it is stretched.
 
 use super::entity::{
-    Common, Look, Numbers, Outcome, Plane, missing, pass_over_followers, value_line_of,
+    Common, Insert, Numbers, Outcome, Plane, missing, pass_over_followers, value_line_of,
 };
 use super::fault::{damage, oddity, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::space::{Space, Vector3, in_space};
-use crate::drawing::Handle;
 use crate::finding::Finding;
 use crate::geometry::{Vector, direction, left_normal};
-use std::sync::Arc;
-
-/// A reference to a block, as it stands in the text.
-#[derive(Clone, Debug)]
-pub(super) struct Insert {
-    /// The handle, and the line it stands on.
-    pub(super) handle: Option<(Handle, usize)>,
-    pub(super) layer: Arc<str>,
-    pub(super) look: Look,
-    /// The block's name as [`block_key`] has it.
-    pub(super) block: String,
-    /// The line of the block's name.
-    pub(super) name_line: usize,
-    /// From the block's coordinates, its base point at the origin, to those around the reference.
-    pub(super) map: Space,
-    /// Columns and rows, at least 1, and the step from one to the next.
-    pub(super) columns: (u64, Vector3),
-    pub(super) rows: (u64, Vector3),
-}
-
-impl Insert {
-    pub(super) fn copies(&self) -> u64 {
-        self.columns.0.saturating_mul(self.rows.0)
-    }
-}
 
 /// Block names are the same in upper and in lower case.
 pub(super) fn block_key(name: &[u8]) -> String {

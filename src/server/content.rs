@@ -1,7 +1,7 @@
 //! What a document comes to: its source and what was made of it, and what is done to it. All of it may run on a worker.
 
 use super::convert;
-use super::open::Kind;
+use super::kind::Kind;
 use super::transport::panic_text;
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;

@@ -3,7 +3,7 @@
 
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::convert;
-use super::open::Kind;
+use super::kind::Kind;
 use crate::drawing::Drawing;
 use crate::protocol::{Diagnostic, DrawingChange};
 use crate::settings::Effective;

@@ -13,6 +13,7 @@ mod errors;
 mod handlers;
 mod jobs;
 mod judge;
+mod kind;
 mod methods;
 mod open;
 mod parent;

@@ -3,7 +3,8 @@
 use super::client::Weight;
 use super::content::Content;
 use super::judge::{self, Task};
-use super::open::{Kind, Open};
+use super::kind::Kind;
+use super::open::Open;
 use super::state::State;
 use ls_types::TextDocumentContentChangeEvent;
 use std::sync::Arc;

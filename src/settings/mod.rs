@@ -12,6 +12,7 @@ mod keys;
 mod passes;
 mod profile;
 mod reader;
+mod row;
 mod value;
 
 pub use budget::Budget;
@@ -22,7 +23,8 @@ pub use keys::{Passes, Profile, ProfileSettings, ProgramSettings, Settings, rows
 pub use passes::{PassFault, pass_faults};
 pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero, shipped_profiles};
 pub use reader::words_of;
-pub use table::{Range, Row, camel_case};
+pub use row::{Range, Row};
+pub use table::camel_case;
 
 use crate::drawing::Role;
 use crate::finding::{Rule, Severity};

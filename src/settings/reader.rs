@@ -1,6 +1,6 @@
 //! One level of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
 
-use super::table::{Range, Table};
+use super::row::{Range, Row};
 use super::value::{Entry, Node, Value};
 use super::{PassFault, PointSetting, RuleSeverity, Settings, SettingsError, shipped_profiles};
 use crate::drawing::{Color, Role};
@@ -8,6 +8,15 @@ use crate::finding::Rule;
 use serde::de::value::{Error, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use std::collections::BTreeMap;
+
+/// A table with declared keys.
+pub(super) trait Table: Default {
+    /// The keys in their order, kebab-case.
+    fn keys() -> Vec<String>;
+    fn rows(prefix: &str) -> Vec<Row>;
+    /// Reads the value of a key in snake_case; false where there is no such key. `dotted` is the key as it is written.
+    fn read(&mut self, reader: &mut Reader, key: &str, dotted: &str, node: &Node) -> bool;
+}
 
 /// Reads the root table. Null is an empty level.
 pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {

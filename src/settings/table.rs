@@ -1,83 +1,6 @@
 //! What a table of settings is: rows that are declared once, and all that follows from them.
 
-use super::reader::Reader;
-use super::value::Node;
 use std::collections::BTreeMap;
-
-/// The numbers that a key takes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    pub least: f64,
-    /// The least number itself is taken.
-    pub is_least: bool,
-    pub most: f64,
-}
-
-impl Range {
-    pub(super) const ABOVE_ZERO: Range = Range {
-        is_least: false,
-        ..Range::FROM_ZERO
-    };
-    pub(super) const FROM_ZERO: Range = Range::of(0.0, f64::INFINITY);
-
-    /// All numbers from `least` to `most`, both among them.
-    pub(super) const fn of(least: f64, most: f64) -> Range {
-        Range {
-            least,
-            is_least: true,
-            most,
-        }
-    }
-
-    pub(super) fn holds(&self, number: f64) -> bool {
-        number.is_finite()
-            && number <= self.most
-            && (number > self.least || self.is_least && number == self.least)
-    }
-
-    pub(super) fn expected(&self) -> String {
-        let Range { least, most, .. } = self;
-        match (most.is_finite(), self.is_least) {
-            (true, _) => say!(a_number_from_to, least, most),
-            (false, true) => say!(a_number_of_or_above, least),
-            (false, false) => say!(a_number_above, least),
-        }
-    }
-}
-
-/// A key as its row declares it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// As `wedm.toml` has it: `program.lead-in`; `profiles.NAME.end` within a table by name.
-    pub key: String,
-    /// As TOML writes it; `None` where the key is not set by default.
-    pub default: Option<String>,
-    pub range: Option<Range>,
-    /// What the key means. The first sentence stands for itself.
-    pub meaning: String,
-}
-
-impl Row {
-    /// The meaning without the targets of its links.
-    pub fn plain_meaning(&self) -> String {
-        let mut plain = String::new();
-        let mut rest = self.meaning.as_str();
-        while let Some((before, link)) = rest.split_once("](") {
-            plain.extend(before.rsplitn(2, '[').collect::<Vec<_>>().into_iter().rev());
-            rest = link.split_once(')').map_or("", |(_, behind)| behind);
-        }
-        plain + rest
-    }
-}
-
-/// A table with declared keys.
-pub(super) trait Table: Default {
-    /// The keys in their order, kebab-case.
-    fn keys() -> Vec<String>;
-    fn rows(prefix: &str) -> Vec<Row>;
-    /// Reads the value of a key in snake_case; false where there is no such key. `dotted` is the key as it is written.
-    fn read(&mut self, reader: &mut Reader, key: &str, dotted: &str, node: &Node) -> bool;
-}
 
 /// What becomes of a value that two levels set.
 pub(super) trait Overlay: Clone {
@@ -148,7 +71,7 @@ pub(super) fn as_toml(value: &impl serde::Serialize) -> Option<String> {
 
 /// Declares tables of settings. Each row is a key: what it means (to people: docs, JSON Schema, editors), its type, its default, how it
 /// is read and in which range. From it come the field of a level, which holds only what somebody has set, the method of the same name with
-/// the default filled in, and the parts that [`Table`] and [`Overlay`] play. `(as NAME, …)` makes a second type, in which every default is filled in.
+/// the default filled in, and the parts that `Table` and [`Overlay`] play. `(as NAME, …)` makes a second type, in which every default is filled in.
 macro_rules! tables {
     ($($(#[doc = $about:literal])* $name:ident $filled:tt $rows:tt)*) => {$(
         table! { $(#[doc = $about])* $name $rows }

@@ -155,10 +155,10 @@ pub(super) fn cuts(document: &Document, each: &mut dyn FnMut(Option<Cut>)) {
     for (index, placed) in document.placed().enumerate() {
         let stretch = placed.stretch;
         if let Some(whole) = stretch.ends_run_before
-            && let Some(cut) = &mut open
+            && let Some(cut) = open.as_mut().filter(|cut| cut.run.open)
         {
             cut.run.whole &= whole;
-            cut.run.faulty |= cut.run.open && stretch.faulty_before;
+            cut.run.faulty |= stretch.faulty_before;
             cut.run.open = false;
         }
         if let Some(cut) = &mut open {

@@ -115,7 +115,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
                 return Vec::new();
             };
             let start = document.text().line_start(at);
-            let text = format!("G40{}", line_end(document, range.end));
+            let text = format!("G40{}", document.text().line_end_before(range.end));
             one(
                 FixKind::InsertLine {
                     block: "G40".into(),
@@ -126,7 +126,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
         }
         Fault::NoReturn { .. } => {
             let end = document.text().line_range(line).end;
-            let text = format!("{}M99", line_end(document, range.end));
+            let text = format!("{}M99", document.text().line_end_before(range.end));
             one(
                 FixKind::InsertLine {
                     block: "M99".into(),
@@ -141,7 +141,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
                 .text()
                 .line_range(document.text().line_of(range.end))
                 .end;
-            let text = format!("{}{word}", line_end(document, range.end));
+            let text = format!("{}{word}", document.text().line_end_before(range.end));
             one(
                 FixKind::AddEnd { word: word.clone() },
                 true,
@@ -488,7 +488,7 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     let behind = text.line_range(line).end;
     let edit = TextEdit::new(
         behind..behind,
-        format!("{}{words}", line_end(document, range.end)),
+        format!("{}{words}", document.text().line_end_before(range.end)),
     );
     let length = near(target) / 1e6;
     Some(TextFix::text(FixKind::Close { length }, false, edit))
@@ -578,13 +578,4 @@ fn rapid_word(document: &Document, range: &Range<usize>) -> Option<Range<usize>>
     word_range(bytes, line.start, |letter, number| {
         letter == b'G' && number.whole() == Some(0)
     })
-}
-
-/// The line end that the text uses before a place.
-pub(super) fn line_end(document: &Document, place: usize) -> &'static str {
-    let before = document.text().bytes().get(..place).unwrap_or_default();
-    match memchr::memrchr(b'\n', before) {
-        Some(at) if at > 0 && before[at - 1] == b'\r' => "\r\n",
-        _ => "\n",
-    }
 }

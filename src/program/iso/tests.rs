@@ -1055,3 +1055,20 @@ proptest! {
         prop_assert!(trace.steps.iter().all(|step| step.range.end <= document.text().len()));
     }
 }
+
+#[test]
+fn a_line_that_cannot_be_read_says_nothing_of_a_cut_that_was_over_before_it() {
+    // Between the two, the text falls into stretches somewhere.
+    for lines_between in [0, 400] {
+        let text = format!(
+            "G92 X0 Y0\nG01 X10. Y0\nG01 X10. Y10.\nG01 X3. Y10.\nG28 X0\nG00 X5. Y5.\n{}X- Y\nM02\n",
+            "(plate)\n".repeat(lines_between)
+        );
+        let is_open =
+            |finding: &crate::finding::Finding| finding.rule == crate::finding::Rule::NotClosed;
+        assert!(
+            read(&text).findings().iter().any(is_open),
+            "{lines_between} lines between"
+        );
+    }
+}

@@ -1,7 +1,7 @@
 //! The fields of one block: where each stands, and what was meant where one is damaged.
 
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
-use super::parse::{Flaw, SyntaxFault};
+use super::fault::{Flaw, SyntaxFault};
 use super::plain::wide_space;
 use std::ops::Range;
 

@@ -5,6 +5,7 @@
 //! is handed out as [`Item::Text`]: only its place among the blocks tells a heading from a fault.
 
 use super::block::{Block, PartArc};
+use super::fault::{Flaw, SyntaxFault};
 use super::fields::{self, Fields};
 use super::plain::{Likeness, alike, in_plain_letters, with_plain_marks};
 use std::ops::Range;
@@ -113,50 +114,6 @@ pub struct StatedPoint {
     pub at: [f64; 2],
     /// The fewest decimals of its two numbers.
     pub decimals: u8,
-}
-
-/// What is wrong with a line as text.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Flaw {
-    /// It cannot be read: the sentence says what was found and what was expected.
-    Unreadable(String),
-    /// `B` is missing before the number that begins at this byte.
-    MissingB { at: usize },
-    /// `B` stands where the `N` of a block number was meant.
-    BlockNumberAsB { number: u32 },
-    /// The letter O stands for a zero.
-    LetterO,
-    /// Letters or digits that only look like those of a block: the sentence says which.
-    NotPlain(String),
-    /// Coordinates with commas in the place of their decimal points: they are not read.
-    DecimalCommas,
-}
-
-/// A place that cannot be read as it stands.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SyntaxFault {
-    pub range: Range<usize>,
-    pub flaw: Flaw,
-    /// Number that stands before a block that cannot be read.
-    pub number: Option<u32>,
-}
-
-impl SyntaxFault {
-    /// What was found and what was expected.
-    pub fn sentence(&self) -> String {
-        match &self.flaw {
-            Flaw::Unreadable(sentence) | Flaw::NotPlain(sentence) => sentence.clone(),
-            Flaw::DecimalCommas => {
-                "the coordinates have decimal commas and are not read, expected decimal points"
-                    .into()
-            }
-            Flaw::MissingB { .. } => "a B of the block is missing".into(),
-            Flaw::BlockNumberAsB { number } => {
-                format!("B{number} stands where N{number} was meant")
-            }
-            Flaw::LetterO => "the letter O stands where a zero was meant".into(),
-        }
-    }
 }
 
 /// Reads a whole text; line ends are LF, CR LF and CR. Text that is no block, word or comment is a fault behind the first block.

@@ -5,7 +5,8 @@
 use super::block::{Block, Motion};
 use super::decode::meant;
 use super::entry::{BlockEntry, Entry, Move, NO_NUMBER, What};
-use super::parse::{Flaw, Item, StatedPoint, Word, Words, read_line};
+use super::fault::Flaw;
+use super::parse::{Item, StatedPoint, Word, Words, read_line};
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
 use crate::finding::{Detail, Fault, Rule};

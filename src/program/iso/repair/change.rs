@@ -6,7 +6,6 @@ use crate::finding::FixKind;
 use crate::geometry::{Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
-use crate::program::iso::fixes::line_end;
 use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::with_word;
 use crate::program::iso::machine::{
@@ -852,7 +851,7 @@ impl Change {
         let edits = match &self.lines[..] {
             [new] if self.replaced == 0 => {
                 let place = text.line_start(line);
-                let end = line_end(document, text.line_range(line).end);
+                let end = text.line_end_before(text.line_range(line).end);
                 let new = String::from_utf8(new.clone()).ok()?;
                 vec![TextEdit::new(place..place, format!("{new}{end}"))]
             }

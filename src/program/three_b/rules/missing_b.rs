@@ -2,7 +2,8 @@
 
 use super::{Site, TextFix, one_edit};
 use crate::finding::FixKind;
-use crate::program::three_b::parse::{Flaw, Item, Words, read_line};
+use crate::program::three_b::fault::Flaw;
+use crate::program::three_b::parse::{Item, Words, read_line};
 use crate::text::TextEdit;
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {

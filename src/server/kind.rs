@@ -1,0 +1,63 @@
+//! What an open text is: by the language that the client names, else by its name.
+
+use crate::program::Language;
+use crate::settings::FILE_NAME;
+
+/// What a text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Dxf,
+    Program(Language),
+    /// The project's `wedm.toml`.
+    Settings,
+    /// Nothing that is read here.
+    Foreign,
+}
+
+impl Kind {
+    /// By the language that the client names, else by the file's name.
+    pub fn of(language: &str, uri: &str) -> Kind {
+        let path = uri.split(['?', '#']).next().unwrap_or_default();
+        let name = path.rsplit('/').next().unwrap_or_default();
+        if name.eq_ignore_ascii_case(FILE_NAME) {
+            return Kind::Settings;
+        }
+        let by_name = name
+            .rsplit_once('.')
+            .map(|(_, extension)| extension.to_ascii_lowercase());
+        match (language, by_name.as_deref()) {
+            ("dxf", _) => Kind::Dxf,
+            (language, ending) => match (Language::of_id(language), ending) {
+                (Some(language), _) => Kind::Program(language),
+                (None, Some("dxf")) => Kind::Dxf,
+                (None, ending) => ending
+                    .and_then(Language::of_ending)
+                    .map_or(Kind::Foreign, Kind::Program),
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_known_by_its_language_or_its_name() {
+        let check = |language: &str, uri: &str, expected: Kind| {
+            assert_eq!(Kind::of(language, uri), expected, "{language} {uri}")
+        };
+        check("dxf", "file:///a/b", Kind::Dxf);
+        check("plaintext", "file:///a/B.DXF", Kind::Dxf);
+        check("", "untitled:plate.3b", Kind::Program(Language::ThreeB));
+        check("3b", "file:///a/plate.txt", Kind::Program(Language::ThreeB));
+        check("toml", "file:///a/wedm.toml", Kind::Settings);
+        check("toml", "file:///a/Cargo.toml", Kind::Foreign);
+        check(
+            "wire-iso",
+            "file:///a/plate.txt",
+            Kind::Program(Language::Iso),
+        );
+        check("", "file:///a/plate.NC", Kind::Program(Language::Iso));
+    }
+}

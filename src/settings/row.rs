@@ -1,0 +1,67 @@
+//! What the row of a key says: its name, its default, the numbers that it takes, and what it means.
+
+/// The numbers that a key takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    pub least: f64,
+    /// The least number itself is taken.
+    pub is_least: bool,
+    pub most: f64,
+}
+
+impl Range {
+    pub(super) const ABOVE_ZERO: Range = Range {
+        is_least: false,
+        ..Range::FROM_ZERO
+    };
+    pub(super) const FROM_ZERO: Range = Range::of(0.0, f64::INFINITY);
+
+    /// All numbers from `least` to `most`, both among them.
+    pub(super) const fn of(least: f64, most: f64) -> Range {
+        Range {
+            least,
+            is_least: true,
+            most,
+        }
+    }
+
+    pub(super) fn holds(&self, number: f64) -> bool {
+        number.is_finite()
+            && number <= self.most
+            && (number > self.least || self.is_least && number == self.least)
+    }
+
+    pub(super) fn expected(&self) -> String {
+        let Range { least, most, .. } = self;
+        match (most.is_finite(), self.is_least) {
+            (true, _) => say!(a_number_from_to, least, most),
+            (false, true) => say!(a_number_of_or_above, least),
+            (false, false) => say!(a_number_above, least),
+        }
+    }
+}
+
+/// A key as its row declares it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// As `wedm.toml` has it: `program.lead-in`; `profiles.NAME.end` within a table by name.
+    pub key: String,
+    /// As TOML writes it; `None` where the key is not set by default.
+    pub default: Option<String>,
+    pub range: Option<Range>,
+    /// What the key means. The first sentence stands for itself.
+    pub meaning: String,
+}
+
+impl Row {
+    /// The meaning without the targets of its links.
+    pub fn plain_meaning(&self) -> String {
+        let mut plain = String::new();
+        let mut rest = self.meaning.as_str();
+        while let Some((before, link)) = rest.split_once("](") {
+            plain.extend(before.rsplitn(2, '[').collect::<Vec<_>>().into_iter().rev());
+            rest = link.split_once(')').map_or("", |(_, behind)| behind);
+        }
+        plain + rest
+    }
+}
