@@ -341,3 +341,16 @@ fn no_error_stands_in_a_wire_path_that_is_drawn() {
         .collect();
     assert!(errors.is_empty(), "{errors:?}");
 }
+
+/// A line there and back is drawn twice: neither is left out of the wire's own path.
+#[test]
+fn a_way_there_and_back_that_is_drawn_twice_is_cut_twice() {
+    let (hole, edge) = (Point::origin(), Point::new(9.9, 0.0));
+    let path = [Segment::line(hole, edge), Segment::line(edge, hole)];
+    let (drawing, outlines) = as_entities(&path);
+    let written = program(&drawing, &outlines, &settings_from(hole));
+    assert_eq!(
+        written.split_whitespace().collect::<Vec<_>>(),
+        ["B9900B0B9900GXL1", "B9900B0B9900GXL3", "DD"]
+    );
+}

@@ -1,13 +1,14 @@
 //! A drawing that is the wire's own path, leads included: entities that lead one from the end of the other.
 
 use super::path::{PathSegment, Source, WirePath};
-use crate::drawing::{Drawing, Geometry, Outline};
+use crate::drawing::{Drawing, EntityId, Geometry, Outline};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Direction, PointSetting};
+use rustc_hash::FxHashSet;
 
 /// Everything in `chosen` as one path, in machining order, when each entity begins or ends where the last one ended. A circle
-/// is gone round from where the wire meets it. `None` where the entities do not lead on from each other, and where a thread
-/// hole or an entry is asked for that is not the path's begin.
+/// is gone round from where the wire meets it; of doubles each is a way of its own. `None` where there is one contour alone, where the
+/// entities do not lead on from each other, and where a thread hole or an entry is asked for that is not the path's begin.
 pub(super) fn one_path(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -23,20 +24,12 @@ pub(super) fn one_path(
             PointSetting::ByHandle(_) => return None,
         }
     }
-    let is_chosen = |id| {
-        chosen.iter().any(|&index| {
-            outlines[index]
-                .contour
-                .pieces
-                .iter()
-                .any(|piece| piece.entity == id)
-        })
-    };
+    let entities = with_doubles(outlines, chosen)?;
     let mut segments: Vec<PathSegment> = Vec::new();
     let mut here = asked.first().copied();
     for (entity, geometry) in drawing
         .entities()
-        .filter(|(id, _)| is_chosen(*id))
+        .filter(|(id, _)| entities.contains(id))
         .map(|(id, entity)| (id, &entity.geometry))
     {
         let pieces: Vec<(usize, Segment)> =
@@ -91,4 +84,26 @@ pub(super) fn one_path(
 
 fn is_circle(geometry: &Geometry) -> bool {
     matches!(geometry, Geometry::Circle { .. } | Geometry::Arc { .. }) && geometry.is_closed()
+}
+
+/// The entities of the chosen outlines, and the doubles of these: a way that is gone there and back is drawn twice. `None` where
+/// there is one outline without a double.
+fn with_doubles(outlines: &[Outline], chosen: &[usize]) -> Option<FxHashSet<EntityId>> {
+    let pieces = chosen
+        .iter()
+        .flat_map(|&index| &outlines[index].contour.pieces);
+    let own: FxHashSet<EntityId> = pieces.map(|piece| piece.entity).collect();
+    let doubles: Vec<EntityId> = outlines
+        .iter()
+        .filter(|outline| {
+            outline
+                .contour
+                .double_of
+                .is_some_and(|of| own.contains(&of))
+        })
+        .flat_map(|outline| &outline.contour.pieces)
+        .map(|piece| piece.entity)
+        .collect();
+    let several = chosen.len() > 1 || !doubles.is_empty();
+    several.then(|| own.into_iter().chain(doubles).collect())
 }

@@ -108,7 +108,6 @@ pub(crate) fn plan_while(
         tolerances.zero_length,
     )?;
     if settings.compensation == Compensation::None
-        && chosen.len() > 1
         && let Some(path) = drawn::one_path(
             drawing,
             outlines,
