@@ -1,6 +1,5 @@
 //! Requests to the client: sent without waiting, answered by an event, given up after ten seconds.
 
-use super::state::State;
 use super::transport::Writer;
 use crate::message::readable;
 use rustc_hash::FxHashMap;
@@ -12,12 +11,15 @@ use std::time::{Duration, Instant};
 const TIME_OUT: Duration = Duration::from_secs(10);
 
 /// What happens with an answer; the error is a sentence.
-type Then = Box<dyn FnOnce(&mut State, Result<Value, String>) + Send>;
+type Then<S> = Box<dyn FnOnce(&mut S, Result<Value, String>) + Send>;
 
-struct Asked {
+/// What is to be done now that an answer has come, or that none will.
+pub(super) type Answered<S> = Box<dyn FnOnce(&mut S) + Send>;
+
+struct Asked<S> {
     method: &'static str,
     deadline: Instant,
-    then: Then,
+    then: Then<S>,
 }
 
 /// What the client said it can do, as far as it matters here.
@@ -45,12 +47,12 @@ pub(super) struct Abilities {
     pub folding_limit: Option<usize>,
 }
 
-/// The other end of the wire, as the state thread sees it.
-pub(super) struct Client {
+/// The other end of the wire, as the state thread sees it. `S` is the state on which answers act.
+pub(super) struct Client<S> {
     pub abilities: Arc<Abilities>,
     writer: Writer,
     next_id: u64,
-    asked: FxHashMap<String, Asked>,
+    asked: FxHashMap<String, Asked<S>>,
 }
 
 #[derive(Serialize)]
@@ -68,8 +70,8 @@ pub(super) enum Weight {
     Info = 3,
 }
 
-impl Client {
-    pub fn new(writer: Writer) -> Client {
+impl<S: 'static> Client<S> {
+    pub fn new(writer: Writer) -> Client<S> {
         Client {
             abilities: Arc::default(),
             writer,
@@ -87,7 +89,7 @@ impl Client {
         &mut self,
         method: &'static str,
         params: impl Serialize,
-        then: impl FnOnce(&mut State, Result<Value, String>) + Send + 'static,
+        then: impl FnOnce(&mut S, Result<Value, String>) + Send + 'static,
     ) {
         self.next_id += 1;
         let id = format!("wedm-{}", self.next_id);
@@ -128,46 +130,35 @@ impl Client {
     pub fn next_deadline(&self) -> Option<Instant> {
         self.asked.values().map(|asked| asked.deadline).min()
     }
-}
 
-/// The client answered.
-pub(super) fn answered(state: &mut State, id: &str, result: Result<Value, Value>) {
-    match state.client.asked.remove(id) {
-        Some(Asked { then, method, .. }) => {
-            let result = result.map_err(|error| {
-                let reason = error
-                    .get("message")
-                    .and_then(Value::as_str)
-                    .unwrap_or(say!(no_reason_given));
-                format!("{method} failed: {reason}")
-            });
-            then(state, result);
-        }
-        None => state
-            .client
-            .log(Weight::Info, say!(an_answer_to_came_late, id)),
+    /// The client answered: what its answer sets off.
+    pub fn answered(&mut self, id: &str, result: Result<Value, Value>) -> Option<Answered<S>> {
+        let Some(Asked { then, method, .. }) = self.asked.remove(id) else {
+            self.log(Weight::Info, say!(an_answer_to_came_late, id));
+            return None;
+        };
+        let result = result.map_err(|error| {
+            let reason = error
+                .get("message")
+                .and_then(Value::as_str)
+                .unwrap_or(say!(no_reason_given));
+            format!("{method} failed: {reason}")
+        });
+        Some(Box::new(move |state| then(state, result)))
     }
-}
 
-/// Gives up what has waited too long.
-pub(super) fn expire(state: &mut State) {
-    let now = Instant::now();
-    while let Some(id) = state
-        .client
-        .asked
-        .iter()
-        .find(|(_, asked)| asked.deadline <= now)
-        .map(|(id, _)| id.clone())
-    {
-        if let Some(Asked { then, method, .. }) = state.client.asked.remove(&id) {
-            state.client.log(
-                Weight::Warning,
-                say!(was_not_answered_within_s, method, TIME_OUT.as_secs()),
-            );
-            then(
-                state,
-                Err(say!(the_client_did_not_answer, method, TIME_OUT.as_secs())),
-            );
-        }
+    /// Gives up one request that has waited too long: what that sets off.
+    pub fn expired(&mut self) -> Option<Answered<S>> {
+        let now = Instant::now();
+        let (id, _) = self.asked.iter().find(|(_, asked)| asked.deadline <= now)?;
+        let id = id.clone();
+        let Asked { then, method, .. } = self.asked.remove(&id)?;
+        let seconds = TIME_OUT.as_secs();
+        self.log(
+            Weight::Warning,
+            say!(was_not_answered_within_s, method, seconds),
+        );
+        let error = Err(say!(the_client_did_not_answer, method, seconds));
+        Some(Box::new(move |state| then(state, error)))
     }
 }

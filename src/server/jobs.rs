@@ -1,7 +1,5 @@
 //! Long work beside the state thread: a few threads that take jobs in order, over snapshots that nobody changes.
 
-use super::judge::{Job as JudgeJob, Judged};
-use super::state::{Mailbox, State};
 use super::transport::Writer;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -112,7 +110,6 @@ pub(super) struct Workers {
     /// What is asked about one place waits for nothing that takes long.
     places: Pool,
     judges: Pool,
-    mailbox: Mailbox,
     writer: Writer,
 }
 
@@ -120,7 +117,7 @@ pub(super) struct Workers {
 const MOST_JUDGED: usize = 16;
 
 impl Workers {
-    pub fn new(mailbox: Mailbox, writer: Writer) -> Workers {
+    pub fn new(writer: Writer) -> Workers {
         let count = std::thread::available_parallelism().map_or(2, usize::from);
         // Two at least, so that one long job does not hold up a short one.
         let count = count.clamp(2, 4);
@@ -128,18 +125,13 @@ impl Workers {
             requests: Pool::new("wedm-worker", count),
             places: Pool::new("wedm-place", count),
             judges: Pool::new("wedm-judge", MOST_JUDGED),
-            mailbox,
             writer,
         }
     }
 
-    /// Takes a document through what has come for it and hands it back to `then` on the state thread, whatever comes.
-    pub fn judge(&self, job: JudgeJob, then: impl FnOnce(&mut State, Judged) + Send + 'static) {
-        let mailbox = self.mailbox.clone();
-        self.judges.push(Box::new(move || {
-            let judged = job.run();
-            mailbox.tell("judging", None, move |state| then(state, judged));
-        }));
+    /// Judges a document, however many answers are being made.
+    pub fn judge(&self, job: impl FnOnce() + Send + 'static) {
+        self.judges.push(Box::new(job));
     }
 
     /// Runs a request's job on a worker, unless its answer is not wanted any more when its turn comes.

@@ -95,7 +95,7 @@ fn serve_between(
     orphaned: Option<fn()>,
     [last_answers, last_writes]: [Duration; 2],
 ) -> std::io::Result<Transport<methods::Backend, ToState>> {
-    let mailbox = state::start(writer.clone())?;
+    let mailbox = state::start(writer.clone(), drawings::does_not_apply)?;
     let service = methods::service(mailbox.clone(), flags.clone(), orphaned);
     let inbox = ToState {
         mailbox: mailbox.clone(),
@@ -125,7 +125,9 @@ struct ToState {
 impl Inbox for ToState {
     fn reply(&self, id: String, result: Result<Value, Value>) {
         self.mailbox.tell("reply", None, move |state| {
-            client::answered(state, &id, result)
+            if let Some(act) = state.client.answered(&id, result) {
+                act(state);
+            }
         });
     }
 

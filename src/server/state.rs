@@ -3,7 +3,7 @@
 //! Handlers and workers hand it closures, in the order in which they came; it drains them before it looks at what has
 //! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
 
-use super::client::{self, Client, Weight};
+use super::client::{Client, Weight};
 use super::config::{self, Config};
 use super::content::Content;
 use super::jobs::Workers;
@@ -80,10 +80,14 @@ impl Mailbox {
 }
 
 pub(super) struct State {
-    pub client: Client,
+    pub client: Client<State>,
     pub config: Config,
     pub encoding: Encoding,
     pub workers: Workers,
+    /// Hands back what workers have judged.
+    mailbox: Mailbox,
+    /// What is done where a change does not fit its drawing.
+    refuse_change: RefuseChange,
     pub documents: FxHashMap<Arc<str>, Open>,
     /// Drawings that the client has been asked to send again.
     pub resending: FxHashSet<Arc<str>>,
@@ -103,16 +107,21 @@ pub(super) struct State {
     stopped: Option<std::sync::mpsc::Sender<()>>,
 }
 
+/// Takes the drawing's URI and the reason.
+type RefuseChange = fn(&mut State, &Arc<str>, &str);
+
 /// Starts the state thread.
-pub(super) fn start(writer: Writer) -> std::io::Result<Mailbox> {
+pub(super) fn start(writer: Writer, refuse_change: RefuseChange) -> std::io::Result<Mailbox> {
     let (sender, receiver) = sync_channel(QUEUE);
     let mailbox = Mailbox { sender };
-    let workers = Workers::new(mailbox.clone(), writer.clone());
+    let workers = Workers::new(writer.clone());
     let state = State {
         client: Client::new(writer),
         config: Config::default(),
         encoding: Encoding::default(),
         workers,
+        mailbox: mailbox.clone(),
+        refuse_change,
         documents: FxHashMap::default(),
         resending: FxHashSet::default(),
         dirty: Vec::new(),
@@ -155,7 +164,9 @@ impl State {
             {
                 self.handle(message);
             }
-            client::expire(&mut self);
+            while let Some(act) = self.client.expired() {
+                act(&mut self);
+            }
             self.judge_dirty();
             self.judge_unsettled();
             if began.elapsed() > LONG_TURN {
@@ -364,11 +375,15 @@ impl State {
             self.take_back(judged);
         } else {
             self.away += 1;
-            self.workers.judge(job, |state, judged| {
-                state.away -= 1;
-                let uri = judged.uri.clone();
-                state.take_back(judged);
-                state.go_on(&uri);
+            let mailbox = self.mailbox.clone();
+            self.workers.judge(move || {
+                let judged = job.run();
+                mailbox.tell("judging", None, move |state| {
+                    state.away -= 1;
+                    let uri = judged.uri.clone();
+                    state.take_back(judged);
+                    state.go_on(&uri);
+                });
             });
         }
     }
@@ -416,7 +431,7 @@ impl State {
             self.client.log(Weight::Warning, remark);
         }
         for reason in refused {
-            super::drawings::does_not_apply(self, &uri, &reason);
+            (self.refuse_change)(self, &uri, &reason);
         }
     }
 
