@@ -19,8 +19,8 @@ impl Crossings {
             if !cut.run.whole || cut.run.faulty || cut.run.moves < FEWEST_MOVES {
                 return;
             }
-            let way = cut.way(document);
-            let crossings = known.crossings(&way);
+            let (mark, parts) = (cut.mark(document), cut.parts.len());
+            let crossings = known.crossings(mark, parts, || cut.way(document));
             if !crossings.is_clean() {
                 found.push((cut.places(), crossings));
             }

@@ -6,7 +6,7 @@ use super::machine::{Move, Place, apart, micrometres};
 use super::run::{Path, Run, SEVERAL, changes_side};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
-    self, Blocks, HeldWay, Node, PartedWay, Writing, closing, goes_round, is_tab, pieces_of,
+    self, Blocks, HeldWay, Node, PartedWay, Writing, closing, goes_round, is_tab, mixed, pieces_of,
 };
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -105,6 +105,14 @@ impl Cut {
         let ends = [step(&self.run.first[0]), step(&self.run.last[1])];
         let stop = self.before_tab.map(|moves| moves as usize);
         way_of(document, self.places(), stop, Some(ends))
+    }
+
+    /// Cuts that run on one way, fall into stretches alike and stop before one move of it have one mark.
+    pub fn mark(&self, document: &Document) -> u64 {
+        let path = |part: &Part| document.stretches().get(part.stretch)?.paths.get(part.run);
+        let stop = self.before_tab.map_or(0, |moves| u64::from(moves) + 1);
+        let marks = self.parts.iter().filter_map(path).map(|path| path.mark);
+        marks.fold(stop, mixed)
     }
 
     /// How far it may end beside a place and still end in it, µm.

@@ -38,18 +38,23 @@ impl Known {
         self.used = [0, 0];
     }
 
-    /// Where a cut crosses itself.
-    pub fn crossings(&mut self, way: &PartedWay<'_>) -> Arc<Found> {
-        let mark = way.mark();
+    /// Where a cut of so many parts crosses itself, by its mark: its way is asked for only where nothing is known of it. Cuts have one
+    /// mark where they run on one way and stop before one block of it.
+    pub fn crossings<'a>(
+        &mut self,
+        mark: u64,
+        parts: usize,
+        way: impl FnOnce() -> PartedWay<'a>,
+    ) -> Arc<Found> {
         let found = match self.found.get(&mark) {
             Some(found) => found.clone(),
             None => {
-                let found = Arc::new(self.search(way));
+                let found = Arc::new(self.search(&way()));
                 self.found.insert(mark, found.clone());
                 found
             }
         };
-        self.used[0] += found.pairs.max(way.parts.len());
+        self.used[0] += found.pairs.max(parts);
         self.used[1] += 1;
         found
     }

@@ -235,12 +235,9 @@ impl<'a> PartedWay<'a> {
         }
     }
 
-    /// Equal ways that are parted alike have equal marks.
-    pub fn mark(&self) -> u64 {
-        let count = self.parts.len() as u64;
-        self.parts
-            .iter()
-            .fold(count, |mark, part| mixed(mark, part.mark))
+    /// Blocks before the stop at its tab.
+    pub fn stop(&self) -> Option<usize> {
+        self.stop
     }
 
     /// Bytes of a block by its number.

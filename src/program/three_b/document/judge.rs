@@ -9,7 +9,7 @@ use super::super::run::may_cross_itself;
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Place, Rule, Severity};
-use crate::program::path::{Known, closing, gap, goes_round, is_tab, tolerance};
+use crate::program::path::{Known, closing, gap, goes_round, is_tab, mixed, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -238,21 +238,29 @@ impl Document {
         known.begin();
         let mut findings = Vec::new();
         let tangled = self.inner_sections(view.end, |run| &run.tangled);
-        let tangled = tangled
-            .filter(|section| !is_held(section))
-            .map(|section| (Cow::Owned(section), true));
+        let tangled = tangled.filter(|section| !is_held(section));
         let outer = view.outer.iter().filter(|section| !is_held(section));
-        let whole = outer.chain(&held);
-        for (section, is_inner) in tangled.chain(whole.map(|whole| (Cow::Borrowed(whole), false))) {
+        let sections = tangled
+            .map(|section| (Cow::Owned(section), Some(true)))
+            .chain(outer.map(|section| (Cow::Borrowed(section), Some(false))))
+            .chain(held.iter().map(|whole| (Cow::Borrowed(whole), None)));
+        // Whether a section lies within one run; what stops before its tab is looked at as a whole.
+        for (section, is_inner) in sections {
             if section.is_jump || !may_cross_itself(&section.sum) {
                 continue;
             }
-            let way = self.way(&section);
-            let found = known.crossings(&way);
-            if found.is_clean() {
-                calm.extend(is_inner.then_some(section.parts[0]));
+            let stop = if is_inner.is_none() {
+                self.way(&section).stop()
             } else {
-                findings.extend(found.findings(&way, &self.text));
+                None
+            };
+            let mark = mixed(section.sum.mark, stop.map_or(0, |blocks| blocks as u64 + 1));
+            let runs = section.parts[1].0 - section.parts[0].0 + 1;
+            let found = known.crossings(mark, runs, || self.way(&section));
+            if found.is_clean() {
+                calm.extend((is_inner == Some(true)).then_some(section.parts[0]));
+            } else {
+                findings.extend(found.findings(&self.way(&section), &self.text));
             }
         }
         known.tidy();
