@@ -413,8 +413,8 @@ mod tests {
     use crate::settings::Effective;
     use std::sync::Arc as Shared;
 
-    /// Circles by centre on the x axis and radius: the order in which they are cut.
-    fn check(circles: &[(f64, f64)], expected: &[usize]) {
+    /// Circles by centre on the x axis and radius.
+    fn drawn(circles: &[(f64, f64)]) -> (Drawing, Shared<Vec<Outline>>) {
         let mut drawing = Drawing::new(None);
         for &(x, radius) in circles {
             let geometry = Geometry::Circle {
@@ -432,6 +432,12 @@ mod tests {
         let outlines = Analysis::new(&drawing, Shared::new(Effective::default()))
             .outlines(&drawing)
             .clone();
+        (drawing, outlines)
+    }
+
+    /// Circles by centre on the x axis and radius: the order in which they are cut.
+    fn check(circles: &[(f64, f64)], expected: &[usize]) {
+        let (drawing, outlines) = drawn(circles);
         let ordered =
             |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
         assert_eq!(
@@ -464,23 +470,7 @@ mod tests {
             (-1.0, 0.5),
             (20.0, 5.0),
         ];
-        let mut drawing = Drawing::new(None);
-        for &(x, radius) in &circles {
-            let geometry = Geometry::Circle {
-                center: Point::new(x, 0.0),
-                radius,
-            };
-            drawing.push(Entity {
-                handle: "A".into(),
-                layer: "0".into(),
-                role: None,
-                kind: crate::drawing::Kind::Circle,
-                geometry,
-            });
-        }
-        let outlines = Analysis::new(&drawing, Shared::new(Effective::default()))
-            .outlines(&drawing)
-            .clone();
+        let (drawing, outlines) = drawn(&circles);
         let ordered =
             |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
         assert_eq!(ordered(Order::AsDrawn), Ok(vec![0, 1, 3, 2, 4]));

@@ -152,65 +152,7 @@ fn tokens_of(line: &[u8]) -> Vec<Token> {
     // Counted from 1 so that no byte order mark is looked for: such a line stays.
     words(line, 1, |token| tokens.push(token));
     let shift = |range: Range<usize>| range.start - 1..range.end - 1;
-    let unshifted = |token: Token| match token {
-        Token::Word {
-            letter,
-            number,
-            range,
-        } => Token::Word {
-            letter,
-            number,
-            range: shift(range),
-        },
-        Token::Definition {
-            letter,
-            index,
-            value,
-            range,
-        } => Token::Definition {
-            letter,
-            index,
-            value,
-            range: shift(range),
-        },
-        Token::Sum {
-            letter,
-            index,
-            terms,
-            range,
-        } => Token::Sum {
-            letter,
-            index,
-            terms,
-            range: shift(range),
-        },
-        Token::Corner {
-            round,
-            number,
-            range,
-        } => Token::Corner {
-            round,
-            number,
-            range: shift(range),
-        },
-        Token::Foreign { range } => Token::Foreign {
-            range: shift(range),
-        },
-        Token::Comment { range } => Token::Comment {
-            range: shift(range),
-        },
-        Token::Tape { range } => Token::Tape {
-            range: shift(range),
-        },
-        Token::Skip { range } => Token::Skip {
-            range: shift(range),
-        },
-        Token::Fault { fault, range } => Token::Fault {
-            fault,
-            range: shift(range),
-        },
-    };
-    tokens.into_iter().map(unshifted).collect()
+    tokens.into_iter().map(|token| token.moved(shift)).collect()
 }
 
 /// A token without its place; what a comment or a definition says is its text.

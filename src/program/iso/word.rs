@@ -68,6 +68,70 @@ pub enum Token {
     },
 }
 
+impl Token {
+    /// The same in another place.
+    pub fn moved(self, place: impl Fn(Range<usize>) -> Range<usize>) -> Token {
+        match self {
+            Token::Word {
+                letter,
+                number,
+                range,
+            } => Token::Word {
+                letter,
+                number,
+                range: place(range),
+            },
+            Token::Definition {
+                letter,
+                index,
+                value,
+                range,
+            } => Token::Definition {
+                letter,
+                index,
+                value,
+                range: place(range),
+            },
+            Token::Sum {
+                letter,
+                index,
+                terms,
+                range,
+            } => Token::Sum {
+                letter,
+                index,
+                terms,
+                range: place(range),
+            },
+            Token::Corner {
+                round,
+                number,
+                range,
+            } => Token::Corner {
+                round,
+                number,
+                range: place(range),
+            },
+            Token::Foreign { range } => Token::Foreign {
+                range: place(range),
+            },
+            Token::Comment { range } => Token::Comment {
+                range: place(range),
+            },
+            Token::Tape { range } => Token::Tape {
+                range: place(range),
+            },
+            Token::Skip { range } => Token::Skip {
+                range: place(range),
+            },
+            Token::Fault { fault, range } => Token::Fault {
+                fault,
+                range: place(range),
+            },
+        }
+    }
+}
+
 /// A term of a sum, with its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Term {
@@ -717,64 +781,7 @@ impl Plain {
             let at = |at: usize| self.places.get(at).copied().unwrap_or_default();
             offset + at(range.start)..offset + at(range.end)
         };
-        match token {
-            Token::Word {
-                letter,
-                number,
-                range,
-            } => Token::Word {
-                letter,
-                number,
-                range: place(range),
-            },
-            Token::Definition {
-                letter,
-                index,
-                value,
-                range,
-            } => Token::Definition {
-                letter,
-                index,
-                value,
-                range: place(range),
-            },
-            Token::Sum {
-                letter,
-                index,
-                terms,
-                range,
-            } => Token::Sum {
-                letter,
-                index,
-                terms,
-                range: place(range),
-            },
-            Token::Corner {
-                round,
-                number,
-                range,
-            } => Token::Corner {
-                round,
-                number,
-                range: place(range),
-            },
-            Token::Foreign { range } => Token::Foreign {
-                range: place(range),
-            },
-            Token::Comment { range } => Token::Comment {
-                range: place(range),
-            },
-            Token::Tape { range } => Token::Tape {
-                range: place(range),
-            },
-            Token::Skip { range } => Token::Skip {
-                range: place(range),
-            },
-            Token::Fault { fault, range } => Token::Fault {
-                fault,
-                range: place(range),
-            },
-        }
+        token.moved(place)
     }
 }
 

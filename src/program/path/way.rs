@@ -235,11 +235,6 @@ impl<'a> PartedWay<'a> {
         }
     }
 
-    /// Blocks before the stop at its tab.
-    pub fn stop(&self) -> Option<usize> {
-        self.stop
-    }
-
     /// Bytes of a block by its number.
     pub fn range(&self, index: usize) -> Option<Range<usize>> {
         let part = self.part_of(index)?;

@@ -9,7 +9,7 @@ use super::super::run::may_cross_itself;
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Place, Rule, Severity};
-use crate::program::path::{Known, closing, gap, goes_round, is_tab, mixed, tolerance};
+use crate::program::path::{Known, Way, closing, gap, goes_round, is_tab, mixed, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
 

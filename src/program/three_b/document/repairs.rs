@@ -237,32 +237,6 @@ impl Document {
         Some((places, pieces))
     }
 
-    /// The entries of a section in their order.
-    fn entries_of(&self, section: &Section) -> impl Iterator<Item = At> + '_ {
-        let [(first_run, first_part), (last_run, last_part)] = section.parts;
-        (first_run..=last_run).flat_map(move |run| {
-            let entries = self.runs.get(run).map(|of| {
-                let from = if run == first_run {
-                    of.parts
-                        .get(first_part)
-                        .map_or(0, |part| part.entries.start)
-                } else {
-                    0
-                };
-                let to = if run == last_run {
-                    of.parts.get(last_part).map_or(0, |part| part.entries.end)
-                } else {
-                    of.entries.len()
-                };
-                from..to
-            });
-            entries
-                .into_iter()
-                .flatten()
-                .map(move |entry| At { run, entry })
-        })
-    }
-
     fn edit_of(
         &self,
         change: &Change,

@@ -194,8 +194,8 @@ impl Document {
         })
     }
 
-    /// The blocks of a section in their order.
-    pub(super) fn blocks_of(&self, section: &Section) -> impl Iterator<Item = At> + '_ {
+    /// The entries of a section in their order.
+    pub(super) fn entries_of(&self, section: &Section) -> impl Iterator<Item = At> + '_ {
         let [(first_run, first_part), (last_run, last_part)] = section.parts;
         (first_run..=last_run).flat_map(move |run| {
             let entries = self.runs.get(run).map(|of| {
@@ -211,13 +211,19 @@ impl Document {
                 } else {
                     of.entries.len()
                 };
-                (from..to).filter(move |entry| of.entries[*entry].block().is_some())
+                from..to
             });
             entries
                 .into_iter()
                 .flatten()
                 .map(move |entry| At { run, entry })
         })
+    }
+
+    /// The blocks of a section in their order.
+    pub(super) fn blocks_of(&self, section: &Section) -> impl Iterator<Item = At> + '_ {
+        let is_block = |at: &At| self.entry(*at).is_some_and(|entry| entry.block().is_some());
+        self.entries_of(section).filter(is_block)
     }
 
     pub(super) fn last_block_of(&self, section: &Section) -> Option<At> {
