@@ -33,7 +33,7 @@ pub enum Subject {
     Settings,
 }
 
-/// Makes the rules of rows: variant, name, severity, what it says (a row of `message/en.rs`), kinds of documents.
+/// Makes the rules of rows: variant, name, severity, what it says (a row of `message/en/`), kinds of documents.
 macro_rules! rules {
     ($($rule:ident $name:literal $severity:ident $summary:ident $($subject:ident)+;)+) => {
         /// The rules by the names that users see. Order is that of the documentation.

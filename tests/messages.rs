@@ -157,7 +157,7 @@ fn sentences_stand_in_the_room_of_messages() {
         let most = known.get(&room).copied().unwrap_or(0);
         assert!(
             stray.len() <= most,
-            "{} sentences stand in src/{room}, {most} are known: give them a row in src/message/en.rs and say!() them\n{}",
+            "{} sentences stand in src/{room}, {most} are known: give them a row in src/message/en/ and say!() them\n{}",
             stray.len(),
             stray.join("\n")
         );

@@ -21,7 +21,7 @@ mod report;
 mod serve;
 mod simulate;
 
-use crate::message::{is_hidden, readable};
+use crate::message::{Asker, Language, is_hidden, readable, speak};
 use clap::{CommandFactory, Parser, Subcommand};
 use std::fmt::Display;
 use std::path::Path;
@@ -38,6 +38,9 @@ struct CommandLine {
     command: Option<Command>,
     #[command(flatten)]
     server: serve::Arguments,
+    /// Language of all that is said [default: that of LC_ALL, LC_MESSAGES or LANG, else en]
+    #[arg(long, global = true, value_name = "LANGUAGE", value_parser = Language::ALL.map(Language::tag))]
+    lang: Option<String>,
 }
 
 const EXAMPLES: &str = "\
@@ -108,8 +111,26 @@ impl Failure {
     }
 }
 
+/// The language of the environment, or that of `--lang`: before the options are read, which may be refused in it.
+fn choose_language() {
+    if let Some(language) = Language::of_environment(|name| std::env::var(name).ok()) {
+        speak(language, Asker::Environment);
+    }
+    let words: Vec<String> = std::env::args_os()
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect();
+    let asked = words.windows(2).find_map(|pair| match &*pair[0] {
+        "--lang" => Some(&*pair[1]),
+        _ => pair[1].strip_prefix("--lang="),
+    });
+    if let Some(language) = asked.and_then(Language::of) {
+        speak(language, Asker::CommandLine);
+    }
+}
+
 /// Does what the process was called for.
 pub fn run() -> ExitCode {
+    choose_language();
     let arguments = CommandLine::try_parse().unwrap_or_else(|error| {
         // Words that stand in the message may be names of files that a shell has put there.
         if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden))

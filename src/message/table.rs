@@ -10,21 +10,29 @@ macro_rules! say {
     };
 }
 
-/// The rows of a language: a function for each.
+/// The same call in each language: an arm for each.
+macro_rules! in_spoken {
+    ($($call:tt)*) => {
+        match $crate::message::spoken() {
+            $crate::message::Language::English => $crate::message::en::$($call)*,
+        }
+    };
+}
+
+/// The rows of a room: a function for each.
 macro_rules! translate {
     ($($name:ident $(($($arguments:tt)*))? => $wording:tt;)*) => {
         $(row!($name, $(($($arguments)*))?, $wording);)*
     };
 }
 
-/// The rows of the language that says which sentences there are, and for each its function in the language that is spoken.
+/// The rows of a room in the language that says which sentences there are, and for each its function in the language that is spoken.
 macro_rules! declare {
     ($($name:ident $(($($arguments:tt)*))? => $wording:tt;)*) => {
         translate! { $($name $(($($arguments)*))? => $wording;)* }
 
-        /// Every sentence, in the language that is spoken.
+        /// The same in the language that is spoken.
         pub(crate) mod said {
-            use crate::message::{Language, spoken};
             $(call!($name, $(($($arguments)*))?);)*
         }
     };
@@ -32,17 +40,17 @@ macro_rules! declare {
 
 macro_rules! row {
     ($name:ident, , $wording:literal) => {
-        pub(super) fn $name() -> &'static str {
+        pub(in crate::message) fn $name() -> &'static str {
             $wording
         }
     };
     ($name:ident, ($($argument:ident),+), $wording:literal) => {
-        pub(super) fn $name($($argument: &dyn crate::message::Shown),+) -> String {
+        pub(in crate::message) fn $name($($argument: &dyn crate::message::Shown),+) -> String {
             format!($wording)
         }
     };
     ($name:ident, ($($argument:ident: $type:ty),+), $wording:block) => {
-        pub(super) fn $name($($argument: &$type),+) -> String {
+        pub(in crate::message) fn $name($($argument: &$type),+) -> String {
             $wording
         }
     };
@@ -51,23 +59,17 @@ macro_rules! row {
 macro_rules! call {
     ($name:ident, ) => {
         pub(crate) fn $name() -> &'static str {
-            match spoken() {
-                Language::English => super::$name(),
-            }
+            in_spoken!($name())
         }
     };
     ($name:ident, ($($argument:ident),+)) => {
         pub(crate) fn $name($($argument: &dyn crate::message::Shown),+) -> String {
-            match spoken() {
-                Language::English => super::$name($($argument),+),
-            }
+            in_spoken!($name($($argument),+))
         }
     };
     ($name:ident, ($($argument:ident: $type:ty),+)) => {
         pub(crate) fn $name($($argument: &$type),+) -> String {
-            match spoken() {
-                Language::English => super::$name($($argument),+),
-            }
+            in_spoken!($name($($argument),+))
         }
     };
 }

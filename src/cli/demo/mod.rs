@@ -98,6 +98,7 @@ fn start(narrator: &mut Narrator, correction: f64) -> Result<Client, Failure> {
         "processId": std::process::id(),
         "clientInfo": { "name": say!(wedm_demo) },
         "rootUri": null,
+        "locale": crate::message::spoken().tag(),
         "capabilities": {
             "general": { "positionEncodings": ["utf-8", "utf-16"] },
             "workspace": { "workspaceEdit": { "documentChanges": true } },

@@ -2,6 +2,7 @@
 
 use super::code_action::FIX_ALL;
 use super::tokens;
+use crate::message::{Asker, Language, speak};
 use crate::protocol::{self, method};
 use crate::server::client::{Abilities, Weight};
 use crate::server::config::{Level, path_of};
@@ -18,6 +19,9 @@ pub(in crate::server) fn initialize(
     state: &mut State,
     params: InitializeParams,
 ) -> Result<InitializeResult> {
+    if let Some(language) = params.locale.as_deref().and_then(Language::of) {
+        speak(language, Asker::Client);
+    }
     let unsound = |error: serde_json::Error| internal(error.to_string());
     let able = serde_json::to_value(&params.capabilities).map_err(unsound)?;
     let offered = able.pointer("/general/positionEncodings");

@@ -1,0 +1,23 @@
+//! Paths of the wire, and why there is none.
+
+declare! {
+    the_lead_in_cuts_through_contour(x, y, x1, y1, crossed) => "the lead-in from the thread hole ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) cuts through contour {crossed}";
+    the_way_cuts_into_contour(x, y, x1, y1, contour) => "the way from ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) cuts into contour {contour}: the wire stays threaded, since the profile's pause does not stop the machine";
+    contour_has_no_length(handle) => "contour {handle} has no length";
+    contour_is_open_and_cannot_be_entered_at(handle, x, y) => "contour {handle} is open and cannot be entered at ({x}, {y}), expected one of its ends";
+    contour_is_open_the_side_of_the_wire_is_not_known(handle) => "contour {handle} is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn";
+    side_of_contour_is_not_known(handle) => "side of contour {handle} is not known: say opening or punch";
+    the_thread_hole_comes_nearer_to_the_contour(x, y, correction, x1, y1) => "the thread hole ({x:.3}, {y:.3}) comes nearer to the contour than the correction {correction:.3} mm: the wire can stand at ({x1:.3}, {y1:.3}) alone";
+    there_is_no_entity_with_the_handle(handle) => "there is no entity with the handle {handle}";
+    entity_belongs_to_no_contour_that_is_cut(handle) => "entity {handle} belongs to no contour that is cut";
+    there_is_no_contour_to_cut => "there is no contour to cut";
+    crosses_the_contour_or_comes_nearer(correction) => "crosses the contour or comes nearer to it than the correction {correction:.3} mm";
+    cuts_into_contour_or_comes_nearer(contour, correction) => "cuts into contour {contour} or comes nearer to it than the correction {correction:.3} mm";
+    runs_into_the_cut_along_contour(contour) => "runs into the cut along contour {contour}";
+    the_lead_in_does(x, y, x1, y1, does) => "the lead-in from the thread hole ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) {does}";
+    no_lead_in_fits_at(length, correction, x, y, why) => "no lead-in from {length:.3} mm down to the correction {correction:.3} mm fits at ({x:.3}, {y:.3}){why}: give a thread hole or another entry";
+    because_it(does) => " (it {does})";
+    the_entry_lies_from_contour(x, y, distance, handle) => "the entry ({x}, {y}) lies {distance:.3} mm from contour {handle}, expected a point on it";
+    one_is_given_for_several_contours(what, count) => "one {what} is given for {count} contours: choose one contour by its handle, or give a table by handle";
+    entry => "entry";
+}

@@ -1,0 +1,114 @@
+//! Which language is spoken, and who says so.
+
+use std::sync::atomic::{AtomicU16, Ordering};
+
+/// The languages in which sentences are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Language {
+    #[default]
+    English,
+}
+
+impl Language {
+    /// Every language, in the order of their numbers.
+    pub const ALL: [Language; 1] = [Language::English];
+
+    /// As `--lang` and the settings of editors name it.
+    pub fn tag(self) -> &'static str {
+        match self {
+            Language::English => "en",
+        }
+    }
+
+    /// The language of a tag, whatever its region and encoding: `en`, `en-GB` of a client, `en_US.UTF-8` of an environment; `C` and
+    /// `POSIX` are English. `None` for one that is not spoken here.
+    pub fn of(tag: &str) -> Option<Language> {
+        let name = tag.split(['-', '_', '.', '@']).next().unwrap_or_default();
+        if matches!(name, "C" | "POSIX") {
+            return Some(Language::English);
+        }
+        Language::ALL
+            .into_iter()
+            .find(|language| language.tag().eq_ignore_ascii_case(name))
+    }
+
+    /// The language of the environment, as POSIX orders its variables: the first that is there and not empty says it.
+    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Language> {
+        let tag = ["LC_ALL", "LC_MESSAGES", "LANG"]
+            .into_iter()
+            .find_map(|name| variable(name).filter(|tag| !tag.is_empty()))?;
+        Language::of(&tag)
+    }
+}
+
+/// Who asks for a language: each is obeyed before those above it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Asker {
+    Environment,
+    /// `locale` of the client.
+    Client,
+    /// `--lang`.
+    CommandLine,
+}
+
+/// The language in the low byte, who asked for it in the high one.
+static SPOKEN: AtomicU16 = AtomicU16::new(0);
+
+/// From now on sentences are made in this language, unless somebody has asked who is obeyed before.
+pub fn speak(language: Language, asker: Asker) {
+    let asked = u16::from(asker as u8) << 8 | u16::from(language as u8);
+    let _ = SPOKEN.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |before| {
+        (before >> 8 <= asked >> 8).then_some(asked)
+    });
+}
+
+/// The language in which sentences are made.
+pub fn spoken() -> Language {
+    let index = usize::from(SPOKEN.load(Ordering::Relaxed) & 0xff);
+    Language::ALL.get(index).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tag_says_its_language_whatever_region_and_encoding() {
+        for tag in [
+            "en",
+            "EN",
+            "en-GB",
+            "en_US.UTF-8",
+            "en@euro",
+            "C",
+            "C.UTF-8",
+            "POSIX",
+        ] {
+            assert_eq!(Language::of(tag), Some(Language::English), "{tag}");
+        }
+        for tag in ["", "tlh", "english", "_en"] {
+            assert_eq!(Language::of(tag), None, "{tag}");
+        }
+        for language in Language::ALL {
+            assert_eq!(Language::of(language.tag()), Some(language));
+            assert_eq!(Language::ALL[language as usize], language);
+        }
+    }
+
+    #[test]
+    fn the_first_variable_that_is_not_empty_says_it() {
+        let of = |set: &[(&str, &str)]| {
+            let value = |name: &str| set.iter().find(|(own, _)| *own == name);
+            Language::of_environment(|name| Some(value(name)?.1.to_owned()))
+        };
+        assert_eq!(of(&[]), None);
+        assert_eq!(of(&[("LANG", "en_US.UTF-8")]), Some(Language::English));
+        assert_eq!(
+            of(&[("LC_ALL", ""), ("LANG", "en")]),
+            Some(Language::English)
+        );
+        assert_eq!(of(&[("LC_ALL", "tlh"), ("LANG", "en")]), None);
+    }
+}
