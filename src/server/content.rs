@@ -2,7 +2,8 @@
 
 use super::convert;
 use super::kind::Kind;
-use super::transport::panic_text;
+use super::shown::Shown;
+use super::transport::{Written, panic_text};
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
 use crate::dxf;
@@ -180,25 +181,27 @@ impl Content {
         encoding: Encoding,
         related_of: Option<&str>,
         settings: &Arc<Effective>,
-    ) -> (Vec<Diagnostic>, usize) {
+        shown: &mut Shown,
+    ) -> (Written, usize) {
         match self {
             Content::Read(document) => {
                 let found = catch_unwind(AssertUnwindSafe(|| {
-                    convert::publish_of(Arc::make_mut(document), encoding, related_of)
+                    convert::publish_of(Arc::make_mut(document), encoding, related_of, shown)
                 }));
                 found.unwrap_or_else(|panic| {
                     report(&*panic);
                     self.forget();
                     self.read(settings);
-                    (vec![internal_error()], 1)
+                    (convert::written(&[internal_error()]), 1)
                 })
             }
             Content::Settings(text) => {
                 let (_, errors) = from_toml(&text.as_str_lossy());
-                (convert::settings_diagnostics(text, &errors, encoding), 0)
+                let told = convert::settings_diagnostics(text, &errors, encoding);
+                (convert::written(&told), 0)
             }
-            Content::Foreign | Content::Away => (Vec::new(), 0),
-            Content::Unread(_) => (vec![internal_error()], 1),
+            Content::Foreign | Content::Away => (Written::default(), 0),
+            Content::Unread(_) => (convert::written(&[internal_error()]), 1),
         }
     }
 }

@@ -1,6 +1,9 @@
 //! The one place where the core's findings, places and edits become the protocol's, and back.
 
+use super::shown::Shown;
+use super::transport::Written;
 use crate::document::Document;
+use crate::drawing::Entity;
 use crate::finding;
 use crate::finding::{Finding, Place, Rule};
 use crate::job;
@@ -11,6 +14,7 @@ use crate::protocol::{
 use crate::settings::SettingsError;
 use crate::text::{Encoding, SourceText, TextEdit};
 use ls_types as lsp;
+use serde::Serialize;
 
 /// A publish holds at most this many findings.
 pub(super) const PUBLISH_LIMIT: usize = 500;
@@ -26,13 +30,11 @@ pub(super) fn publish_of(
     document: &mut Document,
     encoding: Encoding,
     uri: Option<&str>,
-) -> (Vec<Diagnostic>, usize) {
+    shown: &mut Shown,
+) -> (Written, usize) {
     let (findings, count) = job::check(document, PUBLISH_LIMIT);
-    let diagnostics = findings
-        .iter()
-        .map(|finding| diagnostic(document, finding, encoding, uri))
-        .collect();
-    (diagnostics, count)
+    let told = shown.render(document, findings, encoding, uri);
+    (told, count)
 }
 
 pub(super) fn diagnostics(
@@ -62,32 +64,61 @@ pub(super) fn diagnostic(
     }
 }
 
-/// The other places of a finding; in a drawing the line is the index of the segment within its entity.
+/// The ranges of a finding's place and, where they are told, of its other places, in the order of [`diagnostic`].
+pub(super) fn ranges_of(
+    document: &Document,
+    finding: &Finding,
+    encoding: Encoding,
+    with_related: bool,
+) -> impl Iterator<Item = Range> {
+    let related = finding
+        .related
+        .iter()
+        .filter(move |place| with_related && entity_of(document, place).is_some());
+    let own = match finding.rule {
+        Rule::More => &Place::Document,
+        _ => &finding.place,
+    };
+    std::iter::once(own)
+        .chain(related)
+        .map(move |place| range_at(document, place, encoding))
+}
+
+/// The range of a place; in a drawing the line is the index of the segment within its entity.
+fn range_at(document: &Document, place: &Place, encoding: Encoding) -> Range {
+    match (document.text(), document.range_of(place), place) {
+        (_, _, Place::Document) => Range::default(),
+        (Some(text), Some(bytes), _) => range_of(text, bytes, encoding),
+        (_, _, Place::Segment { segment, .. }) => Range::of_segment(*segment),
+        _ => Range::default(),
+    }
+}
+
+/// The entity of a place in a drawing, and the segment.
+fn entity_of<'a>(document: &'a Document, place: &Place) -> Option<(&'a Entity, Option<usize>)> {
+    let (entity, segment) = match *place {
+        Place::Segment { entity, segment } => (entity, Some(segment)),
+        Place::Entity { entity } => (entity, None),
+        Place::Text { .. } | Place::Document => return None,
+    };
+    Some((document.drawing()?.get(entity)?, segment))
+}
+
+/// The other places of a finding.
 fn related_information(
     document: &Document,
     finding: &Finding,
     encoding: Encoding,
     uri: &str,
 ) -> Vec<RelatedInformation> {
-    let drawing = document.drawing();
     let related = |place: &Place| {
-        let range = match (document.text(), document.range_of(place), place) {
-            (Some(text), Some(bytes), _) => range_of(text, bytes, encoding),
-            (_, _, Place::Segment { segment, .. }) => Range::of_segment(*segment),
-            _ => Range::default(),
-        };
-        let (entity, segment) = match *place {
-            Place::Segment { entity, segment } => (entity, Some(segment)),
-            Place::Entity { entity } => (entity, None),
-            Place::Text { .. } | Place::Document => return None,
-        };
-        let message = finding::related(finding, &drawing?.get(entity)?.handle, segment);
+        let (entity, segment) = entity_of(document, place)?;
         Some(RelatedInformation {
             location: Location {
                 uri: uri.into(),
-                range,
+                range: range_at(document, place, encoding),
             },
-            message,
+            message: finding::related(finding, &entity.handle, segment),
         })
     };
     finding.related.iter().filter_map(related).collect()
@@ -96,17 +127,11 @@ fn related_information(
 /// A finding at its place, without the other places.
 fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
     let drawing = document.drawing().map(|drawing| &**drawing);
-    let range = match (document.text(), document.range_of(&finding.place)) {
-        _ if finding.rule == Rule::More => Range::default(),
-        (Some(text), Some(bytes)) => range_of(text, bytes, encoding),
-        _ => match finding.place {
-            Place::Segment { segment, .. } => Range::of_segment(segment),
-            _ => Range::default(),
-        },
-    };
     let data = FindingData::of(drawing, finding);
     Diagnostic {
-        range,
+        range: ranges_of(document, finding, encoding, false)
+            .next()
+            .unwrap_or_default(),
         severity: severity_number(finding.severity),
         code: finding.rule.name().into(),
         code_description: code_description(finding.rule),
@@ -137,6 +162,14 @@ pub(super) fn settings_diagnostics(
         data: None,
     };
     errors.iter().take(PUBLISH_LIMIT).map(diagnostic).collect()
+}
+
+/// Diagnostics, or one, as JSON text.
+pub(super) fn written(told: &(impl Serialize + ?Sized)) -> Written {
+    Written::of(&told).unwrap_or_else(|error| {
+        tracing::error!("findings cannot be written: {error}");
+        Written::default()
+    })
 }
 
 fn code_description(rule: Rule) -> Option<CodeDescription> {

@@ -4,8 +4,10 @@
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::convert;
 use super::kind::Kind;
+use super::shown::Shown;
+use super::transport::Written;
 use crate::drawing::Drawing;
-use crate::protocol::{Diagnostic, DrawingChange};
+use crate::protocol::DrawingChange;
 use crate::settings::Effective;
 use crate::text::{Encoding, SourceText};
 use ls_types::TextDocumentContentChangeEvent;
@@ -46,6 +48,8 @@ pub(super) struct Job {
     pub shows_related: bool,
     /// The last look at it took long.
     pub is_slow: bool,
+    /// What the client has been shown.
+    pub shown: Shown,
 }
 
 /// What came of it.
@@ -53,8 +57,9 @@ pub(super) struct Judged {
     pub uri: Arc<str>,
     pub version: i64,
     pub content: Content,
+    pub shown: Shown,
     /// What the client is told and how many findings there are in all; `None` where nothing has changed.
-    pub told: Option<(Vec<Diagnostic>, usize)>,
+    pub told: Option<(Written, usize)>,
     /// Looking took long.
     pub is_slow: bool,
     /// For the client's log.
@@ -109,6 +114,7 @@ impl Job {
             encoding,
             shows_related,
             is_slow,
+            mut shown,
         } = self;
         let (mut remarks, mut refused) = (Vec::new(), Vec::new());
         let changes = tasks
@@ -162,10 +168,12 @@ impl Job {
         is_changed |= matches!(content, Content::Unread(_));
         content.read(&settings);
         let related_of = shows_related.then_some(&*uri);
-        let told = is_changed.then(|| content.diagnostics(encoding, related_of, &settings));
+        let told =
+            is_changed.then(|| content.diagnostics(encoding, related_of, &settings, &mut shown));
         Judged {
             version,
             content,
+            shown,
             told,
             is_slow: began.elapsed() > LONG,
             remarks,

@@ -18,6 +18,7 @@ mod methods;
 mod open;
 mod parent;
 mod settings;
+mod shown;
 mod state;
 #[cfg(feature = "testing")]
 pub mod testing;

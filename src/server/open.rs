@@ -3,6 +3,7 @@
 use super::content::Content;
 use super::judge::Task;
 use super::kind::Kind;
+use super::shown::Shown;
 use super::token_memory::TokenMemory;
 use crate::document::Document;
 use crate::settings::Effective;
@@ -33,6 +34,8 @@ pub(super) struct Open {
     pub is_slow: bool,
     /// Gone with the next change: requests that look at what was there before see that it is.
     revision: Arc<()>,
+    /// What the client has been shown, as it was written.
+    pub shown: Shown,
     /// The semantic tokens that the client holds.
     pub tokens: Arc<TokenMemory>,
 }
@@ -74,6 +77,7 @@ impl Open {
             published: false,
             is_slow: false,
             revision: Arc::default(),
+            shown: Shown::default(),
             tokens: Arc::default(),
         }
     }

@@ -3,7 +3,7 @@
 use super::client::Weight;
 use super::config::{self, Level, ProjectFile, Search};
 use super::content::Content;
-use super::convert::settings_diagnostics;
+use super::convert::{settings_diagnostics, written};
 use super::judge::Task;
 use super::open::Open;
 use super::state::State;
@@ -85,7 +85,7 @@ impl State {
             self.client.writer().publish(Publish {
                 uri: uri.into(),
                 version: None,
-                diagnostics,
+                diagnostics: written(&diagnostics),
                 owed: false,
             });
         }

@@ -6,10 +6,11 @@
 use super::client::{Client, Weight};
 use super::config::{self, Config};
 use super::content::Content;
+use super::convert::{settings_diagnostics, written};
 use super::jobs::Workers;
 use super::judge::{Job, Judged, Task};
 use super::open::Open;
-use super::transport::{Publish, Writer, panic_text};
+use super::transport::{Publish, Writer, Written, panic_text};
 use crate::text::Encoding;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
@@ -320,7 +321,7 @@ impl State {
         self.client.writer().publish(Publish {
             uri: uri.clone(),
             version: None,
-            diagnostics: Vec::new(),
+            diagnostics: Written::default(),
             owed: true,
         });
         true
@@ -369,6 +370,7 @@ impl State {
             encoding: self.encoding,
             shows_related: self.client.abilities.related_information,
             is_slow: open.is_slow,
+            shown: std::mem::take(&mut open.shown),
         };
         if job.is_small() {
             let judged = job.run();
@@ -394,6 +396,7 @@ impl State {
             uri,
             version,
             content,
+            shown,
             told,
             is_slow,
             remarks,
@@ -403,15 +406,16 @@ impl State {
             return;
         };
         (open.version, open.content, open.is_slow) = (version, content, is_slow);
+        open.shown = shown;
         if let Some((diagnostics, findings)) = told {
             open.findings = findings;
             // What is wrong in a project's file depends on what the client says as well.
             let diagnostics = match &open.content {
-                Content::Settings(text) => super::convert::settings_diagnostics(
+                Content::Settings(text) => written(&settings_diagnostics(
                     text,
                     &self.config.errors_in(&text.as_str_lossy()),
                     self.encoding,
-                ),
+                )),
                 _ => diagnostics,
             };
             let owed = !std::mem::replace(&mut open.published, true);

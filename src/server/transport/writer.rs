@@ -4,7 +4,7 @@
 //! everything else waits in order. Who reads from the client holds back while too much waits: a client that
 //! stops reading cannot make memory grow.
 
-use crate::protocol::Diagnostic;
+use super::Written;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 use std::collections::VecDeque;
@@ -19,14 +19,13 @@ const BACKLOG: usize = 32 * 1024 * 1024;
 const ONE_WRITE: usize = 1024 * 1024;
 
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub(crate) struct Publish {
     pub uri: Arc<str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub version: Option<i64>,
-    pub diagnostics: Vec<Diagnostic>,
+    /// An array.
+    pub diagnostics: Written,
     /// Not superseded: the one publish that an opening or a closing is owed.
-    #[serde(skip)]
     pub owed: bool,
 }
 
@@ -69,12 +68,27 @@ impl Shared {
     }
 }
 
-/// About what a diagnostic takes when it is written.
-const DIAGNOSTIC_BYTES: usize = 600;
-
 impl Publish {
     fn size(&self) -> usize {
-        self.diagnostics.len() * DIAGNOSTIC_BYTES
+        self.diagnostics.json().len()
+    }
+
+    /// The whole JSON body.
+    fn body(&self) -> serde_json::Result<Vec<u8>> {
+        let method = "textDocument/publishDiagnostics";
+        let uri = serde_json::to_string(&self.uri)?;
+        let head = format!(r#"{{"jsonrpc":"2.0","method":"{method}","params":{{"uri":{uri},"#);
+        let version = self
+            .version
+            .map(|version| format!(r#""version":{version},"#));
+        Ok([
+            head.as_bytes(),
+            version.unwrap_or_default().as_bytes(),
+            br#""diagnostics":"#,
+            self.diagnostics.json(),
+            b"}}",
+        ]
+        .concat())
     }
 }
 
@@ -226,14 +240,7 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
         drop(queue);
         let body = match next {
             Next::Body(body) => body,
-            Next::Publish(publish) => {
-                let message = Notification {
-                    jsonrpc: "2.0",
-                    method: "textDocument/publishDiagnostics",
-                    params: publish,
-                };
-                serde_json::to_vec(&message).map_err(std::io::Error::other)?
-            }
+            Next::Publish(publish) => publish.body().map_err(std::io::Error::other)?,
         };
         let mut frame = format!("Content-Length: {}\r\n\r\n", body.len()).into_bytes();
         if body.len() <= ONE_WRITE {
@@ -289,7 +296,7 @@ mod tests {
         let publish = |uri: &str, version: i64, owed: bool| Publish {
             uri: uri.into(),
             version: Some(version),
-            diagnostics: Vec::new(),
+            diagnostics: Written::default(),
             owed,
         };
         writer.send(b"first".to_vec());

@@ -13,11 +13,34 @@ tokio::task_local! {
 }
 
 /// A result as JSON text.
+#[derive(Clone, Debug)]
 pub(crate) struct Written(Vec<u8>);
+
+impl Default for Written {
+    /// An empty array.
+    fn default() -> Written {
+        Written(b"[]".to_vec())
+    }
+}
+
+impl From<Vec<u8>> for Written {
+    /// Takes JSON that somebody else has made.
+    fn from(json: Vec<u8>) -> Written {
+        Written(json)
+    }
+}
 
 impl Written {
     pub fn of(result: &impl Serialize) -> serde_json::Result<Written> {
         serde_json::to_vec(result).map(Written)
+    }
+
+    pub fn json(&self) -> &[u8] {
+        &self.0
+    }
+
+    pub fn into_json(self) -> Vec<u8> {
+        self.0
     }
 
     /// Leaves the text with the reply to the request whose handler calls this.

@@ -1,0 +1,234 @@
+//! What a client is shown of a document, kept as JSON: a finding that says what it said before is copied with the range that it
+//! has now, and only what is new or has changed is rendered.
+
+use super::convert::{diagnostic, ranges_of, written};
+use super::transport::Written;
+use crate::document::Document;
+use crate::finding::{Finding, Place};
+use crate::protocol::{FindingData, Range};
+use crate::settings::Effective;
+use crate::text::Encoding;
+use memchr::memmem::find_iter;
+use rustc_hash::FxHasher;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+/// The findings of the last publish.
+#[derive(Default)]
+pub(super) struct Shown {
+    /// What they were made under.
+    settings: Option<Arc<Effective>>,
+    /// Of each kept finding, by which it is sought.
+    marks: Vec<u64>,
+    kept: Vec<Option<Kept>>,
+}
+
+/// A finding as it was rendered.
+struct Kept {
+    /// What the text was made of, beside the ranges.
+    finding: Finding,
+    data: FindingData,
+    /// With ranges in their places, and where these begin.
+    json: Box<[u8]>,
+    places: Box<[usize]>,
+}
+
+/// As a range is written in what is kept.
+const PLACE: &str = r#"{"start":{"line":0,"character":0},"end":{"line":0,"character":0}}"#;
+
+/// Findings with one mark that are looked at for the one that is sought: many of one rule may stand in one text.
+const MOST_ALIKE: usize = 16;
+
+impl Shown {
+    /// The findings as a JSON array; with the document's `uri` their other places, too.
+    pub fn render(
+        &mut self,
+        document: &Document,
+        findings: Vec<Finding>,
+        encoding: Encoding,
+        uri: Option<&str>,
+    ) -> Written {
+        let settings = Some(document.settings());
+        if self.settings.as_ref() != settings {
+            *self = Shown::default();
+            self.settings = settings.cloned();
+        }
+        let drawing = document.drawing().map(|drawing| &**drawing);
+        let marks: Vec<u64> = findings.iter().map(mark).collect();
+        let (mut shown, mut kept, mut next) = (Vec::new(), Vec::with_capacity(marks.len()), 0);
+        shown.push(b'[');
+        for (finding, &mark) in findings.into_iter().zip(&marks) {
+            let data = FindingData::of(drawing, &finding);
+            let known = self.find(mark, next, |old| {
+                says_the_same(&old.finding, &finding) && old.data == data
+            });
+            let own = match known.and_then(|at| self.kept.get_mut(at)?.take().zip(Some(at + 1))) {
+                Some((old, behind)) => {
+                    next = behind;
+                    Kept { finding, ..old }
+                }
+                None => {
+                    let mut rendered = diagnostic(document, &finding, encoding, uri);
+                    rendered.range = Range::default();
+                    for related in rendered.related_information.iter_mut().flatten() {
+                        related.location.range = Range::default();
+                    }
+                    let json = written(&rendered).into_json();
+                    // No text within a string looks like this: its quotes are escaped.
+                    let needle = format!("\"range\":{PLACE}");
+                    let places = find_iter(&json, &needle).map(|at| at + "\"range\":".len());
+                    Kept {
+                        finding,
+                        data,
+                        places: places.collect(),
+                        json: json.into(),
+                    }
+                }
+            };
+            if shown.len() > 1 {
+                shown.push(b',');
+            }
+            let ranges = ranges_of(document, &own.finding, encoding, uri.is_some());
+            own.write(ranges, &mut shown);
+            kept.push(Some(own));
+        }
+        shown.push(b']');
+        (self.marks, self.kept) = (marks, kept);
+        Written::from(shown)
+    }
+
+    /// Where a finding is kept: they come in about the order in which they came before, so it is sought from `next` on, then before it.
+    fn find(&self, mark: u64, next: usize, is_it: impl Fn(&Kept) -> bool) -> Option<usize> {
+        let behind = (next..self.marks.len()).chain(0..next.min(self.marks.len()));
+        behind
+            .filter(|&at| self.marks[at] == mark)
+            .take(MOST_ALIKE)
+            .find(|&at| self.kept[at].as_ref().is_some_and(&is_it))
+    }
+}
+
+impl Kept {
+    fn write(&self, ranges: impl Iterator<Item = Range>, shown: &mut Vec<u8>) {
+        let mut from = 0;
+        for (&at, Range { start, end }) in self.places.iter().zip(ranges) {
+            shown.extend_from_slice(&self.json[from..at]);
+            for (label, number) in [
+                (r#"{"start":{"line":"#, start.line),
+                (r#","character":"#, start.character),
+                (r#"},"end":{"line":"#, end.line),
+                (r#","character":"#, end.character),
+            ] {
+                shown.extend_from_slice(label.as_bytes());
+                push_number(number, shown);
+            }
+            shown.extend_from_slice(b"}}");
+            from = at + PLACE.len();
+        }
+        shown.extend_from_slice(&self.json[from..]);
+    }
+}
+
+fn push_number(number: u32, text: &mut Vec<u8>) {
+    let (mut digits, mut at, mut rest) = ([b'0'; 10], 10, number);
+    while rest > 0 || at == 10 {
+        at -= 1;
+        digits[at] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+    }
+    text.extend_from_slice(&digits[at..]);
+}
+
+/// True where two findings differ in their range of the text at the most.
+fn says_the_same(one: &Finding, other: &Finding) -> bool {
+    let in_text = |place: &Place| matches!(place, Place::Text { .. });
+    one.rule == other.rule
+        && one.severity == other.severity
+        && (one.place == other.place || in_text(&one.place) && in_text(&other.place))
+        && one.related == other.related
+        && one.detail == other.detail
+}
+
+/// Equal for findings that say the same.
+fn mark(finding: &Finding) -> u64 {
+    let mut hasher = FxHasher::default();
+    finding.rule.hash(&mut hasher);
+    for place in std::iter::once(&finding.place).chain(&finding.related) {
+        match place {
+            Place::Segment { entity, segment } => (entity, segment).hash(&mut hasher),
+            Place::Entity { entity } => entity.hash(&mut hasher),
+            Place::Text { .. } | Place::Document => {}
+        }
+    }
+    hasher.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Source;
+    use crate::dxf;
+    use crate::program;
+    use crate::server::convert::publish_of;
+    use proptest::prelude::*;
+    use std::fmt::Write as _;
+
+    /// What is kept from publish to publish is what a first publish says, whatever is edited between them.
+    fn check(mut document: Document, edits: &[(usize, usize, &str)]) {
+        let mut shown = Shown::default();
+        let uri = Some("file:///a\"range\":b");
+        for (round, (line, width, text)) in edits.iter().enumerate() {
+            let settings = Arc::new(Effective::of(&crate::settings::Settings::default()));
+            if round % 5 == 4 {
+                document.set_settings(settings);
+            }
+            let at = document.text().unwrap().line_range(*line);
+            document.edit_text(at.start..(at.start + width).min(at.end), text);
+            let mut told = |shown: &mut Shown| {
+                let (told, _) = publish_of(&mut document, Encoding::Utf16, uri, shown);
+                String::from_utf8(told.json().to_vec()).unwrap()
+            };
+            let known = told(&mut shown);
+            assert_eq!(known, told(&mut Shown::default()));
+            serde_json::from_str::<Vec<crate::protocol::Diagnostic>>(&known).unwrap();
+        }
+    }
+
+    /// Squares with a corner radius below the correction, two of which cross, and one without closing line.
+    fn drawing() -> String {
+        let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
+        for square in 0..6 {
+            let x = 7 * square;
+            let _ = write!(
+                text,
+                "0\nLWPOLYLINE\n5\nA{square}\n8\n0\n90\n5\n70\n{}\n10\n{x}.5\n20\n0\n10\n{}\n20\n0\n10\n{}\n20\n9\n42\n0.4\n10\n{}\n20\n9.1\n10\n{x}\n20\n9\n",
+                i32::from(square != 3),
+                x + 8,
+                x + 8,
+                f64::from(x + 8) - 0.1,
+            );
+        }
+        text + "0\nENDSEC\n0\nEOF\n"
+    }
+
+    fn edits() -> impl Strategy<Value = Vec<(usize, usize, &'static str)>> {
+        let text = prop::sample::select(vec!["1", "0", "-", "", ".5", "\n", "9\n10\n4\n20\n8"]);
+        prop::collection::vec((0usize..90, 0usize..3, text), 1..12)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+        #[test]
+        fn a_drawing_is_shown_as_afresh(edits in edits()) {
+            let settings = Arc::new(Effective::of(&crate::settings::Settings::default()));
+            check(Document::new(Source::Dxf(dxf::Document::read(drawing().into())), settings), &edits);
+        }
+
+        #[test]
+        fn a_program_is_shown_as_afresh(edits in edits()) {
+            let text = "B3000B4000B4000GYL1\nB1B2\nB0B0B1000GXL1\nB1B1B1GXL9\n".repeat(20);
+            let settings = Arc::new(Effective::of(&crate::settings::Settings::default()));
+            let read = program::Document::read(program::Language::ThreeB, text.into(), &settings);
+            check(Document::new(Source::Program(read), settings), &edits);
+        }
+    }
+}
