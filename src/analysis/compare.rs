@@ -5,6 +5,7 @@ use crate::finding::{Severity, Side};
 use crate::geometry::{Bounds, Point, Segment, left_normal};
 use crate::rules::{Outlook, PAIR_RULES, PairObservation, Wall};
 use rustc_hash::FxHashMap;
+use std::collections::VecDeque;
 use std::rc::Rc;
 
 /// A run of segments of one contour.
@@ -14,7 +15,7 @@ pub type RunId = (ContourKey, u32);
 pub type SegmentId = (ContourKey, usize);
 
 /// A contour's outlook by key.
-pub type Outlooks<'a, 'b> = &'a dyn Fn(ContourKey) -> Option<Outlook<'b>>;
+pub type Outlooks<'a, 'b> = &'a (dyn Fn(ContourKey) -> Option<Outlook<'b>> + Sync);
 
 /// What a pair rule has seen between two segments.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +38,8 @@ pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
 /// Segments of a run that have one box together.
 const GROUP: usize = 8;
 
-/// Runs whose segments are kept at hand while runs are compared.
-const KEPT: usize = 256;
+/// Segments that are kept at hand while runs are compared.
+const KEPT: usize = 1 << 14;
 
 /// False when the line or circle of a segment passes a box at more than `reach`.
 pub fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
@@ -59,18 +60,35 @@ pub fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
 /// The walls of some runs, which are met again and again by those about them.
 pub struct Kept<'a, 'b> {
     pub outlook: Outlooks<'a, 'b>,
-    pub walls: FxHashMap<RunId, Rc<Walls<'b>>>,
+    walls: FxHashMap<RunId, Rc<Walls<'b>>>,
+    /// The runs that are kept, the oldest first, and how many segments they have.
+    order: VecDeque<RunId>,
+    segments: usize,
 }
 
-impl<'b> Kept<'_, 'b> {
+impl<'a, 'b> Kept<'a, 'b> {
+    pub(crate) fn new(outlook: Outlooks<'a, 'b>) -> Kept<'a, 'b> {
+        Kept {
+            outlook,
+            walls: FxHashMap::default(),
+            order: VecDeque::new(),
+            segments: 0,
+        }
+    }
+
     pub(crate) fn walls_of(&mut self, run: RunId) -> Option<Rc<Walls<'b>>> {
         if let Some(walls) = self.walls.get(&run) {
             return Some(walls.clone());
         }
-        if self.walls.len() >= KEPT {
-            self.walls.clear();
-        }
         let walls = Rc::new(Walls::of(&(self.outlook)(run.0)?, run.1));
+        self.segments += walls.each.len();
+        while self.segments > KEPT
+            && let Some(oldest) = self.order.pop_front()
+        {
+            let gone = self.walls.remove(&oldest);
+            self.segments -= gone.map_or(0, |gone| gone.each.len());
+        }
+        self.order.push_back(run);
         self.walls.insert(run, walls.clone());
         Some(walls)
     }

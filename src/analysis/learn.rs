@@ -3,9 +3,10 @@
 use super::compare::RunId;
 use super::contours::role_of;
 use super::known::Known;
-use super::{Analysis, Notable};
+use super::{Analysis, MANY, Notable};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
 use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
+use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::iter::once;
@@ -25,6 +26,12 @@ impl Analysis {
 
     /// Takes down whether a contour has something to tell.
     pub(super) fn note(&mut self, drawing: &Drawing, key: ContourKey) {
+        let told = self.told_by(drawing, key);
+        self.take_down(key, told);
+    }
+
+    /// Whether a contour has something to tell, and is vast.
+    fn told_by(&self, drawing: &Drawing, key: ContourKey) -> (Option<Notable>, bool) {
         let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
         let known = self.known.get(&key);
         let notable = self.chains.first_of(key).map(|first| Notable {
@@ -34,39 +41,33 @@ impl Analysis {
             as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
             faults: None,
         });
-        match notable.filter(|notable| {
+        let has_something = |notable: &Notable| {
             notable.has_tight_arcs || notable.has_observations || notable.as_a_whole
-        }) {
+        };
+        let is_vast =
+            known.is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm));
+        (notable.filter(has_something), is_vast)
+    }
+
+    fn take_down(&mut self, key: ContourKey, (notable, is_vast): (Option<Notable>, bool)) {
+        match notable {
             Some(notable) => drop(self.notable.insert(key, notable)),
             None => drop(self.notable.remove(&key)),
         }
-        if self
-            .known
-            .get(&key)
-            .is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm))
-        {
-            self.vast.insert(key);
-        } else {
-            self.vast.remove(&key);
-        }
+        match is_vast {
+            true => self.vast.insert(key),
+            false => self.vast.remove(&key),
+        };
     }
 
     /// Looks at whole contours for the first time.
     pub(super) fn learn(&mut self, drawing: &Drawing, keys: &[ContourKey]) {
-        let mut runs = Vec::new();
-        for &key in keys {
-            let Some(contour) = self.chains.get(key) else {
-                continue;
-            };
-            let index = ContourIndex::new(
-                drawing,
-                contour,
-                self.limits.correction - self.limits.tolerances.report,
-            );
-            let mut known = Known::new(
-                index,
-                stated_role(contour, &|id| role_of(drawing, &self.settings, id)),
-            );
+        let tight = self.limits.correction - self.limits.tolerances.report;
+        let learned = each_of(keys, |key| {
+            let contour = self.chains.get(key)?;
+            let index = ContourIndex::new(drawing, contour, tight);
+            let stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
+            let mut known = Known::new(index, stated);
             known.check(
                 drawing,
                 contour,
@@ -74,9 +75,18 @@ impl Analysis {
                 &self.settings,
                 0..contour.len(),
             );
-            runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
-            self.enter_known(key, known);
-            self.note(drawing, key);
+            Some(known)
+        });
+        let mut runs = Vec::new();
+        for (&key, known) in keys.iter().zip(learned) {
+            if let Some(known) = known {
+                runs.extend((0..known.index.run_count()).map(|run| (key, run as u32)));
+                self.enter_known(key, known);
+            }
+        }
+        let told = each_of(keys, |key| self.told_by(drawing, key));
+        for (&key, told) in keys.iter().zip(told) {
+            self.take_down(key, told);
         }
         self.look_at_pairs(drawing, &runs);
     }
@@ -227,6 +237,14 @@ impl Analysis {
         })?;
         let (_, index) = self.chains.index_of(first, 0)?;
         Some((key, (index / RUN) as u32))
+    }
+}
+
+/// What is asked of each of the contours: of many on several threads.
+fn each_of<T: Send>(keys: &[ContourKey], ask: impl Fn(ContourKey) -> T + Sync) -> Vec<T> {
+    match keys.len() {
+        0..MANY => keys.iter().map(|&key| ask(key)).collect(),
+        _ => keys.par_iter().map(|&key| ask(key)).collect(),
     }
 }
 

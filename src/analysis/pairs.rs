@@ -6,10 +6,18 @@ use crate::finding::Rule;
 use crate::geometry::{Bounds, Grid, Point};
 use crate::rules::{Limits, PAIR_RULES, PairRule};
 use crate::settings::{Budget, Effective};
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// What a look of the budget is: a segment held against another one, or so many boxes of the grid.
 const BOXES_OF_A_LOOK: u64 = 4;
+
+/// Runs that are looked at side by side: what is found beyond the bounds is thrown away.
+const BATCH: usize = 8192;
+/// From so many runs on it is worth waking other threads, each of which takes so many at a time.
+const MANY_RUNS: usize = 512;
+const SHARE: usize = 64;
 
 /// The runs of all contours by place, and what has been seen between them.
 #[derive(Clone, Debug, Default)]
@@ -154,75 +162,72 @@ impl Pairs {
             .enumerate()
             .map(|(at, &run)| (run, at))
             .collect();
-        let (mut near, mut found) = (Vec::new(), Vec::new());
-        let mut left = self.left;
-        let mut kept = Kept {
-            outlook,
-            walls: FxHashMap::default(),
+        let search = Search {
+            grid: &self.grid,
+            rules: &rules,
+            reach: self.reach,
+            new: &new,
         };
-        for (at, &run) in runs.iter().enumerate() {
-            let Some(own) = outlook(run.0) else { continue };
-            if self.seen_count >= self.most_seen || left == 0 {
-                self.uncompared.insert(run);
-                continue;
-            }
-            let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
-            near.clear();
-            let looked = self.grid.near(&area, |other| {
-                // Two new runs are looked at once.
-                if new.get(&other).is_none_or(|&its| at <= its) {
-                    near.push(other);
-                }
-            });
-            left = left.saturating_sub(looked / BOXES_OF_A_LOOK);
-            if near.is_empty() {
-                continue;
-            }
-            let Some(walls) = kept.walls_of(run) else {
-                continue;
+        let mut kept = Kept::new(outlook);
+        let mut all_seen = Vec::new();
+        let (mut left, mut count) = (self.left, self.seen_count);
+        for (batch, runs) in runs.chunks(BATCH).enumerate() {
+            let first = batch * BATCH;
+            // A run that was not looked at here since too much is found is looked at below, if at all.
+            let (looks, found) = (AtomicU64::new(0), AtomicUsize::new(0));
+            let is_enough =
+                || looks.load(Relaxed) >= left || count + found.load(Relaxed) >= self.most_seen;
+            let look = |kept: &mut Kept, (at, &run): (usize, &RunId)| {
+                (!is_enough()).then(|| {
+                    let looked = search.look(kept, first + at, run, left);
+                    looks.fetch_add(looked.looks(), Relaxed);
+                    found.fetch_add(looked.found(), Relaxed);
+                    looked
+                })
             };
-            // A long line may have a box that holds half the drawing, and come near little of it.
-            near.retain(|&other| {
-                left = left.saturating_sub(LOOKS_OF_A_PAIR + walls.each.len() as u64);
-                let theirs = outlook(other.0).map_or(Bounds::EMPTY, |theirs| {
-                    theirs.index.bounds_of_run(other.1 as usize)
-                });
-                other == run
-                    || walls.each.iter().any(|(wall, bounds)| {
-                        bounds.grown(self.reach).touches(&theirs)
-                            && passes(wall.geometry(), &theirs, self.reach)
-                    })
-            });
-            for &other in &near {
-                if self.seen_count >= self.most_seen || left == 0 {
+            let ahead: Vec<Option<Looked>> = if runs.len() < MANY_RUNS {
+                Vec::new()
+            } else {
+                let runs = runs.par_iter().enumerate().with_min_len(SHARE);
+                runs.map_init(|| Kept::new(outlook), look).collect()
+            };
+            let mut ahead = ahead.into_iter();
+            for (at, &run) in runs.iter().enumerate() {
+                let ahead = ahead.next().flatten();
+                if count >= self.most_seen || left == 0 {
                     self.uncompared.insert(run);
-                    break;
+                    continue;
                 }
-                let comparison = Comparison {
-                    rules: &rules,
-                    reach: self.reach,
-                    keys: (run.0, other.0),
-                };
-                let looked = match kept.walls_of(other).filter(|_| other != run) {
-                    Some(theirs) => comparison.between(&walls, &theirs, &mut found),
-                    None => comparison.within(&walls, &mut found),
-                };
-                left = left.saturating_sub(looked);
-                if !found.is_empty() {
-                    if found.iter().any(|seen: &Observed| seen.disc.is_some()) {
-                        self.stale.insert(run);
+                let looked = ahead.unwrap_or_else(|| search.look(&mut kept, first + at, run, left));
+                left = left.saturating_sub(looked.before);
+                let mut is_whole = !looked.is_cut_short;
+                for (other, looks, found) in looked.each {
+                    if count >= self.most_seen || left == 0 {
+                        is_whole = false;
+                        break;
                     }
-                    self.seen_count += found.len();
-                    self.seen
-                        .insert(ordered(run, other), std::mem::take(&mut found));
-                    self.partners.entry(run).or_default().push(other);
-                    if other != run {
-                        self.partners.entry(other).or_default().push(run);
+                    left = left.saturating_sub(looks);
+                    if !found.is_empty() {
+                        count += found.len();
+                        all_seen.push((run, other, found));
                     }
+                }
+                if !is_whole {
+                    self.uncompared.insert(run);
                 }
             }
         }
-        self.left = left;
+        (self.left, self.seen_count) = (left, count);
+        for (run, other, found) in all_seen {
+            if found.iter().any(|seen| seen.disc.is_some()) {
+                self.stale.insert(run);
+            }
+            self.seen.insert(ordered(run, other), found);
+            self.partners.entry(run).or_default().push(other);
+            if other != run {
+                self.partners.entry(other).or_default().push(run);
+            }
+        }
         self.ask_again(&mut kept, limits);
     }
 
@@ -309,6 +314,89 @@ impl Pairs {
     /// How many runs have not been compared with everything near them.
     pub(crate) fn uncompared(&self) -> usize {
         self.uncompared.len()
+    }
+}
+
+/// What new runs are compared with.
+struct Search<'a> {
+    grid: &'a Grid<RunId>,
+    rules: &'a [(usize, f64)],
+    reach: f64,
+    new: &'a FxHashMap<RunId, usize>,
+}
+
+/// What a look at one run has seen.
+#[derive(Default)]
+struct Looked {
+    /// Looks that it took to find the runs that come near.
+    before: u64,
+    /// Each of those, the looks that it took, and what has been seen.
+    each: Vec<(RunId, u64, Vec<Observed>)>,
+    /// There were no looks left for the others.
+    is_cut_short: bool,
+}
+
+impl Looked {
+    fn looks(&self) -> u64 {
+        self.before + self.each.iter().map(|(_, looks, _)| looks).sum::<u64>()
+    }
+
+    fn found(&self) -> usize {
+        self.each.iter().map(|(.., found)| found.len()).sum()
+    }
+}
+
+impl Search<'_> {
+    /// Compares the new run at a place in their order with all that come near it, in so many looks.
+    fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
+        let mut looked = Looked::default();
+        let Some(own) = (kept.outlook)(run.0) else {
+            return looked;
+        };
+        let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
+        let mut near = Vec::new();
+        let boxes = self.grid.near(&area, |other| {
+            // Two new runs are looked at once.
+            if self.new.get(&other).is_none_or(|&its| at <= its) {
+                near.push(other);
+            }
+        });
+        looked.before = boxes / BOXES_OF_A_LOOK;
+        let Some(walls) = kept.walls_of(run).filter(|_| !near.is_empty()) else {
+            return looked;
+        };
+        // A long line may have a box that holds half the drawing, and come near little of it.
+        near.retain(|&other| {
+            looked.before += LOOKS_OF_A_PAIR + walls.each.len() as u64;
+            let theirs = (kept.outlook)(other.0).map_or(Bounds::EMPTY, |theirs| {
+                theirs.index.bounds_of_run(other.1 as usize)
+            });
+            other == run
+                || walls.each.iter().any(|(wall, bounds)| {
+                    bounds.grown(self.reach).touches(&theirs)
+                        && passes(wall.geometry(), &theirs, self.reach)
+                })
+        });
+        let comparison = |other: RunId| Comparison {
+            rules: self.rules,
+            reach: self.reach,
+            keys: (run.0, other.0),
+        };
+        let mut looks = looked.before;
+        for other in near {
+            if looks >= most {
+                looked.is_cut_short = true;
+                break;
+            }
+            let mut found = Vec::new();
+            let own = match kept.walls_of(other).filter(|_| other != run) {
+                Some(theirs) => comparison(other).between(&walls, &theirs, &mut found),
+                None => comparison(other).within(&walls, &mut found),
+            };
+            looks += own;
+            looked.each.push((other, own, found));
+        }
+        looked
     }
 }
 
